@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The scene of geodetic.sh: four aircraft and two radars, by formulas of its own. Writes to the current folder.
+"""The scene of geodetic.sh: four aircraft and two radars, by formulas of its own. Writes to the
+current folder.
 
 Usage: geodetic.py            plots, polar plots and truth, each on the earth and in metres
        geodetic.py map FILE   the worst distance (m) of a map's lines to the truth: prints ground, height
@@ -22,7 +23,8 @@ AIRCRAFT = [(49.8, 9.6, 9e-4, 12e-4, 4000, 0), (49.95, 9.8, 18e-4, -12e-4, 6000,
 def ecef(lat, lon, alt):
     lat, lon = math.radians(lat), math.radians(lon)
     normal = A / math.sqrt(1 - E2 * math.sin(lat) ** 2)
-    return ((normal + alt) * math.cos(lat) * math.cos(lon), (normal + alt) * math.cos(lat) * math.sin(lon),
+    return ((normal + alt) * math.cos(lat) * math.cos(lon),
+            (normal + alt) * math.cos(lat) * math.sin(lon),
             (normal * (1 - E2) + alt) * math.sin(lat))
 
 
@@ -50,18 +52,22 @@ def write(name, header, rows):
     with open(name, "w", encoding="utf-8") as file:
         file.write(header + "\n")
         for row in rows:
-            file.write(",".join(f"{cell:.9f}" if isinstance(cell, float) else str(cell) for cell in row) + "\n")
+            file.write(",".join(f"{cell:.9f}" if isinstance(cell, float) else str(cell)
+                                for cell in row) + "\n")
 
 
 def scene():
     times = [4.0 * scan for scan in range(30)]
     seen = [(t, number, place) for t in times for number, place in places(t)]
     write("truth.csv", "t_s,target_id,lat_deg,lon_deg,alt_m", [(t, n, *p) for t, n, p in seen])
-    write("truth_m.csv", "t_s,target_id,x_m,y_m,z_m", [(t, n, *local(ORIGIN, p)) for t, n, p in seen])
+    write("truth_m.csv", "t_s,target_id,x_m,y_m,z_m",
+          [(t, n, *local(ORIGIN, p)) for t, n, p in seen])
     write("plots.csv", "t_s,sensor_id,lat_deg,lon_deg,alt_m", [(t, 7, *p) for t, _, p in seen])
-    write("plots_m.csv", "t_s,sensor_id,x_m,y_m,z_m", [(t, 7, *local(ORIGIN, p)) for t, _, p in seen])
+    write("plots_m.csv", "t_s,sensor_id,x_m,y_m,z_m",
+          [(t, 7, *local(ORIGIN, p)) for t, _, p in seen])
     write("level.csv", "t_s,sensor_id,lon_deg,lat_deg", [(t, 7, p[1], p[0]) for t, _, p in seen])
-    write("level_truth.csv", "t_s,target_id,lat_deg,lon_deg", [(t, n, p[0], p[1]) for t, n, p in seen])
+    write("level_truth.csv", "t_s,target_id,lat_deg,lon_deg",
+          [(t, n, p[0], p[1]) for t, n, p in seen])
     polar, cells = [], []
     for t in times:
         for radar, stands in RADARS.items():
@@ -77,8 +83,9 @@ def scene():
           [row + cell[1:] for row, cell in zip(polar, cells)])
     write("heights.csv", head + ",alt_m", [row[:4] + cell[:1] for row, cell in zip(polar, cells)])
     write("ground.csv", head, [row[:4] for row in polar])
-    write("turned.csv", head + ",alt_m", [(row[0], row[1], row[2], (row[3] + turn_deg(RADARS[row[1]])) % 360, cell[0])
-                                          for row, cell in zip(polar, cells)])
+    write("turned.csv", head + ",alt_m",
+          [(row[0], row[1], row[2], (row[3] + turn_deg(RADARS[row[1]])) % 360, cell[0])
+           for row, cell in zip(polar, cells)])
     for radar, stands in RADARS.items():
         x, y, z = local(ORIGIN, stands)
         print(f"[sensor {radar}]\nx_m = {x:.6f}\ny_m = {y:.6f}\nz_m = {z:.6f}")
@@ -96,7 +103,8 @@ def worst(name):
         assert len(line) == len(times)
         for position, t in zip(line, times):
             # at the aircraft's own height: on the ground alone
-            off = [(math.hypot(*local(p, (position[1], position[0], p[2]))[:2]), p) for _, p in places(t)]
+            off = [(math.hypot(*local(p, (position[1], position[0], p[2]))[:2]), p)
+                   for _, p in places(t)]
             near, place = min(off)
             ground = max(ground, near)
             height = max(height, abs(position[2] - place[2]) if len(position) > 2 else 0.0)
@@ -104,10 +112,13 @@ def worst(name):
 
 
 def convert(name):
-    """Rows of a CSV file of plots in metres: the worst difference of each place to those of plots_m.csv."""
+    """Rows of a CSV file of plots in metres: the worst difference of each place to those of
+    plots_m.csv."""
     with open(name, encoding="utf-8") as file, open("plots_m.csv", encoding="utf-8") as reference:
         pairs = list(zip(csv.DictReader(file), csv.DictReader(reference), strict=True))
-    print(f"{max(abs(float(a[key]) - float(b[key])) for a, b in pairs for key in ('x_m', 'y_m', 'z_m')):.4f}")
+    print(
+        f"{max(abs(float(a[key]) - float(b[key])) for a, b in pairs for key in ('x_m', 'y_m', 'z_m')):.4f}"
+    )
 
 
 if __name__ == "__main__":

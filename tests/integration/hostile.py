@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Sends what no sensor should: hostile.py SECONDS RATE. Prints how many datagrams of each sort went out, as NAME=COUNT.
+"""Sends what no sensor should: hostile.py SECONDS RATE. Prints how many datagrams of each sort went
+out, as NAME=COUNT.
 
-Random bytes, wrong magic, short and unterminated heads, forged fragments, messages with random contents and hostile
-counts, and mutated copies of the real traffic (1 to 8 bytes changed, cut, lengthened), which is listened to.
+Random bytes, wrong magic, short and unterminated heads, forged fragments, messages with random
+contents and hostile counts, and mutated copies of the real traffic (1 to 8 bytes changed, cut,
+lengthened), which is listened to.
 """
 import random
 import select
@@ -51,7 +53,10 @@ def unterminated():
 
 def fragment():
     """A header of LC03 as liblcm has it, with sizes and offsets that do not fit one another."""
-    numbers = [random.choice([0, 1, 0xFFFFFFFF, 0x80000000, random.getrandbits(32)]) for _ in range(3)]
+    numbers = [
+        random.choice([0, 1, 0xFFFFFFFF, 0x80000000,
+                       random.getrandbits(32)]) for _ in range(3)
+    ]
     counts = [random.choice([0, 1, 2, 0xFFFF, random.getrandbits(16)]) for _ in range(2)]
     return (b"LC03" + struct.pack(">IIIHH", *numbers, *counts)[:random.choice([4, 8, 12, 16])] +
             random.randbytes(random.randrange(0, 1400)))
@@ -59,11 +64,13 @@ def fragment():
 
 def contents():
     """A channel of a sensor, the right fingerprint or not, and random bytes."""
-    kind, fingerprint = random.choice([("PLOTS", 0x00ec35bb85bc4cbde), ("POLAR", 0x0570bdbf57d4a221),
+    kind, fingerprint = random.choice([("PLOTS", 0x00ec35bb85bc4cbde),
+                                       ("POLAR", 0x0570bdbf57d4a221),
                                        ("BEARINGS", 0x66d140164191753b)])
     if random.random() < .3:
         fingerprint = random.getrandbits(64)
-    return (b"LC02" + random.randbytes(4) + f"RHO_{kind}_{random.randrange(-40000, 40000)}".encode() + b"\0" +
+    return (b"LC02" + random.randbytes(4) +
+            f"RHO_{kind}_{random.randrange(-40000, 40000)}".encode() + b"\0" +
             struct.pack(">Q", fingerprint) + random.randbytes(random.randrange(0, 1300)))
 
 

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Polar plots (CSV) as a radar would send them in ASTERIX: CAT048 plots and CAT034 antenna messages, as a recording.
+"""Polar plots (CSV) as a radar would send them in ASTERIX: CAT048 plots and CAT034 antenna
+messages, as a recording.
 
 Usage: write_asterix.py POLAR.csv OUT.ast [--sectors N] [--interval S] [--start S] [--sac N] [--sic N] [--place LAT,LON,ALT]
   --sectors   sector crossings a turn (32); 1: north markers alone; 0: no antenna messages
   --interval  of a turn (4 s); the antenna is at north at t_s 0 and turns clockwise
   --start     time of day of t_s 0 (43200 s)
-Azimuths of the plots come from the file, their times from where the antenna is then, within the turn of their t_s.
+Azimuths of the plots come from the file, their times from where the antenna is then, within the
+turn of their t_s.
 """
 import argparse
 import csv
@@ -48,7 +50,10 @@ def plot(args, time_s, range_m, azimuth_turn, doppler_mps, alt_m):
 
 def crossing(args, time_s, sector):
     """sector: 1/256 turn, None: a north marker"""
-    items = {1: bytes((args.sac, args.sic)), 2: b"\x01" if sector is None else b"\x02", 3: time_of_day(time_s)}
+    items = {
+        1: bytes((args.sac, args.sic)), 2: b"\x01" if sector is None else b"\x02",
+        3: time_of_day(time_s)
+    }
     if sector is not None:
         items[4] = bytes((sector,))
     elif args.place:
@@ -89,7 +94,8 @@ def main():
     messages = [(time + 0.2, data) for time, data in messages]
     for turn in range(turns + 1):
         if args.sectors > 0:
-            messages.append((turn * args.interval, crossing(args, args.start + turn * args.interval, None)))
+            messages.append(
+                (turn * args.interval, crossing(args, args.start + turn * args.interval, None)))
         for sector in range(args.sectors if args.sectors > 1 and turn < turns else 0):
             time = (turn + sector / args.sectors) * args.interval
             messages.append((time, crossing(args, args.start + time, sector * 256 // args.sectors)))

@@ -11,7 +11,7 @@ mkdir -p "$folder/gen"
 "$lcm_gen" -c --c-no-pubsub --c-cpath "$folder/gen" --c-hpath "$folder/gen" lcm_types/*.lcm >/dev/null
 (cd "$folder/gen" && printf '#include "%s"\n' rhotrack_*.h) >"$folder/gen/lcm_gen.h"
 # -w: lcm-gen's C is not ours; it reads floats through pointers to integers, hence -fno-strict-aliasing.
-flags="-std=gnu11 -O2 -ffp-contract=off -Iinclude -I$folder/gen"
+flags="-std=gnu11 -O2 -ffp-contract=off -Iinclude -Itests -I$folder/gen"
 for source in "$folder"/gen/*.c; do
     # shellcheck disable=SC2086 # words on purpose
     gcc $flags -w -fno-strict-aliasing -c -o "${source%.c}.o" "$source"

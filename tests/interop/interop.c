@@ -276,7 +276,7 @@ static void print_vectors(void)
            "/* Made by make_message_vectors.sh: messages as the C of lcm-gen 1.3.1 encodes them. "
            "Contents: fill_golden in "
            "tests/unit/wire/message_shape.h. */\n"
-           "#include \"../unit/message_shape.h\"\n\n"
+           "#include \"unit/wire/message_shape.h\"\n\n"
            "static const struct {\n    const char *name;\n    enum golden golden;\n    const char "
            "*hex;\n"
            "} message_vectors[] = {\n");

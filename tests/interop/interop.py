@@ -4,11 +4,13 @@
 
 Usage: interop.py BINDINGS IN OUT N
 
-Reads IN/TYPE.log of each type (written by `interop write`): each message is decoded, its numbers compared with those that
-follow it by name, and encoded again to the same bytes. Writes OUT/TYPE.log with N random messages and their numbers.
+Reads IN/TYPE.log of each type (written by `interop write`): each message is decoded, its numbers
+compared with those that follow it by name, and encoded again to the same bytes. Writes OUT/TYPE.log
+with N random messages and their numbers.
 
-Floats are any bits: infinities, subnormals, NaN with any payload. Not signalling NaN: Python's float is a double, and the
-processor makes such a NaN quiet on the way. `interop write` writes none, and here they have become quiet before they count.
+Floats are any bits: infinities, subnormals, NaN with any payload. Not signalling NaN: Python's
+float is a double, and the processor makes such a NaN quiet on the way. `interop write` writes none,
+and here they have become quiet before they count.
 """
 import importlib
 import pathlib
@@ -25,17 +27,20 @@ CODES = {"int8_t": "b", "int16_t": "h", "int32_t": "i", "int64_t": "q", "float":
 
 
 class Numbers:
-    """The numbers of some members, sorted by name: to bytes from an object, and from values to an object."""
+    """The numbers of some members, sorted by name: to bytes from an object, and from values to an
+    object."""
 
     def __init__(self, members):
         members = sorted(members, key=lambda member: member[1])
         lengths = [int(dimension) if dimension.isdigit() else 0 for _, _, dimension, _ in members]
         self.format = struct.Struct(">" + "".join(f"{length or ''}{CODES[kind]}"
                                                   for (kind, *_), length in zip(members, lengths)))
-        reads = ", ".join(f"{'*' if length else ''}m.{name}" for (_, name, *_), length in zip(members, lengths))
+        reads = ", ".join(
+            f"{'*' if length else ''}m.{name}" for (_, name, *_), length in zip(members, lengths))
         writes, index = ["def fill(m, v):"], 0
         for (_, name, *_), length in zip(members, lengths):
-            writes.append(f" m.{name} = {f'list(v[{index}:{index + length}])' if length else f'v[{index}]'}")
+            writes.append(
+                f" m.{name} = {f'list(v[{index}:{index + length}])' if length else f'v[{index}]'}")
             index += length or 1
         scope = {"pack": self.format.pack}
         exec(f"def read(m): return pack({reads})\n" + "\n".join(writes), scope)
@@ -59,7 +64,8 @@ class Type:
         self.element = None
         if shape.list and shape.list[0] not in CODES:
             self.element = Numbers(known[shape.list[0]].members)
-            self.element_type = getattr(importlib.import_module(f"rhotrack.{shape.list[0]}"), shape.list[0])
+            self.element_type = getattr(importlib.import_module(f"rhotrack.{shape.list[0]}"),
+                                        shape.list[0])
 
     def values(self, message):
         """All numbers by name."""
@@ -78,8 +84,9 @@ class Type:
         if self.list:
             count = source.choice((0, self.most) + 6 * (source.randint(0, self.most),))
             setattr(message, self.counter, count)
-            setattr(message, self.list, [self.draw_element(source) for _ in range(count)] if self.element
-                    else list(struct.unpack(f">{count}f", source.randbytes(4 * count))))
+            setattr(message, self.list,
+                    [self.draw_element(source) for _ in range(count)] if self.element else list(
+                        struct.unpack(f">{count}f", source.randbytes(4 * count))))
         return message
 
     def draw_element(self, source):
@@ -113,7 +120,8 @@ def write(kind, path, number, source):
 
 
 def main():
-    bindings, logs_in, logs_out, number = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]), int(sys.argv[4])
+    bindings, logs_in, logs_out, number = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(
+        sys.argv[3]), int(sys.argv[4])
     sys.path.insert(0, bindings)
     shapes = make_message_table.read()
     known = {shape.name: shape for shape in shapes}
@@ -123,7 +131,9 @@ def main():
         messages, good = read(kind, logs_in / f"{kind.name}.log")
         is_good = messages == good == number
         failed += not is_good
-        print(f"{'ok  ' if is_good else 'FAIL'} {kind.name}: {good} of {messages} messages of ours read by Python's lcm")
+        print(
+            f"{'ok  ' if is_good else 'FAIL'} {kind.name}: {good} of {messages} messages of ours read by Python's lcm"
+        )
         write(kind, logs_out / f"{kind.name}.log", number, source)
     sys.exit(failed > 0)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""For the tests beside it: the lab's modules can be imported, and a test program counts as tests/run.sh wants it."""
+"""For the tests beside it: the lab's modules can be imported, and a test program counts as
+tests/run.sh wants it."""
 import pathlib
 import sys
 import unittest
@@ -9,7 +10,8 @@ sys.path.insert(0, str(ROOT / "tools" / "lab"))
 
 
 def need_packages():
-    """Ends the program, well, where the lab's packages are not installed (make experiments installs them)."""
+    """Ends the program, well, where the lab's packages are not installed (make experiments installs
+    them)."""
     try:
         import matplotlib, numpy, scipy  # noqa: F401
     except ImportError as error:

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The oracle on plots that are made here: its starts and ends, and its errors against those of the least squares."""
+"""The oracle on plots that are made here: its starts and ends, and its errors against those of the
+least squares."""
 import math
 import pathlib
 import tempfile
@@ -27,7 +28,8 @@ sigma_azimuth_rad = 0.003
 
 
 def scene(folder, path, misses, scans=40, noise=0.0, seed=1, second=None, dead_from=None):
-    """A target on path(t_s) -> (x, y), unseen in the scans of `misses`, as files; `second`: plots that far off, too."""
+    """A target on path(t_s) -> (x, y), unseen in the scans of `misses`, as files; `second`: plots
+    that far off, too."""
     random = np.random.default_rng(seed)
     plots = ["t_s,sensor_id,range_m,azimuth_rad,target_id"]
     truth = ["t_s,target_id,x_m,y_m,vx_mps,vy_mps,is_covered"]
@@ -39,7 +41,8 @@ def scene(folder, path, misses, scans=40, noise=0.0, seed=1, second=None, dead_f
         if dead_from is not None and k >= dead_from:
             continue
         later = path(t + 0.01)
-        truth.append(f"{t:.6f},7,{x:.3f},{y:.3f},{(later[0] - x) / 0.01:.4f},{(later[1] - y) / 0.01:.4f},1")
+        truth.append(
+            f"{t:.6f},7,{x:.3f},{y:.3f},{(later[0] - x) / 0.01:.4f},{(later[1] - y) / 0.01:.4f},1")
         if k not in misses:
             t += 2.0
             x, y = path(t)
@@ -54,7 +57,8 @@ def scene(folder, path, misses, scans=40, noise=0.0, seed=1, second=None, dead_f
     (folder / "paths.csv").write_text("\n".join(truth) + "\n")
     settings = scene_files.Settings(folder / "scenario.ini")
     sensors = settings.sensors()
-    read = scene_files.read_plots(folder / "plots.csv", sensors, settings.get("scan_interval_s", 0.0))
+    read = scene_files.read_plots(folder / "plots.csv", sensors, settings.get(
+        "scan_interval_s", 0.0))
     return sensors, read, scene_files.read_truth(folder, read.scan_times_us)
 
 
@@ -109,22 +113,30 @@ class Oracle(unittest.TestCase):
             followed, truth, _ = self.follow(straight, noise=1.0, seed=seed, candidates=[(1e-4,)])
             last = followed[3][0, -1] - truth.place_m[-1, 0]
             squares.append(last @ last)
-        # the variance of a line's end, fitted to n points: (4 n - 2) / (n (n + 1)) of a point's, extrapolated by half a scan
-        # backwards; across, sigma is 3 mrad times 32 to 44 km
+        # the variance of a line's end, fitted to n points: (4 n - 2) / (n (n + 1)) of a point's,
+        # extrapolated by half a scan backwards; across, sigma is 3 mrad times 32 to 44 km
         n, across = 40, 0.003 * np.mean([math.hypot(*straight(4.0 * k)) for k in range(40)])
         centre, spread = (n - 1) / 2, (n * n - 1) / 12
         expected = (30 ** 2 + across ** 2) / n * (1 + (n - 1.5 - centre) ** 2 / spread)
-        self.assertLess(abs(np.mean(squares) / expected - 1), 0.5)  # 40 runs: .16 to a standard error
+        self.assertLess(abs(np.mean(squares) / expected - 1),
+                        0.5)  # 40 runs: .16 to a standard error
 
     def test_it_says_how_far_it_may_be_off(self):
-        """Where targets do as the model says, errors are as its covariances state, of a Kalman filter and of an IMM of two equal ones."""
+        """Where targets do as the model says, errors are as its covariances state, of a Kalman
+        filter and of an IMM of two equal ones."""
         for candidate in ((1e-4,), (1e-4, 1e-4, 60.0)):
             with self.subTest(candidate=candidate):
-                figures = [self.follow(straight, misses={20, 21, 30}, noise=1.0, seed=seed, candidates=[candidate])[2]
-                           for seed in range(60)]
-                mean = {key: np.mean([run[key] for run in figures]) for key in figures[0] if key.startswith(("nees", "inside"))}
+                figures = [
+                    self.follow(straight, misses={20, 21, 30}, noise=1.0, seed=seed,
+                                candidates=[candidate])[2] for seed in range(60)
+                ]
+                mean = {
+                    key: np.mean([run[key] for run in figures])
+                    for key in figures[0] if key.startswith(("nees", "inside"))
+                }
                 for key in ("place", "velocity"):
-                    # 60 independent runs of two axes: .09 to a standard error; coasting has three scans a run of the 38
+                    # 60 independent runs of two axes: .09 to a standard error; coasting has three
+                    # scans a run of the 38
                     self.assertTrue(0.75 < mean["nees_" + key] < 1.25, mean)
                     self.assertTrue(0.9 < mean["inside_" + key] < 0.99, mean)
                 self.assertTrue(0.7 < mean["nees_place_coasting"] < 1.3, mean)
@@ -136,7 +148,8 @@ class Oracle(unittest.TestCase):
         def best(path):
             sums = 0
             for seed in range(4):
-                followed, truth, _ = self.follow(path, noise=1.0, seed=seed, candidates=oracle.CANDIDATES)
+                followed, truth, _ = self.follow(path, noise=1.0, seed=seed,
+                                                 candidates=oracle.CANDIDATES)
                 sums = sums + oracle.square_errors(truth, followed)
             return oracle.CANDIDATES[int(np.argmin(sums[:, 0]))]
 

@@ -18,15 +18,18 @@ NAN = float("nan")
 
 def truth_of(*places):
     """Places on the x axis, a list a target, None where it is not alive; a scan a second."""
-    x = np.array([[NAN if cell is None else cell for cell in target] for target in places], dtype=float).T
+    x = np.array([[NAN if cell is None else cell for cell in target] for target in places],
+                 dtype=float).T
     place = np.stack([x, np.where(np.isnan(x), NAN, 0.0)], axis=-1)
-    return scene_files.Truth(np.arange(len(x)) * 1000000, np.arange(x.shape[1]), place, ~np.isnan(x))
+    return scene_files.Truth(
+        np.arange(len(x)) * 1000000, np.arange(x.shape[1]), place, ~np.isnan(x))
 
 
 def tracks_of(scans):
     """A list a scan of (track, x)."""
-    return scene_files.Tracks([np.array([track for track, _ in scan], dtype=int) for scan in scans],
-                              [np.array([[x, 0.0] for _, x in scan]).reshape(-1, 2) for scan in scans])
+    return scene_files.Tracks(
+        [np.array([track for track, _ in scan], dtype=int) for scan in scans],
+        [np.array([[x, 0.0] for _, x in scan]).reshape(-1, 2) for scan in scans])
 
 
 def score(truth, scans, visible=None):
@@ -46,7 +49,8 @@ class Scoring(unittest.TestCase):
 
     def test_one_target_has_one_track_and_the_second_is_false(self):
         figures, rows = score(truth_of([0, 0]), [[(1, 100), (2, 50)], [(1, 100), (2, 50)]])
-        self.assertEqual((figures["completeness"], figures["false_per_scan"], figures["switches"]), (1, 1, 0))
+        self.assertEqual((figures["completeness"], figures["false_per_scan"], figures["switches"]),
+                         (1, 1, 0))
         self.assertEqual(rows, [(0, 0), (1, 0)])
 
     def test_a_nearer_track_does_not_take_a_target_from_its_own(self):
@@ -64,7 +68,8 @@ class Scoring(unittest.TestCase):
         self.assertEqual((figures["completeness"], figures["false_per_scan"]), (1, 0))
 
     def test_targets_that_exchange_tracks_are_two_switches(self):
-        figures, _ = score(truth_of([0, 0], [5000, 5000]), [[(1, 0), (2, 5000)], [(2, 0), (1, 5000)]])
+        figures, _ = score(truth_of([0, 0], [5000, 5000]), [[(1, 0), (2, 5000)], [(2, 0),
+                                                                                  (1, 5000)]])
         self.assertEqual(figures["switches"], 2)
 
     def test_a_track_after_a_gap_is_a_switch_where_the_target_stayed_in_sight(self):
@@ -97,7 +102,8 @@ class Scoring(unittest.TestCase):
         self.assertEqual(scoring.forgiven_scans({"radars": [{"turn_s": 4}, {"turn_s": 5}]}), 11)
 
     def test_delays_count_from_the_first_visibility(self):
-        figures, _ = score(truth_of([0] * 6, [5000] * 6, [90000] * 6), [[], [], [(1, 0)], [], [], [(2, 5000)]],
+        figures, _ = score(truth_of([0] * 6, [5000] * 6,
+                                    [90000] * 6), [[], [], [(1, 0)], [], [], [(2, 5000)]],
                            [[True] * 6, [False] + [True] * 5, [True] * 6])
         self.assertEqual(figures["delay_mean_scans"], (2 + 4) / 2)
         self.assertEqual(figures["delays_scans"], [2, 4])
@@ -112,7 +118,8 @@ class Consistency(unittest.TestCase):
     def pairs(self, off_m, off_mps, covariance_m2, covariance_m2ps2, motions):
         more = np.full((len(off_m), len(scene_files.MORE)), NAN)
         more[:, 2:5], more[:, 5:8] = covariance_m2, covariance_m2ps2
-        return scoring.consistency(np.array(off_m, dtype=float), np.array(off_mps, dtype=float), more, np.array(motions))
+        return scoring.consistency(np.array(off_m, dtype=float), np.array(off_mps, dtype=float),
+                                   more, np.array(motions))
 
     def test_the_ratio_is_that_of_the_inverse(self):
         random = np.random.default_rng(1)
@@ -143,23 +150,29 @@ class Consistency(unittest.TestCase):
 
     def test_what_is_not_known_does_not_count(self):
         figures = self.pairs([(3, 4), (1, 0), (0, 0)], [(NAN, NAN), (2, 0), (0, 0)],
-                             [(NAN, NAN, NAN), (1, 0, 1), (1, 1, 1)], [(1, 0, 1), (1, 0, 1), (-1, 0, -1)], [3, 0, 1])
-        self.assertEqual((figures["nees_place"], figures["nees_velocity"], figures["pairs"]), (0.5, 2, 3))
+                             [(NAN, NAN, NAN), (1, 0, 1), (1, 1, 1)], [(1, 0, 1), (1, 0, 1),
+                                                                       (-1, 0, -1)], [3, 0, 1])
+        self.assertEqual((figures["nees_place"], figures["nees_velocity"], figures["pairs"]),
+                         (0.5, 2, 3))
         self.assertEqual((figures["pairs_turning"], figures["rms_m_turning"]), (1, 0))
-        self.assertTrue(np.isnan(figures["nees_place_turning"]) and np.isnan(figures["rms_m_coasting"]))
+        self.assertTrue(
+            np.isnan(figures["nees_place_turning"]) and np.isnan(figures["rms_m_coasting"]))
 
     def test_motions_are_the_truths_but_for_coasting(self):
         truth = truth_of([0] * 6)
-        truth.velocity_mps = np.array([[10, 0], [10, 0], [10, 0.1], [10, 0.2], [NAN, NAN], [10, 0.2]])[:, None, :]
+        truth.velocity_mps = np.array([[10, 0], [10, 0], [10, 0.1], [10, 0.2], [NAN, NAN],
+                                       [10, 0.2]])[:, None, :]
         self.assertEqual(truth.motions()[:, 0].tolist(), [3, 0, 1, 1, 3, 3])
         more = [np.array([[10, 0, 4, 0, 4, 1, 0, 1, k == 3]], dtype=float) for k in range(6)]
-        tracks = scene_files.Tracks([np.array([1])] * 6, [np.array([[2.0 + k, 0.0]]) for k in range(6)], more)
+        tracks = scene_files.Tracks([np.array([1])] * 6,
+                                    [np.array([[2.0 + k, 0.0]]) for k in range(6)], more)
         figures, _ = scoring.score(truth, tracks, GATE)
         self.assertEqual([figures["pairs_" + name] for name in scene_files.MOTIONS], [1, 1, 1])
         self.assertEqual([figures["rms_m_" + name] for name in scene_files.MOTIONS], [3, 4, 5])
         self.assertAlmostEqual(figures["nees_place_turning"], 16 / 4 / 2)
         self.assertAlmostEqual(figures["nees_velocity_turning"], 0.1 ** 2 / 2)
-        self.assertEqual(figures["inside_place"], 0.5)  # 4, 9, 16 | 25, 36, 49 over 4: 5.99 lies between
+        self.assertEqual(figures["inside_place"],
+                         0.5)  # 4, 9, 16 | 25, 36, 49 over 4: 5.99 lies between
 
     def test_tracks_without_covariances_have_places_alone(self):
         figures, _ = score(truth_of([0, 0]), [[(1, 3)], [(1, 4)]])
@@ -175,8 +188,9 @@ class Files(unittest.TestCase):
 
     def test_times_meet_within_a_millisecond(self):
         truth = truth_of([0, 0, 0])
-        self.assertEqual(truth.scan_of(np.array([-2000, -900, 400, 1000900, 1500000, 2001000, 2001001])).tolist(),
-                         [-1, 0, 0, 1, -1, 2, -1])
+        self.assertEqual(
+            truth.scan_of(np.array([-2000, -900, 400, 1000900, 1500000, 2001000,
+                                    2001001])).tolist(), [-1, 0, 0, 1, -1, 2, -1])
 
 
 if __name__ == "__main__":

@@ -688,8 +688,8 @@ def without_run(log, is_live=False):
 
 
 def without_periodic(log):
-    """Without what a node publishes once a second of the day: how often, and what of it is of the last
-    second, depends on the machine. Events have no numbers then."""
+    """Without what a node publishes once a second of the day: how often, and what of it is of the
+    last second, depends on the machine. Events have no numbers then."""
     kept = [(at, end) for at, _, end, channel in events(log) if channel not in PERIODIC]
     if len(kept) == len(list(events(log))):
         return log

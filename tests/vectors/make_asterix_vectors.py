@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Records in ASTERIX as libasterix (EUROCONTROL's specifications by another hand) reads and writes them: what
-tests/tools/io/test_asterix.c compares the program's own reader and writer with.
+"""Records in ASTERIX as libasterix (EUROCONTROL's specifications by another hand) reads and writes
+them: what tests/tools/io/test_asterix.c compares the program's own reader and writer with.
 
 Usage: make_asterix_vectors.py > asterix_vectors.h   (in tests/vectors; needs the package libasterix; 0.36.3 made the file)
        make_asterix_vectors.py --check FILE.ast      (decodes every record of a recording of CAT034, CAT048, CAT062)
 
-Records are drawn at random, item by item as the specification has them: which there are, how long those are whose length
-is free, and all their bits. libasterix takes them apart and says how long each item is, and what the items that rhotrack
-uses mean. Tracks are encoded by libasterix from numbers.
+Records are drawn at random, item by item as the specification has them: which there are, how long
+those are whose length is free, and all their bits. libasterix takes them apart and says how long
+each item is, and what the items that rhotrack uses mean. Tracks are encoded by libasterix from
+numbers.
 """
 import random
 import sys
@@ -23,10 +24,16 @@ RECORDS = 60  # of each category
 # What rhotrack reads: item, sub-items by their names.
 VALUES = {
     34: ["000", "020", "030", "041", "120/HGT", "120/LAT", "120/LON"],
-    48: ["010/SAC", "010/SIC", "140", "020/TYP", "020/SIM", "020/RAB", "020/TST", "020/ERR", "040/RHO", "040/THETA",
-         "070/MODE3A", "090/V", "090/G", "090/FL", "110/3DH", "120/CAL/D", "120/CAL/CAL", "161/TRN", "220"],
-    62: ["040", "070", "080/CNF", "080/TSE", "080/TSB", "080/CST", "100/X", "100/Y", "105/LAT", "105/LON", "185/VX",
-         "185/VY", "210/AX", "210/AY", "130", "220", "500/APC/X", "500/APC/Y", "500/ATV/X", "500/ATV/Y"],
+    48: [
+        "010/SAC", "010/SIC", "140", "020/TYP", "020/SIM", "020/RAB", "020/TST", "020/ERR",
+        "040/RHO", "040/THETA", "070/MODE3A", "090/V", "090/G", "090/FL", "110/3DH", "120/CAL/D",
+        "120/CAL/CAL", "161/TRN", "220"
+    ],
+    62: [
+        "040", "070", "080/CNF", "080/TSE", "080/TSB", "080/CST", "100/X", "100/Y", "105/LAT",
+        "105/LON", "185/VX", "185/VY", "210/AX", "210/AY", "130", "220", "500/APC/X", "500/APC/Y",
+        "500/ATV/X", "500/ATV/Y"
+    ],
 }
 
 HEADER = """/* SPDX-License-Identifier: MIT */
@@ -47,13 +54,15 @@ def bits_of(rng, count):
 
 
 def specification(present):
-    """Field specification of the places that are there: seven a byte, and whether another byte follows."""
+    """Field specification of the places that are there: seven a byte, and whether another byte
+    follows."""
     while present and not present[-1]:
         present.pop()
     bits = []
     for start in range(0, len(present), 7):
         part = present[start:start + 7]
-        bits += [int(there) for there in part + [False] * (7 - len(part))] + [int(start + 7 < len(present))]
+        bits += [int(there)
+                 for there in part + [False] * (7 - len(part))] + [int(start + 7 < len(present))]
     return bits
 
 
@@ -84,7 +93,10 @@ def draw_extended(rng, variation):
 def draw_repetitive(rng, variation):
     count = rng.randint(1, 3)
     if variation.cv_rep_bytes is None:
-        return [bit for i in range(count) for bit in draw(rng, variation.cv_variation) + [int(i + 1 < count)]]
+        return [
+            bit for i in range(count)
+            for bit in draw(rng, variation.cv_variation) + [int(i + 1 < count)]
+        ]
     head = [int(bit) for bit in format(count, f"0{8 * variation.cv_rep_bytes}b")]
     return head + [bit for _ in range(count) for bit in draw(rng, variation.cv_variation)]
 
@@ -172,9 +184,12 @@ def write_records(category):
     places = len(specs[0].cv_uap.cv_record.cv_items_list)
     paths = VALUES[category]
     print(f"/* values: {', '.join(paths)}; NAN: not there */")
-    print(f"enum {{ VECTORS_{category}_PLACES = {places}, VECTORS_{category}_VALUES = {len(paths)} }};")
-    print(f"static const struct {{ const char *hex; uint16_t sizes[{places}]; double values[{len(paths)}]; }}"
-          f" vectors_{category}[] = {{")
+    print(
+        f"enum {{ VECTORS_{category}_PLACES = {places}, VECTORS_{category}_VALUES = {len(paths)} }};"
+    )
+    print(
+        f"static const struct {{ const char *hex; uint16_t sizes[{places}]; double values[{len(paths)}]; }}"
+        f" vectors_{category}[] = {{")
     for i in range(RECORDS):
         spec = specs[i % 2]
         data = draw_record(rng, spec)
@@ -189,10 +204,13 @@ def write_records(category):
 # ---- Tracks ----
 
 def status_groups(track):
-    first = (("MON", track["mono"]), ("SPI", 0), ("MRH", int("alt" in track)), ("SRC", 0), ("CNF", track["tentative"]))
-    second = (("SIM", 0), ("TSE", track["last"]), ("TSB", track["first"]), ("FPC", 0), ("AFF", 0), ("STP", 0), ("KOS", 0))
+    first = (("MON", track["mono"]), ("SPI", 0), ("MRH", int("alt" in track)), ("SRC", 0),
+             ("CNF", track["tentative"]))
+    second = (("SIM", 0), ("TSE", track["last"]), ("TSB", track["first"]), ("FPC", 0), ("AFF", 0),
+              ("STP", 0), ("KOS", 0))
     third = (("AMA", 0), ("MD4", 0), ("ME", 0), ("MI", 0), ("MD5", 0))
-    fourth = (("CST", track["coasting"]), ("PSR", 0), ("SSR", 0), ("MDS", 0), ("ADS", 0), ("SUC", 0), ("AAC", 0))
+    fourth = (("CST", track["coasting"]), ("PSR", 0), ("SSR", 0), ("MDS", 0), ("ADS", 0),
+              ("SUC", 0), ("AAC", 0))
     groups = [first + (None,)]
     if track["coasting"] or track["last"] or track["first"]:
         groups.append(second + (None,))
@@ -203,9 +221,13 @@ def status_groups(track):
 
 def encode_track(track):
     """Numbers are whole units of the items."""
-    items = {"010": (("SAC", track["sac"]), ("SIC", track["sic"])), "070": track["time"],
-             "100": (("X", track["x"]), ("Y", track["y"])), "185": (("VX", track["vx"]), ("VY", track["vy"])),
-             "210": (("AX", track["ax"]), ("AY", track["ay"])), "040": track["number"], "080": status_groups(track)}
+    items = {
+        "010": (("SAC", track["sac"]), ("SIC", track["sic"])), "070": track["time"],
+        "100": (("X", track["x"]), ("Y", track["y"])),
+        "185": (("VX", track["vx"]), ("VY", track["vy"])),
+        "210": (("AX", track["ax"]), ("AY", track["ay"])), "040": track["number"],
+        "080": status_groups(track)
+    }
     if "lat" in track:
         items["105"] = (("LAT", track["lat"]), ("LON", track["lon"]))
     if "alt" in track:
@@ -221,13 +243,17 @@ def draw_track(rng, full):
     def signed(bits):
         return rng.randrange(-2 ** (bits - 1), 2 ** (bits - 1))
 
-    track = {"sac": rng.randrange(256), "sic": rng.randrange(256), "time": rng.randrange(86400 * 128),
-             "x": signed(24), "y": signed(24), "vx": signed(16), "vy": signed(16), "ax": signed(8), "ay": signed(8),
-             "number": rng.randrange(65536), "mono": rng.randrange(2), "tentative": rng.randrange(2),
-             "last": rng.randrange(2), "first": rng.randrange(2), "coasting": rng.randrange(2)}
+    track = {
+        "sac": rng.randrange(256), "sic": rng.randrange(256), "time": rng.randrange(
+            86400 * 128), "x": signed(24), "y": signed(24), "vx": signed(16), "vy": signed(16),
+        "ax": signed(8), "ay": signed(8), "number": rng.randrange(65536), "mono": rng.randrange(2),
+        "tentative": rng.randrange(2), "last": rng.randrange(2), "first": rng.randrange(2),
+        "coasting": rng.randrange(2)
+    }
     if full > 0:
         track.update(lat=rng.randrange(-2 ** 24, 2 ** 24), lon=rng.randrange(-2 ** 25, 2 ** 25))
-        track["sigma"] = (rng.randrange(65536), rng.randrange(65536), rng.randrange(256), rng.randrange(256))
+        track["sigma"] = (rng.randrange(65536), rng.randrange(65536), rng.randrange(256),
+                          rng.randrange(256))
     if full > 1:
         track.update(alt=signed(16), climb=signed(16))
     return track
@@ -239,14 +265,22 @@ def raw(value, bits):
 
 def write_tracks():
     rng = random.Random("rhotrack tracks")
-    names = ["sac", "sic", "time", "number", "mono", "tentative", "last", "first", "coasting", "x", "y", "vx", "vy", "ax", "ay",
-             "lat", "lon", "alt", "climb"]
-    widths = {"x": 24, "y": 24, "vx": 16, "vy": 16, "ax": 8, "ay": 8, "lat": 32, "lon": 32, "alt": 16, "climb": 16}
+    names = [
+        "sac", "sic", "time", "number", "mono", "tentative", "last", "first", "coasting", "x", "y",
+        "vx", "vy", "ax", "ay", "lat", "lon", "alt", "climb"
+    ]
+    widths = {
+        "x": 24, "y": 24, "vx": 16, "vy": 16, "ax": 8, "ay": 8, "lat": 32, "lon": 32, "alt": 16,
+        "climb": 16
+    }
     print(f"/* {', '.join(names)}, four sigmas, in the items' units; NAN: not there */")
     print("static const struct { const char *hex; double values[23]; } vectors_tracks[] = {")
     for i in range(24):
         track = draw_track(rng, i % 3)
-        encoded = {name: raw(value, widths[name]) if name in widths else value for name, value in track.items()}
+        encoded = {
+            name: raw(value, widths[name]) if name in widths else value
+            for name, value in track.items()
+        }
         data = encode_track(encoded)
         values = [str(track[name]) if name in track else "NAN" for name in names]
         values += [str(sigma) for sigma in track["sigma"]] if "sigma" in track else ["NAN"] * 4

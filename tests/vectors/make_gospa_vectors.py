@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""GOSPA and OSPA of sets of points, straight from their definitions: the reference of tests/tools/evaluation/test_gospa.c.
+"""GOSPA and OSPA of sets of points, straight from their definitions: the reference of
+tests/tools/evaluation/test_gospa.c.
 
 Usage: make_gospa_vectors.py > gospa_vectors.h   (in tests/vectors; needs NumPy and SciPy)
        make_gospa_vectors.py --compare           (needs Stone Soup, too: the same cases through its metrics)
@@ -8,8 +9,9 @@ Usage: make_gospa_vectors.py > gospa_vectors.h   (in tests/vectors; needs NumPy 
 For |X| <= |Y|, d_c = min(d, c), over all ways to give each x a y of its own:
   GOSPA (p 2, alpha 2)^2 = min sum d_c(x, y)^2 + c^2 / 2 (|Y| - |X|)      (Rahmathullah et al., Definition 1)
   OSPA (p 2)^2           = (min sum d_c(x, y)^2 + c^2 (|Y| - |X|)) / |Y|   (Schuhmacher et al., eq. 3)
-The minimum comes from SciPy's linear_sum_assignment over all of X and Y at once; the program pairs clusters apart, by a method
-of its own. Parts of GOSPA are given where one pairing alone is best (no ties): pairs are those with d < c.
+The minimum comes from SciPy's linear_sum_assignment over all of X and Y at once; the program pairs
+clusters apart, by a method of its own. Parts of GOSPA are given where one pairing alone is best (no
+ties): pairs are those with d < c.
 """
 import math
 import random
@@ -60,12 +62,13 @@ def make_cases(rng):
     yield "one pair", 10.0, [(1.0, 2.0, 3.0)], [(4.0, 6.0, 3.0)], False
     yield "one pair at the cutoff", 5.0, [(1.0, 2.0, 3.0)], [(4.0, 6.0, 3.0)], False
     yield "one pair beyond it", 4.999, [(1.0, 2.0, 3.0)], [(4.0, 6.0, 3.0)], False
-    for targets, tracks, width in ((3, 8, 30.0), (8, 3, 30.0), (20, 20, 60.0), (40, 25, 60.0), (60, 60, 40.0),
-                                   (60, 60, 100.0), (60, 45, 400.0)):
+    for targets, tracks, width in ((3, 8, 30.0), (8, 3, 30.0), (20, 20, 60.0), (40, 25, 60.0),
+                                   (60, 60, 40.0), (60, 60, 100.0), (60, 45, 400.0)):
         yield (f"{targets} and {tracks} anywhere", 20.0, uniform(rng, targets, width, 5.0),
                uniform(rng, tracks, width, 5.0), False)
     targets = uniform(rng, 60, 250000.0)
-    yield "traffic", 1000.0, targets, near(rng, targets[:55], 60.0) + uniform(rng, 5, 250000.0), False
+    yield "traffic", 1000.0, targets, near(rng, targets[:55], 60.0) + uniform(rng, 5,
+                                                                              250000.0), False
     yield "traffic, a small cutoff", 50.0, targets, near(rng, targets[:55], 60.0), False
     yield "traffic, a huge cutoff", 200000.0, targets[:30], near(rng, targets[10:45], 60.0), False
     centres = uniform(rng, 6, 20000.0, 3000.0)
@@ -76,13 +79,14 @@ def make_cases(rng):
     yield "a chain, one too many", 10.0, chain(30, 9.0, 0.0), chain(31, 9.0, -4.0), False
     yield "a chain across", 10.0, [(0.0, x, 0.0) for x, _, _ in chain(25, 12.0, 0.0)], \
         [(0.0, x, 3.0) for x, _, _ in chain(25, 12.0, 5.0)], False
-    yield "far apart", 1000.0, uniform(rng, 20, 5000.0), [(x + 1e6, y, z) for x, y, z in uniform(rng, 20, 5000.0)], False
+    yield "far apart", 1000.0, uniform(
+        rng, 20, 5000.0), [(x + 1e6, y, z) for x, y, z in uniform(rng, 20, 5000.0)], False
     yield "heights alone differ", 100.0, [(5.0, 5.0, 90.0 * i) for i in range(12)], \
         [(5.0, 5.0, 90.0 * i + 31.0) for i in range(10)], False
     yield "all on one place", 10.0, [(3.0, 3.0, 0.0)] * 9, [(3.0, 3.0, 0.0)] * 6, True
     for targets, tracks, width in ((6, 6, 4), (12, 9, 6), (30, 30, 12), (60, 50, 14), (25, 60, 30)):
-        yield (f"{targets} and {tracks} on a lattice", 5.0, lattice(rng, targets, width), lattice(rng, tracks, width),
-               True)
+        yield (f"{targets} and {tracks} on a lattice", 5.0, lattice(
+            rng, targets, width), lattice(rng, tracks, width), True)
 
 
 def rounded(points):
@@ -115,12 +119,15 @@ def write():
         targets, tracks = rounded(targets), rounded(tracks)
         gospa, ospa, localisation, pairs = metrics(cutoff, targets, tracks)
         parts = "-1.0, -1" if has_ties else f"{localisation:.13g}, {pairs}"
-        rows.append(f'    {{"{name}", {cutoff}, {len(places)}, {len(targets)}, {len(places) + len(targets)}, '
-                    f"{len(tracks)}, {gospa:.13g}, {ospa:.13g}, {parts}}},")
+        rows.append(
+            f'    {{"{name}", {cutoff}, {len(places)}, {len(targets)}, {len(places) + len(targets)}, '
+            f"{len(tracks)}, {gospa:.13g}, {ospa:.13g}, {parts}}},")
         places += targets + tracks
     print("static const struct gospa_place gospa_places[] = {")
     print("\n".join(f"    {{{x:.3f}, {y:.3f}, {z:.3f}}}," for x, y, z in places))
-    print("};\n\n/* Where the points begin in gospa_places, and how many; localisation -1 and pairs -1: several may be best. */")
+    print(
+        "};\n\n/* Where the points begin in gospa_places, and how many; localisation -1 and pairs -1: several may be best. */"
+    )
     print("static const struct gospa_case {\n    const char *name;\n    double cutoff_m;\n"
           "    size_t targets, num_targets, tracks, num_tracks;\n"
           "    double gospa_m, ospa_m, localisation_m2;\n    int pairs;\n} gospa_cases[] = {")
@@ -129,7 +136,8 @@ def write():
 
 
 def compare():
-    """The same cases through Stone Soup: largest difference from metrics(), relative to the value."""
+    """The same cases through Stone Soup: largest difference from metrics(), relative to the
+    value."""
     import datetime
 
     import stonesoup
@@ -137,7 +145,10 @@ def compare():
     from stonesoup.types.state import State
 
     def states(points):
-        return [State(numpy.array(point).reshape(3, 1), timestamp=datetime.datetime(2000, 1, 1)) for point in points]
+        return [
+            State(numpy.array(point).reshape(3, 1), timestamp=datetime.datetime(2000, 1, 1))
+            for point in points
+        ]
 
     def ospa_paired_by_d():
         few, many = sorted((targets, tracks), key=len)
@@ -153,22 +164,30 @@ def compare():
             continue
         counted += 1
         gospa, ospa, localisation, pairs = metrics(cutoff, targets, tracks)
-        value = GOSPAMetric(p=2, c=cutoff).compute_gospa_metric(states(tracks), states(targets))[0].value
+        value = GOSPAMetric(p=2, c=cutoff).compute_gospa_metric(states(tracks),
+                                                                states(targets))[0].value
         missed = cutoff ** 2 / 2 * (len(targets) - pairs)
         false = cutoff ** 2 / 2 * (len(tracks) - pairs)
-        theirs_ospa = OSPAMetric(p=2, c=cutoff).compute_OSPA_distance(states(tracks), states(targets)).value
+        theirs_ospa = OSPAMetric(p=2, c=cutoff).compute_OSPA_distance(states(tracks),
+                                                                      states(targets)).value
         worst["gospa"] = max(worst["gospa"], abs(value["distance"] / gospa - 1.0))
         if not has_ties:
             ours = (localisation, missed, false)
             theirs = (value["localisation"], value["missed"], value["false"])
-            worst["parts"] = max(worst["parts"], max(abs(a - b) for a, b in zip(ours, theirs)) / gospa ** 2)
+            worst["parts"] = max(worst["parts"],
+                                 max(abs(a - b) for a, b in zip(ours, theirs)) / gospa**2)
         worst["ospa above"] = max(worst["ospa above"], theirs_ospa / ospa - 1.0)
         worst["ospa below"] = max(worst["ospa below"], 1.0 - theirs_ospa / ospa)
         if not has_ties:
-            worst["ospa paired by d"] = max(worst["ospa paired by d"], abs(theirs_ospa / ospa_paired_by_d() - 1.0))
+            worst["ospa paired by d"] = max(worst["ospa paired by d"],
+                                            abs(theirs_ospa / ospa_paired_by_d() - 1.0))
         larger += theirs_ospa > ospa * (1.0 + 1e-9)
-        print(f"{name:32} gospa {gospa:14.6f} {value['distance']:14.6f}   ospa {ospa:12.6f} {theirs_ospa:12.6f}")
-    print(f"Stone Soup {stonesoup.__version__}, {counted} cases, OSPA larger in {larger}; worst, relative:")
+        print(
+            f"{name:32} gospa {gospa:14.6f} {value['distance']:14.6f}   ospa {ospa:12.6f} {theirs_ospa:12.6f}"
+        )
+    print(
+        f"Stone Soup {stonesoup.__version__}, {counted} cases, OSPA larger in {larger}; worst, relative:"
+    )
     print("\n".join(f"  {name:24} {value:.2g}" for name, value in worst.items()))
 
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Scores and fits of plot sets in double precision: the reference of tests/unit/initiation/test_initiator.c.
+"""Scores and fits of plot sets in double precision: the reference of
+tests/unit/initiation/test_initiator.c.
 
 Usage: make_initiator_vectors.py > initiator_vectors.h   (in tests/vectors)
 
-The score is derived independently of the library: generalised least squares with the full covariance matrix
-V = diag(sigma^2) + K and dense elimination, ln of the ratio of the plots' density as one straight target's, position and
-velocity integrated out, to their density as clutter.
+The score is derived independently of the library: generalised least squares with the full
+covariance matrix V = diag(sigma^2) + K and dense elimination, ln of the ratio of the plots' density
+as one straight target's, position and velocity integrated out, to their density as clutter.
 """
 import math
 import random
@@ -45,12 +46,14 @@ def displacement(times, l, m):
 
 def covariance(times, hits, sigmas, q):
     def k(m, n):
-        return q * q * sum(displacement(times, l, m) * displacement(times, l, n) for l in range(len(times) - 1))
+        return q * q * sum(
+            displacement(times, l, m) * displacement(times, l, n) for l in range(len(times) - 1))
     return [[k(m, n) + (sigmas[m] ** 2 if m == n else 0.0) for n in hits] for m in hits]
 
 
 def score(times, hits, sigmas, xs, ys, q):
-    """The plots seen are all there are, so the density is their number over area and scans, at least one a scan."""
+    """The plots seen are all there are, so the density is their number over area and scans, at
+    least one a scan."""
     n, h = len(times), len(hits)
     area = (AREA[1] - AREA[0]) * (AREA[3] - AREA[2])
     density = max(h / (n * area), 1 / area)
@@ -89,8 +92,14 @@ def make_case(rng, number):
     sigmas = [rng.choice((8.0, 10.0, 20.0)) for _ in range(n)]
     x0, y0 = rng.uniform(-5000, 5000), rng.uniform(-5000, 5000)
     heading, speed = rng.uniform(0, 2 * math.pi), rng.uniform(100, 400)
-    xs = [round(x0 + speed * math.cos(heading) * t + rng.gauss(0, 0.7 * s)) + 0.0 for t, s in zip(times, sigmas)]
-    ys = [round(y0 + speed * math.sin(heading) * t + rng.gauss(0, 0.7 * s)) + 0.0 for t, s in zip(times, sigmas)]
+    xs = [
+        round(x0 + speed * math.cos(heading) * t + rng.gauss(0, 0.7 * s)) + 0.0
+        for t, s in zip(times, sigmas)
+    ]
+    ys = [
+        round(y0 + speed * math.sin(heading) * t + rng.gauss(0, 0.7 * s)) + 0.0
+        for t, s in zip(times, sigmas)
+    ]
     hits = [m for m in range(n) if m in (0, n - 1) or rng.random() < 0.8]
     while len(hits) < 4:
         hits = sorted(set(hits) | {rng.randrange(n)})
@@ -105,9 +114,14 @@ def padded(values, size, form):
 def main():
     rng = random.Random(20)
     print("/* Made by tests/vectors/make_initiator_vectors.py: do not edit. clang-format off */")
-    print("#define VECTOR_PD %.1ff\n#define VECTOR_V_MAX_MPS %.1ff\n#define VECTOR_SIDE_M %.1ff" % (PD, V_MAX, AREA[1]))
-    print("static const struct {\n    int num_scans;\n    unsigned mask;\n    double process_noise_mps2;")
-    print("    double t_s[7], sigma_m[7], x_m[7], y_m[7];\n    double score_nat, x_last_m, y_last_m, vx_mps, vy_mps;")
+    print("#define VECTOR_PD %.1ff\n#define VECTOR_V_MAX_MPS %.1ff\n#define VECTOR_SIDE_M %.1ff" %
+          (PD, V_MAX, AREA[1]))
+    print(
+        "static const struct {\n    int num_scans;\n    unsigned mask;\n    double process_noise_mps2;"
+    )
+    print(
+        "    double t_s[7], sigma_m[7], x_m[7], y_m[7];\n    double score_nat, x_last_m, y_last_m, vx_mps, vy_mps;"
+    )
     print("} initiator_vectors[] = {")
     for number in range(30):
         times, hits, sigmas, xs, ys, q = make_case(rng, number)
@@ -116,7 +130,8 @@ def main():
         print("    {%d, 0x%xu, %.1f," % (len(times), sum(1 << m for m in hits), q))
         print("     %s, %s," % (padded(times, 7, "%.1f"), padded(sigmas, 7, "%.1f")))
         print("     %s, %s," % (padded(xs, 7, "%.1f"), padded(ys, 7, "%.1f")))
-        print("     %.9f, %.6f, %.6f, %.7f, %.7f}," % (score(times, hits, sigmas, xs, ys, q), x, y, vx, vy))
+        print("     %.9f, %.6f, %.6f, %.7f, %.7f}," %
+              (score(times, hits, sigmas, xs, ys, q), x, y, vx, vy))
     print("};")
 
 

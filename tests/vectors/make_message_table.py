@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes message_table.h beside itself: the messages of lcm_types/*.lcm as tables for the tests of the codec.
+"""Writes message_table.h beside itself: the messages of lcm_types/*.lcm as tables for the tests of
+the codec.
 
 Usage: make_message_table.py [--check]     --check: writes nothing, exit 1 where the file is not what would be written.
 
@@ -32,22 +33,27 @@ class Struct:
         text = path.read_text(encoding="utf-8")
         self.name = re.search(r"^struct (\w+)", text, re.M).group(1)
         self.short = self.name.removesuffix("_t")
-        self.constants = {name: int(value) for line in re.findall(r"^\s*const \w+ (.*);", text, re.M)
-                          for name, value in re.findall(r"(\w+) = (-?\d+)", line)}
+        self.constants = {
+            name: int(value)
+            for line in re.findall(r"^\s*const \w+ (.*);", text, re.M)
+            for name, value in re.findall(r"(\w+) = (-?\d+)", line)
+        }
         channel = re.search(r"Channel (RHO_[A-Z_]+)", text)
         self.channel = channel.group(1) if channel else None
         self.members = []
         for kind, name, dimension, comment in re.findall(
                 r"^\s*(\w+)\s+(\w+)(?:\[(\w+)\])?;(?:[ ]*//(.*))?$", text.split("{", 1)[1], re.M):
             self.members.append((kind, name, dimension, comment.strip()))
-        self.list = self.members.pop() if self.members[-1][2] and not self.members[-1][2].isdigit() else None
+        self.list = self.members.pop(
+        ) if self.members[-1][2] and not self.members[-1][2].isdigit() else None
         self.counter = self.members.pop() if self.list else None
         self.most = self.constants["MAX_" + self.list[1].upper()] if self.list else 0
 
 
 def read(folder=TYPES):
     """All structs; those without a list first, which is the order of enum rho_message_type."""
-    return sorted((Struct(path) for path in folder.glob("*.lcm")), key=lambda s: (s.list is not None, s.name))
+    return sorted((Struct(path) for path in folder.glob("*.lcm")), key=lambda s:
+                  (s.list is not None, s.name))
 
 
 def rule(struct, kind, comment):
@@ -81,8 +87,9 @@ def tables(struct):
     text = f"static const struct message_member MESSAGE_TABLE({struct.short})[] = {{\n"
     text += "".join(row(struct, member) for member in struct.members) + "};\n"
     if struct.list and struct.list[0] in WIDTH:
-        text += (f"static const struct message_member MESSAGE_TABLE({struct.short}_element)[] = {{\n"
-                 f"{row(struct, struct.list, '0')}}};\n")
+        text += (
+            f"static const struct message_member MESSAGE_TABLE({struct.short}_element)[] = {{\n"
+            f"{row(struct, struct.list, '0')}}};\n")
     return text
 
 
@@ -96,31 +103,36 @@ def shape(struct, known):
     element, size, number, wire = f"{struct.short}_element", f"sizeof({kind})", 1, WIDTH.get(kind)
     if kind in known:
         members = known[kind].members
-        element, size, number = known[kind].short, f"sizeof(MESSAGE_STRUCT({known[kind].short}))", len(members)
+        element, size, number = known[
+            kind].short, f"sizeof(MESSAGE_STRUCT({known[kind].short}))", len(members)
         wire = sum(WIDTH[member[0]] * int(member[2] or 1) for member in members)
     c_struct = f"MESSAGE_STRUCT({struct.short})"
-    return (f"{text},\n     {{\"{struct.counter[1]}\", offsetof({c_struct}, {struct.counter[1]}), 0, 2, 1, "
-            f".rule = MEMBER_ANY}},\n     offsetof({c_struct}, {name}), MESSAGE_TABLE({element}), {number}, {size}, {wire}, "
-            f"{struct.most}, MESSAGE_LIST_IS_POINTER}},\n")
+    return (
+        f"{text},\n     {{\"{struct.counter[1]}\", offsetof({c_struct}, {struct.counter[1]}), 0, 2, 1, "
+        f".rule = MEMBER_ANY}},\n     offsetof({c_struct}, {name}), MESSAGE_TABLE({element}), {number}, {size}, {wire}, "
+        f"{struct.most}, MESSAGE_LIST_IS_POINTER}},\n")
 
 
 def header(structs):
     """The whole file."""
     known = {struct.name: struct for struct in structs}
-    each = "".join(f" X({struct.short}, {struct.short.upper()})" for struct in structs if not struct.list)
+    each = "".join(
+        f" X({struct.short}, {struct.short.upper()})" for struct in structs if not struct.list)
     lists = "".join(f" X({s.short}, {s.short.upper()}, \"{s.channel}\")" for s in structs if s.list)
-    return (TOP + "#ifndef RHOTRACK_TEST_MESSAGE_TABLE\n#define RHOTRACK_TEST_MESSAGE_TABLE\n"
-            f"#define MESSAGES_WITHOUT_LIST(X){each}\n#define MESSAGES_WITH_LIST(X){lists}\n#endif\n\n" +
-            "\n".join(tables(struct) for struct in structs) +
-            "\nstatic const struct message_shape MESSAGE_TABLE(shapes)[] = {\n" +
-            "".join(shape(struct, known) for struct in structs) + "};\n")
+    return (
+        TOP + "#ifndef RHOTRACK_TEST_MESSAGE_TABLE\n#define RHOTRACK_TEST_MESSAGE_TABLE\n"
+        f"#define MESSAGES_WITHOUT_LIST(X){each}\n#define MESSAGES_WITH_LIST(X){lists}\n#endif\n\n"
+        + "\n".join(tables(struct) for struct in structs) +
+        "\nstatic const struct message_shape MESSAGE_TABLE(shapes)[] = {\n" +
+        "".join(shape(struct, known) for struct in structs) + "};\n")
 
 
 def main():
     path = HERE / "message_table.h"
     text = header(read())
     if sys.argv[1:] == ["--check"]:
-        sys.exit(0 if path.read_text(encoding="utf-8") == text else f"{path}: not what lcm_types/ says; run {__file__}")
+        sys.exit(0 if path.read_text(
+            encoding="utf-8") == text else f"{path}: not what lcm_types/ says; run {__file__}")
     path.write_text(text, encoding="utf-8")
 
 

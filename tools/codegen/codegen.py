@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes the LCM codec of rhotrack from lcm_types/*.lcm: the header, the tables, the names, and the README's table.
+"""Writes the LCM codec of rhotrack from lcm_types/*.lcm: the header, the tables, the names, and the
+README's table.
 
 Usage: codegen.py [--check] [ROOT]
---check writes nothing, and names each file that is not what would be written; exit 1 where there is one.
+--check writes nothing, and names each file that is not what would be written; exit 1 where there is
+one.
 """
 import pathlib
 import sys
@@ -17,14 +19,19 @@ BEGIN, END = "<!-- made by tools/codegen -->", "<!-- end -->"
 
 def readme_table(known):
     """Channels, sizes and fingerprints, for lcm_types/README.md."""
-    rows = ["| struct | channel | at most | list | bytes at most | fingerprint |", "|---|---|---|---|---|---|"]
+    rows = [
+        "| struct | channel | at most | list | bytes at most | fingerprint |",
+        "|---|---|---|---|---|---|"
+    ]
     for struct in known.values():
         channel, has_sensor = struct.channel
         channel = f"`{channel}{'<sensor_id>' if has_sensor else ''}`" if channel else "-"
         most = struct.list_max if struct.list else "-"
         name = f"`{struct.list.name}`" if struct.list else "-"
-        rows.append(f"| [{struct.name}]({struct.name}.lcm) | {channel} | {most} | {name} | "
-                    f"{lcm_types.max_size(struct, known)} | `{lcm_types.fingerprint(struct, known):016x}` |")
+        rows.append(
+            f"| [{struct.name}]({struct.name}.lcm) | {channel} | {most} | {name} | "
+            f"{lcm_types.max_size(struct, known)} | `{lcm_types.fingerprint(struct, known):016x}` |"
+        )
     return "\n".join(rows)
 
 
@@ -43,7 +50,8 @@ def main():
     arguments = [argument for argument in arguments if argument != "--check"]
     if len(arguments) > 1 or any(argument.startswith("-") for argument in arguments):
         sys.exit(textwrap.dedent(__doc__).strip())
-    root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent.parent
+    root = pathlib.Path(
+        arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent.parent
     known = lcm_types.read_all(root / "lcm_types")
     if not known:
         sys.exit(f"{root / 'lcm_types'}: no .lcm files")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""C text of the codec: include/rhotrack/message.h, src/wire/message.c and src/wire/message_names.c."""
+"""C text of the codec: include/rhotrack/message.h, src/wire/message.c and
+src/wire/message_names.c."""
 import textwrap
 
 import lcm_types
@@ -10,7 +11,10 @@ SHORT_HEADER_BYTES = 8  # of LCM
 COLUMNS = 100  # of comments
 CHANNEL_BYTES = 24  # longest channel used, with its end
 FLT_MAX = "FLT_MAX"
-C_TYPES = {"int8_t": "int8_t", "int16_t": "int16_t", "int32_t": "int32_t", "int64_t": "int64_t", "float": "float"}
+C_TYPES = {
+    "int8_t": "int8_t", "int16_t": "int16_t", "int32_t": "int32_t", "int64_t": "int64_t",
+    "float": "float"
+}
 
 HEADER_TOP = """\
 /* SPDX-License-Identifier: MIT */
@@ -171,11 +175,13 @@ enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size)
 
 
 def check_sizes(known):
-    """Every message must fit one datagram: fragments are lost whole, and refused by the receiver."""
+    """Every message must fit one datagram: fragments are lost whole, and refused by the
+    receiver."""
     for struct in known.values():
         size = lcm_types.max_size(struct, known) + SHORT_HEADER_BYTES + CHANNEL_BYTES
         if size > DATAGRAM_BYTES:
-            fail(struct.path, 1, f"{size} bytes with header and channel do not fit a datagram of {DATAGRAM_BYTES}")
+            fail(struct.path, 1,
+                 f"{size} bytes with header and channel do not fit a datagram of {DATAGRAM_BYTES}")
 
 
 def type_of(field):
@@ -197,8 +203,9 @@ def range_text(field):
 def comment_of(text, indent=""):
     """A comment on a line of its own, or as a block."""
     one = f"{indent}/* {text} */"
-    lines = textwrap.wrap(text, COLUMNS, initial_indent=f"{indent} * ", subsequent_indent=f"{indent} * ",
-                          break_long_words=False, break_on_hyphens=False)
+    lines = textwrap.wrap(text, COLUMNS, initial_indent=f"{indent} * ",
+                          subsequent_indent=f"{indent} * ", break_long_words=False,
+                          break_on_hyphens=False)
     return one if len(one) <= COLUMNS else "\n".join([f"{indent}/*", *lines, f"{indent} */"])
 
 
@@ -215,15 +222,19 @@ def constants(struct, known):
     channel, has_sensor = struct.channel
     lines = []
     if channel:
-        lines.append(f'#define {prefix}CHANNEL "{channel}"' + (" /* and the sensor's number */" if has_sensor else ""))
-    lines.append(f"#define {prefix}FINGERPRINT UINT64_C(0x{lcm_types.fingerprint(struct, known):016x})")
+        lines.append(f'#define {prefix}CHANNEL "{channel}"' +
+                     (" /* and the sensor's number */" if has_sensor else ""))
+    lines.append(
+        f"#define {prefix}FINGERPRINT UINT64_C(0x{lcm_types.fingerprint(struct, known):016x})")
     lines.append(f"#define {prefix}MAX_SIZE {lcm_types.max_size(struct, known)}u")
     lines += [f"#define {prefix}{name} {value}" for name, value in struct.constants.items()]
     return lines
 
 
 def header_of(struct, known):
-    lines = ["", f"/* ---- {struct.name} ---- */", "", *(comment_of(text) for text in struct.comment)]
+    lines = [
+        "", f"/* ---- {struct.name} ---- */", "", *(comment_of(text) for text in struct.comment)
+    ]
     lines += ["", *constants(struct, known), "", f"struct rho_message_{struct.short} {{"]
     lines += [declaration(struct, field) for field in struct.fields] + ["};", ""]
     if struct.list:
@@ -234,14 +245,16 @@ def header_of(struct, known):
 
 
 def writer_names(struct):
-    one = struct.list.name.removesuffix("s") if struct.list.type not in PRIMITIVES else struct.list.name
+    one = struct.list.name.removesuffix(
+        "s") if struct.list.type not in PRIMITIVES else struct.list.name
     return {"s": struct.short, "element": type_of(struct.list), "one": one}
 
 
 def header(known):
     lines = [HEADER_TOP, "enum rho_message_type {"]
     for index, struct in enumerate(known.values()):
-        lines.append(f"    RHO_MESSAGE_TYPE_{struct.short.upper()}" + (" = 0," if index == 0 else ","))
+        lines.append(f"    RHO_MESSAGE_TYPE_{struct.short.upper()}" +
+                     (" = 0," if index == 0 else ","))
     lines.append("    RHO_NUM_MESSAGE_TYPES /* count of the values above, not a message */\n};")
     structs = "".join(header_of(s, known) for s in known.values())
     return "\n".join(lines) + "\n" + HEADER_COMMON + structs + HEADER_END
@@ -293,18 +306,22 @@ class Tables:
         for field in [*fields, None]:
             if group and (field is None or PRIMITIVES[field.type] != PRIMITIVES[group[0].type]):
                 count = sum(member.length for member in group)
-                self.runs.append(f"{{offsetof({c_struct}, {group[0].name}), {PRIMITIVES[group[0].type]}, {count}}}")
+                self.runs.append(
+                    f"{{offsetof({c_struct}, {group[0].name}), {PRIMITIVES[group[0].type]}, {count}}}"
+                )
                 group = []
             group.append(field)
 
     def add_floats(self, c_struct, fields):
         group = []
         for field in [*fields, None]:
-            same = field is not None and field.type == "float" and group and limits(field) == limits(group[0])
+            same = field is not None and field.type == "float" and group and limits(
+                field) == limits(group[0])
             if group and not same:
                 low, high = limits(group[0])
                 count = sum(member.length for member in group)
-                self.floats.append(f"{{offsetof({c_struct}, {group[0].name}), {count}, {low}, {high}}}")
+                self.floats.append(
+                    f"{{offsetof({c_struct}, {group[0].name}), {count}, {low}, {high}}}")
                 group = []
             if field is not None and field.type == "float":
                 group.append(field)
@@ -344,7 +361,8 @@ def int_rule(c_struct, field, constants):
     if field.type == "float" or not (field.minimum or field.choices):
         return None
     if field.choices:
-        return "MESSAGE_ONE_OF, 0, " + " | ".join(f"1 << {constants[choice]}" for choice in field.choices)
+        return "MESSAGE_ONE_OF, 0, " + " | ".join(f"1 << {constants[choice]}"
+                                                  for choice in field.choices)
     if field.maximum.endswith(" - 1"):
         return f"MESSAGE_BELOW, {field.minimum}, offsetof({c_struct}, {field.maximum.removesuffix(' - 1')})"
     if field.type == "int64_t":
@@ -357,33 +375,39 @@ def int_rule(c_struct, field, constants):
 def format_of(struct, tables):
     """The tables of its own, its format, and its rules."""
     c_struct = f"struct rho_message_{struct.short}"
-    head = tables[struct.name] = Tables.of_fields(struct.short, c_struct, struct.head, struct.constants)
+    head = tables[struct.name] = Tables.of_fields(struct.short, c_struct, struct.head,
+                                                  struct.constants)
     own, layout, checks = head.text(), "{0, 0, 0}", "{0, 0, 0, 0}"
     rest = "0, 0, 0, 0"
     if struct.list:
         element = tables.get(struct.list.type)
         if struct.list.type in PRIMITIVES:
-            element = Tables.of_number(f"{struct.short}_element", struct.list.type, *limits(struct.list))
+            element = Tables.of_number(f"{struct.short}_element", struct.list.type,
+                                       *limits(struct.list))
             own += element.text()
         layout, checks = element.layout(), element.checks()
-        rest = (f"offsetof({c_struct}, {struct.fields[-2].name}),\n    offsetof({c_struct}, {struct.list.name}),\n"
-                f"    sizeof({type_of(struct.list)}), {max_name(struct)}")
-    return (f"{own}static const struct message_format {struct.short}_format = {{\n"
-            f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n    {head.layout()}, {layout},\n    {rest}}};\n"
-            f"static const struct message_rules {struct.short}_rules = {{\n"
-            f"    &{struct.short}_format,\n    {head.checks()}, {checks}}};\n")
+        rest = (
+            f"offsetof({c_struct}, {struct.fields[-2].name}),\n    offsetof({c_struct}, {struct.list.name}),\n"
+            f"    sizeof({type_of(struct.list)}), {max_name(struct)}")
+    return (
+        f"{own}static const struct message_format {struct.short}_format = {{\n"
+        f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n    {head.layout()}, {layout},\n    {rest}}};\n"
+        f"static const struct message_rules {struct.short}_rules = {{\n"
+        f"    &{struct.short}_format,\n    {head.checks()}, {checks}}};\n")
 
 
 def same_place(struct):
     """The head's members lie where the whole struct's do, so that one table does for both."""
     last = struct.head[-1].name
-    return (f"typedef char {struct.short}_head_fits[offsetof(struct rho_message_{struct.short}, {last}) ==\n"
-            f"    offsetof(struct rho_message_{struct.short}_head, {last}) ? 1 : -1];\n")
+    return (
+        f"typedef char {struct.short}_head_fits[offsetof(struct rho_message_{struct.short}, {last}) ==\n"
+        f"    offsetof(struct rho_message_{struct.short}_head, {last}) ? 1 : -1];\n")
 
 
 def row_text(row):
     """Within 100 columns, but for choices: they stay beside their field."""
-    return f"    {row}," if "|" in row else textwrap.fill(f"{row},", 100, initial_indent="    ", subsequent_indent="     ")
+    return f"    {row}," if "|" in row else textwrap.fill(f"{row},", 100, initial_indent="    ",
+                                                          subsequent_indent="     ")
 
 
 def table(name, kind, rows):
@@ -394,12 +418,13 @@ def table(name, kind, rows):
 def source(known):
     tables = {}
     formats = [format_of(struct, tables) for struct in known.values()]
-    parts = ["/* SPDX-License-Identifier: MIT */\n"
-             "/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */\n/* clang-format off */\n"
-             "#include \"rhotrack/message.h\"\n\n#include <float.h>\n\n#include \"message_codec.h\"\n",
-             *formats,
-             "".join(same_place(struct) for struct in known.values() if struct.list),
-             fingerprints(known)]
+    parts = [
+        "/* SPDX-License-Identifier: MIT */\n"
+        "/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */\n/* clang-format off */\n"
+        "#include \"rhotrack/message.h\"\n\n#include <float.h>\n\n#include \"message_codec.h\"\n",
+        *formats, "".join(same_place(struct) for struct in known.values() if struct.list),
+        fingerprints(known)
+    ]
     for struct in known.values():
         parts.append(BODIES.format(s=struct.short) +
                      (WRITER_BODIES.format(**writer_names(struct)) if struct.list else ""))
@@ -407,10 +432,12 @@ def source(known):
 
 
 def fingerprints(known):
-    rows = "".join(f"        RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n" for struct in known.values())
+    rows = "".join(
+        f"        RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n" for struct in known.values())
     return ("uint64_t rho_message_fingerprint(enum rho_message_type type)\n{\n"
             f"    static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {{\n{rows}    }};\n\n"
-            "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;\n}\n" + TYPE_OF)
+            "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;\n}\n" +
+            TYPE_OF)
 
 
 # ---- Names ----
@@ -442,8 +469,9 @@ static const char *find(const struct name *names, unsigned count, uint16_t offse
 
 
 def names_of(struct):
-    rows = "".join(f'    {{offsetof(struct rho_message_{struct.short}, {field.name}), "{field.name}"}},\n'
-                   for field in struct.fields)
+    rows = "".join(
+        f'    {{offsetof(struct rho_message_{struct.short}, {field.name}), "{field.name}"}},\n'
+        for field in struct.fields)
     return f"static const struct name {struct.short}_names[] = {{\n{rows}}};\n"
 
 
@@ -457,8 +485,10 @@ def field_function(struct, known):
                 f"{len(known[struct.list.type].fields)}, place->offset);\n    }}\n")
     elif struct.list:
         body = f"    if (place && place->element >= 0) {{\n        return \"{struct.list.name}\";\n    }}\n"
-    return (f"const char *rho_message_{short}_field(const struct rho_message_place *place)\n{{\n{body}"
-            f"    return place ? find({short}_names, {len(struct.fields)}, place->offset) : \"unknown\";\n}}\n")
+    return (
+        f"const char *rho_message_{short}_field(const struct rho_message_place *place)\n{{\n{body}"
+        f"    return place ? find({short}_names, {len(struct.fields)}, place->offset) : \"unknown\";\n}}\n"
+    )
 
 
 def names(known):
@@ -470,4 +500,5 @@ def names(known):
         "const char *rho_message_type_name(enum rho_message_type type)\n{\n"
         f"    static const char type_names[RHO_NUM_MESSAGE_TYPES][{type_width}] = {{\n{rows}    }};\n\n"
         "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? type_names[type] : \"unknown\";\n}\n",
-        *[field_function(struct, known) for struct in known.values()]])
+        *[field_function(struct, known) for struct in known.values()]
+    ])

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Reads the .lcm files of rhotrack: structs, constants, fields with the ranges that their comments give, fingerprints.
+"""Reads the .lcm files of rhotrack: structs, constants, fields with the ranges that their comments
+give, fingerprints.
 
-What is read is the part of the LCM type language that lcm_types/ uses: one struct a file, primitive numbers, constants,
-fixed arrays of primitives, and at most one list, which ends the struct and stands right behind the int16_t that counts it.
-A field's trailing comment may end with its range, [min .. max], or with the constants it may have, {A, B}.
+What is read is the part of the LCM type language that lcm_types/ uses: one struct a file, primitive
+numbers, constants, fixed arrays of primitives, and at most one list, which ends the struct and
+stands right behind the int16_t that counts it. A field's trailing comment may end with its range,
+[min .. max], or with the constants it may have, {A, B}.
 """
 import dataclasses
 import pathlib
@@ -18,7 +20,8 @@ ARRAY_MAX = 255  # a run of the codec's tables counts in a byte
 
 @dataclasses.dataclass
 class Field:
-    """One member. dimension: "" for a scalar, a number for an array, the counting member's name for the list."""
+    """One member. dimension: "" for a scalar, a number for an array, the counting member's name for
+    the list."""
     type: str
     name: str
     dimension: str
@@ -66,7 +69,8 @@ class Struct:
 
     @property
     def channel(self):
-        """The channel that its comment names, without the sensor's number; and whether that follows."""
+        """The channel that its comment names, without the sensor's number; and whether that
+        follows."""
         found = re.search(r"Channel (RHO_\w+?)(<sensor_id>)?\.", " ".join(self.comment))
         return (found.group(1), bool(found.group(2))) if found else (None, False)
 
@@ -76,7 +80,8 @@ def fail(path, line, text):
 
 
 def parse_comment(field):
-    """Takes the range or the choices off the end of a field's comment. False where it ends like one, but is none."""
+    """Takes the range or the choices off the end of a field's comment. False where it ends like
+    one, but is none."""
     ranged = re.search(r"\[(\S+) \.\. ([^\]]+)\]$", field.comment)
     chosen = re.search(r"\{([^}]+)\}$", field.comment)
     if ranged:
@@ -149,7 +154,8 @@ def parse(path):
 def check(struct):
     """The rules that keep encoders and decoders simple, and stock tools working."""
     if struct.path.stem != struct.name or not struct.name.endswith("_t"):
-        fail(struct.path, 1, f"struct {struct.name} belongs into {struct.name}.lcm, and ends with _t")
+        fail(struct.path, 1,
+             f"struct {struct.name} belongs into {struct.name}.lcm, and ends with _t")
     if struct.package != "rhotrack":
         fail(struct.path, 1, "package rhotrack is missing")
     check_comment(struct)
@@ -174,7 +180,8 @@ def check_comment(struct):
     if "*/" in text or "/*" in text:
         fail(struct.path, 1, "the comment before the package would end the one in C")
     if "Channel " in text and not struct.channel[0]:
-        fail(struct.path, 1, "no channel that is understood: Channel RHO_NAME. or Channel RHO_NAME_<sensor_id>.")
+        fail(struct.path, 1,
+             "no channel that is understood: Channel RHO_NAME. or Channel RHO_NAME_<sensor_id>.")
 
 
 def check_kind(struct, field):
@@ -182,7 +189,8 @@ def check_kind(struct, field):
     if field.is_list and field is not struct.fields[-1]:
         fail(struct.path, field.line, f"{field.name}: a list must be the last member")
     if field.type not in PRIMITIVES and not field.is_list:
-        fail(struct.path, field.line, f"{field.name}: only a list may have members of its own, and no {field.type}")
+        fail(struct.path, field.line,
+             f"{field.name}: only a list may have members of its own, and no {field.type}")
     if field.is_list and field.type in PRIMITIVES and field.type != "float":
         fail(struct.path, field.line, f"{field.name}: a list of bare numbers must be of float")
     if field.dimension and field.length == 0:
@@ -209,17 +217,22 @@ def check_values(struct, field):
         return
     if field.maximum.endswith(" - 1") and field.type != "float":
         other = field.maximum.removesuffix(" - 1")
-        if not re.fullmatch(r"-?\d+", field.minimum) or other not in [member.name for member in struct.head if member.type == "int16_t" and not member.dimension]:
+        if not re.fullmatch(r"-?\d+", field.minimum) or other not in [
+                member.name
+                for member in struct.head if member.type == "int16_t" and not member.dimension
+        ]:
             refuse(f"no range, as there is no int16_t {other}, or {field.minimum} is no number")
         return
     try:
-        low, high = (float(text) if field.type == "float" else int(text) for text in (field.minimum, field.maximum))
+        low, high = (float(text) if field.type == "float" else int(text)
+                     for text in (field.minimum, field.maximum))
     except ValueError:
         refuse(f"no range of {field.type}: {field.minimum} .. {field.maximum}")
     most = 3.4e38 if field.type == "float" else (1 << 8 * PRIMITIVES[field.type] - 1) - 1
     if not -most - 1 <= low <= high <= most:
         refuse(f"no range of {field.type}: {field.minimum} .. {field.maximum}")
-    if field.type == "int64_t" and (high != 4 * 10**18 or low != -high) and (low, high) != (0, most):
+    if field.type == "int64_t" and (high != 4 * 10**18
+                                    or low != -high) and (low, high) != (0, most):
         refuse(f"a time is within 4000000000000000000 either way, and a count within 0 .. {most}")
 
 
@@ -227,7 +240,8 @@ def check_list(struct):
     """Its count and its capacity."""
     counter = struct.fields[-2]
     if counter.name != struct.list.dimension or counter.type != "int16_t":
-        fail(struct.path, struct.list.line, f"{struct.list.name}: its int16_t count must stand right before it")
+        fail(struct.path, struct.list.line,
+             f"{struct.list.name}: its int16_t count must stand right before it")
     most = "MAX_" + struct.list.name.upper()
     if most not in struct.constants:
         fail(struct.path, struct.list.line, f"const int16_t {most} is missing")
@@ -243,7 +257,8 @@ def read_all(folder):
     for struct in structs:
         for field in struct.fields:
             if field.type not in PRIMITIVES and (field.type not in known or known[field.type].list):
-                fail(struct.path, field.line, f"{field.name}: there is no struct {field.type} without a list")
+                fail(struct.path, field.line,
+                     f"{field.name}: there is no struct {field.type} without a list")
         known[struct.name] = struct
     return known
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Compiles the library for the processors that it is made for, and reads the objects: for size.py, stack.py, gates.py.
+"""Compiles the library for the processors that it is made for, and reads the objects: for size.py,
+stack.py, gates.py.
 
-Objects lie in $BUILD/cross/<target>-<profile><optimisation>/, and are kept until a source, a header, the compiler or a
-flag changes. What SIZE_FLAGS holds is added to every compilation.
+Objects lie in $BUILD/cross/<target>-<profile><optimisation>/, and are kept until a source, a
+header, the compiler or a flag changes. What SIZE_FLAGS holds is added to every compilation.
 """
 import concurrent.futures
 import fcntl
@@ -42,7 +43,8 @@ TARGETS = {
     "m7": Target("Cortex-M7", ARM, "-mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard"),
     "r5f": Target("Cortex-R5F", ARM, "-mcpu=cortex-r5 -mfpu=vfpv3-d16 -mfloat-abi=hard"),
     "rv32": Target("RISC-V", RISCV, "-march=rv32imafc -mabi=ilp32f --specs=picolibc.specs"),
-    # Where no other compiler is. Not position-independent: constant tables of pointers are not to count as data.
+    # Where no other compiler is. Not position-independent: constant tables of pointers are not to
+    # count as data.
     "host": Target("this machine", "", "-fno-pie"),
 }
 
@@ -61,7 +63,8 @@ def output(command, **options):
 
 
 class Build:
-    """All sources of a root, compiled for one target: {stem: object}, with its .su and .ci beside it."""
+    """All sources of a root, compiled for one target: {stem: object}, with its .su and .ci beside
+    it."""
 
     def __init__(self, target, root=".", profile="embedded", optimisation="-Os"):
         self.name, self.target, self.root = target, TARGETS[target], pathlib.Path(root)
@@ -92,15 +95,19 @@ class Build:
         made_of = self.folder / f"{source.stem}.key"
         if made_of.is_file() and made_of.read_text(encoding="utf-8") == key.hexdigest():
             return
-        command = [self.target.tool("gcc"), *self.flags, "-c", "-o", str(self.objects[source.stem].absolute()),
-                   str(source.relative_to(self.root))]
+        command = [
+            self.target.tool("gcc"), *self.flags, "-c", "-o",
+            str(self.objects[source.stem].absolute()),
+            str(source.relative_to(self.root))
+        ]
         output(command, cwd=self.root)
         made_of.write_text(key.hexdigest(), encoding="utf-8")
 
     def texts(self):
         """{stem: bytes of code and constants}; exit 1 where an object has data of its own."""
         found = {}
-        for line in output([self.target.tool("size"), *map(str, self.objects.values())]).splitlines()[1:]:
+        for line in output([self.target.tool("size"),
+                            *map(str, self.objects.values())]).splitlines()[1:]:
             text, data, bss, *_, name = line.split()
             if int(data) + int(bss) > 0:
                 sys.exit(f"{pathlib.Path(name).stem}.c has {data} bytes of data, {bss} of bss")
@@ -109,22 +116,33 @@ class Build:
 
     def symbols(self):
         """(source, type, name) of every symbol of every object, as nm calls them."""
-        sources = {str(self.objects[source.stem]): source.relative_to(self.root) for source in self.sources}
+        sources = {
+            str(self.objects[source.stem]): source.relative_to(self.root)
+            for source in self.sources
+        }
         for line in output([self.target.tool("nm"), "-A", *sources]).splitlines():
             made, symbol = line.split(":", 1)
             yield sources[made], symbol.split()[-2], symbol.split()[-1]
 
 
 def sizes_of(target, expressions, flags=()):
-    """Bytes that constant expressions come to on a target, {name: bytes}: arrays of that size, read back by nm."""
-    lines = [f'#include "{header.relative_to("include")}"' for header in sorted(pathlib.Path("include").glob("**/*.h"))]
+    """Bytes that constant expressions come to on a target, {name: bytes}: arrays of that size, read
+    back by nm."""
+    lines = [
+        f'#include "{header.relative_to("include")}"'
+        for header in sorted(pathlib.Path("include").glob("**/*.h"))
+    ]
     lines += [f"char sized_{name}[{expression}];" for name, expression in expressions.items()]
     top = pathlib.Path(os.environ.get("BUILD", "build")) / "cross"
     top.mkdir(parents=True, exist_ok=True)
     made = str(top / f"sizes-{os.getpid()}.o")
-    output([TARGETS[target].tool("gcc"), "-std=c99", "-Iinclude", "-fno-common", *TARGETS[target].flags,
-            *os.environ.get("SIZE_FLAGS", "").split(), *flags, "-x", "c", "-c", "-o", made, "-"],
-           input="\n".join(lines) + "\n")
+    output([
+        TARGETS[target].tool("gcc"), "-std=c99", "-Iinclude", "-fno-common", *TARGETS[target].flags,
+        *os.environ.get("SIZE_FLAGS", "").split(), *flags, "-x", "c", "-c", "-o", made, "-"
+    ], input="\n".join(lines) + "\n")
     listed = output([TARGETS[target].tool("nm"), "-S", made])
     os.remove(made)
-    return {name: int(size, 16) for size, name in re.findall(r"^\w+ (\w+) \w sized_(\w+)$", listed, re.MULTILINE)}
+    return {
+        name: int(size, 16)
+        for size, name in re.findall(r"^\w+ (\w+) \w sized_(\w+)$", listed, re.MULTILINE)
+    }

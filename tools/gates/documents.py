@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the written documents: lengths, lines, links, and that the files and functions that they name exist.
+"""Checks the written documents: lengths, lines, links, and that the files and functions that they
+name exist.
 
 Usage: documents.py [FOLDER]
-FOLDER has the documents (default: this repository); the files that they name are always those of this repository. Prints
-a line for each fault; exit 1 if there is one.
+FOLDER has the documents (default: this repository); the files that they name are always those of
+this repository. Prints a line for each fault; exit 1 if there is one.
 """
 import pathlib
 import re
@@ -15,7 +16,10 @@ HOME = pathlib.Path(__file__).resolve().parent.parent.parent
 NOT_WRITTEN = {"CHANGELOG.md", "tools/lab/MEASUREMENTS.md"}
 # Words of README.md (outside code and tables), of DESIGN, of all documents.
 README_MOST, DESIGN_MOST, ALL_MOST, COLUMNS = 1200, 14000, 26000, 100
-FOREIGN = {"stdio.h", "stdbool.h", "stdlib.h", "stdint.h", "stddef.h", "string.h", "math.h", "errno.h", "limits.h", "float.h"}
+FOREIGN = {
+    "stdio.h", "stdbool.h", "stdlib.h", "stdint.h", "stddef.h", "string.h", "math.h", "errno.h",
+    "limits.h", "float.h"
+}
 PLACEHOLDER = re.compile(r"[A-Z]{3,}")
 
 
@@ -47,7 +51,10 @@ def broken_links(folder, name, text):
             if re.match(r"[a-z]+:", target):
                 continue
             path, _, anchor = target.partition("#")
-            places = [root / pathlib.PurePath(name).parent / path if path else root / name for root in (folder, HOME)]
+            places = [
+                root / pathlib.PurePath(name).parent / path if path else root / name
+                for root in (folder, HOME)
+            ]
             found = next((place for place in places if place.exists()), None)
             if found is None:
                 yield f"{name}:{number}: no file {target}"
@@ -56,11 +63,13 @@ def broken_links(folder, name, text):
 
 
 def unknown_files(name, text, files):
-    """Sources that are named and not there; `_cases.c` is the end of a name, FILE.c a placeholder."""
+    """Sources that are named and not there; `_cases.c` is the end of a name, FILE.c a
+    placeholder."""
     for number, line in enumerate(text.splitlines(), 1):
         for found in re.findall(r"(?<![\w./*-])[\w./-]*\w\.(?:c|h|py|sh|bash)\b(?![\w/(])", line):
             end = found.lstrip("./") if found.startswith((".", "_")) else "/" + found
-            if not PLACEHOLDER.search(found) and found not in FOREIGN and not any(f"/{path}".endswith(end) for path in files):
+            if not PLACEHOLDER.search(found) and found not in FOREIGN and not any(
+                    f"/{path}".endswith(end) for path in files):
                 yield f"{name}:{number}: no file {found}"
 
 
@@ -73,8 +82,15 @@ def unknown_functions(name, text, names):
 
 def faults(folder):
     files = tree()
-    sources = [path for path in files if re.match(r"(include|src|tools|tests)/.*\.[ch]$|lcm_types/.*\.lcm$", path)]
-    names = {word for path in sources for word in re.findall(r"\brho_\w+", (HOME / path).read_text(encoding="utf-8"))}
+    sources = [
+        path for path in files
+        if re.match(r"(include|src|tools|tests)/.*\.[ch]$|lcm_types/.*\.lcm$", path)
+    ]
+    names = {
+        word
+        for path in sources
+        for word in re.findall(r"\brho_\w+", (HOME / path).read_text(encoding="utf-8"))
+    }
     words = 0
     for path in sorted(folder.rglob("*.md")):
         name = path.relative_to(folder).as_posix()
@@ -86,7 +102,8 @@ def faults(folder):
         yield from broken_links(folder, name, text)
         yield from unknown_files(name, text, files)
         yield from unknown_functions(name, text, names)
-        yield from (f"{name}:{number}: {len(line)} columns" for number, line in prose(text) if len(line) > COLUMNS)
+        yield from (f"{name}:{number}: {len(line)} columns" for number, line in prose(text)
+                    if len(line) > COLUMNS)
         if name == "README.md":
             length = sum(len(line.split()) for _, line in prose(text))
         most = {"README.md": README_MOST, "src/DESIGN.md": DESIGN_MOST}.get(name, ALL_MOST)

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the library must never have, looked for in its objects for the processors that it is made for.
+"""What the library must never have, looked for in its objects for the processors that it is made
+for.
 
-On each target at -Os: symbols from elsewhere but memcpy, memset, memmove, memcmp and the compiler's own arithmetic on
-integers and single precision (CHARGES of stack.py); mutable globals; frames that grow at run time; calls by a pointer;
-recursion. The last three also on a graph of -O0, as -Os can turn a recursion into a loop. tools/gates/poison.sh looks at the
-sources and at this machine's objects.
+On each target at -Os: symbols from elsewhere but memcpy, memset, memmove, memcmp and the compiler's
+own arithmetic on integers and single precision (CHARGES of stack.py); mutable globals; frames that
+grow at run time; calls by a pointer; recursion. The last three also on a graph of -O0, as -Os can
+turn a recursion into a loop. tools/gates/poison.sh looks at the sources and at this machine's
+objects.
 
 Usage: gates.py [--target m0plus,m4f,m7,r5f,rv32] [ROOT]. Prints FILE:LINE: function: what is wrong; exit 1 where anything
 is.
@@ -17,14 +19,19 @@ import sys
 import cross
 import stack
 
-LIBM = (r"(a?(sin|cos|tan)h?|atan2|sqrt|cbrt|hypot|exp(2|m1)?|log(2|10|1p|b)?|pow|floor|ceil|trunc|l?l?r(ound|int)|"
-        r"nearbyint|fmod|remainder|modf|frexp|ldexp|scalbl?n|fabs|fdim|fma|fmax|fmin|copysign|erfc?|[lt]gamma)")
+LIBM = (
+    r"(a?(sin|cos|tan)h?|atan2|sqrt|cbrt|hypot|exp(2|m1)?|log(2|10|1p|b)?|pow|floor|ceil|trunc|l?l?r(ound|int)|"
+    r"nearbyint|fmod|remainder|modf|frexp|ldexp|scalbl?n|fabs|fdim|fma|fmax|fmin|copysign|erfc?|[lt]gamma)"
+)
 KINDS = [
     ("heap", r"\w*alloc|free|strn?dup|_?sbrk"),
-    ("stdio", r"\w*(printf|scanf|putc|puts|getc|gets)|(put|get)char|f(open|close|read|write|flush)|std(in|out|err)|_impure_ptr"),
+    ("stdio",
+     r"\w*(printf|scanf|putc|puts|getc|gets)|(put|get)char|f(open|close|read|write|flush)|std(in|out|err)|_impure_ptr"
+     ),
     ("errno", r"_*errno(_location)?"),
     ("double arithmetic", r"__aeabi_(c?d\w+|\w+2d)|__\w+df\w*"),
-    ("float and 64 bits, which drags in double's arithmetic", r"__aeabi_(f2u?lz|u?l2f)|__fix(uns)?sfdi|__float(un)?disf"),
+    ("float and 64 bits, which drags in double's arithmetic",
+     r"__aeabi_(f2u?lz|u?l2f)|__fix(uns)?sfdi|__float(un)?disf"),
     ("libm, double", LIBM),
     ("libm, float", LIBM + "f"),
 ]
@@ -37,7 +44,8 @@ def kind_of(symbol):
 
 
 def foreign(symbols, graph):
-    """Symbols that the library may not take from elsewhere, by the functions that call them, or by their files."""
+    """Symbols that the library may not take from elsewhere, by the functions that call them, or by
+    their files."""
     wanted = {}
     for source, letter, symbol in symbols:
         if letter in "Uw" and not symbol.startswith("rho_") and stack.charge(symbol) is None:
@@ -78,7 +86,8 @@ def findings(target, root):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     every = [name for name in cross.TARGETS if name != "host"]
     parser.add_argument("--target", default=",".join(every))
     parser.add_argument("root", nargs="?", default=cross.HOME)

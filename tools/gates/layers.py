@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks every #include of the library against the table of rooms in src/DESIGN.md, and the objects for circles of files.
+"""Checks every #include of the library against the table of rooms in src/DESIGN.md, and the objects
+for circles of files.
 
-A room is a folder of src/. A public header (include/rhotrack/, include/rhotrack/detail/) belongs to the room that has the
-source of its name, or of the longest name that it begins with; else to the first room. A file may include the headers of its own room, those of the
-rooms that the table lists for it (`all above`: every earlier row), private headers of its own folder, and the system
-headers below. No function has an #if inside: an option is an `if` on a constant, or a file that the build chooses.
+A room is a folder of src/. A public header (include/rhotrack/, include/rhotrack/detail/) belongs to
+the room that has the source of its name, or of the longest name that it begins with; else to the
+first room. A file may include the headers of its own room, those of the rooms that the table lists
+for it (`all above`: every earlier row), private headers of its own folder, and the system headers
+below. No function has an #if inside: an option is an `if` on a constant, or a file that the build
+chooses.
 
-Files that need one another, directly or through others, are a circle: one file, or there is a third one below them.
-The symbols of the objects tell, in BUILD/embedded/src and BUILD/program/tools/rhotrack. No object of the program needs one
-of the lab, BUILD/program/tools/lab.
+Files that need one another, directly or through others, are a circle: one file, or there is a third
+one below them. The symbols of the objects tell, in BUILD/embedded/src and
+BUILD/program/tools/rhotrack. No object of the program needs one of the lab,
+BUILD/program/tools/lab.
 
 Usage: layers.py [ROOT [BUILD]]. Prints FILE:LINE: what is wrong; exit 1 where anything is. BUILD: default $BUILD or build;
 objects that are not there are not looked at.
@@ -25,7 +29,8 @@ UMBRELLA = "rhotrack"  # rhotrack.h includes what users call, of every room
 
 
 def read_table(path):
-    """{room: rooms it may include}, and what is wrong with the table itself, as (path, line, text)."""
+    """{room: rooms it may include}, and what is wrong with the table itself, as (path, line,
+    text)."""
     allowed, problems, in_section = {}, [], False
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         if line.startswith("#"):
@@ -38,7 +43,8 @@ def read_table(path):
             problems.append((path, number, f"room {room} has two rows"))
         may = set(allowed) if listed == "all above" else set(re.findall(r"\w+", listed))
         for name in sorted(may - set(allowed)):
-            problems.append((path, number, f"{room} may include {name}, which stands in no earlier row"))
+            problems.append(
+                (path, number, f"{room} may include {name}, which stands in no earlier row"))
         allowed[room] = may
     if not allowed:
         problems.append((path, 1, "no table of rooms under a heading `## Rooms`"))
@@ -56,7 +62,8 @@ def includes_of(text):
 
 
 def conditions_inside(text):
-    """Lines of #if and the like between a function's braces, which stand alone in the first column."""
+    """Lines of #if and the like between a function's braces, which stand alone in the first
+    column."""
     inside = False
     for number, line in enumerate(text.splitlines(), 1):
         inside = (inside or line == "{") and line != "}"
@@ -65,7 +72,8 @@ def conditions_inside(text):
 
 
 def check_file(path, room, rooms, allowed):
-    """What is wrong with one file, as (path, line, text). rooms: {stem of a public header: its room}."""
+    """What is wrong with one file, as (path, line, text). rooms: {stem of a public header: its
+    room}."""
     if room not in allowed:
         yield path, 1, f"room {room} has no row in the table"
         return
@@ -86,7 +94,8 @@ def check_file(path, room, rooms, allowed):
                 yield path, number, f"there is no header {name}"
             elif home != room and home not in allowed[room]:
                 yield path, number, f"{room} may not include {name} of {home}"
-        elif "include" in path.parts or len(target.parts) > 1 or not (path.parent / target).is_file():
+        elif "include" in path.parts or len(
+                target.parts) > 1 or not (path.parent / target).is_file():
             yield path, number, f"private header \"{name}\""
 
 
@@ -100,8 +109,11 @@ class Objects:
                 source = path.relative_to(build).with_suffix(".c")
                 if (root / source).is_file():  # else left over from a file that was moved
                     self.read(path, str(source))
-        self.needs = {name: sorted({self.defined[symbol] for symbol in symbols if symbol in self.defined} - {name})
-                      for name, symbols in self.undefined.items()}
+        self.needs = {
+            name: sorted({self.defined[symbol]
+                          for symbol in symbols if symbol in self.defined} - {name})
+            for name, symbols in self.undefined.items()
+        }
 
     def read(self, path, name):
         self.undefined[name] = set()
@@ -124,11 +136,15 @@ class Objects:
 
     def circles(self):
         reached = {name: self.reached(name) for name in self.needs}
-        found = {frozenset(other for other in reached[name] if name in reached[other]) for name in reached}
+        found = {
+            frozenset(other for other in reached[name] if name in reached[other])
+            for name in reached
+        }
         return sorted(sorted(circle) for circle in found if len(circle) > 1)
 
     def symbols(self, name, other):
-        return sorted(symbol for symbol in self.undefined[name] if self.defined.get(symbol) == other)
+        return sorted(
+            symbol for symbol in self.undefined[name] if self.defined.get(symbol) == other)
 
 
 def check_objects(root, build):
@@ -154,7 +170,8 @@ def owner(stem, sources):
 
 
 def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent.parent)
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) >
+                        1 else pathlib.Path(__file__).parent.parent.parent)
     table = root / "src" / "DESIGN.md"
     if not table.is_file():
         sys.exit(f"layers: {table} with the table of rooms is missing")
@@ -171,7 +188,10 @@ def main():
             problems.extend(check_file(path, rooms[path.stem], rooms, allowed))
     for path, number, text in problems:
         print(f"{path.relative_to(root)}:{number}: {text}")
-    between = list(check_objects(root, pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else os.environ.get("BUILD", "build"))))
+    between = list(
+        check_objects(
+            root,
+            pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else os.environ.get("BUILD", "build"))))
     for text in between:
         print(text)
     if problems or between:

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Changes each policy constant of the library (gates, decays, limits) by a factor of two, and the row from which a claim
-counts from 0 to 1, and says which change no test notices.
+"""Changes each policy constant of the library (gates, decays, limits) by a factor of two, and the
+row from which a claim counts from 0 to 1, and says which change no test notices.
 
-A constant is a `#define NAME number` or a `static const` number in src/. Constants that are no policy (magic numbers, bits,
-the coefficients of src/base) are left out. A mutant is noticed where it does not compile, or a golden file or a unit test of
-its room differs. Each is tried in a copy of the sources, in BUILD/mutate.
+A constant is a `#define NAME number` or a `static const` number in src/. Constants that are no
+policy (magic numbers, bits, the coefficients of src/base) are left out. A mutant is noticed where
+it does not compile, or a golden file or a unit test of its room differs. Each is tried in a copy of
+the sources, in BUILD/mutate.
 
 Usage: mutate.py [--sample N] [--seed S] [--only REGEX]. Prints each mutant; exit 1 where fewer than nine in ten are noticed.
 """
@@ -20,10 +21,15 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDERS = ["src", "include", "tools", "tests", "lcm_types", "Makefile"]
-CONSTANT = re.compile(r"^(?:#define\s+(?P<define>\w+)|static const \w+ (?P<const>\w+) =)\s+(?P<number>[0-9][0-9.]*(?:e[-+]?\d+)?)"
-                      r"(?P<suffix>[fuULl]*)(?=\s*(?:;|/\*|$))")
-NO_POLICY = re.compile(r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|PER_|HALF|OFFSET|PRIME|POLYNOM|ROUND|EPSILON|TURN_(HIGH|MIDDLE|LOW)")
-NO_POLICY_FILES = {"src/base/approx.c", "src/base/angle.c", "src/wire/message.c", "src/wire/message_names.c"}
+CONSTANT = re.compile(
+    r"^(?:#define\s+(?P<define>\w+)|static const \w+ (?P<const>\w+) =)\s+(?P<number>[0-9][0-9.]*(?:e[-+]?\d+)?)"
+    r"(?P<suffix>[fuULl]*)(?=\s*(?:;|/\*|$))")
+NO_POLICY = re.compile(
+    r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|PER_|HALF|OFFSET|PRIME|POLYNOM|ROUND|EPSILON|TURN_(HIGH|MIDDLE|LOW)"
+)
+NO_POLICY_FILES = {
+    "src/base/approx.c", "src/base/angle.c", "src/wire/message.c", "src/wire/message_names.c"
+}
 ROW = re.compile(r"\b(?P<name>(?:plot|row|claim|opened|claims\[\w+\])) >= (?P<number>0)\b")
 NOTICED_MIN = 0.9
 
@@ -61,19 +67,23 @@ class Tree:
         folder.mkdir(parents=True, exist_ok=True)
         for name in FOLDERS:
             if (ROOT / name).is_dir():
-                shutil.copytree(ROOT / name, folder / name, dirs_exist_ok=True, copy_function=self.copy)
+                shutil.copytree(ROOT / name, folder / name, dirs_exist_ok=True,
+                                copy_function=self.copy)
             else:
                 self.copy(ROOT / name, folder / name)
 
     @staticmethod
     def copy(source, target):
         """Only what differs, so that make compiles no more than it must."""
-        if not pathlib.Path(target).exists() or pathlib.Path(source).read_bytes() != pathlib.Path(target).read_bytes():
+        if not pathlib.Path(target).exists() or pathlib.Path(source).read_bytes() != pathlib.Path(
+                target).read_bytes():
             shutil.copyfile(source, target)
             shutil.copymode(source, target)
 
     def run(self, *command):
-        environment = os.environ | {"BUILD": "build", "RHOTRACK": str(self.folder / "build/rhotrack")}
+        environment = os.environ | {
+            "BUILD": "build", "RHOTRACK": str(self.folder / "build/rhotrack")
+        }
         return subprocess.run(command, cwd=self.folder, env=environment, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL, timeout=900).returncode == 0
 
@@ -94,7 +104,8 @@ class Tree:
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sample", type=int, metavar="N", help="so many mutants, drawn at random")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", metavar="REGEX", help="files and names that match")
@@ -103,7 +114,9 @@ def main():
     mutants = [mutant for mutant in mutants_of(tree.folder)
                if re.search(options.only, f"{mutant[0].relative_to(tree.folder)} {mutant[2]}")]
     if options.sample and options.sample < len(mutants):
-        mutants = sorted(random.Random(options.seed).sample(mutants, options.sample), key=lambda mutant: mutant[:2])
+        mutants = sorted(
+            random.Random(options.seed).sample(mutants, options.sample),
+            key=lambda mutant: mutant[:2])
     if not mutants:
         sys.exit("mutate: nothing matches")
     what = tree.noticed_by("base")
@@ -113,14 +126,17 @@ def main():
     for path, line, name, found, value in mutants:
         text = path.read_text()
         lines = text.splitlines(keepends=True)
-        lines[line] = lines[line][:found.start("number")] + value + lines[line][found.end("number"):]
+        lines[line] = lines[line][:found.start("number")] + value + lines[line][found.end("number"
+                                                                                          ):]
         try:
             path.write_text("".join(lines))
             by = tree.noticed_by(path.parent.name)
         finally:
             path.write_text(text)
         noticed += by is not None
-        print(f"{path.relative_to(tree.folder)}:{line + 1}: {name} {found['number']} -> {value}: {by or 'NOT NOTICED'}", flush=True)
+        print(
+            f"{path.relative_to(tree.folder)}:{line + 1}: {name} {found['number']} -> {value}: {by or 'NOT NOTICED'}",
+            flush=True)
     print(f"{noticed} of {len(mutants)} mutants noticed")
     sys.exit(noticed < NOTICED_MIN * len(mutants))
 

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the library costs: code, objects and worst stack of each room at -Os, beside what was committed and what must fit.
+"""What the library costs: code, objects and worst stack of each room at -Os, beside what was
+committed and what must fit.
 
-Prints the tables of section `sizes` of tools/lab/MEASUREMENTS.md, how they differ from what is committed, and the bars.
-Exit 1 where they differ or a bar is missed. With other compilers than those that the page names it says so, and does not
-compare. Without arm-none-eabi-gcc the tables are of this machine. SIZE_FLAGS are added to every compilation.
+Prints the tables of section `sizes` of tools/lab/MEASUREMENTS.md, how they differ from what is
+committed, and the bars. Exit 1 where they differ or a bar is missed. With other compilers than
+those that the page names it says so, and does not compare. Without arm-none-eabi-gcc the tables are
+of this machine. SIZE_FLAGS are added to every compilation.
 
 Usage: size.sh [--bars | --update] [--page FILE]
---bars prints the bars alone; --update writes the section; FILE is another page than that of this repository.
+--bars prints the bars alone; --update writes the section; FILE is another page than that of this
+repository.
 """
 import argparse
 import difflib
@@ -25,12 +28,15 @@ import stack
 sys.path.insert(0, str(cross.HOME / "tools" / "lab"))
 import measurements  # noqa: E402 (found by the line above)
 
-# The rows of the first table: title, files (patterns of room/file; -pattern: without these), object.
+# The rows of the first table: title, files (patterns of room/file; -pattern: without these),
+# object.
 IMAGES = "*_validate tracker/snapshot"
 ROWS = [
-    ("initiation: kernels, fits, false-track rate, clutter map", "initiation/* -*_validate", "initiator"),
+    ("initiation: kernels, fits, false-track rate, clutter map", "initiation/* -*_validate",
+     "initiator"),
     ("tracks: estimation, association, tracker",
-     "estimation/* association/* tracker/* -*_validate -tracker/snapshot -tracker/bearing_*", "tracker"),
+     "estimation/* association/* tracker/* -*_validate -tracker/snapshot -tracker/bearing_*",
+     "tracker"),
     ("of these kalman, input and gate, by themselves; RAM of one track",
      "estimation/kalman* estimation/input* association/gate", "input"),
     ("base and measurement", "base/* measurement/* -measurement/crossing", ""),
@@ -42,14 +48,17 @@ ROWS = [
     ("papers: passive Hough transform, likewise", "papers/passive_paper*", "passive_paper"),
     ("papers: Hough gate, likewise", "papers/gate_hough", ""),
     ("snapshot, and the validation of images, likewise", IMAGES, ""),
-    ("wire: message, publish, udpm", "wire/message* wire/publish* wire/udpm -wire/message_names", ""),
+    ("wire: message, publish, udpm", "wire/message* wire/publish* wire/udpm -wire/message_names",
+     ""),
     ("node: messages in, steps, messages out, likewise", "wire/node", "node"),
     ("names of messages and their fields, likewise", "wire/message_names", ""),
-    ("scan assembly from messages, two scans open at a time, likewise", "wire/scan_*", "scan_assembler"),
+    ("scan assembly from messages, two scans open at a time, likewise", "wire/scan_*",
+     "scan_assembler"),
     ("report of a step", "", "report"),
 ]
 
-# Aims of the design on a Cortex-M4F: title, files, bytes of text, objects and their bytes, bytes of stack. Not red.
+# Aims of the design on a Cortex-M4F: title, files, bytes of text, objects and their bytes, bytes of
+# stack. Not red.
 AIMS = [
     ("a radar node: all but passive sensors, papers, images and names",
      "base/* measurement/* estimation/* association/* initiation/* tracker/* wire/* "
@@ -62,24 +71,30 @@ BARS = [
     ("passive", "embedded, 2 sensors, 8 scans, 8 bearings", 48 * 1024,
      "-DRHO_MAX_PASSIVE_SENSORS=2 -DRHO_MAX_PASSIVE_SCANS=8 -DRHO_MAX_BEARINGS=8"),
     ("passive", "workstation, 4 sensors, 16 scans, 16 bearings", 90 * 1024,
-     "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=16 -DRHO_MAX_BEARINGS=16 -DRHO_PROFILE_WORKSTATION"),
+     "-DRHO_MAX_PASSIVE_SENSORS=4 -DRHO_MAX_PASSIVE_SCANS=16 -DRHO_MAX_BEARINGS=16 -DRHO_PROFILE_WORKSTATION"
+     ),
     ("kalman", "state and covariance", 108, ""),
     ("track", "in any of its modes", 512, ""),
     ("hypothesis", "two models and its plots", 512, ""),
-    ("scan_assembler", "two open scans of 256 plots", 32 * 1024, "-DRHO_MAX_OPEN_SCANS=2 -DRHO_MAX_PLOTS=256"),
-    ("hypotheses", "a pool of 96 for 32 tracks", 48 * 1024, "-DRHO_MAX_HYPOTHESES=96 -DRHO_MAX_TRACKS=32"),
+    ("scan_assembler", "two open scans of 256 plots", 32 * 1024,
+     "-DRHO_MAX_OPEN_SCANS=2 -DRHO_MAX_PLOTS=256"),
+    ("hypotheses", "a pool of 96 for 32 tracks", 48 * 1024,
+     "-DRHO_MAX_HYPOTHESES=96 -DRHO_MAX_TRACKS=32"),
 ]
 
 # The object of each module, and what else is counted.
-OBJECTS = {"ghost": "ghost_matrix", **{name: name for name in (
-    "accumulator window classic initiator frames batch passive passive_paper kalman input gate imm hypotheses track "
-    "assignment tracker scan_assembler node").split()}}
+OBJECTS = {
+    "ghost": "ghost_matrix", **{
+        name: name
+        for name in ("accumulator window classic initiator frames batch passive passive_paper kalman input gate imm hypotheses track "
+                     "assignment tracker scan_assembler node").split()
+    }
+}
 OTHERS = {
     "rho_hypothesis": "sizeof(struct rho_hypothesis)",
     "rho_report": "sizeof(struct rho_report)",
     "rho_plot": "sizeof(struct rho_plot)",
-    "rho_classic, a window of plots with their times, 128 peaks":
-        "sizeof(struct rho_classic) + 12 * RHO_MAX_SCANS * RHO_MAX_PLOTS + 128 * sizeof(struct rho_accumulator_peak)",
+    "rho_classic, a window of plots with their times, 128 peaks": "sizeof(struct rho_classic) + 12 * RHO_MAX_SCANS * RHO_MAX_PLOTS + 128 * sizeof(struct rho_accumulator_peak)",
 }
 
 PART_TARGETS = ["m4f", "m0plus", "m7", "rv32"]
@@ -95,15 +110,19 @@ def table(head, rows):
     lines = [head, ["---"] * len(head), *rows]
     widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
     lines[1] = ["-" * width for width in widths]
-    align = lambda column, cell: cell.ljust(widths[column]) if column == 0 else cell.rjust(widths[column])
-    return "".join(f"| {' | '.join(align(*cell) for cell in enumerate(line))} |\n" for line in lines)
+    align = lambda column, cell: cell.ljust(widths[column]) if column == 0 else cell.rjust(widths[
+        column])
+    return "".join(
+        f"| {' | '.join(align(*cell) for cell in enumerate(line))} |\n" for line in lines)
 
 
 class Measured:
     """Everything that the tables are made of."""
 
     def __init__(self):
-        there = [name for name in cross.TARGETS if name != "host" and cross.TARGETS[name].is_there()]
+        there = [
+            name for name in cross.TARGETS if name != "host" and cross.TARGETS[name].is_there()
+        ]
         self.is_complete = len(there) == len(cross.TARGETS) - 1
         self.targets = there if "m4f" in there else ["host"]
         self.main = "m4f" if "m4f" in there else "host"
@@ -114,18 +133,23 @@ class Measured:
         self.public = [found.name for found in stack.public()]
         self.objects = [self.sizes(flags) for flags in ([], ["-DRHO_PROFILE_WORKSTATION"])]
         self.rooms, _ = layers.read_table(pathlib.Path("src/DESIGN.md"))
-        self.places = {path.stem: f"{path.parent.name}/{path.stem}" for path in pathlib.Path("src").glob("*/*.c")}
+        self.places = {
+            path.stem: f"{path.parent.name}/{path.stem}"
+            for path in pathlib.Path("src").glob("*/*.c")
+        }
 
     def sizes(self, flags):
         names = {f"o{at}": expression for at, expression in enumerate(OTHERS.values())}
         names |= {name: f"sizeof(struct rho_{name})" for name in OBJECTS.values()}
         found = cross.sizes_of(self.main, names, flags)
-        return found | {name: found[f"o{at}"] for at, name in enumerate(OTHERS)} | {"report": found["o1"]}
+        return found | {name: found[f"o{at}"]
+                        for at, name in enumerate(OTHERS)} | {"report": found["o1"]}
 
     def files(self, selection):
         """The stems that a row's selection names."""
         words = selection.split()
-        named = lambda stem, patterns: any(fnmatch.fnmatch(self.places[stem], pattern) for pattern in patterns)
+        named = lambda stem, patterns: any(
+            fnmatch.fnmatch(self.places[stem], pattern) for pattern in patterns)
         return {stem for stem in self.texts[self.main]
                 if named(stem, [word for word in words if word[0] != "-"])
                 and not named(stem, [word[1:] for word in words if word[0] == "-"])}
@@ -136,12 +160,16 @@ class Measured:
     def stack(self, graph, selection):
         """The worst stack of the public functions in these files, and whose it is."""
         graph, files = self.graphs[graph], self.files(selection)
-        within = [name for name in self.public if name in graph.places and pathlib.Path(graph.places[name]).stem in files]
+        within = [
+            name for name in self.public
+            if name in graph.places and pathlib.Path(graph.places[name]).stem in files
+        ]
         return max(((graph.worst(name)[0], name) for name in within), default=(0, ""))
 
     def versions(self):
         prefixes = sorted({cross.TARGETS[name].prefix: name for name in self.targets}.items())
-        return ", ".join(f"{prefix}gcc {cross.TARGETS[name].version()}" for prefix, name in prefixes)
+        return ", ".join(
+            f"{prefix}gcc {cross.TARGETS[name].version()}" for prefix, name in prefixes)
 
 
 def titles(targets):
@@ -153,7 +181,9 @@ def parts_table(measured):
     targets = [name for name in PART_TARGETS if name in measured.targets] or measured.targets
     rows = []
     for title, selection, name in ROWS:
-        texts = [number(measured.text(target, selection)) if selection else "" for target in targets]
+        texts = [
+            number(measured.text(target, selection)) if selection else "" for target in targets
+        ]
         size, function = measured.stack(measured.main, selection)
         ram = number(measured.objects[0][name]) if name else "0"
         rows.append([title, *texts, ram, f"{size} ({function})" if selection else ""])
@@ -164,20 +194,26 @@ def parts_table(measured):
 def room_tables(measured):
     texts = [[room, *[number(measured.text(target, f"{room}/*")) for target in measured.targets]]
              for room in measured.rooms]
-    texts.append(["all", *[number(sum(measured.texts[target].values())) for target in measured.targets]])
-    yield "Text", "Code and constants; data and bss are 0.", table(["room", *titles(measured.targets)], texts)
+    texts.append(
+        ["all", *[number(sum(measured.texts[target].values())) for target in measured.targets]])
+    yield "Text", "Code and constants; data and bss are 0.", table(
+        ["room", *titles(measured.targets)], texts)
     graphs = [*measured.targets, "workstation"]
     stacks = []
     for room in measured.rooms:
         found = [measured.stack(graph, f"{room}/*")[0] for graph in graphs]
         stacks.append([room, *map(number, found), measured.stack(measured.main, f"{room}/*")[1]])
     main = titles([measured.main])[0]
-    yield ("Stack", "Worst stack of a public function of the room with all that it calls, by the call graph. Functions of "
-           "the C library and the compiler are charged 64 bytes, their 64-bit arithmetic on M0+ and RISC-V 160. "
-           "Exception frames come on top. `tools/gates/stack.py` prints every function, `tools/gates/stack.py --path "
-           "FUNCTION` the frames of one.",
-           table(["room", *titles(measured.targets), f"{main}, workstation", f"function, {main}"], stacks))
-    rows = [[f"rho_{name}", *(number(sizes[name]) for sizes in measured.objects)] for name in OBJECTS.values()]
+    yield (
+        "Stack",
+        "Worst stack of a public function of the room with all that it calls, by the call graph. Functions of "
+        "the C library and the compiler are charged 64 bytes, their 64-bit arithmetic on M0+ and RISC-V 160. "
+        "Exception frames come on top. `tools/gates/stack.py` prints every function, `tools/gates/stack.py --path "
+        "FUNCTION` the frames of one.",
+        table(["room", *titles(measured.targets), f"{main}, workstation", f"function, {main}"],
+              stacks))
+    rows = [[f"rho_{name}", *(number(sizes[name]) for sizes in measured.objects)]
+            for name in OBJECTS.values()]
     rows += [[name, *(number(sizes[name]) for sizes in measured.objects)] for name in OTHERS]
     yield ("RAM", f"Objects in both profiles, {main}; the caller owns them.",
            table(["struct", "embedded", "workstation"], sorted(rows)))
@@ -195,34 +231,45 @@ def aims_table(measured):
         text = measured.text(measured.main, selection)
         ram = sum(measured.objects[0][name] for name in names.split())
         depth, _ = measured.stack(measured.main, selection)
-        said = verdict([("text", text, text_most), ("RAM", ram, ram_most), ("stack", depth, stack_most)])
-        rows.append([title, *map(number, [text, text_most, ram, ram_most, depth, stack_most]), said])
+        said = verdict([("text", text, text_most), ("RAM", ram, ram_most),
+                        ("stack", depth, stack_most)])
+        rows.append(
+            [title, *map(number, [text, text_most, ram, ram_most, depth, stack_most]), said])
     return table(["", "text", "aim", "RAM", "aim", "stack", "aim", ""], rows)
 
 
 def section(measured):
     """The section `sizes`."""
-    parts = [("By part", "Code with constants, RAM, and the worst stack of a public function by the call graph; embedded "
-              "profile (7 scans of 256 plots, 32 tracks). Code that nothing calls is not linked.", parts_table(measured)),
-             *room_tables(measured)]
+    parts = [(
+        "By part",
+        "Code with constants, RAM, and the worst stack of a public function by the call graph; embedded "
+        "profile (7 scans of 256 plots, 32 tracks). Code that nothing calls is not linked.",
+        parts_table(measured)), *room_tables(measured)]
     if measured.main == "m4f":
-        parts.append(("Aims", "Aims of the design on a Cortex-M4F, embedded profile; a missed aim fails no check. Text counts "
-                      "whole files, with what a linker can leave out.", aims_table(measured)))
+        parts.append((
+            "Aims",
+            "Aims of the design on a Cortex-M4F, embedded profile; a missed aim fails no check. Text counts "
+            "whole files, with what a linker can leave out.", aims_table(measured)))
     lines = [f"\nBytes at `-Os`, {measured.versions()}.\n"]
-    lines += [f"\n### {heading}\n\n{textwrap.fill(words, 100)}\n\n{rows}" for heading, words, rows in parts]
+    lines += [
+        f"\n### {heading}\n\n{textwrap.fill(words, 100)}\n\n{rows}"
+        for heading, words, rows in parts
+    ]
     return "".join(lines) + "\n"
 
 
 def compare(measured, path):
     """Prints how the page differs; whether it agrees, or is another compiler's."""
-    says, should = measurements.section(path.read_text(encoding="utf-8"), "sizes"), section(measured)
+    says, should = measurements.section(path.read_text(encoding="utf-8"),
+                                        "sizes"), section(measured)
     stated = re.search(r"arm-none-eabi-gcc \d[\d.]*\d, riscv64-unknown-elf-gcc \d[\d.]*\d", says)
     if not measured.is_complete or (stated and stated.group() != measured.versions()):
         print(f"skipped: {path.name} is of {stated.group() if stated else 'another compiler'}, "
               f"here is {measured.versions()}: not compared")
         return True
-    differences = list(difflib.unified_diff(says.splitlines(), should.splitlines(), str(path), "measured",
-                                            lineterm="", n=0))
+    differences = list(
+        difflib.unified_diff(says.splitlines(), should.splitlines(), str(path), "measured",
+                             lineterm="", n=0))
     print("\n".join(differences) or f"{path.name} says what was measured")
     return not differences
 
@@ -231,7 +278,8 @@ def update(measured, path):
     if not measured.is_complete:
         sys.exit("size: a compiler is missing (tools/setup.sh installs it)")
     text = section(measured)
-    path.write_text(measurements.replaced(path.read_text(encoding="utf-8"), "sizes", text), encoding="utf-8")
+    path.write_text(measurements.replaced(path.read_text(encoding="utf-8"), "sizes", text),
+                    encoding="utf-8")
 
 
 def bars():
@@ -242,12 +290,15 @@ def bars():
     for name, text, most, flags in BARS:
         size = cross.sizes_of(target, {"it": f"sizeof(struct rho_{name})"}, flags.split())["it"]
         fits = fits and size <= most
-        print(f"{f'struct rho_{name}, {text}':66} {size:9} {most:9}  {'ok' if size <= most else 'MISSED'}")
+        print(
+            f"{f'struct rho_{name}, {text}':66} {size:9} {most:9}  {'ok' if size <= most else 'MISSED'}"
+        )
     return fits
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bars", action="store_true")
     parser.add_argument("--update", action="store_true")
     parser.add_argument("--page", type=pathlib.Path, default=measurements.PAGE)
@@ -262,7 +313,8 @@ def main():
             return
         print(section(measured))
         if not compare(measured, path):
-            wrong.append("size: the page says something else: make size-update, and look at the difference")
+            wrong.append(
+                "size: the page says something else: make size-update, and look at the difference")
         print()
     if not bars():
         wrong.append("size: an object is larger than it may be")

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""The oracle: a Kalman filter or IMM of each target, told which plots are whose. A reference, not a bound.
+"""The oracle: a Kalman filter or IMM of each target, told which plots are whose. A reference, not a
+bound.
 
-A track starts after START_HITS hits in LOOKS looks and is dropped after DROP_MISSES misses in a row. A look is a scan of a
-sensor that covers the target, or any scan while none does. Constant velocity with white acceleration, constant over the time
-between two plots: one process noise is a Kalman filter, (quiet, agile, mean time in each in seconds) an IMM of two of them.
-Filters of several process noises run side by side, so that the one that suits a scene can be chosen by its errors.
+A track starts after START_HITS hits in LOOKS looks and is dropped after DROP_MISSES misses in a
+row. A look is a scan of a sensor that covers the target, or any scan while none does. Constant
+velocity with white acceleration, constant over the time between two plots: one process noise is a
+Kalman filter, (quiet, agile, mean time in each in seconds) an IMM of two of them. Filters of
+several process noises run side by side, so that the one that suits a scene can be chosen by its
+errors.
 """
 import numpy as np
 
@@ -21,8 +24,10 @@ def measurement_noise(plots, sensors):
     """Covariances of the plots' places, (plots, 2, 2)."""
     cosine, sine = np.cos(plots.azimuth_rad), np.sin(plots.azimuth_rad)
     turn = np.stack([np.stack([cosine, -sine], -1), np.stack([sine, cosine], -1)], -2)
-    sigma = np.array([[sensor_of(sensors, number).sigma_range_m, sensor_of(sensors, number).sigma_azimuth_rad]
-                      for number in plots.sensor.tolist()]).reshape(-1, 2)
+    sigma = np.array(
+        [[sensor_of(sensors, number).sigma_range_m,
+          sensor_of(sensors, number).sigma_azimuth_rad]
+         for number in plots.sensor.tolist()]).reshape(-1, 2)
     variance = np.stack([sigma[:, 0] ** 2, (sigma[:, 1] * plots.range_m) ** 2], -1)
     return np.einsum("nij,nj,nkj->nik", turn, variance, turn)
 
@@ -42,12 +47,14 @@ def own_plots(plots, truth):
         nearest = {}
         for index in np.argsort(-off, kind="stable").tolist():
             nearest[int(targets[index])] = int(rows[index])
-        found.append((np.array(list(nearest.keys()), dtype=int), np.array(list(nearest.values()), dtype=int)))
+        found.append((np.array(list(nearest.keys()),
+                               dtype=int), np.array(list(nearest.values()), dtype=int)))
     return found
 
 
 def step_matrices(dt):
-    """Transition and noise (for 1 m/s^2) of steps of dt seconds, which may be negative; state x, y, vx, vy."""
+    """Transition and noise (for 1 m/s^2) of steps of dt seconds, which may be negative; state x, y,
+    vx, vy."""
     n = len(dt)
     transition, noise = np.zeros((n, 4, 4)), np.zeros((n, 4, 4))
     for axis in (0, 1):
@@ -60,8 +67,8 @@ def step_matrices(dt):
 
 
 class Filters:
-    """Filters of all targets: (candidates, models, targets) of states, covariances and weights; all candidates have the same
-    number of models, one or two."""
+    """Filters of all targets: (candidates, models, targets) of states, covariances and weights; all
+    candidates have the same number of models, one or two."""
 
     def __init__(self, candidates, num_targets, sigma_speed_mps):
         self.models = 1 if len(candidates[0]) == 1 else 2
@@ -108,7 +115,8 @@ class Filters:
         x, p, weight = self.mixed(targets, dt)
         transition, noise = step_matrices(dt)
         x = np.einsum("nij,cmnj->cmni", transition, x)
-        p = transition @ p @ transition.swapaxes(-1, -2) + (self.noise ** 2)[:, :, None, None, None] * noise
+        p = transition @ p @ transition.swapaxes(-1, -2) + (self.noise**2)[:, :, None, None,
+                                                                           None] * noise
         s = p[..., :2, :2] + r
         det = s[..., 0, 0] * s[..., 1, 1] - s[..., 0, 1] ** 2
         inverse = np.stack([np.stack([s[..., 1, 1], -s[..., 0, 1]], -1),
@@ -122,7 +130,8 @@ class Filters:
             nis = np.einsum("cmni,cmnij,cmnj->cmn", residual, inverse, residual)
             likelihood = -0.5 * (nis + np.log(det))
             weight = weight * np.exp(likelihood - likelihood.max(axis=1, keepdims=True))
-            self.weight[:, :, targets] = np.maximum(weight / weight.sum(axis=1, keepdims=True), 1e-6)
+            self.weight[:, :, targets] = np.maximum(weight / weight.sum(axis=1, keepdims=True),
+                                                    1e-6)
         self.time_s[targets] = time_s
 
     def estimates(self, targets, time_s):
@@ -142,12 +151,13 @@ class Filters:
 def as_rows(mean, covariance, coasts):
     """Places, and the columns of MORE."""
     lower = [covariance[..., i, j] for i, j in ((0, 0), (1, 0), (1, 1), (2, 2), (3, 2), (3, 3))]
-    return np.concatenate([mean, np.stack([*lower, np.broadcast_to(coasts, mean.shape[:-1])], axis=-1)], axis=-1)
+    return np.concatenate(
+        [mean, np.stack([*lower, np.broadcast_to(coasts, mean.shape[:-1])], axis=-1)], axis=-1)
 
 
 def follow(plots, truth, sensors, candidates, v_max_mps):
-    """Rows of tracks: times in microseconds, track numbers, targets, places for each candidate (candidates, rows, 2), and what
-    else is known of tracks (candidates, rows, len(MORE))."""
+    """Rows of tracks: times in microseconds, track numbers, targets, places for each candidate
+    (candidates, rows, 2), and what else is known of tracks (candidates, rows, len(MORE))."""
     groups = [[c for c in candidates if len(c) == 1], [c for c in candidates if len(c) > 1]]
     filters = [Filters(group, len(truth.ids), v_max_mps / 2) for group in groups if group]
     places_in = [candidates.index(c) for group in groups for c in group]
@@ -163,7 +173,8 @@ def follow(plots, truth, sensors, candidates, v_max_mps):
     for s in np.argsort(plots.scan_times_us, kind="stable").tolist():
         place, k = truth.place_m[scan_of_truth[s]], scan_of_truth[s]
         hit, rows = own[s]
-        looked = sensor_of(sensors, int(plots.scan_sensor[s])).covers(place[:, 0], place[:, 1]) | ~truth.visible[k]
+        looked = sensor_of(sensors, int(plots.scan_sensor[s])).covers(
+            place[:, 0], place[:, 1]) | ~truth.visible[k]
         looked[hit] = True
         is_hit = np.zeros(n, dtype=bool)
         is_hit[hit] = True
@@ -173,10 +184,13 @@ def follow(plots, truth, sensors, candidates, v_max_mps):
         known = filters[0].has_state[hit]
         for bank in filters:
             if known.any():
-                bank.update(hit[known], plots.place_m[rows[known]], noise[rows[known]], time_s[known])
+                bank.update(hit[known], plots.place_m[rows[known]], noise[rows[known]],
+                            time_s[known])
             if (~known).any():
-                bank.start(hit[~known], plots.place_m[rows[~known]], noise[rows[~known]], time_s[~known])
-        over = np.where(track >= 0, misses >= DROP_MISSES, ~looks.any(axis=1)) & filters[0].has_state
+                bank.start(hit[~known], plots.place_m[rows[~known]], noise[rows[~known]],
+                           time_s[~known])
+        over = np.where(track >= 0, misses >= DROP_MISSES,
+                        ~looks.any(axis=1)) & filters[0].has_state
         track[over] = -1
         looks[over] = False
         for bank in filters:
@@ -189,18 +203,23 @@ def follow(plots, truth, sensors, candidates, v_max_mps):
             times.append(np.full(len(active), plots.scan_times_us[s]))
             tracks.append(track[active].copy())
             owners.append(active)
-            rows_of.append(np.concatenate([as_rows(*bank.estimates(active, plots.scan_times_us[s] / 1e6), ~is_hit[active])
-                                           for bank in filters]))
+            rows_of.append(
+                np.concatenate([
+                    as_rows(*bank.estimates(active, plots.scan_times_us[s] / 1e6), ~is_hit[active])
+                    for bank in filters
+                ]))
     if not times:
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0, dtype=int), \
             np.empty((len(candidates), 0, 2)), np.empty((len(candidates), 0, len(MORE)))
     ordered = np.empty((len(candidates), sum(map(len, times)), 2 + len(MORE)))
     ordered[places_in] = np.concatenate(rows_of, axis=1)
-    return np.concatenate(times), np.concatenate(tracks), np.concatenate(owners), ordered[..., :2], ordered[..., 2:]
+    return np.concatenate(times), np.concatenate(tracks), np.concatenate(owners), ordered[
+        ..., :2], ordered[..., 2:]
 
 
 def square_errors(truth, followed):
-    """(candidates, [sum of squares, count]) of places against the truth, where the target is visible."""
+    """(candidates, [sum of squares, count]) of places against the truth, where the target is
+    visible."""
     times, _, owners, places, _ = followed
     scan = truth.scan_of(times)
     counts = truth.visible[scan, owners]

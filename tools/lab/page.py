@@ -28,10 +28,12 @@ def table(results, columns, rows_of):
         for label, cells in rows_of(result):
             classes = {None: "", True: "met", False: "missed"}
             texts = "".join(f'<td class="{classes[None if met is None else bool(met)]}">'
-                            f"{html.escape(text).replace('+-', ' &plusmn; ')}</td>" for text, met in cells)
+                            f"{html.escape(text).replace('+-', ' &plusmn; ')}</td>"
+                            for text, met in cells)
             name = f'<a href="#{result["name"]}">{html.escape(result["name"])}</a>' if label == "today" else ""
-            lines.append(f'<tr class="{"first" if label == "today" else label}"><td class="n">{name}</td>'
-                         f'<td class="w">{label}</td>{texts}</tr>')
+            lines.append(
+                f'<tr class="{"first" if label == "today" else label}"><td class="n">{name}</td>'
+                f'<td class="w">{label}</td>{texts}</tr>')
     return "\n".join(lines + ["</table>"])
 
 
@@ -41,42 +43,56 @@ def consistency_table(results, headings, consistency_rows):
     for result in results:
         for number, (label, motion, cells) in enumerate(consistency_rows(result)):
             classes = {None: "", True: "met", False: "missed"}
-            texts = "".join(f'<td class="{classes[None if held is None else bool(held)]}">{text}</td>' for text, held in cells)
-            lines.append(f'<tr class="{label if number else "first"}"><td class="n">{"" if number else html.escape(result["name"])}'
-                         f'</td><td class="w">{label}</td><td class="w">{motion}</td>{texts}</tr>')
+            texts = "".join(
+                f'<td class="{classes[None if held is None else bool(held)]}">{text}</td>'
+                for text, held in cells)
+            lines.append(
+                f'<tr class="{label if number else "first"}"><td class="n">{"" if number else html.escape(result["name"])}'
+                f'</td><td class="w">{label}</td><td class="w">{motion}</td>{texts}</tr>')
     return "\n".join(lines + ["</table>"])
 
 
 def alarm_table(alarms):
-    lines = ["<table><tr><th>clutter</th><th>hours</th><th>wanted an hour</th><th>tracks</th><th>an hour</th>"
-             "<th>of the wanted</th><th>95 %</th></tr>"]
+    lines = [
+        "<table><tr><th>clutter</th><th>hours</th><th>wanted an hour</th><th>tracks</th><th>an hour</th>"
+        "<th>of the wanted</th><th>95 %</th></tr>"
+    ]
     for row in alarms:
-        lines.append(f'<tr><td class="n">{html.escape(row["name"])}</td><td>{row["hours"]:.1f}</td>'
-                     f'<td>{row["wanted_per_hour"]:g}</td><td>{row["tracks"]}</td><td>{row["per_hour"]:.2f}</td>'
-                     f'<td class="{"met" if row["held"] else "missed"}">{row["ratio"]:.2f}</td>'
-                     f'<td>{row["ratio_low"]:.2f} to {row["ratio_high"]:.2f}</td></tr>')
+        lines.append(
+            f'<tr><td class="n">{html.escape(row["name"])}</td><td>{row["hours"]:.1f}</td>'
+            f'<td>{row["wanted_per_hour"]:g}</td><td>{row["tracks"]}</td><td>{row["per_hour"]:.2f}</td>'
+            f'<td class="{"met" if row["held"] else "missed"}">{row["ratio"]:.2f}</td>'
+            f'<td>{row["ratio_low"]:.2f} to {row["ratio_high"]:.2f}</td></tr>')
     return "\n".join(lines + ["</table>"])
 
 
 def write(path, results, alarms, longs, options, columns, rows_of, consistency):
     body = ["<h1>Real skies</h1>"]
     if results:
-        body += [INTRODUCTION.format(runs=options.runs, seed=options.seed), table(results, columns, rows_of)]
+        body += [
+            INTRODUCTION.format(runs=options.runs, seed=options.seed),
+            table(results, columns, rows_of)
+        ]
         for result in results:
             body.append(f'<h2 id="{result["name"]}">{html.escape(result["name"])}</h2>')
             if result["about"]:
                 body.append(f"<p>{html.escape(result['about'])}</p>")
-            body.append(f'<figure><img src="{result["name"]}.png" alt="Plan view of {html.escape(result["name"])}">'
-                        f"<figcaption>{CAPTION.format(seed=options.seed)}</figcaption></figure>")
+            body.append(
+                f'<figure><img src="{result["name"]}.png" alt="Plan view of {html.escape(result["name"])}">'
+                f"<figcaption>{CAPTION.format(seed=options.seed)}</figcaption></figure>")
         body += ["<h2>Consistency</h2>", CONSISTENCY, consistency_table(results, *consistency)]
     if alarms:
-        body += ["<h2>False tracks an hour</h2>",
-                 "<p>Scenes without targets; confirmed tracks that began after ten minutes of learning.</p>", alarm_table(alarms)]
+        body += [
+            "<h2>False tracks an hour</h2>",
+            "<p>Scenes without targets; confirmed tracks that began after ten minutes of learning.</p>",
+            alarm_table(alarms)
+        ]
     if longs:
         import long
         body += ["<h2>Hour by hour</h2>", f"<pre>{html.escape(long.table(longs))}</pre>"]
-    text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>rhotrack: real skies</title>\n'
-            f"<style>{STYLE}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n")
+    text = (
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>rhotrack: real skies</title>\n'
+        f"<style>{STYLE}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n")
     part = path.with_suffix(".html.part")
     part.write_text(text, encoding="utf-8")
     os.replace(part, path)

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 # Debian's interpreter: numpy, scipy and matplotlib are its packages (tools/setup.sh lab).
-"""Experiment real-skies: the shipped scenes through the tracker, beside an oracle and the goals that the scenes state.
+"""Experiment real-skies: the shipped scenes through the tracker, beside an oracle and the goals
+that the scenes state.
 
-Of each scene with a goal (or those named) and each seed: `rhotrack simulate`, `rhotrack track`, then tracks are scored against
-the truth, and so are those of the oracle, which is told which plots are whose. tools/lab/README.md says what the figures mean.
-Exit codes: 0, also where goals are missed; 1: an output that cannot be written, or the program failed; 2: bad usage.
+Of each scene with a goal (or those named) and each seed: `rhotrack simulate`, `rhotrack track`,
+then tracks are scored against the truth, and so are those of the oracle, which is told which plots
+are whose. tools/lab/README.md says what the figures mean. Exit codes: 0, also where goals are
+missed; 1: an output that cannot be written, or the program failed; 2: bad usage.
 """
 import argparse
 import json
@@ -40,8 +42,8 @@ COLUMNS = [
     ("delay_mean_scans", "delay", "{:.2f}", False, True),
     ("delay_median_scans", "median", "{:.1f}", False, True),
 ]
-# NEES over what it is where covariances are right (above 1: they are too small), and shares inside the ellipses of 95 %; the limits
-# within which a scene is consistent
+# NEES over what it is where covariances are right (above 1: they are too small), and shares inside
+# the ellipses of 95 %; the limits within which a scene is consistent
 CONSISTENCY = [
     ("nees_place", "nees place", "{:.2f}", (0.8, 1.25)),
     ("inside_place", "inside", "{:.3f}", (0.92, 0.97)),
@@ -58,24 +60,28 @@ class Failed(Exception):
 
 
 def run_program(program, arguments):
-    done = subprocess.run([program, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                          check=False)
+    done = subprocess.run([program, *map(str, arguments)], stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
-        raise Failed(f"{pathlib.Path(program).name} {' '.join(map(str, arguments))}: exit {done.returncode}: "
-                     f"{done.stderr.strip()}")
+        raise Failed(
+            f"{pathlib.Path(program).name} {' '.join(map(str, arguments))}: exit {done.returncode}: "
+            f"{done.stderr.strip()}")
 
 
 # --- one run
 
 def simulated(job, folder):
-    """Simulates, and reads what is known of the run: settings, sensors, plots (None without radars), truth."""
+    """Simulates, and reads what is known of the run: settings, sensors, plots (None without
+    radars), truth."""
     run_program(job["simulator"], ["simulate", job["scene"], "--seed", job["seed"], "-o", folder])
     settings = scene_files.Settings(folder / "scenario.ini")
     sensors = settings.sensors()
     plots = None
     if (folder / "plots.csv").exists():
-        plots = scene_files.read_plots(folder / "plots.csv", sensors, settings.get("scan_interval_s", 0.0))
-    return settings, sensors, plots, scene_files.read_truth(folder, () if plots is None else plots.scan_times_us)
+        plots = scene_files.read_plots(folder / "plots.csv", sensors,
+                                       settings.get("scan_interval_s", 0.0))
+    return settings, sensors, plots, scene_files.read_truth(
+        folder, () if plots is None else plots.scan_times_us)
 
 
 def calibrate(job):
@@ -84,7 +90,8 @@ def calibrate(job):
         settings, sensors, plots, truth = simulated(job, pathlib.Path(folder))
         if plots is None:
             return job["name"], None
-        followed = oracle.follow(plots, truth, sensors, oracle.CANDIDATES, settings.get("v_max_mps", 700.0))
+        followed = oracle.follow(plots, truth, sensors, oracle.CANDIDATES,
+                                 settings.get("v_max_mps", 700.0))
         return job["name"], oracle.square_errors(truth, followed)
 
 
@@ -93,17 +100,23 @@ def run(job):
     try:
         folder = pathlib.Path(job["keep"] or tempfile.mkdtemp(prefix="rhotrack-"))
         settings, sensors, plots, truth = simulated(job, folder)
-        inputs = [folder / name for name in ("plots.csv", "bearings.csv") if (folder / name).exists()]
+        inputs = [
+            folder / name for name in ("plots.csv", "bearings.csv") if (folder / name).exists()
+        ]
         sets = [part for pair in job["set"] for part in ("--set", pair)]
-        run_program(job["program"], ["track", *inputs, "--covariance", "--config", folder / "scenario.ini", *sets,
-                                     "-o", folder / "tracks.csv"])
+        run_program(job["program"], [
+            "track", *inputs, "--covariance", "--config", folder / "scenario.ini", *sets, "-o",
+            folder / "tracks.csv"
+        ])
         gate, forgiven = scoring.gate_m(sensors), job["forgiven"]
         tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
         result = {"seed": job["seed"]}
         result["today"], false_rows = scoring.score(truth, tracks, gate, forgiven)
         if job["noise"] is not None and plots is not None:
-            followed = oracle.follow(plots, truth, sensors, [job["noise"]], settings.get("v_max_mps", 700.0))
-            result["oracle"], _ = scoring.score(truth, oracle.as_tracks(truth, followed), gate, forgiven)
+            followed = oracle.follow(plots, truth, sensors, [job["noise"]],
+                                     settings.get("v_max_mps", 700.0))
+            result["oracle"], _ = scoring.score(truth, oracle.as_tracks(truth, followed), gate,
+                                                forgiven)
         if job["picture"]:
             import pictures
             pictures.plan(job["picture"], job["name"], sensors, plots, truth, tracks, false_rows)
@@ -116,9 +129,11 @@ def run(job):
 # --- all runs
 
 def statistics(runs, which):
-    """{key: {mean, standard_error}} over runs that have the figure; of delays the median of all targets, too."""
+    """{key: {mean, standard_error}} over runs that have the figure; of delays the median of all
+    targets, too."""
     delays = [delay for run in runs for delay in run[which]["delays_scans"]]
-    found = {"delay_median_scans": {"mean": float(np.median(delays)), "standard_error": None}} if delays else {}
+    found = {"delay_median_scans": {"mean": float(np.median(delays)), "standard_error": None}
+             } if delays else {}
     for key in runs[0][which]:
         if key == "delays_scans":
             continue
@@ -155,7 +170,10 @@ def measure(options, scenes):
     jobs = max(1, options.jobs)
     common = {"program": str(options.program), "simulator": str(options.simulator)}
     with multiprocessing.get_context("fork").Pool(jobs) as pool:
-        noise = {name: None if options.search else noise_of(scene) for name, (_, scene) in scenes.items()}
+        noise = {
+            name: None if options.search else noise_of(scene)
+            for name, (_, scene) in scenes.items()
+        }
         if not options.no_oracle:
             work = [{**common, "name": name, "scene": str(path), "seed": options.seed + i}
                     for name, (path, _) in scenes.items() if noise[name] is None
@@ -172,10 +190,13 @@ def measure(options, scenes):
         for name, (path, scene) in scenes.items():
             for i in range(options.runs):
                 is_shown = i == 0 and not options.no_pages
-                work.append({**common, "name": name, "scene": str(path), "seed": options.seed + i, "set": options.set,
-                             "forgiven": scoring.forgiven_scans(scene), "noise": None if options.no_oracle else noise[name],
-                             "keep": str(options.output / name) if is_shown else None,
-                             "picture": str(options.output / f"{name}.png") if is_shown else None})
+                work.append({
+                    **common, "name": name, "scene": str(path), "seed": options.seed + i,
+                    "set": options.set, "forgiven": scoring.forgiven_scans(scene),
+                    "noise": None if options.no_oracle else noise[name],
+                    "keep": str(options.output / name) if is_shown else None,
+                    "picture": str(options.output / f"{name}.png") if is_shown else None
+                })
         done = {name: [] for name in scenes}
         for name, result in pool.imap_unordered(run, work):
             done[name].append(result)
@@ -190,9 +211,12 @@ def measure(options, scenes):
         runs = sorted(done[name], key=lambda result: result["seed"])
         figures = statistics(runs, "today")
         met = judge(figures, scene.get("goal") or {})
-        results.append({"name": name, "about": scene.get("text", ""), "goal": scene.get("goal"), "met": met,
-                        "figures": figures, "oracle": statistics(runs, "oracle") if "oracle" in runs[0] else None,
-                        "oracle_process_noise": None if options.no_oracle else noise[name], "runs": runs})
+        results.append({
+            "name": name, "about": scene.get(
+                "text", ""), "goal": scene.get("goal"), "met": met, "figures": figures,
+            "oracle": statistics(runs, "oracle") if "oracle" in runs[0] else None,
+            "oracle_process_noise": None if options.no_oracle else noise[name], "runs": runs
+        })
     return results
 
 
@@ -204,8 +228,12 @@ def line(name, runs):
     for which in ("today", "oracle"):
         if which in runs[0]:
             figures = statistics(runs, which)
-            parts.append("  ".join([f"{heading} {cell(figures, key, form)}" for key, heading, form, _, _ in COLUMNS] +
-                                   [f"{heading} {cell(figures, key, form, False)}" for key, heading, form, _ in CONSISTENCY]))
+            parts.append("  ".join(
+                [f"{heading} {cell(figures, key, form)}"
+                 for key, heading, form, _, _ in COLUMNS] + [
+                     f"{heading} {cell(figures, key, form, False)}"
+                     for key, heading, form, _ in CONSISTENCY
+                 ]))
     return f"{name:22} " + "\n".join([parts[0]] + [f"{'  oracle':22} {part}" for part in parts[1:]])
 
 
@@ -213,8 +241,9 @@ def cell(figures, key, form, with_error=True):
     if not figures or key not in figures:
         return "-"
     mean, error = figures[key]["mean"], figures[key]["standard_error"]
-    return form.format(mean) + (f"+-{form.format(error).lstrip('0') if error < 1 else form.format(error)}"
-                                if with_error and error else "")
+    return form.format(mean) + (
+        f"+-{form.format(error).lstrip('0') if error < 1 else form.format(error)}"
+        if with_error and error else "")
 
 
 def goal_cell(result, key, form):
@@ -224,16 +253,20 @@ def goal_cell(result, key, form):
 
 def rows_of(result):
     """Rows of the table: label and cells, a cell being (text, met or None)."""
-    rows = [("today", [(cell(result["figures"], key, form), result["met"].get(key)) for key, _, form, _, _ in COLUMNS])]
+    rows = [("today", [(cell(result["figures"], key, form), result["met"].get(key))
+                       for key, _, form, _, _ in COLUMNS])]
     if result["oracle"]:
-        rows.append(("oracle", [(cell(result["oracle"], key, form), None) for key, _, form, _, _ in COLUMNS]))
+        rows.append(("oracle", [(cell(result["oracle"], key, form), None)
+                                for key, _, form, _, _ in COLUMNS]))
     if result["goal"]:
-        rows.append(("goal", [(goal_cell(result, key, form), None) for key, _, form, _, _ in COLUMNS]))
+        rows.append(
+            ("goal", [(goal_cell(result, key, form), None) for key, _, form, _, _ in COLUMNS]))
     return rows
 
 
 def consistency_rows(result):
-    """Rows of the table of consistency: label, motion and cells, a cell being (text, whether it is within its limits or None)."""
+    """Rows of the table of consistency: label, motion and cells, a cell being (text, whether it is
+    within its limits or None)."""
     rows = []
     for label, figures in (("today", result["figures"]), ("oracle", result["oracle"])):
         for motion in ("", *scene_files.MOTIONS) if figures else ():
@@ -242,7 +275,8 @@ def consistency_rows(result):
                      (("pairs", "{:.0f}"), ("rms_m", "{:.1f}"), ("rms_mps", "{:.2f}"))]
             for key, _, form, (low, high) in CONSISTENCY:
                 known = figures.get(key + end)
-                cells.append((cell(figures, key + end, form, False), low <= known["mean"] <= high if known else None))
+                cells.append((cell(figures, key + end, form,
+                                   False), low <= known["mean"] <= high if known else None))
             rows.append((label, motion or "all", cells))
     return rows
 
@@ -251,7 +285,8 @@ CONSISTENCY_HEADINGS = ["pairs", "rms m", "rms m/s", *(heading for _, heading, _
 
 
 def bars(results, alarms, longs):
-    """[(scene, key, held)] of the columns that are bars, of the rates of false tracks, and of what must not drift."""
+    """[(scene, key, held)] of the columns that are bars, of the rates of false tracks, and of what
+    must not drift."""
     is_bar = {key: bar for key, _, _, bar, _ in COLUMNS}
     return [(result["name"], key, held) for result in results for key, held in result["met"].items() if is_bar[key]] + \
         [(row["name"], "false_tracks_per_hour", row["held"]) for row in alarms] + \
@@ -259,8 +294,9 @@ def bars(results, alarms, longs):
 
 
 def print_table(results, options):
-    print(f"Real skies: {options.runs} runs a scene from seed {options.seed}; * marks a goal that is missed by more than "
-          f"{STANDARD_ERRORS} standard errors")
+    print(
+        f"Real skies: {options.runs} runs a scene from seed {options.seed}; * marks a goal that is missed by more than "
+        f"{STANDARD_ERRORS} standard errors")
     print(f"{'scene':22} {'':7}" + "".join(f"{heading:>16}" for _, heading, _, _, _ in COLUMNS))
     for result in results:
         for label, cells in rows_of(result):
@@ -271,9 +307,11 @@ def print_table(results, options):
 def print_consistency(results):
     low, high = CONSISTENCY[0][3]
     least, most = CONSISTENCY[1][3]
-    print(f"Consistency: NEES over its ideal, and shares inside the ellipse of 95 %; * marks what is not within {low} to {high}, "
-          f"{least} to {most}")
-    print(f"{'scene':22} {'':7}{'motion':10}" + "".join(f"{heading:>15}" for heading in CONSISTENCY_HEADINGS))
+    print(
+        f"Consistency: NEES over its ideal, and shares inside the ellipse of 95 %; * marks what is not within {low} to {high}, "
+        f"{least} to {most}")
+    print(f"{'scene':22} {'':7}{'motion':10}" + "".join(f"{heading:>15}"
+                                                        for heading in CONSISTENCY_HEADINGS))
     for result in results:
         for number, (label, motion, cells) in enumerate(consistency_rows(result)):
             texts = "".join(f"{text + ('*' if held is False else ' '):>15}" for text, held in cells)
@@ -282,16 +320,22 @@ def print_consistency(results):
 
 def as_json(results, options, alarms, longs):
     judged = bars(results, alarms, longs)
-    return {"experiment": "real-skies", "runs": options.runs, "seed": options.seed, "settings": options.set,
-            "scenes": results, "endurance": alarms, "long": longs,
-            "bars": [{"what": f"{name}: {key}", "held": bool(held)} for name, key, held in judged],
-            "bars_held": sum(held for _, _, held in judged), "bars_missed": sum(not held for _, _, held in judged)}
+    return {
+        "experiment": "real-skies", "runs": options.runs, "seed": options.seed,
+        "settings": options.set, "scenes": results, "endurance": alarms, "long": longs, "bars": [
+            {"what": f"{name}: {key}", "held": bool(held)} for name, key, held in judged
+        ], "bars_held": sum(held for _, _, held in judged), "bars_missed": sum(
+            not held for _, _, held in judged)
+    }
 
 
 def find_scenes(options):
     """{name: (path, scene)}: those named, or all with a goal, in the order of their names."""
     if options.scene:
-        paths = [pathlib.Path(name) if name.endswith(".json") else scene_files.path_of(options.scenes, name) for name in options.scene]
+        paths = [
+            pathlib.Path(name) if name.endswith(".json") else scene_files.path_of(
+                options.scenes, name) for name in options.scene
+        ]
     else:
         paths = sorted(options.scenes.glob("**/*.json"))
     found = {}
@@ -314,35 +358,51 @@ def usage(message):
 
 def add_run_options(parser):
     """Of experiments that track many seeds of a sky."""
-    parser.add_argument("--runs", type=int, default=20, metavar="N", help="seeds of each (default 20)")
-    parser.add_argument("--seed", type=int, default=1, metavar="S", help="the first one (default 1)")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs side by side (default: processors)")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a parameter of `rhotrack track`")
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "rhotrack", metavar="PATH",
-                        help="default: build/rhotrack")
-    parser.add_argument("--simulator", type=pathlib.Path, metavar="PATH", help="another build that simulates; default: the same")
-    parser.add_argument("--json", action="store_true", help="one object on standard output instead of the tables")
+    parser.add_argument("--runs", type=int, default=20, metavar="N",
+                        help="seeds of each (default 20)")
+    parser.add_argument("--seed", type=int, default=1, metavar="S",
+                        help="the first one (default 1)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
+                        help="runs side by side (default: processors)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
+                        help="a parameter of `rhotrack track`")
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "rhotrack",
+                        metavar="PATH", help="default: build/rhotrack")
+    parser.add_argument("--simulator", type=pathlib.Path, metavar="PATH",
+                        help="another build that simulates; default: the same")
+    parser.add_argument("--json", action="store_true",
+                        help="one object on standard output instead of the tables")
 
 
 def parse_options():
     parser = argparse.ArgumentParser(prog=NAME, description=__doc__.split("\n\n")[0])
-    parser.add_argument("--scene", action="append", metavar="NAME|FILE.json", help="this one alone (repeatable); "
-                        "default: all of the folder that have a goal")
+    parser.add_argument(
+        "--scene", action="append", metavar="NAME|FILE.json", help="this one alone (repeatable); "
+        "default: all of the folder that have a goal")
     add_run_options(parser)
-    parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "tools" / "scenes", metavar="DIR",
-                        help="default: tools/scenes")
+    parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "tools" / "scenes",
+                        metavar="DIR", help="default: tools/scenes")
     parser.add_argument("-o", "--output", type=pathlib.Path, metavar="DIR",
-                        default=ROOT / "build" / "experiment" / "real-skies", help="default: build/experiment/real-skies")
-    parser.add_argument("--lines", action="store_true", help="one line a scene, as soon as it is done; no pages")
-    parser.add_argument("--search", action="store_true", help="choose the oracle's process noise anew where scenes state one")
+                        default=ROOT / "build" / "experiment" / "real-skies",
+                        help="default: build/experiment/real-skies")
+    parser.add_argument("--lines", action="store_true",
+                        help="one line a scene, as soon as it is done; no pages")
+    parser.add_argument("--search", action="store_true",
+                        help="choose the oracle's process noise anew where scenes state one")
     parser.add_argument("--no-oracle", action="store_true")
     parser.add_argument("--no-pages", action="store_true", help="no pictures, no index.html")
-    parser.add_argument("--endurance", action="store_true", help="instead of the scenes: false tracks an hour in uniform "
-                        "clutter, rain and strobes")
-    parser.add_argument("--long", action="store_true", help="instead of the scenes: births and deaths for hours; figures, time "
-                        "and memory of each hour, and what drifts")
-    parser.add_argument("--hours", type=float, metavar="H", help="of endurance, all runs of a scene together (default 20), --runs "
-                        "of them; of long, each run (default 4)")
+    parser.add_argument(
+        "--endurance", action="store_true",
+        help="instead of the scenes: false tracks an hour in uniform "
+        "clutter, rain and strobes")
+    parser.add_argument(
+        "--long", action="store_true",
+        help="instead of the scenes: births and deaths for hours; figures, time "
+        "and memory of each hour, and what drifts")
+    parser.add_argument(
+        "--hours", type=float, metavar="H",
+        help="of endurance, all runs of a scene together (default 20), --runs "
+        "of them; of long, each run (default 4)")
     options = parser.parse_args()
     if options.long and options.endurance:
         parser.error("--long or --endurance")
@@ -375,7 +435,8 @@ def main():
         report = as_json(results, options, alarms, longs)
         if not options.no_pages:
             import page
-            page.write(options.output / "index.html", results, alarms, longs, options, COLUMNS, rows_of, (CONSISTENCY_HEADINGS, consistency_rows))
+            page.write(options.output / "index.html", results, alarms, longs, options, COLUMNS,
+                       rows_of, (CONSISTENCY_HEADINGS, consistency_rows))
     except (Failed, OSError, ValueError) as error:
         sys.stderr.write(f"{NAME}: {error}\n")
         sys.exit(1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What `rhotrack simulate` and `rhotrack track` write, as arrays: sensors, truth, tracks, and plots with their target."""
+"""What `rhotrack simulate` and `rhotrack track` write, as arrays: sensors, truth, tracks, and plots
+with their target."""
 import configparser
 import csv
 import dataclasses
@@ -13,7 +14,8 @@ TURNING_MPS2 = 0.02  # a target whose velocity changes by more a second turns, a
 MOTIONS = ("straight", "turning", "coasting")
 STRAIGHT, TURNING, COASTING, NO_MOTION = range(4)
 # what a track may have beside its place; the columns of a tracks file, and whether the track coasts
-MORE = ("vx_mps", "vy_mps", "cov_x_x", "cov_y_x", "cov_y_y", "cov_vx_vx", "cov_vy_vx", "cov_vy_vy", "is_coasting")
+MORE = ("vx_mps", "vy_mps", "cov_x_x", "cov_y_x", "cov_y_y", "cov_vx_vx", "cov_vy_vx", "cov_vy_vy",
+        "is_coasting")
 
 
 def path_of(folder, name):
@@ -45,10 +47,12 @@ class Sensor:
 
 
 class Settings:
-    """scenario.ini: keys without a section or under [rhotrack], and sensors' own under [sensor N]."""
+    """scenario.ini: keys without a section or under [rhotrack], and sensors' own under [sensor
+    N]."""
 
     def __init__(self, path):
-        self.parser = configparser.ConfigParser(strict=False, interpolation=None, comment_prefixes=("#", ";"),
+        self.parser = configparser.ConfigParser(strict=False, interpolation=None,
+                                                comment_prefixes=("#", ";"),
                                                 inline_comment_prefixes=("#", ";"))
         with open(path, encoding="utf-8") as file:
             self.parser.read_string("[rhotrack]\n" + file.read())
@@ -60,15 +64,23 @@ class Settings:
         return default
 
     def sensors(self):
-        """{sensor_id: Sensor}; a file without sensors describes a single one, whatever its number is (key None)."""
-        numbers = [int(section.split()[1]) for section in self.parser.sections() if section.startswith("sensor ")]
-        return {number: Sensor(
-            x_m=self.get("x_m", 0.0, number), y_m=self.get("y_m", 0.0, number),
-            range_min_m=self.get("range_min_m", 0.0, number), range_max_m=self.get("range_max_m", RANGE_MAX_M, number),
-            sector_from_rad=self.get("sector_from_rad", 0.0, number),
-            sector_to_rad=self.get("sector_to_rad", 0.0, number),
-            sigma_range_m=self.get("sigma_range_m", 15.0, number),
-            sigma_azimuth_rad=self.get("sigma_azimuth_rad", 0.003, number)) for number in numbers or [None]}
+        """{sensor_id: Sensor}; a file without sensors describes a single one, whatever its number
+        is (key None)."""
+        numbers = [
+            int(section.split()[1]) for section in self.parser.sections()
+            if section.startswith("sensor ")
+        ]
+        return {
+            number: Sensor(x_m=self.get("x_m", 0.0, number), y_m=self.get("y_m", 0.0, number),
+                           range_min_m=self.get("range_min_m", 0.0, number), range_max_m=self.get(
+                               "range_max_m", RANGE_MAX_M, number), sector_from_rad=self.get(
+                                   "sector_from_rad", 0.0, number), sector_to_rad=self.get(
+                                       "sector_to_rad", 0.0, number), sigma_range_m=self.get(
+                                           "sigma_range_m", 15.0,
+                                           number), sigma_azimuth_rad=self.get(
+                                               "sigma_azimuth_rad", 0.003, number))
+            for number in numbers or [None]
+        }
 
 
 def sensor_of(sensors, sensor_id):
@@ -76,7 +88,8 @@ def sensor_of(sensors, sensor_id):
 
 
 def columns(path, names, optional=()):
-    """The columns of a CSV file as lists of text, rows in the file's order; a column that is not there is None."""
+    """The columns of a CSV file as lists of text, rows in the file's order; a column that is not
+    there is None."""
     with open(path, encoding="utf-8", newline="") as file:
         rows = csv.reader(line for line in file if not line.startswith("#"))
         header = next(rows)
@@ -85,7 +98,10 @@ def columns(path, names, optional=()):
     if missing:
         raise ValueError(f"{path}: no column {missing[0]}")
     places = {name: header.index(name) for name in (*names, *optional) if name in header}
-    return {name: [row[places[name]] for row in rows] if name in places else None for name in (*names, *optional)}
+    return {
+        name: [row[places[name]] for row in rows] if name in places else None
+        for name in (*names, *optional)
+    }
 
 
 def microseconds(texts):
@@ -94,7 +110,8 @@ def microseconds(texts):
 
 @dataclasses.dataclass
 class Truth:
-    """Where targets are at the scans' times: places of scan k and target j, NaN where it is not alive."""
+    """Where targets are at the scans' times: places of scan k and target j, NaN where it is not
+    alive."""
     times_us: np.ndarray  # of the scans, ascending
     ids: np.ndarray
     place_m: np.ndarray  # (scans, targets, 2)
@@ -113,20 +130,23 @@ class Truth:
 
 
     def motions(self):
-        """(scans, targets): index into MOTIONS of what a target has done since its scan before, NO_MOTION where that is not known:
-        as `evaluate` has it. COASTING is a track's, and none of these."""
+        """(scans, targets): index into MOTIONS of what a target has done since its scan before,
+        NO_MOTION where that is not known: as `evaluate` has it. COASTING is a track's, and none of
+        these."""
         found = np.full(self.visible.shape, NO_MOTION)
         if self.velocity_mps is not None and len(self.times_us) > 1:
             passed_s = np.diff(self.times_us)[:, None] / 1e6
             accel_mps2 = np.linalg.norm(np.diff(self.velocity_mps, axis=0), axis=2) / passed_s
-            found[1:] = np.where(np.isnan(accel_mps2), NO_MOTION, np.where(accel_mps2 > TURNING_MPS2, TURNING, STRAIGHT))
+            found[1:] = np.where(np.isnan(accel_mps2), NO_MOTION,
+                                 np.where(accel_mps2 > TURNING_MPS2, TURNING, STRAIGHT))
         return found
 
 
 def read_truth(folder, scan_times_us=()):
-    """paths.csv of a folder that `simulate` wrote; scans at which nothing is alive have no rows in it, so that the scans' own
-    times are added."""
-    table = columns(folder / "paths.csv", ("t_s", "target_id", "x_m", "y_m", "is_covered"), ("vx_mps", "vy_mps"))
+    """paths.csv of a folder that `simulate` wrote; scans at which nothing is alive have no rows in
+    it, so that the scans' own times are added."""
+    table = columns(folder / "paths.csv", ("t_s", "target_id", "x_m", "y_m", "is_covered"),
+                    ("vx_mps", "vy_mps"))
     rows_us = microseconds(table["t_s"])
     row_ids = np.array(table["target_id"], dtype=np.int64)
     ids = np.unique(row_ids)
@@ -156,7 +176,8 @@ class Tracks:
 
 
 def tracks_by_scan(truth, times_us, ids, place_m, more=None):
-    """Rows as Tracks. The last row of a track and scan counts: more than one sensor may look at one time."""
+    """Rows as Tracks. The last row of a track and scan counts: more than one sensor may look at one
+    time."""
     scan = truth.scan_of(times_us)
     by_scan_ids = [np.empty(0, dtype=np.int64)] * len(truth.times_us)
     by_scan_place = [np.empty((0, 2))] * len(truth.times_us)
@@ -176,20 +197,28 @@ def tracks_by_scan(truth, times_us, ids, place_m, more=None):
 
 def read_tracks(path, truth):
     table = columns(path, ("t_s", "track_id", "status", "x_m", "y_m"), MORE[:-1])
-    counts = np.array([status in ("confirmed", "coasting") for status in table["status"]], dtype=bool)
-    place = np.column_stack([np.array(table["x_m"], dtype=float), np.array(table["y_m"], dtype=float)])
+    counts = np.array([status in ("confirmed", "coasting") for status in table["status"]],
+                      dtype=bool)
+    place = np.column_stack(
+        [np.array(table["x_m"], dtype=float),
+         np.array(table["y_m"], dtype=float)])
     ids = np.array(table["track_id"], dtype=np.int64)
-    more = np.column_stack([np.full(len(ids), np.nan) if table[name] is None else
-                            np.array([cell or "nan" for cell in table[name]], dtype=float) for name in MORE[:-1]] +
-                           [np.array([status == "coasting" for status in table["status"]], dtype=float)])
-    return tracks_by_scan(truth, microseconds(table["t_s"])[counts], ids[counts], place[counts], more[counts])
+    more = np.column_stack([
+        np.full(len(ids), np.nan) if table[name] is
+        None else np.array([cell or "nan" for cell in table[name]], dtype=float)
+        for name in MORE[:-1]
+    ] + [np.array([status == "coasting" for status in table["status"]], dtype=float)])
+    return tracks_by_scan(truth,
+                          microseconds(table["t_s"])[counts], ids[counts], place[counts],
+                          more[counts])
 
 
 def first_confirmed(path):
     """{track_id: microseconds} of a file's tracks that were ever confirmed."""
     table = columns(path, ("t_s", "track_id", "status"))
     found = {}
-    for time_us, track, status in zip(microseconds(table["t_s"]).tolist(), table["track_id"], table["status"]):
+    for time_us, track, status in zip(
+            microseconds(table["t_s"]).tolist(), table["track_id"], table["status"]):
         if status == "confirmed":
             found.setdefault(track, time_us)
     return found
@@ -210,19 +239,21 @@ class Plots:
 
 
 def read_plots(path, sensors, scan_interval_s=0.0):
-    """Rows of a sensor are one scan by the column `scan`, or within scan_interval_s of the first, as `track` reads them; its
-    time is that of the row that saw nothing, or else of the first one."""
+    """Rows of a sensor are one scan by the column `scan`, or within scan_interval_s of the first,
+    as `track` reads them; its time is that of the row that saw nothing, or else of the first
+    one."""
     table = columns(path, ("t_s", "sensor_id", "range_m", "azimuth_rad"), ("scan", "target_id"))
     times_us = microseconds(table["t_s"])
     interval_us = max(1, round(scan_interval_s * 1e6) - 1)
     scan_of_row = np.empty(len(times_us), dtype=np.int64)
     scan_times, scan_sensor, open_scan = [], [], {}
-    for row, (time_us, sensor_id, range_m) in enumerate(zip(times_us.tolist(), table["sensor_id"], table["range_m"])):
+    for row, (time_us, sensor_id, range_m) in enumerate(
+            zip(times_us.tolist(), table["sensor_id"], table["range_m"])):
         sensor_id = int(sensor_id)
         number = table["scan"][row] if table["scan"] else None
         last = open_scan.get(sensor_id)
-        same = last is not None and (number == last[1] if number else
-                                     time_us - last[2] < interval_us and not (last[3] and range_m == ""))
+        same = last is not None and (number == last[1] if number else time_us -
+                                     last[2] < interval_us and not (last[3] and range_m == ""))
         if not same:
             last = open_scan[sensor_id] = [len(scan_times), number, time_us, False]
             scan_times.append(time_us)
@@ -238,8 +269,10 @@ def read_plots(path, sensors, scan_interval_s=0.0):
 
     range_m, azimuth = numbers("range_m"), numbers("azimuth_rad")
     sensor = numbers("sensor_id", np.int64)
-    origin = np.array([[sensor_of(sensors, number).x_m, sensor_of(sensors, number).y_m] for number in sensor.tolist()])
-    place = origin.reshape(-1, 2) + np.column_stack([range_m * np.cos(azimuth), range_m * np.sin(azimuth)])
+    origin = np.array([[sensor_of(sensors, number).x_m,
+                        sensor_of(sensors, number).y_m] for number in sensor.tolist()])
+    place = origin.reshape(-1, 2) + np.column_stack(
+        [range_m * np.cos(azimuth), range_m * np.sin(azimuth)])
     target = numbers("target_id", np.int64) if table["target_id"] else np.full(len(range_m), -1)
     return Plots(times_us[rows], scan_of_row[rows], target, sensor, range_m, azimuth, place,
                  np.array(scan_times, dtype=np.int64), np.array(scan_sensor, dtype=np.int64))

@@ -19,7 +19,8 @@ def gate_m(sensors):
 
 
 def forgiven_scans(scene):
-    """FORGIVEN_TURNS as scans of all sensors of a scene; of a single radar whose turns are scans just as many."""
+    """FORGIVEN_TURNS as scans of all sensors of a scene; of a single radar whose turns are scans
+    just as many."""
     sensors = scene.get("radars", []) + scene.get("passive", [])
     turns_s = [sensor.get("turn_s", sensor.get("interval_s")) for sensor in sensors]
     scans_per_s = sum(sensor.get("sectors", 1) / turn_s for sensor, turn_s in zip(sensors, turns_s))
@@ -27,8 +28,8 @@ def forgiven_scans(scene):
 
 
 def pair(distance, is_kept):
-    """As many pairs as there can be, and of those the nearest ones; distances in gates, beyond 1 there is no pair.
-    Returns rows and columns."""
+    """As many pairs as there can be, and of those the nearest ones; distances in gates, beyond 1
+    there is no pair. Returns rows and columns."""
     near = distance <= 1
     if not near.any():
         return np.empty(0, dtype=int), np.empty(0, dtype=int)
@@ -40,12 +41,13 @@ def pair(distance, is_kept):
 
 
 def ratio(error, covariance):
-    """e^T P^-1 e of rows, over the 2 that it is in the mean where P, rows of xx, yx, yy, is right; NaN where P is not given or
-    not positive definite."""
+    """e^T P^-1 e of rows, over the 2 that it is in the mean where P, rows of xx, yx, yy, is right;
+    NaN where P is not given or not positive definite."""
     xx, yx, yy = covariance.T
     det = xx * yy - yx ** 2
     with np.errstate(invalid="ignore", divide="ignore"):
-        square = (error[:, 0] ** 2 * yy - 2 * error[:, 0] * error[:, 1] * yx + error[:, 1] ** 2 * xx) / det
+        square = (error[:, 0]**2 * yy - 2 * error[:, 0] * error[:, 1] * yx +
+                  error[:, 1]**2 * xx) / det
         return np.where((xx > 0) & (det > 0), square, np.nan) / 2
 
 
@@ -55,8 +57,8 @@ def mean(values):
 
 
 def consistency(off_m, off_mps, more, motions):
-    """Of pairs, all and by motion: root mean square errors, NEES over what it is where covariances are right, and shares inside
-    the ellipse of 95 %. Keys of a motion end with its name."""
+    """Of pairs, all and by motion: root mean square errors, NEES over what it is where covariances
+    are right, and shares inside the ellipse of 95 %. Keys of a motion end with its name."""
     place, velocity = ratio(off_m, more[:, 2:5]), ratio(off_mps, more[:, 5:8])
     found = {}
     for motion, name in [(None, ""), *enumerate(scene_files.MOTIONS)]:
@@ -79,7 +81,9 @@ def pairs_of(truth, tracks, paired):
     more = np.full((len(paired), len(scene_files.MORE)), np.nan)
     if tracks.more is not None and paired:
         more = np.array([tracks.more[k][col] for k, _, col in paired])
-    velocity = np.full((len(paired), 2), np.nan) if truth.velocity_mps is None else truth.velocity_mps[scan, target]
+    velocity = np.full(
+        (len(paired), 2), np.nan) if truth.velocity_mps is None else truth.velocity_mps[scan,
+                                                                                        target]
     motions = np.where(more[:, -1] == 1, scene_files.COASTING, truth.motions()[scan, target])
     return places - truth.place_m[scan, target], more[:, :2] - velocity, more, motions
 
@@ -97,18 +101,23 @@ def score(truth, tracks, gate, forgiven=FORGIVEN_TURNS):
     """Figures of one run, and the rows of false tracks as (scan, index in the scan).
 
     completeness   share of (target, scan), target visible, that have a track
-    false_per_scan tracks that are no target's; forgiven are those whose last target, or a target near them, went out of sight
+    false_per_scan tracks that are no target's; forgiven are those whose last target, or a target
+    near them, went out of sight
                    at most `forgiven` scans ago
-    switches       a target's track is another one than its last; not after it was out of sight for longer than that
-    rms_m          of places, over all pairs; beside it, and by motion, what `consistency` has
-    delays_scans   scans from a target's first visibility to its first track, of the targets that ever had one
-    delay_mean_scans, never_tracked, false_tracks: their mean, the targets without one, and how many tracks were ever false
+    switches       a target's track is another one than its last; not after it was out of sight for
+    longer than that rms_m          of places, over all pairs; beside it, and by motion, what
+    `consistency` has delays_scans   scans from a target's first visibility to its first track, of
+    the targets that ever had one delay_mean_scans, never_tracked, false_tracks: their mean, the
+    targets without one, and how many tracks were ever false
     """
     walk = follow(truth, tracks, gate, forgiven)
     visible, num_scans = truth.visible, len(truth.visible)
     chances = int(visible.sum())
     first_visible = np.where(visible.any(axis=0), visible.argmax(axis=0), -1)
-    delays = [int(first - seen) if first >= 0 else None for first, seen in zip(walk.first_track, first_visible) if seen >= 0]
+    delays = [
+        int(first - seen) if first >= 0 else None
+        for first, seen in zip(walk.first_track, first_visible) if seen >= 0
+    ]
     found = [delay for delay in delays if delay is not None]
     return {
         "completeness": len(walk.paired) / chances if chances else float("nan"),
@@ -141,9 +150,12 @@ def follow(truth, tracks, gate, forgiven):
         ids, places = tracks.ids[k].tolist(), tracks.place_m[k]
         if not ids:
             continue
-        apart = np.linalg.norm(truth.place_m[k, seen][:, None, :] - places[None, :, :], axis=2) / gate
-        kept = np.array([[last_track[j] == track and last_paired[j] == k - 1 for track in ids] for j in seen.tolist()],
-                        dtype=bool).reshape(len(seen), len(ids)) if len(seen) and len(ids) else np.zeros((len(seen), len(ids)))
+        apart = np.linalg.norm(truth.place_m[k, seen][:, None, :] - places[None, :, :],
+                               axis=2) / gate
+        kept = np.array([[last_track[j] == track and last_paired[j] == k - 1
+                          for track in ids] for j in seen.tolist()], dtype=bool).reshape(
+                              len(seen), len(ids)) if len(seen) and len(ids) else np.zeros(
+                                  (len(seen), len(ids)))
         rows, cols = pair(apart, kept) if len(seen) else (np.empty(0, dtype=int),) * 2
         taken = set(cols.tolist())
         for row, col in zip(rows.tolist(), cols.tolist()):
@@ -154,7 +166,8 @@ def follow(truth, tracks, gate, forgiven):
             if first_track[j] < 0:
                 first_track[j] = k
             last_track[j], last_paired[j], last_target[track] = track, k, j
-        gone = np.nonzero((last_visible >= 0) & (last_visible < k) & (k - last_visible <= forgiven))[0]
+        gone = np.nonzero((last_visible >= 0) & (last_visible < k)
+                          & (k - last_visible <= forgiven))[0]
         for col, track in enumerate(ids):
             if col in taken or last_target.get(track, -1) in gone:
                 continue
