@@ -3,13 +3,14 @@
 #
 # Runs test programs and scripts, and counts: tests/run.sh CHECK...
 #
-# Programs run beside one another, as many as there are processors, and so do scripts that have a line `# Runs beside others`:
-# those need no network, no build and no time of their own. The other scripts run one after the other behind them. All are told
-# in the order given, those beside one another first.
-# A check passes where it exits with 0. CMocka programs count each of their tests, scripts that end with a line
-# `N passed, N failed` count as it says, all others as one. A check that is not there (it did not build) is a failure.
-# What a check leaves out is a line `skipped: ...` of its own, which is shown, once more at the end, and counts neither way.
-# Output goes to $BUILD/log/; of a failure its end is shown, and what stands around the word FAIL or ERROR before.
+# Programs run beside one another, as many as there are processors, and so do scripts that have a
+# line `# Runs beside others`: those need no network, no build and no time of their own. The other
+# scripts run one after the other behind them. All are told in the order given, those beside one
+# another first. A check passes where it exits with 0. CMocka programs count each of their tests,
+# scripts that end with a line `N passed, N failed` count as it says, all others as one. A check
+# that is not there (it did not build) is a failure. What a check leaves out is a line `skipped:
+# ...` of its own, which is shown, once more at the end, and counts neither way. Output goes to
+# $BUILD/log/; of a failure its end is shown, and what stands around the word FAIL or ERROR before.
 # The last line is `N passed, N failed`; exit 1 where anything failed.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -28,7 +29,8 @@ skipped=()
 
 # Sum of the numbers after a CMocka line's tag, as in `[  PASSED  ] 12 test(s).`
 cmocka_sum() {
-    sed -n "s/^\[  $1  \] \([0-9][0-9]*\) test(s).*/\1/p" "$2" | awk '{sum += $1} END {print sum + 0}'
+    sed -n "s/^\[  $1  \] \([0-9][0-9]*\) test(s).*/\1/p" "$2" | awk \
+        '{sum += $1} END {print sum + 0}'
 }
 
 log_of() { # CHECK

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The main job on real data: the radar plots of three aircraft (tests/vectors/radar-table3.csv) among 100 clutter plots a
-# scan, and two recordings of a harbour (tools/scenes/harbour), through the tracker. Prints the tracks beside the truth, and
-# writes OUTPUT/index.html with pictures.
+# The main job on real data: the radar plots of three aircraft (tests/vectors/radar-table3.csv)
+# among 100 clutter plots a scan, and two recordings of a harbour (tools/scenes/harbour), through
+# the tracker. Prints the tracks beside the truth, and writes OUTPUT/index.html with pictures.
 # Usage: RHOTRACK=program demo.sh OUTPUT
 set -euo pipefail
 program=${RHOTRACK:-build/rhotrack}
@@ -18,14 +18,18 @@ out=${1:-build/demo}
 "$program" plot scans "$out/plots.csv" -o "$out/scans.svg"
 "$program" plot errors "$out/truth.csv" "$out/tracks.csv" -o "$out/errors.svg"
 
-# What is known of that radar and of boats, before anything was tracked; a track farther from a vessel than 40 m is not its.
+# What is known of that radar and of boats, before anything was tracked; a track farther from a
+# vessel than 40 m is not its.
 scenes=$(dirname "$0")/scenes/harbour
 for scene in 2 16; do
     name=harbour-$scene
-    "$program" track "$scenes/$scene/plots.csv" --set sigma_m=7 --set v_max_mps=15 --set accel_max_mps2=1 \
+    "$program" track "$scenes/$scene/plots.csv" --set sigma_m=7 --set v_max_mps=15 \
+        --set accel_max_mps2=1 \
         -o "$out/$name-tracks.csv" --json >"$out/$name.json"
-    "$program" evaluate "$scenes/$scene/truth.csv" "$out/$name-tracks.csv" --set gospa_cutoff_m=40 >"$out/$name.txt"
-    "$program" plot tracks "$scenes/$scene/plots.csv" "$scenes/$scene/truth.csv" "$out/$name-tracks.csv" -o "$out/$name.svg"
+    "$program" evaluate "$scenes/$scene/truth.csv" "$out/$name-tracks.csv" --set gospa_cutoff_m=40 \
+        >"$out/$name.txt"
+    "$program" plot tracks "$scenes/$scene/plots.csv" "$scenes/$scene/truth.csv" \
+        "$out/$name-tracks.csv" -o "$out/$name.svg"
 done
 
 # One line a track of the last scan: the target nearest to it, both states, and the error.
@@ -63,8 +67,10 @@ harbour() {
     for scene in 2 16; do
         name=harbour-$scene
         # shellcheck disable=SC2059
-        printf "$1" "$scene" "$(number scans "$name")" "$(number plots "$name")" "$(figure targets_found "$name")" \
-            "$(figure completeness "$name")" "$(figure switches "$name")" "$(figure rmse_m "$name")" \
+        printf "$1" "$scene" "$(number scans "$name")" "$(number plots "$name")" \
+            "$(figure targets_found "$name")" \
+            "$(figure completeness "$name")" "$(figure switches "$name")" \
+            "$(figure rmse_m "$name")" \
             "$(figure false_per_scan "$name")"
     done
 }
@@ -74,12 +80,14 @@ plots=$(number plots track)
 table() {
     printf '\n%s\n' "Three aircraft, 7 scans 10 s apart, $plots plots of which 21 are theirs:"
     printf '\n%54s | %s\n' 'track at the last scan' 'truth'
-    printf '%6s %6s %5s %8s %8s %6s %8s | %6s %8s %8s %6s %8s %8s\n' track 'from s' plots 'x km' 'y km' \
+    printf '%6s %6s %5s %8s %8s %6s %8s | %6s %8s %8s %6s %8s %8s\n' track 'from s' plots 'x km' \
+        'y km' \
         m/s heading target 'x km' 'y km' m/s heading 'error m'
     compare ' %5d %6d %5d %8.2f %8.2f %6.0f %7.0f° | %6d %8.2f %8.2f %6.0f %7.0f° %8.0f\n'
     printf 'The truth is the real plots, with their noise. %s us a scan.\n' "$mean_us"
     printf '\n%s\n\n' "Two vessels in a harbour, each with a satellite receiver, seen by a small ferry's radar, 1.68 s a turn:"
-    printf '%6s %6s %6s %8s %8s %9s %8s %13s\n' scene turns plots tracked 'of time' switches 'error m' 'others a turn'
+    printf '%6s %6s %6s %8s %8s %9s %8s %13s\n' scene turns plots tracked 'of time' switches \
+        'error m' 'others a turn'
     harbour '%6d %6d %6d %3d of 2 %8.2f %9d %8.1f %13.1f\n'
     printf 'Others are boats, quays and buoys without truth, and clutter.\n'
     printf '\nPictures and figures: %s/index.html\n' "$out"

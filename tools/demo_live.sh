@@ -1,16 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The live side for a few seconds: `publish` plays a simulated radar, `node` tracks what it hears, over LCM on this
-# machine. In a network namespace of its own where that is allowed, else on the machine's network with ttl 0, which
-# leaves no machine.
-# Usage: RHOTRACK=program demo_live.sh OUTPUT
+# The live side for a few seconds: `publish` plays a simulated radar, `node` tracks what it hears,
+# over LCM on this machine. In a network namespace of its own where that is allowed, else on the
+# machine's network with ttl 0, which leaves no machine. Usage: RHOTRACK=program demo_live.sh OUTPUT
 set -euo pipefail
 program=$(realpath "${RHOTRACK:-build/rhotrack}")
 out=${1:-build/demo-live}
 seconds=8
 
-if [ -z "${RHOTRACK_DEMO_INSIDE:-}" ] && command -v ip >/dev/null && unshare -Urn true 2>/dev/null; then
+if [ -z "${RHOTRACK_DEMO_INSIDE:-}" ] && command -v ip >/dev/null && unshare \
+    -Urn true 2>/dev/null; then
     RHOTRACK=$program RHOTRACK_DEMO_INSIDE=1 exec unshare -Urn bash "$0" "$out"
 fi
 if [ -n "${RHOTRACK_DEMO_INSIDE:-}" ]; then
@@ -19,7 +19,8 @@ fi
 # A port of its own, so that nobody else's sensors are heard.
 export LCM_DEFAULT_URL="udpm://239.255.76.67:$((20000 + $$ % 10000))?ttl=0"
 
-"$program" simulate traffic --seed 1 --set targets.0.count=8 --set duration_s=600 --set clutter.0.plots=100 -o "$out"
+"$program" simulate traffic --seed 1 --set targets.0.count=8 --set duration_s=600 \
+    --set clutter.0.plots=100 -o "$out"
 echo "8 aircraft among 100 clutter plots a scan, 60 scans 10 s apart, played 100 times as fast:"
 
 player=''
@@ -50,5 +51,6 @@ awk -F, '
     END { printf "%6s  %-9s %9s %9s %6s %6s\n", "track", "status", "x km", "y km", "m/s", "hits"
           for (i = 0; i < n; i++) print row[i] }' "$out/tracks.csv"
 figure() { awk -v name="$1" '$1 == name { printf "%.3g", $2 }' "$out/evaluation.txt"; }
-printf '\n%s of %s targets found, %s false tracks a scan, %s m rms. The log: %s\n' "$(figure targets_found)" \
+printf '\n%s of %s targets found, %s false tracks a scan, %s m rms. The log: %s\n' \
+    "$(figure targets_found)" \
     "$(figure targets)" "$(figure false_per_scan)" "$(figure rmse_m)" "$out/live.lcm"

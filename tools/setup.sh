@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick when none is.
-# `setup.sh firmware`: the compilers and emulators for other processors instead; `setup.sh spy`: what the viewer for lcm-spy
-# (make spy) needs; `setup.sh lab`: what the experiments in Python (make experiments) import.
+# Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick
+# when none is. `setup.sh firmware`: the compilers and emulators for other processors instead;
+# `setup.sh spy`: what the viewer for lcm-spy (make spy) needs; `setup.sh lab`: what the experiments
+# in Python (make experiments) import.
 set -eu
 
 packages='
@@ -86,13 +87,15 @@ if [ "$(id -u)" -eq 0 ]; then
 elif command -v sudo >/dev/null 2>&1; then
     as_root='sudo'
 else
-    echo "setup: not root, and no sudo. Please have an administrator run: apt-get install$missing" >&2
+    echo "setup: not root, and no sudo. Please have an administrator run: apt-get install$missing" \
+        >&2
     exit 1
 fi
 
 install_missing() {
     # shellcheck disable=SC2086 # words on purpose
-    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q \
+        --no-install-recommends $missing
 }
 
 echo "setup: installing$missing"

@@ -1,18 +1,21 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Records give the same bytes everywhere: tracks (identities, states, covariances), peaks (votes, scores), fates. Compared
-# are Cortex-M4F and M7 (QEMU), x86-64 by gcc and clang at -O0 to -O3, armhf, and big-endian s390x and powerpc (qemu-user).
+# Records give the same bytes everywhere: tracks (identities, states, covariances), peaks (votes,
+# scores), fates. Compared are Cortex-M4F and M7 (QEMU), x86-64 by gcc and clang at -O0 to -O3,
+# armhf, and big-endian s390x and powerpc (qemu-user).
 # shellcheck source=tests/firmware/records.bash
 . "$(dirname "$0")/records.bash"
 . "$(dirname "$0")/../integration/checks.bash"
 
 check 'the records are made' record_all
 
-sources=("$root"/src/*/*.c "$root"/tools/firmware/{node,replay}.c "$root"/tools/firmware/board/host/files_host.c)
+sources=("$root"/src/*/*.c "$root"/tools/firmware/{node,replay}.c \
+    "$root"/tools/firmware/board/host/files_host.c)
 build_replay() { # file, compiler, flags...
     local file=$1
     shift
-    "$@" -std=c99 -ffp-contract=off -I"$root/include" -I"$root/tools/firmware" -o "$file" "${sources[@]}"
+    "$@" -std=c99 -ffp-contract=off -I"$root/include" -I"$root/tools/firmware" -o "$file" \
+        "${sources[@]}"
 }
 export -f build_replay
 for variant in gcc-O0 gcc-O1 gcc-O2 gcc-O3 clang-O0 clang-O1 clang-O2 clang-O3 \
@@ -28,7 +31,8 @@ export root
 # the array does not travel: as words
 printf '%s\n' "${sources[@]}" >sources
 build_all() {
-    xargs -P "$(nproc)" -L 1 bash -c 'mapfile -t sources <sources; build_replay "./$0" "$@"' <variants
+    xargs -P "$(nproc)" -L 1 bash -c 'mapfile -t sources <sources; build_replay "./$0" "$@"' \
+        <variants
 }
 check 'all variants build' build_all
 
@@ -45,7 +49,8 @@ start() {
 same_as_first() { diff "$reference" "$1"; }
 
 reference=sums-gcc-O0
-first_runs() { replay_all out-gcc-O0 ./gcc-O0 >"$reference" && [ "$(wc -l <"$reference")" -eq "$(runs | wc -l)" ]; }
+first_runs() { replay_all out-gcc-O0 ./gcc-O0 >"$reference" && [ "$(wc -l <"$reference")" -eq \
+    "$(runs | wc -l)" ]; }
 check 'gcc-O0 plays all of them' first_runs
 others=$(cut -d' ' -f1 variants | grep -vx gcc-O0)
 for core in m4 m7; do
@@ -62,16 +67,19 @@ for variant in $others; do
 done
 wait
 for variant in $others; do
-    check "$variant: $(wc -l <"sums-$variant") logs, the bytes of gcc-O0" same_as_first "sums-$variant"
+    check "$variant: $(wc -l <"sums-$variant") logs, the bytes of gcc-O0" same_as_first \
+        "sums-$variant"
 done
 for core in m4 m7; do
     check "Cortex-${core^}: the bytes of gcc-O0" same_as_first "sums-$core"
 done
 
 # Not the same nothing: every run has reports of tracks, and the gates do not all decide alike.
-has_tracks() { awk '$1 != "steps" || $4 == 0 {bad = 1; print} END {exit bad || NR != 12}' out-gcc-O0/said; }
+has_tracks() { awk '$1 != "steps" || $4 == 0 {bad = 1; print} END {exit bad || NR != 12}' \
+    out-gcc-O0/said; }
 check 'every run has tracks' has_tracks
-check 'the gates differ where plots are ambiguous' test "$(sort -u -k1,1 "$reference" | wc -l)" -ge 8
+check 'the gates differ where plots are ambiguous' test "$(sort -u -k1,1 "$reference" | wc -l)" \
+    -ge 8
 
 # The comparison can fail: the last bit of one constant of src/base/approx.c is another one.
 seeded() {

@@ -49,14 +49,15 @@ replay_all() { # directory, command...
     mkdir -p "$directory"
     while read -r name gate; do
         # shellcheck disable=SC2046 # words on purpose
-        "$@" "$name.lcm" "$directory/$name-$gate.lcm" "gate=$gate" $(settings_of "$name") </dev/null ||
+        "$@" "$name.lcm" "$directory/$name-$gate.lcm" "gate=$gate" $(settings_of \
+            "$name") </dev/null ||
             { echo "$name $gate: exit $?"; return 1; }
     done < <(runs) >"$directory/said" 2>&1 || { cat "$directory/said"; return 1; }
     (cd "$directory" && sha256sum ./*.lcm)
 }
 
-# says_the_page SECTION FILE: tools/lab/MEASUREMENTS.md has the file's text in this section, where the compiler is Debian 12's.
-# LOAD=update writes it there.
+# says_the_page SECTION FILE: tools/lab/MEASUREMENTS.md has the file's text in this section, where
+# the compiler is Debian 12's. LOAD=update writes it there.
 says_the_page() {
     local page=$root/tools/lab/MEASUREMENTS.md
     if [ "${LOAD-}" = update ]; then

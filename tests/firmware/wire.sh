@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The radar node in QEMU, with its emulated Ethernet on a bridge: liblcm plays scans to it (lcm-logplayer), and what it sends
-# is recorded by lcm-logger and decoded by the Python package lcm, live and from the log. Cortex-M4F and M7.
+# The radar node in QEMU, with its emulated Ethernet on a bridge: liblcm plays scans to it
+# (lcm-logplayer), and what it sends is recorded by lcm-logger and decoded by the Python package
+# lcm, live and from the log. Cortex-M4F and M7.
 # shellcheck source=tests/firmware/records.bash
 . "$(dirname "$0")/records.bash"
 # shellcheck source=tests/integration/network.bash
@@ -77,16 +78,19 @@ live() { # m4 or m7: stock.lcm, heard, console
     local node logger listener machine=mps2-an386
     [ "$1" = m4 ] || machine=mps2-an500
     rm -f stock.lcm console heard
-    qemu-system-arm -M "$machine" -display none -monitor none -serial file:console -nic tap,ifname=node,script=no,downscript=no \
+    qemu-system-arm -M "$machine" -display none -monitor none -serial file:console \
+        -nic tap,ifname=node,script=no,downscript=no \
         -kernel "$images/$1/radar.elf" </dev/null 2>qemu.err &
     node=$!
     ip netns exec logger /usr/bin/lcm-logger --lcm-url="$lcm_url" -f stock.lcm >/dev/null 2>&1 &
     logger=$!
     ip netns exec logger "$python" listen.py "$lcm_url" >heard 2>listen.err &
     listener=$!
-    wait_for listens heard && wait_for 'the node listens' console || echo 'listener or node did not start'
+    wait_for listens heard && wait_for 'the node listens' console || echo \
+        'listener or node did not start'
     sleep 0.5
-    ip netns exec radar /usr/bin/lcm-logplayer --lcm-url="$lcm_url" --speed="$speed" popup.lcm >/dev/null 2>player.err
+    ip netns exec radar /usr/bin/lcm-logplayer --lcm-url="$lcm_url" --speed="$speed" popup.lcm \
+        >/dev/null 2>player.err
     sleep 1.5
     kill -TERM "$listener"
     wait "$listener"
@@ -97,15 +101,19 @@ live() { # m4 or m7: stock.lcm, heard, console
 }
 
 same_tracks() {
-    "$python" tracks_of.py stock.lcm >stock.tracks && "$python" tracks_of.py expected.lcm >expected.tracks &&
+    "$python" tracks_of.py stock.lcm >stock.tracks && "$python" tracks_of.py expected.lcm \
+        >expected.tracks &&
         [ -s stock.tracks ] && cmp stock.tracks expected.tracks
 }
 
-heard_all() { # lists of tracks as many as in the log, peaks as scans, states and work of the node; up to the last scan
+# lists of tracks as many as in the log, peaks as scans, states and work of the node; up to the last
+# scan
+heard_all() {
     local tracks peaks states works last
     read -r tracks peaks states works last < <(tail -n 1 heard)
     echo "heard: $tracks $peaks $states $works $last"
-    [ "$tracks" -eq "$(wc -l <stock.tracks)" ] && [ "$peaks" -eq "$scans" ] && [ "$states" -ge 2 ] &&
+    [ "$tracks" -eq "$(wc -l <stock.tracks)" ] && [ "$peaks" -eq "$scans" ] && [ "$states" -ge 2 ] \
+        &&
         [ "$works" -ge 2 ] && [ "$last" -eq "$scans" ]
 }
 
@@ -118,6 +126,7 @@ for core in m4 m7; do
         "$(status_of scans_accepted) $(status_of messages_bad) $(status_of scans_lost) $(status_of scan)" = "$scans 0 0 $scans"
     check "Cortex-${core^^}: its stack is at most $stack_most bytes, as it says itself" test \
         "$(sed -n 's/^stack *\([0-9]*\).*/\1/p' console | tail -n 1)" -le "$stack_most"
-    check "Cortex-${core^^}: it measures its steps" test "$(status_of longest_step_us | cut -d. -f1)" -gt 0
+    check "Cortex-${core^^}: it measures its steps" test \
+        "$(status_of longest_step_us | cut -d. -f1)" -gt 0
 done
 finish

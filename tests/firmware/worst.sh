@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# What a step of each shipped configuration of the node costs at most (tools/firmware/promises.bash) holds for the worst scans
-# that were found (worst_skies.txt), and for a few that are drawn now; the limit on work is why. The smallest node also runs
-# here on a record, and fits. LOAD=update writes the worst steps into tools/lab/MEASUREMENTS.md.
+# What a step of each shipped configuration of the node costs at most (tools/firmware/promises.bash)
+# holds for the worst scans that were found (worst_skies.txt), and for a few that are drawn now; the
+# limit on work is why. The smallest node also runs here on a record, and fits. LOAD=update writes
+# the worst steps into tools/lab/MEASUREMENTS.md.
 # shellcheck source=tests/firmware/records.bash
 . "$(dirname "$0")/records.bash"
 # shellcheck source=tests/integration/checks.bash
@@ -32,7 +33,8 @@ section() {
         "$(arm-none-eabi-gcc -dumpfullversion)"
     printf '| node | worst found | promised | time for |\n|---|---|---|---|\n'
     for name in $shipped; do
-        [ -z "${worst[$name]-}" ] || awk -v name="$name" -v worst="${worst[$name]}" -v promised="${promised[$name]}" \
+        [ -z "${worst[$name]-}" ] || awk -v name="$name" -v worst="${worst[$name]}" \
+            -v promised="${promised[$name]}" \
             -v most="${time_for[$name]}" \
             'BEGIN { printf "| %s | %.3g | %.3g | %.3g |\n", name, worst / 1e6, promised / 1e6, most / 1e6 }'
     done
@@ -47,9 +49,12 @@ keeps_drawn() { # name
 # more than it may.
 runs_on_a_record() {
     promise_of smallest &&
-        record small polar plots --set targets.0.count=8 --set duration_s=120 --set clutter.0.plots=40 &&
-        "$root/tools/firmware/emulate.sh" m4 "$images/m4/nodes/smallest-replay.elf" small.lcm out.lcm >said && cat said &&
-        read -r reports instructions < <(sed -n 's/.*reports \([0-9]*\) .*max \([0-9]*\) .*/\1 \2/p' said) &&
+        record small polar plots --set targets.0.count=8 --set duration_s=120 \
+            --set clutter.0.plots=40 &&
+        "$root/tools/firmware/emulate.sh" m4 "$images/m4/nodes/smallest-replay.elf" small.lcm \
+            out.lcm >said && cat said &&
+        read -r reports instructions < <(sed -n \
+            's/.*reports \([0-9]*\) .*max \([0-9]*\) .*/\1 \2/p' said) &&
         [ "$reports" -gt 0 ] && [ "$instructions" -le "$most" ]
 }
 

@@ -3,10 +3,11 @@
 #
 # Runs fuzz targets one after the other: tests/fuzz/run.sh PROGRAM...
 #
-# FUZZ_SECONDS=60 in all, or FUZZ_SECONDS_EACH. Seeds: corpus/<target>/ beside this script and $BUILD/fuzz/seeds/<target>/
-# (seeds.py, and a dictionary <target>.dict beside them). What is found new is kept in $BUILD/fuzz/corpus/<target>/, where the next run goes on; an input that breaks
-# something in $BUILD/fuzz/findings/. A target that has not ended FUZZ_GRACE_SECONDS=60 after its time hangs, and has failed.
-# The last line is `N passed, N failed`.
+# FUZZ_SECONDS=60 in all, or FUZZ_SECONDS_EACH. Seeds: corpus/<target>/ beside this script and
+# $BUILD/fuzz/seeds/<target>/ (seeds.py, and a dictionary <target>.dict beside them). What is found
+# new is kept in $BUILD/fuzz/corpus/<target>/, where the next run goes on; an input that breaks
+# something in $BUILD/fuzz/findings/. A target that has not ended FUZZ_GRACE_SECONDS=60 after its
+# time hangs, and has failed. The last line is `N passed, N failed`.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=${BUILD:-build}/fuzz
@@ -38,9 +39,11 @@ for program in "$@"; do
     else
         status=$?
         summary=$(sed -n 's/^SUMMARY: //p' "$log" | head -n 1)
-        printf 'FAIL %s: %s\n' "$name" "${summary:-exit $status, 124 and 137 where it did not end by itself}"
+        printf 'FAIL %s: %s\n' "$name" \
+            "${summary:-exit $status, 124 and 137 where it did not end by itself}"
         sed -n 's/.*Test unit written to \(.*\)/     again: '"${program//\//\\/}"' \1/p' "$log"
-        grep -E '^invariant|^line|^ *#[0-9]+ |ERROR|runtime error' "$log" | head -n 12 | sed 's/^/     | /'
+        grep -E '^invariant|^line|^ *#[0-9]+ |ERROR|runtime error' "$log" | head -n 12 | sed \
+            's/^/     | /'
         failed=$((failed + 1))
     fi
 done

@@ -1,14 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# `simulate air-traffic` and `formation` as files, `track` with what they tell, and parts of `experiment air-traffic`; Stone
-# Soup's part by a script that stands in for it.
-# Runs beside others.
+# `simulate air-traffic` and `formation` as files, `track` with what they tell, and parts of
+# `experiment air-traffic`; Stone Soup's part by a script that stands in for it. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
 # --- simulate
-run simulate air-traffic -o sky --seed 3 --set targets.0.flights=20 --set duration_s=500 --set radars.0.sigma_m=40 --set radars.0.pd=0.9 --set "radars.0.told={\"pd\":0.95}"
+run simulate air-traffic -o sky --seed 3 --set targets.0.flights=20 --set duration_s=500 \
+    --set radars.0.sigma_m=40 --set radars.0.pd=0.9 --set "radars.0.told={\"pd\":0.95}"
 check "simulate air-traffic" exits 0
 check "truth has as many rows a scan" sh -c "
     awk -F, 'NR > 1 { rows[\$1]++ } END { for (t in rows) if (rows[t] != 20) exit 1; exit NR != 1001 }' '$folder/sky/truth.csv'"
@@ -18,20 +18,24 @@ run track sky/plots.csv --config sky/scenario.ini -o sky/tracks.csv
 check "track with its scenario.ini" exits 0
 run evaluate sky/truth.csv sky/tracks.csv --json
 check "most aircraft have tracks" json stdout 'o["completeness"] > 0.85 and o["false_per_scan"] < 2'
-run simulate air-traffic -o again --seed 3 --set targets.0.flights=20 --set duration_s=500 --set radars.0.sigma_m=40 --set radars.0.pd=0.9 --set "radars.0.told={\"pd\":0.95}"
+run simulate air-traffic -o again --seed 3 --set targets.0.flights=20 --set duration_s=500 \
+    --set radars.0.sigma_m=40 --set radars.0.pd=0.9 --set "radars.0.told={\"pd\":0.95}"
 check "the same seed gives the same bytes" diff -r "$folder/sky/plots.csv" "$folder/again/plots.csv"
 run simulate formation -o pair --set radars.0.resolution_m=500 --set clutter=[] --set radars.0.pd=1
 check "those that fly together give one plot" sh -c "
     awk -F, 'NR > 1 && \$3 { rows[\$1]++ } END { for (t in rows) one += rows[t] == 1; exit one < 31 }' '$folder/pair/plots.csv'"
 run simulate air-traffic -o bad --set targets.0.crossing_share=2
-check "simulate refuses a share above 1" says 2 'rhotrack: air-traffic:*: targets\[0\].crossing_share: 2 is outside 0 .. 1'
+check "simulate refuses a share above 1" says 2 \
+    'rhotrack: air-traffic:*: targets\[0\].crossing_share: 2 is outside 0 .. 1'
 check "... and makes nothing" test ! -e "$folder/bad"
 run simulate air-traffic -o bad --set targets.0.box_m=[0,9000,0,9000]
-check "a box that no flight fits into" says 2 "rhotrack: air-traffic: targets\[0\]: no flight of 400 s fits into box_m*"
+check "a box that no flight fits into" says 2 \
+    "rhotrack: air-traffic: targets\[0\]: no flight of 400 s fits into box_m*"
 
 # --- experiment
 run experiment air-traffic --method pairs --runs 1 -o out --json
-check "part pairs" json stdout 'o["experiment"] == "air-traffic" and len(o["pairs"]) == 6 and o["cases"] == o["clutter"] == []'
+check "part pairs" json stdout \
+    'o["experiment"] == "air-traffic" and len(o["pairs"]) == 6 and o["cases"] == o["clutter"] == []'
 check "... has bars" json stdout 'o["bars_held"] + o["bars_missed"] == 8'
 check "... and a page" grep -q "Two aircraft\|two aircraft" "$folder/out/index.html"
 run experiment air-traffic --method nothing -o out
@@ -46,7 +50,8 @@ awk -F, 'NR == 1 { print "t_s,track_id,status,x_m,y_m" } NR > 1 { print $1 "," $
 echo "{\"method\": \"$6\", \"mean_ms\": 700}"
 END
 chmod +x "$folder/python"
-RHOTRACK_STONESOUP_PYTHON=$folder/python run experiment air-traffic --method rivals --runs 1 -o out --json
+RHOTRACK_STONESOUP_PYTHON=$folder/python run experiment air-traffic --method rivals --runs 1 \
+    -o out --json
 check "part rivals: time and tracks are the other's" json stdout '(
     len(o["rivals"]) == 2 and o["rivals"][0]["scan_us"] == 700000 and o["rivals"][1]["completeness"] == 1
     and abs(o["rivals"][0]["gospa_m"] - 300 * 50 ** 0.5) < 5)'

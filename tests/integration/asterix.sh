@@ -1,13 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# ASTERIX: a simulated radar's plots as a recording come back as they were, are tracked as the CSV file is, by turns and by
-# sectors; bad recordings; tracks as CAT062; live over UDP on the loopback.
+# ASTERIX: a simulated radar's plots as a recording come back as they were, are tracked as the CSV
+# file is, by turns and by sectors; bad recordings; tracks as CAT062; live over UDP on the loopback.
 tests=$(dirname "$(realpath "$0")")
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 write="$tests/write_asterix.py"
 
-run simulate polar -o sim --seed 2 --set settings.scan_interval_s=4 --set targets.0.count=20 --set radars.0.sigma_range_rate_mps=1
+run simulate polar -o sim --seed 2 --set settings.scan_interval_s=4 --set targets.0.count=20 \
+    --set radars.0.sigma_range_rate_mps=1
 python3 "$write" sim/plots.csv turns.ast
 python3 "$write" sim/plots.csv norths.ast --sectors 1
 python3 "$write" sim/plots.csv bare.ast --sectors 0
@@ -16,7 +17,8 @@ awk -F, -v OFS=, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "range_rate_mps")
 python3 "$write" some.csv some.ast
 
 # ---- The same plots ----
-# Ranges to 1/512 NM, azimuths to half of 1/65536 turn, speeds to half a metre a second, times to 1/256 s and half a microsecond.
+# Ranges to 1/512 NM, azimuths to half of 1/65536 turn, speeds to half a metre a second, times to
+# 1/256 s and half a microsecond.
 cat >same.py <<'PYTHON'
 import csv, math, sys
 def plots(path):
@@ -37,13 +39,15 @@ PYTHON
 for name in turns norths bare; do
     run convert "$name.ast" "$name.csv"
     check "$name: convert ends well" exits 0
-    check "$name: every plot is as it was sent, to the format's steps" python3 same.py sim/plots.csv "$name.csv"
+    check "$name: every plot is as it was sent, to the format's steps" python3 same.py \
+        sim/plots.csv "$name.csv"
 done
 run convert turns.ast whole.csv --set asterix_scans=turn
 check 'a turn is a scan where that is asked for, and begins with a row that saw nothing' \
     test "$(awk -F, 'NR > 1 && $3 == ""' whole.csv | wc -l)" -eq 15
 cp turns.csv sectors.csv
-check 'by sectors there are 32 a turn' test "$(awk -F, 'NR > 1 && $3 == ""' sectors.csv | wc -l)" -eq 480
+check 'by sectors there are 32 a turn' test "$(awk -F, 'NR > 1 && $3 == ""' sectors.csv | wc -l)" \
+    -eq 480
 check 'each plot is in its sector, counter-clockwise from .. to' python3 -c '
 import csv, math
 for row in csv.DictReader(open("sectors.csv")):
@@ -63,7 +67,8 @@ for name in norths bare; do
     check "$name: 20 targets, 20 tracks" grep -q '15 scans, 1821 plots, 20 tracks confirmed' stderr
 done
 run track some.ast --config sim/scenario.ini
-check 'a plot in five without Doppler: 20 targets, 20 tracks' grep -q '480 scans, 1821 plots, 20 tracks confirmed' stderr
+check 'a plot in five without Doppler: 20 targets, 20 tracks' grep -q \
+    '480 scans, 1821 plots, 20 tracks confirmed' stderr
 run track turns.csv --config sim/scenario.ini
 check 'a recording is tracked as the CSV file that it converts to' writes_same_as turns.tracks.csv
 run convert turns.ast turns.lcm
@@ -84,19 +89,22 @@ check 'of outputs as well' grep -q '480 scans, 1821 plots, 20 tracks confirmed' 
 run plot scans turns.ast -o turns.svg
 check 'plot scans reads them' exits 0
 run track turns.ast --follow
-check 'follow does not' says 2 'rhotrack: turns.ast: --follow takes CSV files, and this is a recording in ASTERIX'
+check 'follow does not' says 2 \
+    'rhotrack: turns.ast: --follow takes CSV files, and this is a recording in ASTERIX'
 
 # ---- Places ----
 python3 "$write" sim/plots.csv placed.ast --place 47.5,8.5,430 --sac 200 --sic 7
 run convert placed.ast placed.csv
-check 'the radar is at its place, and has its number' grep -q '^43200.000000,-14329,,,,,47.49999[0-9]*,8.50000[0-9]*,430,' placed.csv
+check 'the radar is at its place, and has its number' grep -q \
+    '^43200.000000,-14329,,,,,47.49999[0-9]*,8.50000[0-9]*,430,' placed.csv
 run track placed.ast --config sim/scenario.ini -o placed.tracks.csv
 check 'which is the origin where nobody sets one' grep -q '20 tracks confirmed' stderr
 origin='rhotrack: placed.ast: the origin is origin_lat_deg=47.4999905, origin_lon_deg=8.5000062, origin_alt_m=430'
 check 'and told' grep -qx "$origin" stderr
 for name in y.ast y.geojson; do
     run convert placed.ast $name
-    check "it is no list of tracks: $name" says 2 'rhotrack: placed.ast: a recording of radars, and no list of tracks; *'
+    check "it is no list of tracks: $name" says 2 \
+        'rhotrack: placed.ast: a recording of radars, and no list of tracks; *'
 done
 run convert placed.ast placed.csv
 check 'by convert too' grep -qx "$origin" stderr
@@ -108,7 +116,8 @@ check 'so that tracks are where they were' python3 -c '
 import csv
 pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("turns.tracks.csv")), strict=True)
 assert all(a["track_id"] == b["track_id"] and abs(float(a[name]) - float(b[name])) < 0.5 for a, b in pairs for name in ("x_m", "y_m"))'
-run track placed.ast --config sim/scenario.ini --set origin_lat_deg=47 --set origin_lon_deg=8.5 -o south.tracks.csv
+run track placed.ast --config sim/scenario.ini --set origin_lat_deg=47 --set origin_lon_deg=8.5 \
+    -o south.tracks.csv
 check 'another origin moves them by 55.6 km' python3 -c '
 import csv
 pairs = zip(csv.DictReader(open("placed.tracks.csv")), csv.DictReader(open("south.tracks.csv")))
@@ -124,7 +133,8 @@ for command in track register; do
 done
 run convert pair.ast pair.csv --keep-going
 check 'so does convert' grep -qx "rhotrack: pair.ast: $lost" stderr
-run track placed.ast lost.ast --config sim/scenario.ini --set sensor.-14328.lat_deg=47.5 --set sensor.-14328.lon_deg=8.6
+run track placed.ast lost.ast --config sim/scenario.ini --set sensor.-14328.lat_deg=47.5 \
+    --set sensor.-14328.lon_deg=8.6
 check 'not where the parameters say it' bash -c '! grep -q "where it stands" stderr'
 run track lost.ast --config sim/scenario.ini
 check 'nor of one radar alone' bash -c '! grep -q "where it stands" stderr'
@@ -180,10 +190,12 @@ run track turns.ast --config sim/scenario.ini --covariance -o covariance.csv
 run convert covariance.csv converted.ast --set asterix_sac=25 --set asterix_sic=9
 check 'convert writes the same' cmp tracks.ast converted.ast
 run track placed.ast --config sim/scenario.ini -o placed.tracks.ast
-check 'with an origin there are latitudes as well' test "$(wc -c <placed.tracks.ast)" -gt "$(wc -c <tracks.ast)"
+check 'with an origin there are latitudes as well' test "$(wc -c <placed.tracks.ast)" -gt \
+    "$(wc -c <tracks.ast)"
 if python3 -c 'import asterix.generated' 2>/dev/null; then
     for name in tracks placed.tracks turns norths; do
-        check "libasterix reads $name.ast" python3 "$tests/../vectors/make_asterix_vectors.py" --check "$name.ast"
+        check "libasterix reads $name.ast" python3 "$tests/../vectors/make_asterix_vectors.py" \
+            --check "$name.ast"
     done
 else
     echo 'skipped: libasterix is not installed (its records are in tests/vectors/asterix_vectors.h)'
@@ -222,11 +234,15 @@ refused() { # name, bytes as printf has them, message
 good='\x30\x00\x0e\xf0\x00\x01\x00\x10\x00\x20\x10\x00\x20\x00'
 refused empty '' 'byte 0: the file is empty'
 refused short "$good\\x30" 'byte 14: a data block has 3 bytes at least, and here are 1'
-refused cut "$good\\x30\\x00\\x0e\\xf0" 'byte 14: a data block of category 48 has 14 bytes, and here are 4'
-refused length "$good\\x30\\x00\\x02" 'byte 15: a data block of category 48 says that it has 2 bytes'
+refused cut "$good\\x30\\x00\\x0e\\xf0" \
+    'byte 14: a data block of category 48 has 14 bytes, and here are 4'
+refused length "$good\\x30\\x00\\x02" \
+    'byte 15: a data block of category 48 says that it has 2 bytes'
 refused overrun "$good\\x30\\x00\\x06\\xf0\\x00\\x01" 'byte 20: I048/140 goes beyond its data block'
-refused beyond "$good\\x22\\x00\\x06\\x01\\x01\\x80" 'byte 17: the field specification of a record of CAT034 has 3 bytes'
-refused other '\x3f\x00\x04\x00' 'not one plot (CAT048), north marker or sector crossing (CAT034) in it'
+refused beyond "$good\\x22\\x00\\x06\\x01\\x01\\x80" \
+    'byte 17: the field specification of a record of CAT034 has 3 bytes'
+refused other '\x3f\x00\x04\x00' \
+    'not one plot (CAT048), north marker or sector crossing (CAT034) in it'
 run_piped() { # file, arguments: as run, the file on standard input
     status=0
     "$program" "${@:2}" <"$1" >stdout 2>stderr || status=$?
@@ -240,14 +256,17 @@ run track pipe
 wait $!
 check 'through a pipe' says 2 "rhotrack: pipe:1: $piped"
 run_piped turns.lcm track -
-check 'a log' says 2 'rhotrack: standard input:1: an LCM log on standard input or through a pipe: give it as a file'
+check 'a log' says 2 \
+    'rhotrack: standard input:1: an LCM log on standard input or through a pipe: give it as a file'
 head -c 8 turns.ast >cut
 run track cut
-check 'a bad first block and no ending' says 2 'rhotrack: cut:1: ASTERIX with a bad first block: named NAME.ast it is read, and says where'
+check 'a bad first block and no ending' says 2 \
+    'rhotrack: cut:1: ASTERIX with a bad first block: named NAME.ast it is read, and says where'
 run track nowhere.ast
 check 'a file that is not there' says 2 'rhotrack: nowhere.ast: No such file or directory'
 
-# Each byte of a recording, one after the other, as another one: never anything but an error with a place, or plots.
+# Each byte of a recording, one after the other, as another one: never anything but an error with a
+# place, or plots.
 head -c 600 turns.ast >start.ast
 python3 - <<'PYTHON'
 data = open("start.ast", "rb").read()
@@ -266,7 +285,8 @@ open("changed.ast", "wb").write(data)' "$at"
     run convert changed.ast changed.csv --keep-going
     [ "$status" -eq 0 ] || bad=$((bad + 1))
 done
-check 'changed bytes: an error with its byte or plots; with --keep-going always plots' test "$bad" -eq 0
+check 'changed bytes: an error with its byte or plots; with --keep-going always plots' test "$bad" \
+    -eq 0
 
 # A bad record in the middle, and a block whose length is wrong: the rest comes, and is counted.
 python3 - <<'PYTHON'
@@ -284,14 +304,19 @@ open("with_others.ast", "wb").write(b"".join(blocks[:middle] + [b"\x01\x00\x05ab
 PYTHON
 for name in bad_record bad_length; do
     run convert "$name.ast" "$name.csv"
-    check "$name: refused" bash -c '[ '"$status"' -eq 2 ] && grep -qE "^rhotrack: '"$name"'.ast: byte [0-9]+: " stderr'
+    check "$name: refused" bash -c \
+        '[ '"$status"' -eq 2 ] && grep -qE "^rhotrack: '"$name"'.ast: byte [0-9]+: " stderr'
     run convert "$name.ast" "$name.csv" --keep-going
-    check "$name: with --keep-going one plot less" test "$(awk -F, '$3 != ""' "$name.csv" | wc -l)" -eq 1821
-    check "$name: which is said" grep -qE "^rhotrack: $name.ast: [0-9]+ bytes skipped at 1 bad places" stderr
+    check "$name: with --keep-going one plot less" test \
+        "$(awk -F, '$3 != ""' "$name.csv" | wc -l)" -eq 1821
+    check "$name: which is said" grep -qE \
+        "^rhotrack: $name.ast: [0-9]+ bytes skipped at 1 bad places" stderr
 done
 run convert with_others.ast with_others.csv
 check 'other categories are left out and counted' \
-    grep -qx 'rhotrack: with_others.ast: blocks of other categories left out: 1 of CAT001, 1 of CAT021' stderr
+    grep -qx \
+    'rhotrack: with_others.ast: blocks of other categories left out: 1 of CAT001, 1 of CAT021' \
+    stderr
 check 'and change nothing' cmp with_others.csv turns.csv
 
 # ---- Live ----
@@ -311,7 +336,8 @@ for count in range(10 ** 6):
         time.sleep(0.002)
 PYTHON
 port=$((20000 + $$ % 20000))
-"$program" publish "udp://127.0.0.1:$port" --lcm 'file://live.lcm?mode=w' --set sensor.1.x_m=0 --for 60 >live.out 2>live.err &
+"$program" publish "udp://127.0.0.1:$port" --lcm 'file://live.lcm?mode=w' --set sensor.1.x_m=0 \
+    --for 60 >live.out 2>live.err &
 live=$!
 for _ in $(seq 100); do
     ss -lun 2>/dev/null | grep -q ":$port " && break
@@ -324,7 +350,8 @@ kill -INT "$live"
 wait "$live"
 check 'publish udp:// ends well' test $? -eq 0
 check 'it counted all plots, one bad datagram' grep -q '1 datagrams bad' live.err
-check 'and sent all sectors' grep -q '2318 datagrams, 1821 plots of 1 radars, 480 scans sent' live.err
+check 'and sent all sectors' grep -q '2318 datagrams, 1821 plots of 1 radars, 480 scans sent' \
+    live.err
 run convert live.lcm live.csv
 check 'the messages have the plots of the recording, at times of today' python3 -c '
 import csv
@@ -338,9 +365,11 @@ for a, b in zip(one, other):
 run track live.lcm --config sim/scenario.ini
 check 'and are tracked' grep -q '20 tracks confirmed' stderr
 run publish udp://127.0.0.1
-check 'a URL without a port' says 2 'rhotrack: udp://127.0.0.1: udp://ADDRESS:PORT is needed, with a port from 1 to 65535'
+check 'a URL without a port' says 2 \
+    'rhotrack: udp://127.0.0.1: udp://ADDRESS:PORT is needed, with a port from 1 to 65535'
 run publish "udp://127.0.0.1:$port" --speed 2
-check 'another speed than that of now' says 2 "rhotrack: publish: udp://127.0.0.1:$port is heard live, and --speed is for files"
+check 'another speed than that of now' says 2 \
+    "rhotrack: publish: udp://127.0.0.1:$port is heard live, and --speed is for files"
 cp turns.lcm kept.lcm
 run publish udp://radar:8600 --lcm 'file://kept.lcm?mode=w'
 check 'a bad URL leaves the log as it was' cmp turns.lcm kept.lcm

@@ -38,23 +38,30 @@ refuse 'NaN' "2: x_m 'NaN' is not finite" "${header}1,1,NaN,3\n"
 refuse 'Inf' "2: y_m '-inf' is not finite" "${header}1,1,2,-inf\n"
 refuse 'beyond float32' "2: x_m '1e39' is out of the range of float32" "${header}1,1,1e39,3\n"
 refuse 'beyond double' "2: x_m '1e999' is out of the range of float32" "${header}1,1,1e999,3\n"
-refuse 'beyond the limit of positions' '2: x_m 3000000 is outside -2000000 .. 2000000' "${header}1,1,3000000,3\n"
+refuse 'beyond the limit of positions' '2: x_m 3000000 is outside -2000000 .. 2000000' \
+    "${header}1,1,3000000,3\n"
 refuse 'time that is no number' "2: t_s 'noon' is not a number" "${header}noon,1,2,3\n"
 refuse 'time NaN' "2: t_s 'nan' is not finite" "${header}nan,1,2,3\n"
 refuse 'time beyond 4e12 s' "2: t_s '4.1e12' is beyond 4e12 s" "${header}4.1e12,1,2,3\n"
 refuse 'no time' '2: t_s is empty' "${header},1,2,3\n"
 refuse 'sensor_id with a point' "2: sensor_id '1.5' is not an integer" "${header}1,1.5,2,3\n"
 refuse 'sensor_id that is no number' "2: sensor_id 'A' is not an integer" "${header}1,A,2,3\n"
-refuse 'sensor_id too large' "2: sensor_id '4294967296' is out of the range*" "${header}1,4294967296,2,3\n"
+refuse 'sensor_id too large' "2: sensor_id '4294967296' is out of the range*" \
+    "${header}1,4294967296,2,3\n"
 refuse 'no sensor_id' '2: sensor_id is empty' "${header}1,,2,3\n"
 refuse 'x without y' '2: y_m is empty' "${header}1,1,2,\n"
-refuse 'sigma_m zero' '2: sigma_m 0 is outside 0.00100000005 .. 100000' 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,0\n'
+refuse 'sigma_m zero' '2: sigma_m 0 is outside 0.00100000005 .. 100000' \
+    't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,0\n'
 refuse 'sigma_m negative' '2: sigma_m -5 is outside *' 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,-5\n'
-refuse 'sigma_m too large' '2: sigma_m 1e6 is outside *' 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,1e6\n'
-refuse 'sigma_m that is no number' "2: sigma_m 'x' is not a number" 't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,x\n'
-refuse 'too fast' '2: vx_mps 30000 is outside *' 't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30000,0\n'
+refuse 'sigma_m too large' '2: sigma_m 1e6 is outside *' \
+    't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,1e6\n'
+refuse 'sigma_m that is no number' "2: sigma_m 'x' is not a number" \
+    't_s,sensor_id,x_m,y_m,sigma_m\n1,1,2,3,x\n'
+refuse 'too fast' '2: vx_mps 30000 is outside *' \
+    't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30000,0\n'
 refuse 'vx without vy' '2: vy_mps is missing*' 't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30,\n'
-refuse 'velocity of a part of a scan' '3: height, velocity or range rate must be given in all rows*' \
+refuse 'velocity of a part of a scan' \
+    '3: height, velocity or range rate must be given in all rows*' \
     't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,2,3,30,4\n1,1,5,6,,\n'
 
 # ---- rows ----
@@ -69,7 +76,8 @@ refuse 'time that goes back by a microsecond' \
     "${header}1700000000.000002,1,2,3\n1700000000.000001,1,2,3\n"
 refuse 'quotation mark inside a cell' '2: a quotation mark inside a cell' "${header}1,1,2\"2,3\n"
 refuse 'quote without end' '3: a quoted cell has no end' "${header}1,1,2,3\n2,1,\"2,3\n3,1,2,3\n"
-refuse 'text of several lines in an error' "2: x_m 'a?b' is not a number" "${header}1,1,\"a\nb\",3\n"
+refuse 'text of several lines in an error' "2: x_m 'a?b' is not a number" \
+    "${header}1,1,\"a\nb\",3\n"
 
 # ---- the file's own lines ----
 refuse 'line after comments and blank lines' "7: x_m 'bad' is not a number" \
@@ -78,7 +86,8 @@ refuse 'line after a quoted line end' "5: x_m 'bad' is not a number" \
     't_s,sensor_id,x_m,y_m,note\n1,1,2,3,"two\nlines"\n2,1,2,3,\n3,1,bad,3,\n'
 refuse 'comment mark inside quotes' "5: x_m 'bad' is not a number" \
     't_s,sensor_id,x_m,y_m,note\n1,1,2,3,"two\n# no comment\nlines"\n3,1,bad,3,\n'
-refuse 'line with CR LF' "3: x_m 'bad' is not a number" 't_s,sensor_id,x_m,y_m\r\n1,1,2,3\r\n2,1,bad,3\r\n'
+refuse 'line with CR LF' "3: x_m 'bad' is not a number" \
+    't_s,sensor_id,x_m,y_m\r\n1,1,2,3\r\n2,1,bad,3\r\n'
 refuse 'line with CR' "3: x_m 'bad' is not a number" 't_s,sensor_id,x_m,y_m\r1,1,2,3\r2,1,bad,3\r'
 refuse 'last line without an end' "3: x_m 'bad' is not a number" "${header}1,1,2,3\n2,1,bad,3"
 
@@ -87,30 +96,37 @@ refuse 'no column x_m' "1: no column 'x_m'" 't_s,sensor_id,y_m\n1,1,2\n'
 refuse 'no column t_s' "2: no column 't_s'" '# comment\ntime,sensor_id,x_m,y_m\n1,1,2,3\n'
 refuse 'no column sensor_id' "1: no column 'sensor_id'" 't_s,x_m,y_m\n1,1,2\n'
 refuse 'a column twice' "1: column 'x_m' is there twice" 't_s,sensor_id,x_m,y_m,x_m\n1,1,2,3,4\n'
-refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" 't_s,sensor_id,x_m,y_m,vx_mps\n1,1,2,3,4\n'
+refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" \
+    't_s,sensor_id,x_m,y_m,vx_mps\n1,1,2,3,4\n'
 refuse 'no header' '1: no header row: the first row begins with a number' '1,1,2,3\n2,1,3,4\n'
 
 # ---- bearings ----
 bearings='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n'
 two="${bearings}0,1,0,0,1\n0,2,100,0,1\n"
-refuse 'bearings: no column sensor_x_m' "1: no column 'sensor_x_m'" 't_s,sensor_id,sensor_y_m,bearing_rad\n1,1,2,1\n'
+refuse 'bearings: no column sensor_x_m' "1: no column 'sensor_x_m'" \
+    't_s,sensor_id,sensor_y_m,bearing_rad\n1,1,2,1\n'
 refuse 'bearings: no column sensor_id' "2: no column 'sensor_id'" \
     '# comment\nt_s,sensor_x_m,sensor_y_m,bearing_rad\n1,1,2,1\n'
 refuse 'bearings: half a sector' "1: no column 'sector_to_rad' beside 'sector_from_rad'" \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sector_from_rad\n0,1,0,0,1,0\n'
-refuse 'bearings: beyond pi' '4: bearing_rad 3.1417 is outside -3.14159274 .. 3.14159274' "${two}1,1,0,0,3.1417\n"
+refuse 'bearings: beyond pi' '4: bearing_rad 3.1417 is outside -3.14159274 .. 3.14159274' \
+    "${two}1,1,0,0,3.1417\n"
 refuse 'bearings: NaN' "4: bearing_rad 'nan' is not finite" "${two}1,1,0,0,nan\n"
 refuse 'bearings: no number' "4: bearing_rad 'x' is not a number" "${two}1,1,0,0,x\n"
 refuse 'bearings: no place' '4: sensor_x_m is empty' "${two}1,1,,0,1\n"
-refuse 'bearings: time that goes back' '4: time goes back from 0.000000 s to -1.000000 s' "${two}-1,1,0,0,1\n"
+refuse 'bearings: time that goes back' '4: time goes back from 0.000000 s to -1.000000 s' \
+    "${two}-1,1,0,0,1\n"
 refuse 'bearings: sigma 0' '2: sigma_rad 0 is outside *' \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n0,1,0,0,1,0\n'
-refuse 'bearings: a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' "${two}1,1,0,0.5,1\n"
+refuse 'bearings: a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' \
+    "${two}1,1,0,0.5,1\n"
 refuse 'bearings: two sensors in one place' '3: sensor 2 is where sensor 1 is: 0, 0, line 2' \
     "${bearings}0,1,0,0,1\n0,2,0,0,1\n"
-refuse 'bearings: one sensor alone' '2: sensor 1 is the only one: positions need bearings of two sensors or more' \
+refuse 'bearings: one sensor alone' \
+    '2: sensor 1 is the only one: positions need bearings of two sensors or more' \
     "${bearings}0,1,0,0,1\n1,1,0,0,1\n"
-{ printf "$bearings"; for number in 1 2 3 4 5; do echo "0,$number,${number}000,0,1"; done; } >five.csv
+{ printf "$bearings"; for number in 1 2 3 4 5; do echo "0,$number,${number}000,0,1"; done; } \
+    >five.csv
 refuse_file 'bearings: more sensors than are searched together' \
     '5 passive sensors; at most 4 are searched together' five.csv
 printf "${header}0,9,2,3\n" >plots.csv
@@ -125,14 +141,17 @@ check 'bearings: the first of two inputs' refused 'bad.csv:4: bearing_rad 4 is o
 
 printf "${bearings}0,1,0,0,1\\n0,2,0,60000,1\\n" >apart.csv
 refuse_file 'bearings: sensors too far apart for the cells' \
-    'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 hold range_max_m 100000 and 56000 m' apart.csv
+    'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 hold range_max_m 100000 and 56000 m' \
+    apart.csv
 echo before >out.csv
 run track plots.csv apart.csv -o out.csv
-check 'bearings: sensors too far apart, beside plots' refused 'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 *'
+check 'bearings: sensors too far apart, beside plots' refused \
+    'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 *'
 printf "$two" >once.csv
 printf "$two" >again.csv
 run track once.csv again.csv -o out.csv
-check 'bearings: a scan that two files have' refused 'again.csv:2: sensor 1 has another scan at 0.000000 s: line 2 of once.csv'
+check 'bearings: a scan that two files have' refused \
+    'again.csv:2: sensor 1 has another scan at 0.000000 s: line 2 of once.csv'
 run track once.csv again.csv --keep-going -o out.csv
 check 'bearings: a scan that two files have, left out' says 0 '*2 plots*2 bad rows skipped*'
 
@@ -140,28 +159,37 @@ check 'bearings: a scan that two files have, left out' says 0 '*2 plots*2 bad ro
 polar='t_s,sensor_id,range_m,azimuth_rad\n'
 refuse 'range 0' "2: range_m '0' is not above 0" "${polar}1,1,0,1\n"
 refuse 'negative range' "3: range_m '-5' is not above 0" "${polar}1,1,5,1\n2,1,-5,1\n"
-refuse 'range beyond the limit' '2: range_m 3e6 is outside -2000000 .. 2000000' "${polar}1,1,3e6,1\n"
+refuse 'range beyond the limit' '2: range_m 3e6 is outside -2000000 .. 2000000' \
+    "${polar}1,1,3e6,1\n"
 refuse 'range without azimuth' '2: azimuth_rad is empty' "${polar}1,1,5,\n"
 refuse 'azimuth without range' '2: range_m is empty' "${polar}1,1,,1\n"
-refuse 'azimuth beyond pi' '2: azimuth_rad 3.2 is outside -3.1415927* .. 3.1415927*' "${polar}1,1,5,3.2\n"
+refuse 'azimuth beyond pi' '2: azimuth_rad 3.2 is outside -3.1415927* .. 3.1415927*' \
+    "${polar}1,1,5,3.2\n"
 refuse 'azimuth below -pi' '2: azimuth_rad -3.1417 is outside *' "${polar}1,1,5,-3.1417\n"
 refuse 'azimuth NaN' "2: azimuth_rad 'nan' is not finite" "${polar}1,1,5,nan\n"
-refuse 'compass beyond a turn' '2: azimuth_deg 361 is outside -360 .. 360' 't_s,sensor_id,range_m,azimuth_deg\n1,1,5,361\n'
-refuse 'elevation beyond pi/2' '2: elevation_rad 1.6 is outside *' "t_s,sensor_id,range_m,azimuth_rad,elevation_rad\n1,1,5,1,1.6\n"
+refuse 'compass beyond a turn' '2: azimuth_deg 361 is outside -360 .. 360' \
+    't_s,sensor_id,range_m,azimuth_deg\n1,1,5,361\n'
+refuse 'elevation beyond pi/2' '2: elevation_rad 1.6 is outside *' \
+    "t_s,sensor_id,range_m,azimuth_rad,elevation_rad\n1,1,5,1,1.6\n"
 refuse 'elevation below -90 degrees' '2: elevation_deg -91 is outside -90 .. 90' \
     "t_s,sensor_id,range_m,azimuth_rad,elevation_deg\n1,1,5,1,-91\n"
-refuse 'infinite range rate' "2: range_rate_mps 'inf' is not finite" "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,5,1,inf\n"
+refuse 'infinite range rate' "2: range_rate_mps 'inf' is not finite" \
+    "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,5,1,inf\n"
 refuse 'range rate beyond the limit' '2: range_rate_mps 30000 is outside *' \
     "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,5,1,30000\n"
-refuse 'range rate of a part of a scan' '3: height, velocity or range rate must be given in all rows*' \
+refuse 'range rate of a part of a scan' \
+    '3: height, velocity or range rate must be given in all rows*' \
     "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,5,1,3\n1,1,6,1,\n"
 for sigma in sigma_range_m sigma_azimuth_rad sigma_elevation_rad; do
-    refuse "$sigma zero" "2: $sigma 0 is outside *" "t_s,sensor_id,range_m,azimuth_rad,$sigma\n1,1,5,1,0\n"
-    refuse "$sigma negative" "2: $sigma -1 is outside *" "t_s,sensor_id,range_m,azimuth_rad,$sigma\n1,1,5,1,-1\n"
+    refuse "$sigma zero" "2: $sigma 0 is outside *" \
+        "t_s,sensor_id,range_m,azimuth_rad,$sigma\n1,1,5,1,0\n"
+    refuse "$sigma negative" "2: $sigma -1 is outside *" \
+        "t_s,sensor_id,range_m,azimuth_rad,$sigma\n1,1,5,1,-1\n"
 done
 refuse 'sigma_range_rate_mps zero' '2: sigma_range_rate_mps 0 is outside *' \
     "t_s,sensor_id,range_m,azimuth_rad,range_rate_mps,sigma_range_rate_mps\n1,1,5,1,1,0\n"
-refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" 't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,3,4,5\n'
+refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" \
+    't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,3,4,5\n'
 refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" \
     't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,3,4\n'
 refuse 'no azimuth' "1: no column 'azimuth_rad'" 't_s,sensor_id,range_m\n1,1,2\n'
@@ -169,7 +197,8 @@ refuse 'half a place of a sensor' "1: no column 'sensor_y_m' beside 'sensor_x_m'
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m\n1,1,2,3,4\n'
 refuse 'a sensor in two places' "3: the sensor's place is not that of the scan's first row" \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,2,3,0,0\n1,1,2,3,0,1\n'
-refuse 'a place beyond the limit' '2: range_m 1900000 at azimuth 0 rad is no place that is believed*' \
+refuse 'a place beyond the limit' \
+    '2: range_m 1900000 at azimuth 0 rad is no place that is believed*' \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,1900000,0,1900000,0\n'
 
 # ---- files ----
@@ -199,7 +228,8 @@ elif command -v setpriv >/dev/null; then
     cp good.csv secret.csv && chmod 000 secret.csv && chmod 755 .
     cp "$program" program_copy && chmod 755 program_copy
     status=0
-    setpriv --reuid=65534 --clear-groups ./program_copy track secret.csv >stdout 2>stderr || status=$?
+    setpriv --reuid=65534 --clear-groups ./program_copy track secret.csv >stdout 2>stderr \
+        || status=$?
     check 'track: unreadable file' says 2 'rhotrack: secret.csv: Permission denied'
 fi
 
@@ -208,7 +238,8 @@ printf 't_s,sensor_id,range_m,azimuth_rad,range_rate_mps\n1,1,20000,0.1,3\n' >po
 refuse_span() { # value, pattern: of all sensors and of one, by an option and by a file
     printf '# for all\n[rhotrack]\nrange_rate_span_mps = %s\n' "$1" >all.ini
     printf '[sensor 1]\npd = 0.8\n\nrange_rate_span_mps = %s\n' "$1" >one.ini
-    for options in "--set range_rate_span_mps=$1" "--set sensor.1.range_rate_span_mps=$1" '--config all.ini' '--config one.ini'; do
+    for options in "--set range_rate_span_mps=$1" "--set sensor.1.range_rate_span_mps=$1" \
+        '--config all.ini' '--config one.ini'; do
         case $options in
             --set*) place=$options ;;
             *all*) place='all.ini:3' ;;
@@ -245,18 +276,21 @@ run track bad.csv --keep-going
 check 'keep-going: not one good row' says 2 'rhotrack: bad.csv:1: not one good row after the header'
 printf "${header}1,1\n" >bad.csv
 run track bad.csv --keep-going
-check 'keep-going: not one whole row' says 2 'rhotrack: bad.csv:1: not one good row after the header'
+check 'keep-going: not one whole row' says 2 \
+    'rhotrack: bad.csv:1: not one good row after the header'
 
 # ---- outputs that cannot be ----
 run track good.csv -o no_folder/out.csv
-check 'output in a folder that is not there' says 1 'rhotrack: no_folder/out.csv: No such file or directory'
+check 'output in a folder that is not there' says 1 \
+    'rhotrack: no_folder/out.csv: No such file or directory'
 run track good.csv -o a_folder
 check 'output is a folder' says 1 'rhotrack: a_folder: Is a directory'
 "$program" track good.csv >/dev/full 2>stderr
 status=$?
 check 'standard output on a full disk' exits 1
 
-# ---- the first list of tracks, before which there is none: nothing is counted on from no memory (under sanitizers) ----
+# ---- the first list of tracks, before which there is none: nothing is counted on from no memory
+# (under sanitizers) ----
 printf 't_s,track_id,status,x_m,y_m,vx_mps,vy_mps,sigma_m,sigma_mps,hits,misses\n1,1,confirmed,1,2,3,4,5,6,7,0\n' >tracks.csv
 run convert tracks.csv tracks.ast
 check 'tracks as CAT062' bash -c '[ '"$status"' -eq 0 ] && test -s tracks.ast'
@@ -277,6 +311,7 @@ survives() { # a header, pieces of rows
     done
 }
 check 'rows of random pieces' survives "$header" '0 1 9 . - , , , " # e \n \r x nan 1e9 inf'
-check 'bearings of random pieces' survives "$bearings" '0 1 2 . - , , , " # 0,1,0,0,1\n 1,2,9,0,0.5\n \n \r nan 1e9'
+check 'bearings of random pieces' survives "$bearings" \
+    '0 1 2 . - , , , " # 0,1,0,0,1\n 1,2,9,0,0.5\n \n \r nan 1e9'
 
 finish

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Bearings: simulate passive-..., the bearings files that `plot scans` takes and refuses, what `initiate` and `track` make
-# of them, alone and beside a radar's plots, and pictures.
-# Runs beside others.
+# Bearings: simulate passive-..., the bearings files that `plot scans` takes and refuses, what
+# `initiate` and `track` make of them, alone and beside a radar's plots, and pictures. Runs beside
+# others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
@@ -13,26 +13,32 @@ for scenario in passive-two passive-three passive-clutter; do
     check "$scenario: the header" matches "$(head -n 1 "$scenario/bearings.csv")" \
         't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan,target_id'
     check "$scenario: no plots" test ! -e "$scenario/plots.csv"
-    check "$scenario: scenario.ini has the noise" grep -qx 'sigma_rad = 0.0017453293' "$scenario/scenario.ini"
+    check "$scenario: scenario.ini has the noise" grep -qx 'sigma_rad = 0.0017453293' \
+        "$scenario/scenario.ini"
     run config --config "$scenario/scenario.ini"
     check "$scenario: which is a parameter" exits 0
     run simulate "$scenario" --seed 3 -o again
     check "$scenario: the same seed, the same bytes" diff -r "$scenario" again
     run simulate "$scenario" --seed 4 -o again
-    check "$scenario: another seed, others" bash -c "! cmp -s $scenario/bearings.csv again/bearings.csv"
+    check "$scenario: another seed, others" bash -c \
+        "! cmp -s $scenario/bearings.csv again/bearings.csv"
 done
 # rows of a sensor: 8 scans of 2 targets, all seen
-per_sensor() { awk -F, 'NR > 1 { n[$2 " at " $3 + 0 " " $4 + 0]++ } END { for (s in n) print s ": " n[s] }' "$1" | sort | tr '\n' ';'; }
+per_sensor() { awk -F, \
+    'NR > 1 { n[$2 " at " $3 + 0 " " $4 + 0]++ } END { for (s in n) print s ": " n[s] }' "$1" \
+    | sort | tr '\n' ';'; }
 check 'passive-two: two sensors, no miss' matches "$(per_sensor passive-two/bearings.csv)" \
     '1 at 0 -10000: 16;2 at 0 10000: 16;'
 check 'passive-three: a third' matches "$(per_sensor passive-three/bearings.csv)" \
     '1 at 0 -10000: 16;2 at 0 10000: 16;3 at 10000 0: 16;'
-run simulate passive-three --set 'passive.3={"at_m": [-10000, 0], "interval_s": 10, "sigma_rad": 0.002, "pd": 1}' \
+run simulate passive-three --set \
+    'passive.3={"at_m": [-10000, 0], "interval_s": 10, "sigma_rad": 0.002, "pd": 1}' \
     --set targets.0.count=5 --set duration_s=30 -o more
 check 'a fourth sensor, more targets, fewer scans' matches "$(per_sensor more/bearings.csv)" \
     '1 at 0 -10000: 15;2 at 0 10000: 15;3 at 10000 0: 15;4 at -10000 0: 15;'
 run simulate passive-two --set passive.0.pd=0 --set passive.1.pd=0 -o blind
-check 'sensors that see nothing say so' matches "$(per_sensor blind/bearings.csv)$(grep -c ',$' blind/bearings.csv)" \
+check 'sensors that see nothing say so' matches \
+    "$(per_sensor blind/bearings.csv)$(grep -c ',$' blind/bearings.csv)" \
     '1 at 0 -10000: 8;2 at 0 10000: 8;16'
 run simulate passive-clutter --seed 3 --runs 2 -o runs
 check 'runs' cmp -s passive-clutter/bearings.csv runs/run-0000/bearings.csv
@@ -75,9 +81,11 @@ refuse() { # name, LINE: what (a pattern), text as for printf, options...
 }
 
 good="${header}0,1,0,0,1\n0,2,100,0,1\n"
-refuse 'a bearing beyond pi' '4: bearing_rad 3.1417 is outside -3.14159274 .. 3.14159274' "${good}1,1,0,0,3.1417\n"
+refuse 'a bearing beyond pi' '4: bearing_rad 3.1417 is outside -3.14159274 .. 3.14159274' \
+    "${good}1,1,0,0,3.1417\n"
 refuse 'a bearing below -pi' '4: bearing_rad -3.1417 is outside *' "${good}1,1,0,0,-3.1417\n"
-refuse 'a bearing that is no number' "2: bearing_rad 'north' is not a number" "${header}0,1,0,0,north\n"
+refuse 'a bearing that is no number' "2: bearing_rad 'north' is not a number" \
+    "${header}0,1,0,0,north\n"
 refuse 'a bearing NaN' "2: bearing_rad 'nan' is not finite" "${header}0,1,0,0,nan\n"
 refuse 'no time' '2: t_s is empty' "${header},1,0,0,1\n"
 refuse 'a time that is no number' "2: t_s 'noon' is not a number" "${header}noon,1,0,0,1\n"
@@ -85,15 +93,20 @@ refuse 'a sensor that is no number' "2: sensor_id 'A' is not an integer" "${head
 refuse 'no sensor' '2: sensor_id is empty' "${header}0,,0,0,1\n"
 refuse 'no place' '2: sensor_x_m is empty' "${header}0,1,,0,1\n"
 refuse 'half a place' '2: sensor_y_m is empty' "${header}0,1,0,,1\n"
-refuse 'a place beyond the limit' '2: sensor_x_m 3000000 is outside -2000000 .. 2000000' "${header}0,1,3000000,0,1\n"
+refuse 'a place beyond the limit' '2: sensor_x_m 3000000 is outside -2000000 .. 2000000' \
+    "${header}0,1,3000000,0,1\n"
 refuse 'a place NaN' "2: sensor_y_m 'nan' is not finite" "${header}0,1,0,nan,1\n"
-refuse 'time that goes back' '4: time goes back from 0.000000 s to -1.000000 s' "${good}-1,1,0,0,1\n"
+refuse 'time that goes back' '4: time goes back from 0.000000 s to -1.000000 s' \
+    "${good}-1,1,0,0,1\n"
 refuse 'time that goes back, in a row without bearing' '4: time goes back *' "${good}-1,1,0,0,\n"
 refuse 'a sensor that moves' '4: sensor 1 has moved: it was at 0, 0, line 2' "${good}1,1,0,0.5,1\n"
-refuse 'a sensor that moves within a scan' '4: sensor 2 has moved: it was at 100, 0, line 3' "${good}0,2,101,0,1\n"
+refuse 'a sensor that moves within a scan' '4: sensor 2 has moved: it was at 100, 0, line 3' \
+    "${good}0,2,101,0,1\n"
 refuse 'a sensor that moves where it saw nothing' '4: sensor 1 has moved: *' "${good}1,1,7,0,\n"
-refuse 'two sensors in one place' '3: sensor 2 is where sensor 1 is: 0, 0, line 2' "${header}0,1,0,0,1\n0,2,0,0,1\n"
-refuse 'two sensors nearer than a metre' '3: sensor 2 is where sensor 1 is: *' "${header}0,1,0,0,1\n0,2,0.7,0.7,1\n"
+refuse 'two sensors in one place' '3: sensor 2 is where sensor 1 is: 0, 0, line 2' \
+    "${header}0,1,0,0,1\n0,2,0,0,1\n"
+refuse 'two sensors nearer than a metre' '3: sensor 2 is where sensor 1 is: *' \
+    "${header}0,1,0,0,1\n0,2,0.7,0.7,1\n"
 for number in $(seq 1 65); do echo "0,$number,0,${number}00,1"; done >many
 refuse 'more sensors than 64' '66: sensor 65 is one more than 64 sensors' "$header$(cat many)\n"
 for sigma in 0 -1 0.6 1e-7; do
@@ -114,7 +127,8 @@ for column in t_s sensor_id sensor_x_m sensor_y_m; do
         "$(printf '%s' "$header" | sed "s/\(^\|,\)$column/\1other/")0,1,0,0,1\n"
 done
 refuse 'header alone' '1: no rows after the header' "$header"
-refuse 'comments are lines too' '5: bearing_rad 4 is outside *' "# one\n\n${header}# four\n0,1,0,0,4\n"
+refuse 'comments are lines too' '5: bearing_rad 4 is outside *' \
+    "# one\n\n${header}# four\n0,1,0,0,4\n"
 printf "${header}0,2,9,9,1\n1,1,0,3,1\n" >second.csv
 run plot scans one.csv second.csv -o out.svg
 check 'a sensor that another file has elsewhere' refused \
@@ -132,7 +146,8 @@ check 'sigma_rad and frame_tolerance_s have defaults' bash -c "
 
 # ---- who takes no bearings ----
 run initiate passive-two/bearings.csv --method iht
-check 'a method of plots refuses them by name' says 2 'rhotrack: passive-two/bearings.csv: holds bearings, and method iht takes plots; *'
+check 'a method of plots refuses them by name' says 2 \
+    'rhotrack: passive-two/bearings.csv: holds bearings, and method iht takes plots; *'
 
 # ---- initiation ----
 # Each target has a track within a kilometre at the last scan, and there are no others.
@@ -147,25 +162,31 @@ are_found() { # tracks, truth
 for scenario in passive-two passive-three; do
     run initiate $scenario/bearings.csv --config $scenario/scenario.ini
     cp stdout found.csv
-    check "$scenario: every target is found, and nothing else" are_found found.csv $scenario/truth.csv
+    check "$scenario: every target is found, and nothing else" are_found found.csv \
+        $scenario/truth.csv
 done
-check 'columns' matches "$(head -n 1 found.csv)" 'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
+check 'columns' matches "$(head -n 1 found.csv)" \
+    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
 run initiate passive-three/bearings.csv --method passive --json
 check 'JSON' json stdout '((o["method"], o["scans"], o["sensors"], o["tracks"]) == ("passive", 8, 3, 2) and
     o["pairs"] - o["candidates"] == o["ghosts"] and o["peak_votes"] == sorted(o["peak_votes"], reverse=True))'
 run initiate passive-two/bearings.csv --set scans=5
 check 'the last scans' matches "$(cat stderr)" 'rhotrack: the last 5 of 8 *'
 run initiate passive-two/bearings.csv --set range_max_m=200000
-check 'cells for the range' says 2 'rhotrack: range_max_m 200000 takes 200 cells of d_rho_m 2000; there are 128'
+check 'cells for the range' says 2 \
+    'rhotrack: range_max_m 200000 takes 200 cells of d_rho_m 2000; there are 128'
 run initiate passive-two/bearings.csv --set d_theta_rad=0.01
-check 'cells for half a turn' says 2 'rhotrack: d_theta_rad 0.01 takes 315 cells over half a turn; there are 36'
+check 'cells for half a turn' says 2 \
+    'rhotrack: d_theta_rad 0.01 takes 315 cells over half a turn; there are 36'
 for kind in tracks parameter-space errors; do
     run plot "$kind" passive-two/bearings.csv passive-two/truth.csv -o out.svg
-    check "plot $kind refuses bearings by name" refused "plot $kind: bearings (column 'bearing_rad') are shown by plot scans alone"
+    check "plot $kind refuses bearings by name" refused \
+        "plot $kind: bearings (column 'bearing_rad') are shown by plot scans alone"
 done
 
 # ---- track ----
-# evaluate says: every target is found, by a track of its own that never changes, and there is no other one.
+# evaluate says: every target is found, by a track of its own that never changes, and there is no
+# other one.
 are_tracked() { # truth, tracks
     run evaluate "$1" "$2" --json
     exits 0 && json stdout '(o["targets_found"], o["tracks"], o["switches"], o["false_per_scan"]) == (o["targets"], o["targets"], 0, 0)'
@@ -175,25 +196,32 @@ for scenario in passive-two passive-three passive-clutter; do
         run simulate "$scenario" --set duration_s=200 --seed $seed -o long
         run track long/bearings.csv --config long/scenario.ini -o tracks.csv
         check "track $scenario, seed $seed: exit 0" exits 0
-        check "track $scenario, seed $seed: all targets, nothing else" are_tracked long/truth.csv tracks.csv
+        check "track $scenario, seed $seed: all targets, nothing else" are_tracked long/truth.csv \
+            tracks.csv
     done
 done
 check 'one line of summary' matches "$(run track long/bearings.csv -o tracks.csv; cat stderr)" \
     'rhotrack: 20 scans, * plots, 4 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room; * us a scan, * at most'
-check 'no tracks before the batch is full' matches "$(sed -n 2p tracks.csv | cut -d, -f1,3)" '70.000000,confirmed'
+check 'no tracks before the batch is full' matches "$(sed -n 2p tracks.csv | cut -d, -f1,3)" \
+    '70.000000,confirmed'
 run track long/bearings.csv --config long/scenario.ini --covariance -o tracks.csv
 run evaluate long/truth.csv tracks.csv --json
 check 'the covariance is plausible' json stdout '0.5 < o["nees"] < 4'
 run track long/bearings.csv --config long/scenario.ini --json
 check 'JSON: one object' is_json stdout
-check 'JSON: frames, none misses a sensor' json stdout '(o["scans"], o["frames"], o["frames_incomplete"]) == (20, 20, 0)'
-check 'JSON: fates add up' json stdout 'o["fates"]["claimed"] > 60 and sum(o["fates"].values()) == o["plots"]'
-check 'JSON: what was held' json stdout '4 <= o["counters"]["plots_initiated"] <= o["fates"]["held"]'
-# a pool of 6 000 hypotheses of some 400 bytes, and 2 000 tracks; with the initiator of plots it were 7 million
+check 'JSON: frames, none misses a sensor' json stdout \
+    '(o["scans"], o["frames"], o["frames_incomplete"]) == (20, 20, 0)'
+check 'JSON: fates add up' json stdout \
+    'o["fates"]["claimed"] > 60 and sum(o["fates"].values()) == o["plots"]'
+check 'JSON: what was held' json stdout \
+    '4 <= o["counters"]["plots_initiated"] <= o["fates"]["held"]'
+# a pool of 6 000 hypotheses of some 400 bytes, and 2 000 tracks; with the initiator of plots it
+# were 7 million
 check 'JSON: the objects in use' json stdout '2400000 < o["state_bytes"] < 5200000'
 awk -F, '!($1 == "150.000000" && $2 == 2)' long/bearings.csv >incomplete.csv
 run track incomplete.csv --config long/scenario.ini -o tracks.csv
-check 'a frame that misses a sensor is counted' matches "$(cat stderr)" '* 0 no room, 1 frames miss a sensor; *'
+check 'a frame that misses a sensor is counted' matches "$(cat stderr)" \
+    '* 0 no room, 1 frames miss a sensor; *'
 check 'and harms no track' are_tracked long/truth.csv tracks.csv
 awk -F, 'NR == 1 || $2 == 1' long/bearings.csv >one.csv
 awk -F, 'NR == 1 || $2 == 2' long/bearings.csv >two.csv
@@ -206,7 +234,8 @@ check 'keep-going skips a bad row' matches "$(cat stderr)" '*, 1 bad rows skippe
 check 'and counts the others' cmp tracks.csv tracks2.csv
 
 # ---- track: a radar's plots and bearings ----
-# Two targets for 20 scans, 10 s apart, of a radar with 300 m of noise, and 5 s later of two passive sensors with 1.75 mrad.
+# Two targets for 20 scans, 10 s apart, of a radar with 300 m of noise, and 5 s later of two passive
+# sensors with 1.75 mrad.
 awk 'function noise(  i, sum) { for (i = 0; i < 12; i++) sum += rand(); return sum - 6 }
     BEGIN {
         srand(11); pi = atan2(0, -1)
@@ -236,7 +265,8 @@ done
 # shellcheck disable=SC2086
 run track plots.csv bearings.csv $given --json -o both.csv
 check 'both: scans and frames' json stdout '(o["scans"], o["frames"], o["plots"]) == (40, 20, 120)'
-check 'both: two tracks in all' json stdout '(o["tracks_confirmed"], o["counters"]["tracks_started"]) == (2, 2)'
+check 'both: two tracks in all' json stdout \
+    '(o["tracks_confirmed"], o["counters"]["tracks_started"]) == (2, 2)'
 check 'both: most plots and bearings are claimed' json stdout 'o["fates"]["claimed"] > 90'
 check 'both: the radar and the passive sensors' matches \
     "$(cut -d, -f17 both.csv | tail -n 8 | sort -u | tr '\n' ' ')" '2 9 '
@@ -274,7 +304,8 @@ check 'but not alone' says 2 'rhotrack: one.csv:2: sensor 1 is the only one: pos
 picture() { # what it is, FILES and options...
     run plot scans "${@:2}" -o picture.svg
     check "plot scans: $1" exits 0
-    check "plot scans: $1: well-formed" python3 -c 'import xml.dom.minidom as m; m.parse("picture.svg")'
+    check "plot scans: $1: well-formed" python3 -c \
+        'import xml.dom.minidom as m; m.parse("picture.svg")'
 }
 picture 'bearings and truth' passive-three/bearings.csv passive-three/truth.csv
 for number in 1 2 3; do

@@ -32,8 +32,10 @@ and 0 <= r[k]['sigma'] < .15 * v for k, v in {'sigma_range_m': $3, 'sigma_azimut
         "(lambda l: max(abs(l[k] - 1) for k in ('sigma_range_factor', 'sigma_cross_factor')) < .2)(o['learned'][0])"
 }
 radar as_stated 4 30 0.003 0.9 80 '[100, 250]' 50 '"pd": 0.9'
-radar half_stated 4 30 0.003 0.7 80 '[100, 250]' 200 '"sigma_range_m": 15, "sigma_azimuth_rad": 0.0015, "pd": 0.95'
-radar defaults_off 10 100 0.01 0.85 200 '[80, 250]' 100 '"sigma_range_m": 15, "sigma_azimuth_rad": 0.003'
+radar half_stated 4 30 0.003 0.7 80 '[100, 250]' 200 \
+    '"sigma_range_m": 15, "sigma_azimuth_rad": 0.0015, "pd": 0.95'
+radar defaults_off 10 100 0.01 0.85 200 '[80, 250]' 100 \
+    '"sigma_range_m": 15, "sigma_azimuth_rad": 0.003'
 radar fine 1 5 0.001 0.75 15 '[20, 60]' 20 '"sigma_range_m": 15, "sigma_azimuth_rad": 0.003'
 radar coarse 12 200 0.005 0.8 250 '[100, 300]' 30 '"sigma_range_m": 15, "sigma_azimuth_rad": 0.003'
 check 'the INI file has what is known, with sigmas' bash -c \
@@ -44,13 +46,15 @@ grep -v "sigma\|pd" fine/scenario.ini >bare.ini
 run track fine/plots.csv --config bare.ini --json
 check 'a radar is learned from the defaults' json stdout "(lambda l: .25 < l['sigma_range_factor'] < .45
 and .25 < l['sigma_cross_factor'] < .45 and l['pd_stated'] > .89 and min(l['pd']) < .85)(o['learned'][0])"
-run track fine/plots.csv --config bare.ini --set sigma_range_m=15 --set sigma_azimuth_rad=0.003 --json
+run track fine/plots.csv --config bare.ini --set sigma_range_m=15 --set sigma_azimuth_rad=0.003 \
+    --json
 check 'less where they were said' json stdout "o['learned'][0]['sigma_range_factor'] > .69"
 run track fine/plots.csv --config bare.ini --set learn_noise_min=1 --set learn_pd_min=1 --json
 check 'and nothing where that is off' json stdout \
     "o['learned'][0]['sigma_range_factor'] == 1 and len(set(o['learned'][0]['pd'])) == 1"
 run track half_stated/plots.csv --config half_stated/scenario.ini
-check 'the summary says what is not as stated' grep -q "sensor 1's noise is .* times as stated, across .* pd is down to 0" stderr
+check 'the summary says what is not as stated' grep -q \
+    "sensor 1's noise is .* times as stated, across .* pd is down to 0" stderr
 
 # ---- outputs ----
 run calibrate as_stated/plots.csv --config as_stated/scenario.ini
@@ -60,7 +64,8 @@ run calibrate as_stated/plots.csv --config as_stated/scenario.ini -o -
 check 'with -o - the INI file is standard output' writes_same_as as_stated.ini
 check 'and the table standard error' cmp table stderr
 run calibrate as_stated/plots.csv --config as_stated/scenario.ini -o - --json
-check 'JSON has no room there' says 2 'rhotrack: calibrate: --json and -o - both write on standard output'
+check 'JSON has no room there' says 2 \
+    'rhotrack: calibrate: --json and -o - both write on standard output'
 run convert as_stated/plots.csv log.lcm --config as_stated/scenario.ini
 run calibrate log.lcm --config as_stated/scenario.ini --json
 check 'the same of a log, but for what floats round' json stdout \
@@ -74,7 +79,8 @@ check 'two radars, by sectors' json stdout \
 run simulate fighters --seed 2 -o fighters
 run calibrate fighters/plots.csv --config fighters/scenario.ini -o fighters.ini
 check 'noise, of targets that turn all the time' grep -q '^radar 1, range noise: not known: ' stdout
-check 'in the INI file neither' bash -c '! grep -q "^sigma" fighters.ini && grep -q "^# sigma_range_m: not known" fighters.ini'
+check 'in the INI file neither' bash -c \
+    '! grep -q "^sigma" fighters.ini && grep -q "^# sigma_range_m: not known" fighters.ini'
 head -n 300 as_stated/plots.csv >short.csv
 run calibrate short.csv --config as_stated/scenario.ini -o short.ini
 check 'anything, of five turns' exits 1
@@ -83,9 +89,11 @@ run simulate passive-two -o passive
 run calibrate passive/bearings.csv
 check 'bearings' says 2 'rhotrack: calibrate takes plots, and no bearings'
 run calibrate as_stated/plots.csv -o x.csv
-check 'another ending' says 2 'rhotrack: x.csv: calibrate writes an INI file, and .csv is the ending of another'
+check 'another ending' says 2 \
+    'rhotrack: x.csv: calibrate writes an INI file, and .csv is the ending of another'
 run calibrate as_stated/plots.csv as_stated/plots.csv
-check 'an input twice' says 2 'rhotrack: calibrate: as_stated/plots.csv is given twice, and its plots would count twice'
+check 'an input twice' says 2 \
+    'rhotrack: calibrate: as_stated/plots.csv is given twice, and its plots would count twice'
 head -n 1 as_stated/plots.csv >none.csv
 run calibrate none.csv
 check 'no plots' exits 2
@@ -102,6 +110,7 @@ for name, part in ("first", [r for r, t in zip(rows, times) if t < middle]), ("s
 END
     run calibrate first.csv --set v_max_mps=12 --set accel_max_mps2=0.5 -o first.ini
     run calibrate second.csv --config first.ini --set v_max_mps=12 --set accel_max_mps2=0.5 --json
-    check "harbour $scene: squared innovations of the second half" json stdout '0.75 < o["radars"][0]["innovations"] < 1.3'
+    check "harbour $scene: squared innovations of the second half" json stdout \
+        '0.75 < o["radars"][0]["innovations"] < 1.3'
 done
 finish

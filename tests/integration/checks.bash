@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# For the scripts beside it: runs the program ($RHOTRACK) and counts checks. Work goes on in $folder, a new one.
+# For the scripts beside it: runs the program ($RHOTRACK) and counts checks. Work goes on in
+# $folder, a new one.
 set -u
 program=$(realpath "${RHOTRACK:-$(dirname "${BASH_SOURCE[0]}")/../../build/rhotrack}")
 folder=$(mktemp -d)
@@ -38,7 +39,8 @@ exits() { [ "$status" -eq "$1" ]; }
 # The last run ended with 0, and its output is the same as that file.
 writes_same_as() { exits 0 && cmp "$1" stdout; }
 
-# The last run ended with the code and said one line on standard error, which matches the pattern, and no output.
+# The last run ended with the code and said one line on standard error, which matches the pattern,
+# and no output.
 says() {
     exits "$1" && [ ! -s stdout ] && [ "$(wc -l <stderr)" -eq 1 ] && matches "$(cat stderr)" "$2"
 }
@@ -64,8 +66,8 @@ finish() {
     exit
 }
 
-# unnumbered PLOTS COLUMNS TURN_S: simulated plots of a radar that turns, in a form without numbers of scans: these first columns,
-# and each turn's own row at its start.
+# unnumbered PLOTS COLUMNS TURN_S: simulated plots of a radar that turns, in a form without numbers
+# of scans: these first columns, and each turn's own row at its start.
 unnumbered() {
     awk -F, -v OFS=, -v columns="$2" -v turn="$3" '
         NR > 1 && $3 == "" { $1 = sprintf("%.6f", $1 - turn) } { NF = columns; print }' "$1"

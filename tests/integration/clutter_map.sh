@@ -1,11 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Echoes that come back, in a file: saved by one run, known by the next one from the first scan on; by hand; track and node;
-# what is refused; drawn; published. And a build without the map.
+# Echoes that come back, in a file: saved by one run, known by the next one from the first scan on;
+# by hand; track and node; what is refused; drawn; published. And a build without the map.
 here=$(realpath "$(dirname "$0")")
 . "$here/checks.bash"
 
-# A turning radar with 30 towers that are seen half of the time, two targets, and clutter: seeds differ in noise and clutter alone.
+# A turning radar with 30 towers that are seen half of the time, two targets, and clutter: seeds
+# differ in noise and clutter alone.
 make_scene() { # seed file scans
     python3 - "$@" <<'PYTHON'
 import math, random, sys
@@ -60,7 +61,8 @@ make_scene 2 second.csv 60
 
 # ---- one run teaches the next ----
 run track first.csv --config scene.ini --clutter-map map.csv -o tracks.csv
-check 'a map that is not there yet' matches "$(head -n 1 stderr)" 'rhotrack: map.csv: not there yet, the clutter map starts empty'
+check 'a map that is not there yet' matches "$(head -n 1 stderr)" \
+    'rhotrack: map.csv: not there yet, the clutter map starts empty'
 check 'the run itself' exits 0
 check 'the towers are known' test "$(echoes map.csv)" -ge 29 -a "$(echoes map.csv)" -le 31
 check 'nothing else is beside it' test "$(echo map.csv*)" = map.csv
@@ -84,14 +86,18 @@ cp towers.csv hand.csv
 run track second.csv --config scene.ini --clutter-map hand.csv -o tracks.csv
 check 'by hand: no false track from the first scan on' test "$(false_rows tracks.csv)" -eq 0
 printf 'sensor_id,lat_deg,lon_deg,hits\n1,48.01,11.02,40\n' >earth.csv
-run track nothing.csv --config scene.ini --set origin_lat_deg=48 --set origin_lon_deg=11 --clutter-map earth.csv
-check 'by hand: on the earth' awk -F, '$1 == 1 { n = $2 > 1485 && $2 < 1500 && $3 > 1105 && $3 < 1120 && $6 == 40 } END { exit !n }' earth.csv
+run track nothing.csv --config scene.ini --set origin_lat_deg=48 --set origin_lon_deg=11 \
+    --clutter-map earth.csv
+check 'by hand: on the earth' awk -F, \
+    '$1 == 1 { n = $2 > 1485 && $2 < 1500 && $3 > 1105 && $3 < 1120 && $6 == 40 } END { exit !n }' \
+    earth.csv
 printf 'hits,y_m,x_m,sensor_id,sigma_m,note\n8,-2,1,1,12,a mast\n' >order.csv
 run track nothing.csv --config scene.ini --clutter-map order.csv
 check 'columns in any order, and others' grep -q '^1,1,-2,12,12,8,' order.csv
 printf 'sensor_id,x_m,y_m\n1,30000,0\n5,30000,0\n' >sigma.csv
 run track nothing.csv --config scene.ini --clutter-map sigma.csv
-check 'sigmas: the sensor'\''s, or 30 m' test "$(grep -c -e '^1,30000,0,30,90,6,' -e '^5,30000,0,30,30,6,' sigma.csv)" -eq 2
+check 'sigmas: the sensor'\''s, or 30 m' test \
+    "$(grep -c -e '^1,30000,0,30,90,6,' -e '^5,30000,0,30,30,6,' sigma.csv)" -eq 2
 
 # ---- track and node ----
 "$program" convert second.csv second.lcm --config scene.ini
@@ -117,7 +123,8 @@ check 'a picture' grep -q 'echoes of sensor 1' map.svg
 run plot clutter-map map.csv second.csv -o map.svg --config scene.ini
 check 'a picture with plots' grep -q '>plots<' map.svg
 run plot clutter-map second.csv -o other.svg
-check 'a picture of something else' says 2 "rhotrack: second.csv:1: column 't_s': this is no clutter map"
+check 'a picture of something else' says 2 \
+    "rhotrack: second.csv:1: column 't_s': this is no clutter map"
 check 'is none' test ! -e other.svg
 run plot clutter-map map.csv towers.csv -o other.svg
 check 'a picture with a map beneath' exits 2
@@ -143,7 +150,8 @@ refuse 'half a sensor' "${head}1.5,2,3,4,6,,,,\n" "2: sensor_id '1.5' *"
 refuse 'no sigma' "${head}1,2,3,0,6,,,,\n" '2: sigma_m 0 is outside *'
 refuse 'no hits' "${head}1,2,3,4,0,,,,\n" '2: hits 0 is outside 1 .. 65535'
 refuse 'too many hits' "${head}1,2,3,4,65536,,,,\n" '2: hits 65536 is outside 1 .. 65535'
-refuse 'both kinds of rows' "${head}1,2,3,4,6,,1,2,1\n" '2: a row is an echo of a sensor, or has looks, not both'
+refuse 'both kinds of rows' "${head}1,2,3,4,6,,1,2,1\n" \
+    '2: a row is an echo of a sensor, or has looks, not both'
 refuse 'more returns than looks' "${head},,,,6,,1,2,3\n" '2: returns 3 is outside 0 .. 2'
 refuse 'a region beyond' "${head},,,,6,64,1,2,1\n" '2: region 64 is outside 0 .. 63'
 refuse 'looks below none' "${head},,,,6,,1,-2,1\n" '2: looks -2 is outside *'
@@ -172,7 +180,8 @@ check 'another command' says 2 'rhotrack: maintain takes no --clutter-map*'
 # ---- a build without the map ----
 (
     cd "$here/../.." || exit 1 # in a shell of its own: checks write where they are
-    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -Wall -Wextra -Werror -Iinclude -DRHO_MAX_ECHOES=0 -o "$folder/without" \
+    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -Wall -Wextra -Werror -Iinclude -DRHO_MAX_ECHOES=0 \
+        -o "$folder/without" \
         tests/unit/tracker/test_tracker.c src/*/*.c -lcmocka -lm 2>"$folder/stderr"
 )
 check 'a build without the map tracks' "$folder/without"

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/codegen: what is checked in is what it writes, a change of either is named, and each of its rules is kept.
-# Runs beside others.
+# tools/codegen: what is checked in is what it writes, a change of either is named, and each of its
+# rules is kept. Runs beside others.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 top=$(pwd)
@@ -89,12 +89,14 @@ expect 'an option that is not there' 1 'Usage:'
 
 # ---- Rules ----
 
-# The lines stand in a struct of their own; the message names the file, and the line where it is one member's.
+# The lines stand in a struct of their own; the message names the file, and the line where it is one
+# member's.
 refuse() { # what, line of the file, text, the struct's lines...
     local what=$1 line=$2 text=$3
     shift 3
     fresh
-    { printf '// Odd.\npackage rhotrack;\nstruct odd_t\n{\n'; printf '%s\n' "$@"; printf '}\n'; } >"$copy/tree/lcm_types/odd_t.lcm"
+    { printf '// Odd.\npackage rhotrack;\nstruct odd_t\n{\n'; printf '%s\n' "$@"; printf '}\n'; } \
+        >"$copy/tree/lcm_types/odd_t.lcm"
     codegen
     expect "$what" 1 "lcm_types/odd_t.lcm:$line: $text"
 }
@@ -105,8 +107,10 @@ refuse 'a count of 32 bits' 8 'a: its int16_t count must stand right before it' 
     'const int16_t MAX_A = 2;' "$one" 'int32_t num;' 'float a[num];'
 refuse 'a count elsewhere' 9 'a: its int16_t count must stand right before it' \
     'const int16_t MAX_A = 2;' 'int16_t num;' "$one" 'int16_t y;' 'float a[num];'
-refuse 'a list without capacity' 7 'const int16_t MAX_A is missing' "$one" 'int16_t num;' 'float a[num];'
-refuse 'a capacity of 0' 8 'MAX_A is not within' 'const int16_t MAX_A = 0;' "$one" 'int16_t num;' 'float a[num];'
+refuse 'a list without capacity' 7 'const int16_t MAX_A is missing' "$one" 'int16_t num;' \
+    'float a[num];'
+refuse 'a capacity of 0' 8 'MAX_A is not within' 'const int16_t MAX_A = 0;' "$one" 'int16_t num;' \
+    'float a[num];'
 refuse 'a member with members' 6 'p: only a list may have members of its own' "$one" 'plot_t p;'
 refuse 'an array of structs' 6 'p: only a list may have members of its own' "$one" 'plot_t p[3];'
 refuse 'a type that is not known' 8 'a: there is no struct blob_t without a list' \
@@ -119,21 +123,26 @@ refuse 'double' 5 'd: only a list may have members of its own, and no double' 'd
 refuse 'a string' 5 's: only a list may have members of its own, and no string' 'string s;'
 refuse 'an array of nothing' 5 'a: an array of nothing' 'float a[0];'
 refuse 'two dimensions' 5 'no member that is understood' 'float a[2][3];'
-refuse 'a message beyond a datagram' 1 '1480 bytes with header and channel do not fit a datagram of 1472' \
+refuse 'a message beyond a datagram' 1 \
+    '1480 bytes with header and channel do not fit a datagram of 1472' \
     'const int16_t MAX_A = 359;' 'int16_t x;' 'int16_t num;' 'float a[num];'
 refuse 'no semicolon' 5 'no ; at the end' 'int32_t x'
 refuse 'a struct without members' 1 'odd_t has no members'
 refuse 'another struct in the file' 7 'one struct a file' "$one" '}' 'struct more_t' '{' "$one"
-refuse 'a constant that is no number' 5 'no constant that is understood' 'const int8_t A = B;' "$one"
+refuse 'a constant that is no number' 5 'no constant that is understood' 'const int8_t A = B;' \
+    "$one"
 refuse 'a choice that is no constant' 5 's: C is no constant of odd_t' 'int8_t s; // one {C}'
-refuse 'a choice beyond 30' 6 's: C is not within 0 .. 30' 'const int8_t C = 31;' 'int8_t s; // one {C}'
+refuse 'a choice beyond 30' 6 's: C is not within 0 .. 30' 'const int8_t C = 31;' \
+    'int8_t s; // one {C}'
 refuse 'a range that is none' 5 'x: no range [min .. max]' 'int32_t x; // m [0..1]'
 refuse 'a range the wrong way round' 5 'x: no range of int32_t: 2 .. 1' 'int32_t x; // [2 .. 1]'
 refuse 'a range beyond the type' 5 'x: no range of int8_t: 0 .. 128' 'int8_t x; // [0 .. 128]'
 refuse 'a range of fractions' 5 'x: no range of int16_t: 0 .. 1e3' 'int16_t x; // [0 .. 1e3]'
 refuse 'a range of words' 5 'x: no range of float: 0 .. n - 1' 'float x; // [0 .. n - 1]'
-refuse 'a range below what is not there' 5 'x: no range, as there is no int16_t n' 'int16_t x; // [0 .. n - 1]'
-refuse 'a range of an array of integers' 5 'x: an array of integers has no range' 'int16_t x[3]; // [0 .. 9]'
+refuse 'a range below what is not there' 5 'x: no range, as there is no int16_t n' \
+    'int16_t x; // [0 .. n - 1]'
+refuse 'a range of an array of integers' 5 'x: an array of integers has no range' \
+    'int16_t x[3]; // [0 .. 9]'
 refuse 'a time with a range of its own' 5 'x: a time is within' 'int64_t x; // [0 .. 9]'
 refuse 'a member twice' 5 'x is there twice' "$one" "$one"
 refuse 'an array that no run holds' 5 'a: an array of more than 255' 'float a[256];'
@@ -143,7 +152,8 @@ refuse 'a comment that ends one in C' 5 'x: the comment would end' 'int32_t x; /
 fresh
 sed -i 's/^struct plot_t/struct plots_t/' "$copy/tree/lcm_types/plot_t.lcm"
 codegen
-expect "a struct of another name than its file's" 1 'plot_t.lcm:1: struct plots_t belongs into plots_t.lcm'
+expect "a struct of another name than its file's" 1 \
+    'plot_t.lcm:1: struct plots_t belongs into plots_t.lcm'
 fresh
 sed -i '/^package/d' "$copy/tree/lcm_types/plot_t.lcm"
 codegen
@@ -160,19 +170,22 @@ heading() { # what, text, the first line of plot_t.lcm behind its licence
     expect "$1" 1 "lcm_types/plot_t.lcm:1: $2"
 }
 heading 'no comment' 'a comment before the package is missing' ''
-heading 'a comment that would end one in C' 'the comment before the package would end' '// One */ plot.'
+heading 'a comment that would end one in C' 'the comment before the package would end' \
+    '// One */ plot.'
 heading 'a channel without its end' 'no channel that is understood' '// One plot. Channel RHO_PLOT'
 
 # ---- What it makes of rules that no struct has yet ----
 
 # Constants of which one begins as another does.
 fresh
-sed -i 's/POSITION_2D = 2/POSITION = 1, POSITION_2D = 2/; s/{POSITION_2D,/{POSITION, POSITION_2D,/' \
+sed -i \
+    's/POSITION_2D = 2/POSITION = 1, POSITION_2D = 2/; s/{POSITION_2D,/{POSITION, POSITION_2D,/' \
     "$copy/tree/lcm_types/plot_scan_t.lcm"
 codegen
 expect 'a constant that begins as another one does' 0 'codegen: src/wire/message.c'
 status=0
-grep -F 'plot_scan, kind), 1, 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message.c" >"$copy/output" || status=$?
+grep -F 'plot_scan, kind), 1, 1, MESSAGE_ONE_OF' "$copy/tree/src/wire/message.c" >"$copy/output" \
+    || status=$?
 expect '... has its own value' 0 '1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 6'
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -1,15 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# `convert`: CSV files to LCM logs and back, each kind, real plots; what it refuses, damaged logs, other LCM programs.
-# Runs beside others.
+# `convert`: CSV files to LCM logs and back, each kind, real plots; what it refuses, damaged logs,
+# other LCM programs. Runs beside others.
 types=$(realpath "$(dirname "$0")/../../lcm_types")
 vectors=$(realpath "$(dirname "$0")/../vectors")
 python=$("$(dirname "$0")/../python.sh") # that has the package lcm
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-# Each value of the first file is in the second, as the same float32; rows that saw nothing may be fewer. Columns that
-# are empty or 0 all the way down may be missing, and whose plots they are, which no log has.
+# Each value of the first file is in the second, as the same float32; rows that saw nothing may be
+# fewer. Columns that are empty or 0 all the way down may be missing, and whose plots they are,
+# which no log has.
 cat >same.py <<'END'
 import csv, struct, sys
 def rows(path):
@@ -118,7 +119,8 @@ check 'without --covariance no column of it' bash -c '! grep -q cov_ back.csv'
 
 # ---- a radar that turns: rows of a scan go back behind the one that has its time ----
 run simulate rotating -o rotating
-check 'sectors: the log is the same' there_and_back rotating/plots.csv --config rotating/scenario.ini
+check 'sectors: the log is the same' there_and_back rotating/plots.csv \
+    --config rotating/scenario.ini
 in_time rotating/plots.csv
 check 'sectors: the values are the same' same_values in_time.csv back.csv
 run track rotating/plots.csv --config rotating/scenario.ini --covariance -o expected.csv
@@ -126,7 +128,8 @@ for file in one.lcm back.csv; do
     run track "$file" --config rotating/scenario.ini --covariance -o found.csv
     check "sectors: the same tracks of $file" cmp expected.csv found.csv
 done
-run publish rotating/plots.csv --config rotating/scenario.ini --speed 0 --lcm 'file://published.lcm?mode=w'
+run publish rotating/plots.csv --config rotating/scenario.ini --speed 0 --lcm \
+    'file://published.lcm?mode=w'
 check 'publish takes them' exits 0
 run node --lcm 'file://published.lcm?speed=0' --config rotating/scenario.ini --log node.lcm
 "$program" convert node.lcm found.csv --kind tracks --covariance 2>stderr
@@ -141,12 +144,17 @@ check 'received_s: the values are the same' same_values late/plots.csv back.csv
 run track late/plots.csv --config late/scenario.ini -o expected.csv
 run track back.csv --config late/scenario.ini -o found.csv
 check 'received_s: the same tracks' cmp expected.csv found.csv
-printf 't_s,received_s,sensor_id,x_m,y_m\n1,1.5,1,10,20\n3,3.5,1,30,40\n2,4,1,50,60\n2,4,1,70,80\n' >received.csv
+printf \
+    't_s,received_s,sensor_id,x_m,y_m\n1,1.5,1,10,20\n3,3.5,1,30,40\n2,4,1,50,60\n2,4,1,70,80\n' \
+    >received.csv
 run convert received.csv one.lcm
 run convert one.lcm back.csv
-printf 't_s,sensor_id,x_m,y_m,scan,epoch,received_s\n%s\n%s\n%s\n%s\n' 1.000000,1,10,20,1,1,1.500000 \
-    3.000000,1,30,40,3,1,3.500000 2.000000,1,50,60,2,1,4.000000 2.000000,1,70,80,2,1,4.000000 >expected.csv
-check 'received_s: numbers are in the order of time, rows in that of reception' cmp expected.csv back.csv
+printf 't_s,sensor_id,x_m,y_m,scan,epoch,received_s\n%s\n%s\n%s\n%s\n' \
+    1.000000,1,10,20,1,1,1.500000 \
+    3.000000,1,30,40,3,1,3.500000 2.000000,1,50,60,2,1,4.000000 2.000000,1,70,80,2,1,4.000000 \
+    >expected.csv
+check 'received_s: numbers are in the order of time, rows in that of reception' cmp expected.csv \
+    back.csv
 
 # ---- columns ----
 cat >all.csv <<'END'
@@ -211,7 +219,8 @@ check 'log to log' says 2 'rhotrack: convert: other.lcm would be an LCM log, and
 run convert crossing/plots.csv other.csv
 check 'CSV to CSV' says 2 'rhotrack: convert: other.csv would be a CSV file, and so is the input; *'
 run convert crossing/plots.csv other.lcm --kind plots
-check '--kind of a CSV file' says 2 'rhotrack: convert: --kind chooses messages of a log, and crossing/plots.csv is a CSV file'
+check '--kind of a CSV file' says 2 \
+    'rhotrack: convert: --kind chooses messages of a log, and crossing/plots.csv is a CSV file'
 run convert one.lcm
 check 'one argument' says 2 'rhotrack: convert: too few arguments; *'
 
@@ -236,15 +245,21 @@ polar='t_s,sensor_id,range_m,azimuth_rad\n'
 bearings='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n'
 truth='t_s,target_id,x_m,y_m\n'
 tracks='t_s,track_id,status,x_m,y_m\n'
-refuse 'places on the earth without an origin' "1: column 'lat_deg': origin_lat_deg and origin_lon_deg are not set*" 't_s,sensor_id,lat_deg,lon_deg\n1,1,50,8\n'
-refuse 'no kind' '2: neither plots, polar plots, bearings, truth nor tracks: *' '# no\nt_s,sensor_id\n1,2\n'
+refuse 'places on the earth without an origin' \
+    "1: column 'lat_deg': origin_lat_deg and origin_lon_deg are not set*" \
+    't_s,sensor_id,lat_deg,lon_deg\n1,1,50,8\n'
+refuse 'no kind' '2: neither plots, polar plots, bearings, truth nor tracks: *' \
+    '# no\nt_s,sensor_id\n1,2\n'
 refuse 'no number' "4: x_m 'abc' is not a number" "# plots\n${plots}1,1,1,1\n1,1,abc,3\n"
-refuse 'beyond the range' '3: x_m 3000000 is outside the range of a plot_scan_t' "${plots}1,1,1,1\n1,1,3000000,1\n"
+refuse 'beyond the range' '3: x_m 3000000 is outside the range of a plot_scan_t' \
+    "${plots}1,1,1,1\n1,1,3000000,1\n"
 refuse 'infinite' "2: x_m 'inf' is not finite" "${plots}1,1,inf,1\n"
-refuse 'sensor beyond int16' "2: sensor_id '32768' is outside -32768 .. 32767, which messages hold" "${plots}1,32768,1,1\n"
+refuse 'sensor beyond int16' \
+    "2: sensor_id '32768' is outside -32768 .. 32767, which messages hold" "${plots}1,32768,1,1\n"
 refuse 'x without y' '2: y_m is empty' "${plots}1,1,1,\n"
 refuse 'no time' '2: t_s is empty' "${plots},1,1,1\n"
-refuse 'time that goes back' '3: time goes back from 2.000000 s to 1.000000 s' "${plots}2,1,1,1\n1,2,1,1\n"
+refuse 'time that goes back' '3: time goes back from 2.000000 s to 1.000000 s' \
+    "${plots}2,1,1,1\n1,2,1,1\n"
 refuse 'time that goes back, in another scan' '4: time goes back from 2.000000 s to 1.000000 s' \
     't_s,sensor_id,x_m,y_m,scan\n1,1,1,1,1\n2,1,1,1,2\n1,1,1,1,3\n'
 refuse 'received_s that goes back' '3: received_s goes back from 3.000000 s to 2.000000 s' \
@@ -252,7 +267,8 @@ refuse 'received_s that goes back' '3: received_s goes back from 3.000000 s to 2
 refuse 'no received_s' '2: received_s is empty' 't_s,sensor_id,x_m,y_m,received_s\n1,1,1,1,\n'
 refuse 'a velocity beyond the range' '2: vy_mps 20001 is outside the range of a plot_scan_t' \
     't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,1,1,1,20001\n'
-refuse 'vx without vy' '2: vy_mps is missing beside vx_mps' 't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,1,1,1,\n'
+refuse 'vx without vy' '2: vy_mps is missing beside vx_mps' \
+    't_s,sensor_id,x_m,y_m,vx_mps,vy_mps\n1,1,1,1,1,\n'
 refuse 'velocity and height without vz' '2: vz_mps is missing beside z_m and vx_mps' \
     't_s,sensor_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps\n1,1,1,1,5,1,1,\n'
 refuse 'height of a part of a scan' '3: height, velocity or range rate must be given in all rows*' \
@@ -261,34 +277,47 @@ refuse 'a range rate of a Cartesian plot' '2: range_rate_mps has no place in a p
     't_s,sensor_id,x_m,y_m,range_rate_mps\n1,1,1,1,5\n'
 refuse 'two sectors' "3: sector_to_rad is not that of the scan's first row" \
     't_s,sensor_id,x_m,y_m,sector_from_rad,sector_to_rad\n1,1,1,1,0,1\n1,1,1,1,0,2\n'
-refuse 'half a sector' "1: no column 'sector_to_rad' beside 'sector_from_rad'" 't_s,sensor_id,x_m,y_m,sector_from_rad\n1,1,1,1,0\n'
+refuse 'half a sector' "1: no column 'sector_to_rad' beside 'sector_from_rad'" \
+    't_s,sensor_id,x_m,y_m,sector_from_rad\n1,1,1,1,0\n'
 refuse 'no scan number' '2: scan is empty' 't_s,sensor_id,x_m,y_m,scan\n1,1,1,1,\n'
-refuse 'a scan number beyond int32' "2: scan '2147483648' is out of the range *" 't_s,sensor_id,x_m,y_m,scan\n1,1,1,1,2147483648\n'
-refuse 'azimuth beyond pi' '2: azimuth_rad 3.15 is outside the range of a polar_scan_t' "${polar}1,1,5,3.15\n"
-refuse 'compass beyond a turn' "2: azimuth_deg '361' is outside -360 .. 360" 't_s,sensor_id,range_m,azimuth_deg\n1,1,5,361\n'
+refuse 'a scan number beyond int32' "2: scan '2147483648' is out of the range *" \
+    't_s,sensor_id,x_m,y_m,scan\n1,1,1,1,2147483648\n'
+refuse 'azimuth beyond pi' '2: azimuth_rad 3.15 is outside the range of a polar_scan_t' \
+    "${polar}1,1,5,3.15\n"
+refuse 'compass beyond a turn' "2: azimuth_deg '361' is outside -360 .. 360" \
+    't_s,sensor_id,range_m,azimuth_deg\n1,1,5,361\n'
 refuse 'range below 0' '2: range_m -5 is outside the range of a polar_scan_t' "${polar}1,1,-5,1\n"
 refuse 'range without azimuth' '2: the azimuth is empty' "${polar}1,1,5,\n"
 refuse 'no azimuth' "1: no column 'azimuth_rad'" 't_s,sensor_id,range_m\n1,1,5\n'
-refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" 't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,1,1\n'
-refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" 't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,1,1,1\n'
+refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" \
+    't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,1,1\n'
+refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" \
+    't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,1,1,1\n'
 refuse 'a radar in two places' "3: sensor_y_m is not that of the scan's first row" \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m\n1,1,5,1,0,0\n1,1,5,1,0,1\n'
-refuse 'two sigmas of bearings' "3: sigma_rad is not that of the scan's other rows: *" "${bearings}1,1,0,0,1,0.1\n1,1,0,0,1,0.2\n"
+refuse 'two sigmas of bearings' "3: sigma_rad is not that of the scan's other rows: *" \
+    "${bearings}1,1,0,0,1,0.1\n1,1,0,0,1,0.2\n"
 refuse 'two times of bearings' "3: t_s is not that of the scan's first row: *" \
     "${bearings}1,1,0,0,1,0.1\n1.1,1,0,0,1,0.1\n" --set scan_interval_s=1
 refuse 'signals of bearings' '2: snr_db has no place in a bearing_scan_t' \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,snr_db\n1,1,0,0,1,9\n'
-refuse 'bearing beyond pi' '2: bearing_rad 4 is outside the range of a bearing_scan_t' "${bearings}1,1,0,0,4,0.1\n"
-refuse 'more bearings than a message has' '258: more than 256 rows are one scan: no message holds them' \
+refuse 'bearing beyond pi' '2: bearing_rad 4 is outside the range of a bearing_scan_t' \
+    "${bearings}1,1,0,0,4,0.1\n"
+refuse 'more bearings than a message has' \
+    '258: more than 256 rows are one scan: no message holds them' \
     "${bearings}$(for i in $(seq 257); do printf '1,1,0,0,0.%03d,\\n' "$i"; done)"
 refuse 'a target that is no number' "2: target_id 'A' is not an integer" "${truth}1,A,1,1\n"
-refuse 'truth beyond the range' '3: y_m 2e7 is outside the range of a truth_list_t' "${truth}1,1,1,1\n1,2,1,2e7\n"
-refuse 'unknown status' "2: status 'lost' is none of tentative, confirmed, coasting, deleted" "${tracks}1,1,lost,0,0\n"
+refuse 'truth beyond the range' '3: y_m 2e7 is outside the range of a truth_list_t' \
+    "${truth}1,1,1,1\n1,2,1,2e7\n"
+refuse 'unknown status' "2: status 'lost' is none of tentative, confirmed, coasting, deleted" \
+    "${tracks}1,1,lost,0,0\n"
 refuse 'hits beyond int16' "2: hits '40000' is outside -32768 .. 32767, which messages hold" \
     't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,40000\n'
-refuse 'hits below 0' '2: hits -1 is outside the range of a track_list_t' 't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,-1\n'
+refuse 'hits below 0' '2: hits -1 is outside the range of a track_list_t' \
+    't_s,track_id,status,x_m,y_m,hits\n1,1,confirmed,0,0,-1\n'
 for sigma in -5 1e-19 1e19; do
-    refuse "a sigma of $sigma, whose square is no variance" '3: sigma_m is neither 0 nor within 1e-18 .. 1e18' \
+    refuse "a sigma of $sigma, whose square is no variance" \
+        '3: sigma_m is neither 0 nor within 1e-18 .. 1e18' \
         "t_s,track_id,status,x_m,y_m,sigma_m\n1,1,confirmed,0,0,5\n1,2,confirmed,0,0,$sigma\n"
 done
 refuse 'a sigma of velocity below 0' '2: sigma_mps is neither 0 nor *' \
@@ -297,7 +326,8 @@ printf 't_s,sensor_id,range_m,azimuth_rad,sigma_range_m\n' >parts.csv
 for i in $(seq 32768); do echo "1,1,$i,0,$((1 + i % 2))"; done >>parts.csv
 echo before >out.lcm
 run convert parts.csv out.lcm
-check 'more parts than messages number' refused 'parts.csv:2: a scan of 32768 parts; messages number 32767'
+check 'more parts than messages number' refused \
+    'parts.csv:2: a scan of 32768 parts; messages number 32767'
 run convert parts.csv out.lcm --keep-going
 check 'nothing is left' refused 'parts.csv: not one good scan in it'
 refuse 'header alone' '1: no rows after the header' "$plots"
@@ -321,12 +351,15 @@ run convert both.lcm out.csv --kind truth
 check 'one kind is chosen' says 0 'rhotrack: both.lcm: 7 messages on other channels left out'
 check 'one kind is chosen: values' same_values crossing/truth.csv out.csv
 run convert both.lcm out.csv --kind tracks
-check 'a kind that is not there' says 2 'rhotrack: both.lcm: no messages of tracks in it, but 7 plots, 7 truth'
+check 'a kind that is not there' says 2 \
+    'rhotrack: both.lcm: no messages of tracks in it, but 7 plots, 7 truth'
 run convert both.lcm out.csv --kind plot
-check 'no kind' says 2 "rhotrack: convert: --kind 'plot' is none of plots, polar, bearings, truth, tracks"
+check 'no kind' says 2 \
+    "rhotrack: convert: --kind 'plot' is none of plots, polar, bearings, truth, tracks"
 cat truth.lcm truth.lcm >twice.lcm
 run convert twice.lcm out.csv
-check 'messages that come twice count once' says 0 'rhotrack: twice.lcm: 7 messages that were there before left out'
+check 'messages that come twice count once' says 0 \
+    'rhotrack: twice.lcm: 7 messages that were there before left out'
 check 'messages that come twice: values' same_values crossing/truth.csv out.csv
 : >empty.lcm
 run convert empty.lcm out.csv
@@ -335,7 +368,8 @@ run convert no.lcm out.csv
 check 'no log' says 2 'rhotrack: no.lcm: No such file or directory'
 cp crossing/plots.csv named.lcm
 run convert named.lcm out.csv
-check 'a CSV file that is named a log' says 2 'rhotrack: named.lcm: not one event of an LCM log in it'
+check 'a CSV file that is named a log' says 2 \
+    'rhotrack: named.lcm: not one event of an LCM log in it'
 
 # ---- damage ----
 cat >damage.py <<'END'
@@ -361,10 +395,12 @@ check 'many damaged places: the first, and a sum' matches "$(tail -n +3 stderr)"
 run convert cut.lcm out.csv
 check 'a log that is cut off' matches "$(cat stderr)" \
     $'rhotrack: cut.lcm: * bytes skipped at byte *\nrhotrack: cut.lcm: the last event is cut off'
-check 'a log that is cut off: the rest is there' matches "$(wc -l <out.csv) $(wc -l <crossing/truth.csv)" '19 22'
+check 'a log that is cut off: the rest is there' matches \
+    "$(wc -l <out.csv) $(wc -l <crossing/truth.csv)" '19 22'
 echo before >out.csv
 run convert bad.lcm out.csv
-check 'a bad message' says 2 'rhotrack: bad.lcm: event 2 at byte *, RHO_TRUTH: x_m is outside the range of a truth_list_t'
+check 'a bad message' says 2 \
+    'rhotrack: bad.lcm: event 2 at byte *, RHO_TRUTH: x_m is outside the range of a truth_list_t'
 check 'a bad message: no output touched' matches "$(cat out.csv)" before
 run convert bad.lcm out.csv --keep-going
 check 'a bad message is skipped and counted' says 0 'rhotrack: bad.lcm: 1 bad messages skipped'
@@ -401,12 +437,17 @@ if [ -n "$python" ] && [ -x /usr/bin/lcm-gen ]; then
     /usr/bin/lcm-gen -p --ppath . "$types"/*.lcm >/dev/null
     run convert crossing/plots.csv one.lcm
     "$python" others.py read one.lcm >read.csv
-    check "Python's EventLog reads our log" cmp <(cut -d, -f1-5 crossing/plots.csv | grep -v ',,,$') read.csv # without target_id, and rows of scans alone
+    # without target_id, and rows of scans alone
+    check "Python's EventLog reads our log" cmp <(cut -d, -f1-5 crossing/plots.csv | grep -v \
+        ',,,$') read.csv
     "$python" others.py write python.lcm
     run convert python.lcm out.csv
-    check "we read a log by Python's EventLog" says 0 'rhotrack: python.lcm: 3 messages on other channels left out'
-    printf '%s\n' t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,scan,epoch 0.000000,4,10,-20,,0.125,8,2 \
-        1.000000,4,10,-20,0,0.125,9,2 2.000000,4,10,-20,0,0.125,10,2 2.000000,4,10,-20,0.25,0.125,10,2 >expected.csv
+    check "we read a log by Python's EventLog" says 0 \
+        'rhotrack: python.lcm: 3 messages on other channels left out'
+    printf '%s\n' t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,scan,epoch \
+        0.000000,4,10,-20,,0.125,8,2 \
+        1.000000,4,10,-20,0,0.125,9,2 2.000000,4,10,-20,0,0.125,10,2 \
+        2.000000,4,10,-20,0.25,0.125,10,2 >expected.csv
     check "we read a log by Python's EventLog: values" cmp expected.csv out.csv
 else
     echo 'skipped: no Python package lcm'

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The memory sanitizer's part of `make sanitize` goes red for a byte of padding that two runs could differ in.
+# The memory sanitizer's part of `make sanitize` goes red for a byte of padding that two runs could
+# differ in.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 if ! command -v clang >/dev/null; then
@@ -38,7 +39,8 @@ int main(void)
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
 END
-    clang -std=c11 -O1 -fsanitize=memory -fno-sanitize-recover=all -include tests/unit/defined_memory.h \
+    clang -std=c11 -O1 -fsanitize=memory -fno-sanitize-recover=all \
+        -include tests/unit/defined_memory.h \
         -o "$folder/compare" "$folder/compare.c" -lcmocka
     "$folder/compare" >"$folder/output" 2>&1
 }
@@ -48,5 +50,6 @@ if compare 'struct padded made;'; then
     echo "padding that nobody set was not seen"
     exit 1
 fi
-grep -q 'Uninitialized bytes in __msan_check_mem_is_initialized at offset 37' "$folder/output" || { cat "$folder/output"; exit 1; }
+grep -q 'Uninitialized bytes in __msan_check_mem_is_initialized at offset 37' "$folder/output" \
+    || { cat "$folder/output"; exit 1; }
 echo "defined memory: 1 seeded fault seen"

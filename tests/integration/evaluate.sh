@@ -1,14 +1,13 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# `evaluate` as a user types it: figures, JSON, the table of targets, rows over time, the picture, what it refuses, large files.
-# Program in $RHOTRACK.
-# Runs beside others.
+# `evaluate` as a user types it: figures, JSON, the table of targets, rows over time, the picture,
+# what it refuses, large files. Program in $RHOTRACK. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-# Target 1: none, track 5 (3 m off), none, track 5 (4 m), track 6 (12 m). Target 2 from 10 s on: track 8, always 5 m off
-# (3, 4); its covariance is 5 m^2 on both axes. Track 9 is nobody's.
+# Target 1: none, track 5 (3 m off), none, track 5 (4 m), track 6 (12 m). Target 2 from 10 s on:
+# track 8, always 5 m off (3, 4); its covariance is 5 m^2 on both axes. Track 9 is nobody's.
 cat >truth.csv <<CSV
 t_s,target_id,x_m,y_m,vx_mps,vy_mps
 0,1,0,0,10,0
@@ -50,9 +49,12 @@ check 'errors of place' json figures \
 # 0 0 1 2 3 4 5
 check 'errors of velocity' json figures \
     'o["median_mps"] == 2 and abs(o["p95_mps"] - 4.7) < 1e-9 and abs(o["rmse_mps"] - (55 / 7) ** .5) < 1e-9'
-check 'NEES where there is a covariance' json figures 'abs(o["nees"] - 5) < 1e-9 and o["nees_inside"] == 1'
-check 'its ratio is over its two axes' json figures 'abs(o["place_ratio"] - 2.5) < 1e-9 and o["velocity_ratio"] is None'
-# a covariance of the velocity of 10 m2/s2 on both axes, at errors of 1 and 3 m/s: .1 and .9 over 2; an error of 2 coasts
+check 'NEES where there is a covariance' json figures \
+    'abs(o["nees"] - 5) < 1e-9 and o["nees_inside"] == 1'
+check 'its ratio is over its two axes' json figures \
+    'abs(o["place_ratio"] - 2.5) < 1e-9 and o["velocity_ratio"] is None'
+# a covariance of the velocity of 10 m2/s2 on both axes, at errors of 1 and 3 m/s: .1 and .9 over 2;
+# an error of 2 coasts
 awk -F, -v OFS=, '{ print $0 (NR == 1 ? ",cov_vx_vx,cov_vy_vx,cov_vy_vy" : $2 == 8 && $1 < 40 ? ",10,0,10" : ",,,") }' \
     tracks.csv >velocity.csv
 run evaluate truth.csv velocity.csv --json
@@ -63,9 +65,11 @@ check 'told apart: the ratio of velocities' json stdout \
     'abs(o["by_motion"]["straight"]["velocity_ratio"] - .45) < 1e-9 and abs(o["by_motion"]["coasting"]["velocity_ratio"] - .2) < 1e-9'
 sed 's/^30,2,5000,0,0,0/30,2,5000,0,0,.3/' truth.csv >turn.csv
 run evaluate turn.csv velocity.csv --json
-check 'a change of velocity by .3 m/s in 10 s is a turn' json stdout 'o["by_motion"]["turning"]["pairs"] == 2 and o["by_motion"]["straight"]["pairs"] == 2'
+check 'a change of velocity by .3 m/s in 10 s is a turn' json stdout \
+    'o["by_motion"]["turning"]["pairs"] == 2 and o["by_motion"]["straight"]["pairs"] == 2'
 run evaluate turn.csv velocity.csv --json --set turning_mps2=.05
-check '... above another limit none' json stdout 'o["by_motion"]["turning"]["pairs"] == 0 and o["by_motion"]["straight"]["pairs"] == 4'
+check '... above another limit none' json stdout \
+    'o["by_motion"]["turning"]["pairs"] == 0 and o["by_motion"]["straight"]["pairs"] == 4'
 run evaluate truth.csv tracks.csv --set turning_mps2=-1
 check 'a limit below 0' says 2 "*turning_mps2*"
 sed '3s/,10,0,10$/,10,0,x/' velocity.csv >bad.csv
@@ -74,12 +78,15 @@ check 'a covariance of the velocity that is none' says 2 'rhotrack: bad.csv:3: *
 check 'GOSPA' json figures 'abs(o["gospa_m"] ** 2 - (3 * 5e5 + 269) / 5) < 1e-6'
 check 'numbers and times' json figures '(o["targets"], o["targets_found"], o["tracks"], o["scans"], o["first_s"], o["last_s"]) == (2, 2, 4, 5, 0, 40)'
 
-check 'by target: both, by identity' json figures '[t["target_id"] for t in o["by_target"]] == [1, 2]'
+check 'by target: both, by identity' json figures \
+    '[t["target_id"] for t in o["by_target"]] == [1, 2]'
 check 'by target: times' json figures '[[t[n] for n in ("first_s", "found_s", "kept_until_s", "last_s")] for t in o["by_target"]] == [[0, 10, 40, 40], [10, 10, 40, 40]]'
 check 'by target: identities' json figures \
     '[(t["scans"], t["completeness"], t["switches"], t["fragments"], t["delay_scans"]) for t in o["by_target"]] == [(5, .6, 1, 1, 1), (4, 1, 0, 0, 0)]'
-check 'by target: errors' json figures '[t["median_m"] for t in o["by_target"]] == [4, 5] and o["by_target"][0]["nees"] is None'
-check 'over time: every scan' json figures '[s["t_s"] for s in o["over_time"]] == [0, 10, 20, 30, 40]'
+check 'by target: errors' json figures \
+    '[t["median_m"] for t in o["by_target"]] == [4, 5] and o["by_target"][0]["nees"] is None'
+check 'over time: every scan' json figures \
+    '[s["t_s"] for s in o["over_time"]] == [0, 10, 20, 30, 40]'
 check 'over time: numbers' json figures \
     '[[s[n] for n in ("targets", "tracks", "pairs", "gospa_missed", "gospa_false")] for s in o["over_time"]] == [[1, 0, 0, 1, 0], [2, 2, 2, 0, 0], [2, 2, 1, 1, 1], [2, 2, 2, 0, 0], [2, 2, 2, 0, 0]]'
 check 'over time: when the identity changed' json figures \
@@ -92,9 +99,11 @@ check 'of a target that is there twice at one time the last row counts' cmp stdo
 # ---- text, rows, picture ----
 
 run evaluate truth.csv tracks.csv
-check 'text: the figures alone' sh -c "test \$(wc -l <stdout) -eq 38 && grep -q '^median_m  *5$' stdout"
+check 'text: the figures alone' sh -c \
+    "test \$(wc -l <stdout) -eq 38 && grep -q '^median_m  *5$' stdout"
 run evaluate truth.csv tracks.csv --by-target
-check 'text: a table of targets behind them' sh -c "grep -Eq '^ +2 +10.0 +40.0 +10.0 +40.0 +1.000 +0 +0 +5.0 ' stdout"
+check 'text: a table of targets behind them' sh -c \
+    "grep -Eq '^ +2 +10.0 +40.0 +10.0 +40.0 +1.000 +0 +0 +5.0 ' stdout"
 run evaluate truth.csv tracks.csv -o over.csv
 cat >expected <<CSV
 t_s,targets,tracks,pairs,gospa_m,gospa_localisation_m,gospa_missed,gospa_false,ospa_m,switches,fragments,rmse_m,rmse_mps,nees,velocity_ratio
@@ -107,14 +116,17 @@ CSV
 check 'rows over time' cmp over.csv expected
 check 'and the figures beside them' grep -q '^gospa_m' stdout
 run evaluate truth.csv tracks.csv -o over.svg --json
-check 'a picture beside JSON, without a word of gnuplot' sh -c "test ! -s stderr && grep -q '</svg>' over.svg && grep -q 'missed targets' over.svg"
+check 'a picture beside JSON, without a word of gnuplot' sh -c \
+    "test ! -s stderr && grep -q '</svg>' over.svg && grep -q 'missed targets' over.svg"
 check 'which is the same' cmp stdout figures
 sed 's/target_id/track_id/' truth.csv >itself.csv
 run evaluate truth.csv itself.csv -o zero.svg
-check 'all GOSPA 0: a picture, too' sh -c "test ! -s stderr && grep -q '</svg>' zero.svg && grep -q '^gospa_m  *0$' stdout"
+check 'all GOSPA 0: a picture, too' sh -c \
+    "test ! -s stderr && grep -q '</svg>' zero.svg && grep -q '^gospa_m  *0$' stdout"
 head -2 truth.csv >single.csv
 run evaluate single.csv <(head -1 tracks.csv) -o single.svg
-check 'one time without a track: a picture, too' sh -c "test ! -s stderr && grep -q '</svg>' single.svg"
+check 'one time without a track: a picture, too' sh -c \
+    "test ! -s stderr && grep -q '</svg>' single.svg"
 awk -F, -v OFS=, 'NR > 1 { $1 += 1790000000 } 1' truth.csv >late_truth.csv
 awk -F, -v OFS=, 'NR > 1 { $1 += 1790000000 } 1' tracks.csv >late.csv
 run evaluate late_truth.csv late.csv -o late.svg
@@ -131,7 +143,8 @@ check 'its own input' says 2 'rhotrack: own.csv: the output cannot be an input'
 check '... is as it was' cmp own.csv tracks.csv
 run evaluate truth.csv tracks.csv -o nowhere/over.csv
 check 'a folder that is not there' exits 1
-# refuses NAME FILE LINE SED: that tracks file line, changed so, is named, and what stood under -o stays.
+# refuses NAME FILE LINE SED: that tracks file line, changed so, is named, and what stood under -o
+# stays.
 refuses() {
     sed "$3$4" tracks.csv >"$2"
     echo 'as it was' >kept.csv
@@ -157,7 +170,8 @@ awk 'BEGIN {
         print 10 * t "," 3 * i "," x + 3 "," y - 4 ",20,1" >"large.csv"
     }
 }'
-in_little_memory() (ulimit -v 300000 && "$program" evaluate large_truth.csv large.csv --json >stdout)
+in_little_memory() (ulimit -v 300000 && "$program" evaluate large_truth.csv large.csv --json \
+    >stdout)
 check 'large files in 300 MB' in_little_memory
 check 'large files: every pair' json stdout \
     'o["pairs"] == 200000 and o["completeness"] == 1 and abs(o["p95_m"] - 5) < 1e-9 and o["median_mps"] == 1 and len(o["by_target"]) == 1000'

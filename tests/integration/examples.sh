@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates/extract_example.sh runs the C blocks of a document, and goes red for one that is wrong.
-# Runs beside others.
+# tools/gates/extract_example.sh runs the C blocks of a document, and goes red for one that is
+# wrong. Runs beside others.
 set -eu
 cd "$(dirname "$0")/../.."
 folder=$(mktemp -d)
@@ -19,12 +19,14 @@ must_fail() { # what, document, the message expected
         echo "extract_example.sh did not see $1"
         exit 1
     fi
-    grep -qF -- "$3" "$folder/output" || { echo "it saw $1, but said:"; cat "$folder/output"; exit 1; }
+    grep -qF -- "$3" "$folder/output" || { echo "it saw $1, but said:"; cat \
+        "$folder/output"; exit 1; }
 }
 
 document 'return rho_status_name(RHO_OK)[0] == 0;' >"$folder/document.md"
 tools/gates/extract_example.sh "$folder/document.md" "$library"
 must_fail 'an example that fails' "$(document 'return 3;')" 'exits with 3'
-must_fail 'a warning, by the line of the document' "$(document 'int unused; return 0;')" 'document.md:9'
+must_fail 'a warning, by the line of the document' "$(document 'int unused; return 0;')" \
+    'document.md:9'
 must_fail 'a document without examples' '# Title' 'no ```c block'
 echo 'extract_example.sh sees what it must'

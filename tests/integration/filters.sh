@@ -1,14 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# RHO_FILTERS: a build with some filters refuses what asks for the others, and gives the full build's bytes of what it has.
-# Runs beside others.
+# RHO_FILTERS: a build with some filters refuses what asks for the others, and gives the full
+# build's bytes of what it has. Runs beside others.
 root=$(realpath "$(dirname "$0")/../..")
 build=$(realpath "${BUILD:-$root/build}")
 # shellcheck source=tests/integration/checks.bash
 . "$root/tests/integration/checks.bash"
 
 lines() { # filters: what such a build says
-    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_FILTERS="$1" -Wall -Wextra -Werror -o filters \
+    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_FILTERS="$1" -Wall -Wextra \
+        -Werror -o filters \
         "$root/tests/integration/filters.c" "$root"/src/tracker/*.c \
         "$build/librhotrack.a" && ./filters
 }
@@ -24,7 +25,8 @@ takes() { # filters, gates it has as a pattern, outcome of frames that start tra
 }
 
 refuses() { # filters
-    ! ${CC:-gcc} -std=c11 -I"$root/include" -DRHO_FILTERS="$1" -fsyntax-only "$root/src/tracker/tracker.c" 2>said &&
+    ! ${CC:-gcc} -std=c11 -I"$root/include" -DRHO_FILTERS="$1" -fsyntax-only \
+        "$root/src/tracker/tracker.c" 2>said &&
         grep -q 'RHO_FILTERS must be 1 .. 7' said
 }
 

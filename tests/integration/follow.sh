@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# track --follow: a file that grows, by whole rows and by half ones; how it ends, and what it refuses.
+# track --follow: a file that grows, by whole rows and by half ones; how it ends, and what it
+# refuses.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
@@ -15,7 +16,8 @@ awk 'BEGIN {
 run track plots.csv -o expected.csv
 rows=$(wc -l <expected.csv)
 
-# follow ARGUMENT...: starts in the background; a shell's background jobs ignore SIGINT, which is to be as typed.
+# follow ARGUMENT...: starts in the background; a shell's background jobs ignore SIGINT, which is to
+# be as typed.
 follow() {
     rm -f out.csv
     env --default-signal=INT "$program" track --follow "$@" >stdout 2>stderr </dev/null &
@@ -64,7 +66,8 @@ check 'the last scan waits' ends_at out.csv 100.000000
 finish_job TERM
 check 'SIGTERM: exit 0' exits 0
 check 'the same rows as track makes of the whole file' cmp expected.csv out.csv
-check 'and the summary' matches "$(cat stderr)" 'rhotrack: 12 scans, 24 plots, 2 tracks confirmed; *'
+check 'and the summary' matches "$(cat stderr)" \
+    'rhotrack: 12 scans, 24 plots, 2 tracks confirmed; *'
 
 follow plots.csv --json -o out.csv --set follow_quiet_s=60
 until_it ends_at out.csv 100.000000
@@ -93,7 +96,8 @@ sleep 0.5
 printf '120,1,12000.00,12000.00\n' >>grow.csv
 sleep 0.6
 finish_job TERM
-check 'rows behind the quiet time are a scan of their own' matches "$(cat stderr)" 'rhotrack: 14 scans, 26 plots, *'
+check 'rows behind the quiet time are a scan of their own' matches "$(cat stderr)" \
+    'rhotrack: 14 scans, 26 plots, *'
 
 { printf 't_s,sensor_id,x_m,y_m,note\n1,1,5,5,"two\n'; } >quoted.csv
 follow quoted.csv --set follow_quiet_s=0.1
@@ -101,7 +105,8 @@ sleep 0.5
 printf 'lines"\n2,1,6,6,\n' >>quoted.csv
 sleep 0.3
 finish_job TERM
-check 'a quoted cell that is not at its end waits' matches "$(cat stderr)" 'rhotrack: 2 scans, 2 plots, *'
+check 'a quoted cell that is not at its end waits' matches "$(cat stderr)" \
+    'rhotrack: 2 scans, 2 plots, *'
 
 # Scans by number come mixed: one is complete when its sensor has begun the second one after it.
 awk -F, 'NR == 1 { print $0 ",scan"; next } { k = int(NR / 2); print $1 + (NR % 2) * 4 "," $2 "," $3 "," $4 "," k }' \
@@ -112,7 +117,8 @@ check 'numbered scans: two behind' until_it ends_at out.csv 90.000000
 finish_job TERM
 check 'and the same rows in the end' cmp expected_numbered.csv out.csv
 
-# A clock that is 6 s ahead: what the other radar sends comes after a pause that is longer than follow_quiet_s.
+# A clock that is 6 s ahead: what the other radar sends comes after a pause that is longer than
+# follow_quiet_s.
 {
     echo t_s,sensor_id,x_m,y_m
     awk -F, 'NR > 1 { print 4 * $1 / 10 "," $1 ",1," $3 "," $4; print 4 * $1 / 10 + 6.1 "," $1 ",2," $3 "," $4 }' plots.csv |
@@ -141,7 +147,8 @@ head -n 1 plots.csv >header.csv
 follow header.csv
 sleep 0.3
 finish_job INT
-check 'a header alone: exit 0' matches "$(cat stdout) $status $(cat stderr)" 't_s,track_id,*,plot 0 rhotrack: 0 scans, 0 plots, *'
+check 'a header alone: exit 0' matches "$(cat stdout) $status $(cat stderr)" \
+    't_s,track_id,*,plot 0 rhotrack: 0 scans, 0 plots, *'
 
 # ---- pipes ----
 status=0
@@ -174,7 +181,8 @@ over() { # name, pattern, COMMAND...
     "${@:3}"
     finish_job
     check "$1: exit 1" exits 1
-    check "$1: it says so" matches "$(tail -n 1 stderr)" "rhotrack: grow.csv $2: it is followed no longer"
+    check "$1: it says so" matches "$(tail -n 1 stderr)" \
+        "rhotrack: grow.csv $2: it is followed no longer"
     check "$1: all rows are there" cmp expected.csv out.csv
 }
 over 'truncated' 'has become shorter' truncate -s 30 grow.csv
@@ -193,12 +201,14 @@ follow grow.csv -o out.csv --set follow_quiet_s=60 --keep-going
 printf '120,1,abc,5\n130,1,17000,6500\n140,1,19000,7000\n' >>grow.csv
 check 'with --keep-going it goes on' until_it ends_at out.csv 130.000000
 finish_job TERM
-check 'and counts it' matches "$(cat stderr)" 'rhotrack: 14 scans, 26 plots, *, 1 bad rows skipped; *'
+check 'and counts it' matches "$(cat stderr)" \
+    'rhotrack: 14 scans, 26 plots, *, 1 bad rows skipped; *'
 cp plots.csv grow.csv
 follow grow.csv -o out.csv --set follow_quiet_s=60
 printf '5,1,1,1\n' >>grow.csv
 finish_job
-check 'a row before those that came' says 2 'rhotrack: grow.csv:26: time goes back from 110.000000 s to 5.000000 s'
+check 'a row before those that came' says 2 \
+    'rhotrack: grow.csv:26: time goes back from 110.000000 s to 5.000000 s'
 
 # ---- refused ----
 printf 't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n0,1,0,0,1\n0,2,100,0,1\n' >bearings.csv

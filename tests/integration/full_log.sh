@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# node --log onto a disk that is full, or that stalls, and standard error into a full pipe: tracks go on,
-# what is not written is counted and said, live too (RHO_WORK), what is written can be read, and SIGTERM
-# ends the node within a second.
+# node --log onto a disk that is full, or that stalls, and standard error into a full pipe: tracks
+# go on, what is not written is counted and said, live too (RHO_WORK), what is written can be read,
+# and SIGTERM ends the node within a second.
 # shellcheck source=tests/integration/loopback.bash
 . "$(dirname "$0")/loopback.bash"
 # shellcheck source=tests/integration/checks.bash
@@ -50,7 +50,8 @@ end_node() {
     took_ms=$(($(date +%s%N) / 1000000 - begin_ms))
 }
 
-# Plays the scene, and ends the node: $status, $took_ms, $steps, $left_out; live: $live_steps, $live_left_out.
+# Plays the scene, and ends the node: $status, $took_ms, $steps, $left_out; live: $live_steps,
+# $live_left_out.
 play() {
     run publish scene/plots.csv --config scene/scenario.ini "${speed[@]}"
     sleep 1.2
@@ -65,12 +66,14 @@ speed=(--speed 15)
 goes_on() { # NAME, exit code
     check "$1: SIGTERM ends the node with $2" exits "$2"
     check "$1: within a second ($took_ms ms)" test "$took_ms" -lt 1000
-    check "$1: tracks went on ($steps steps, $live_steps seen live)" test "$steps" -ge 590 -a "$live_steps" -ge 560
+    check "$1: tracks went on ($steps steps, $live_steps seen live)" test "$steps" -ge 590 -a \
+        "$live_steps" -ge 560
 }
 
 # Whole events and nothing else are in a log; all channels are there.
 can_be_read() { # LOG
-    "$program" convert "$1" read.csv --kind tracks 2>read.err && [ "$(wc -l <read.csv)" -gt 1 ] || return 1
+    "$program" convert "$1" read.csv --kind tracks 2>read.err && [ "$(wc -l <read.csv)" -gt 1 ] \
+        || return 1
     ! grep -E 'cut off|skipped' read.err
 }
 
@@ -80,17 +83,20 @@ play
 goes_on 'a full disk' 1
 why='/dev/full: No space left on device; it goes on without the log'
 check 'it is said once, with the reason' matches "$(grep -c "$why" node.err)" 1
-check "all events are counted ($left_out, live $live_left_out)" test "$left_out" -ge 1700 -a "$live_left_out" -ge 1700
+check "all events are counted ($left_out, live $live_left_out)" test "$left_out" -ge 1700 -a \
+    "$live_left_out" -ge 1700
 
 # ---- a file that may not grow any more: half an event does not stay at its end ----
 rm -f work
-bash -c 'ulimit -f 64 && exec "$0" node "$@"' "$program" --config scene/scenario.ini --set hold_ms=500 --log limited.lcm \
+bash -c 'ulimit -f 64 && exec "$0" node "$@"' "$program" --config scene/scenario.ini \
+    --set hold_ms=500 --log limited.lcm \
     2>node.err </dev/null &
 node=$!
 wait_until 5 test -s work
 play
 goes_on 'a file as long as it may be' 1
-check 'a file as long as it may be: the reason' grep -q 'limited.lcm: File too large; it goes on without the log' node.err
+check 'a file as long as it may be: the reason' grep -q \
+    'limited.lcm: File too large; it goes on without the log' node.err
 check 'and the rest is counted' test "$left_out" -ge 1000
 check 'what is there can be read' can_be_read limited.lcm
 check 'and is no less than an event below the limit' test "$(stat -c %s limited.lcm)" -gt $((65536 - 1500))
@@ -115,14 +121,16 @@ if unshare -m sh -c 'mkdir disk && mount -t tmpfs -o size=64k none disk' 2>/dev/
     status=$(cat code)
     steps=$(sed -n 's/.*; \([0-9]*\) steps,.*/\1/p' node.err)
     goes_on 'a disk that fills up' 1
-    check 'a disk that fills up: the reason' grep -q 'disk/node.lcm: No space left on device' node.err
+    check 'a disk that fills up: the reason' grep -q 'disk/node.lcm: No space left on device' \
+        node.err
     check 'what was written can be read' can_be_read filled.lcm
 else
     echo 'skipped: a disk that fills up: no mounts here'
 fi
 
 # ---- a disk that stalls: a pipe that is held open and never read ----
-# Holds a pipe open, as small as it gets, and never reads; full: filled beforehand. hold.py PIPE DONE [full]
+# Holds a pipe open, as small as it gets, and never reads; full: filled beforehand. hold.py PIPE
+# DONE [full]
 cat >hold.py <<'PYTHON'
 import fcntl, os, sys, time
 pipe = os.open(sys.argv[1], os.O_RDWR)
@@ -141,9 +149,11 @@ goes_on 'a disk that stalls' 0
 check "what did not come out is counted ($left_out)" test "$left_out" -ge 1000
 start --log pipe
 speed=(--speed 60 --loop)
-timeout -s INT 12 "$program" publish scene/plots.csv --config scene/scenario.ini "${speed[@]}" 2>/dev/null &
+timeout -s INT 12 "$program" publish scene/plots.csv --config scene/scenario.ini \
+    "${speed[@]}" 2>/dev/null &
 player=$!
-check 'once the queue is full, events are left out, and RHO_WORK says so' wait_until 12 grep -q ' [1-9]' work
+check 'once the queue is full, events are left out, and RHO_WORK says so' wait_until 12 grep -q \
+    ' [1-9]' work
 kill -INT "$player" 2>/dev/null
 why='pipe: the disk takes no more; events are left out, tracks go on'
 check 'it is said once' matches "$(grep -c "$why" node.err)" 1
@@ -162,7 +172,8 @@ check 'it is said' grep -q 'nobody: does not open; tracks go on' node.err
 # ---- a record waits for its log, until the node is told to end ----
 "$program" simulate range-24ghz -o long --set duration_s=400 >/dev/null
 "$program" convert long/plots.csv long.lcm 2>/dev/null
-"$program" node --lcm 'file://long.lcm?speed=0' --config scene/scenario.ini --log pipe 2>node.err </dev/null &
+"$program" node --lcm 'file://long.lcm?speed=0' --config scene/scenario.ini \
+    --log pipe 2>node.err </dev/null &
 node=$!
 sleep 4
 check 'a record waits for its log' kill -0 "$node"

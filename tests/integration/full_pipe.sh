@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# node --print into a pipe that nobody reads: tracks go on, what is not printed is counted, SIGTERM ends it at once.
+# node --print into a pipe that nobody reads: tracks go on, what is not printed is counted, SIGTERM
+# ends it at once.
 # shellcheck source=tests/integration/loopback.bash
 . "$(dirname "$0")/loopback.bash"
 # shellcheck source=tests/integration/checks.bash
@@ -13,7 +14,8 @@ python3 -c 'import fcntl, os, time; fcntl.fcntl(os.open("pipe", os.O_RDWR), 1031
 holder=$!
 trap 'kill "$holder" 2>/dev/null; rm -rf "$folder"' EXIT
 wait_until 10 test -e held
-"$program" node --print --log node.lcm --config scene/scenario.ini --set hold_ms=500 >pipe 2>node.err </dev/null &
+"$program" node --print --log node.lcm --config scene/scenario.ini --set hold_ms=500 \
+    >pipe 2>node.err </dev/null &
 node=$!
 wait_until 5 test -s node.lcm # its first status
 run publish scene/plots.csv --config scene/scenario.ini --speed 6

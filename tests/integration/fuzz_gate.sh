@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# `make fuzz` can fail: each defect seeded in the codec, a reader or the tracker is found within 20 s,
-# a hang too, and all pass as they are.
+# `make fuzz` can fail: each defect seeded in the codec, a reader or the tracker is found within 20
+# s, a hang too, and all pass as they are.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=${BUILD:-build}
@@ -32,7 +32,8 @@ wraps=$(grep -o '__wrap_[a-z_]*' tests/fuzz/refusal.c | sort -u | sed 's/__wrap_
 # The other parts are the program's own objects.
 # shellcheck disable=SC2086
 build_of_program() { # target, file of the program
-    clang $flags -Itools/rhotrack/scene -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/$1" "tests/fuzz/$1.c" \
+    clang $flags -Itools/rhotrack/scene -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/$1" \
+        "tests/fuzz/$1.c" \
         tests/fuzz/refusal.c "$2" "$folder/program.a" "$build/workstation/librhotrack.a" \
         -lcsv -linih -lcjson -lproj -pthread -lm
 }
@@ -80,14 +81,18 @@ seeded() { # target, file, what is wrong, sed expression that makes it so
 must_find() { seeded fuzz_message src/wire/message_codec.c "$@"; } # what is wrong, sed expression
 
 must_find 'decode takes any count' 's/if \(\*count > format->max\)/if (0)/'
-must_find 'decode takes one element too many' 's/if \(\*count > format->max\)/if (*count > format->max + 1u)/'
-must_find 'decode takes short messages' 's/size - head < rest \? RHO_ERROR_SHORT/0 ? RHO_ERROR_SHORT/'
+must_find 'decode takes one element too many' \
+    's/if \(\*count > format->max\)/if (*count > format->max + 1u)/'
+must_find 'decode takes short messages' \
+    's/size - head < rest \? RHO_ERROR_SHORT/0 ? RHO_ERROR_SHORT/'
 must_find 'decode does not look whether the head is there' 's/if \(size < head\)/if (0)/'
-must_find 'decode takes trailing bytes' 's/size - head > rest \? RHO_ERROR_TRAILING/0 ? RHO_ERROR_TRAILING/'
+must_find 'decode takes trailing bytes' \
+    's/size - head > rest \? RHO_ERROR_TRAILING/0 ? RHO_ERROR_TRAILING/'
 must_find 'encode takes any count' 's/return RHO_ERROR_COUNT;$/(void)0;/'
 must_find 'validate takes any count' 's/if \(count < 0 \|\| count > format->max\)/if (0)/'
 must_find 'add goes beyond the list' 's/writer->count >= format->max/0/'
-must_find 'add goes beyond the buffer' 's/writer->capacity - writer->size < format->element.wire_bytes/0/'
+must_find 'add goes beyond the buffer' \
+    's/writer->capacity - writer->size < format->element.wire_bytes/0/'
 
 must_pass() { # target, file
     if "build_${1#fuzz_}" "$2" && fuzz "$1" 5; then
@@ -100,7 +105,8 @@ must_pass() { # target, file
 # A target that hangs fails, and the others are still run.
 printf '#!/bin/bash\ntrap "" TERM\nwhile :; do sleep 1; done\n' >"$folder/fuzz_hangs"
 chmod +x "$folder/fuzz_hangs"
-if FUZZ_GRACE_SECONDS=1 fuzz fuzz_hangs 1 || ! grep -q '^FAIL fuzz_hangs: exit 137' "$folder/output"; then
+if FUZZ_GRACE_SECONDS=1 fuzz fuzz_hangs 1 || ! grep -q '^FAIL fuzz_hangs: exit 137' \
+    "$folder/output"; then
     missed 'a target that hangs: not told'
 else
     found 'a target that hangs: told'
@@ -123,16 +129,20 @@ ar rcs "$folder/small.a" "$folder"/small/*.o
 
 tracker_must_find() { seeded fuzz_tracker_small "$@"; } # file, what is wrong, sed expression
 
-tracker_must_find src/tracker/tracker.c 'a fate that is not counted' 's/(NO_ROOM\] \+= others);/\1 - (others > 2);/'
+tracker_must_find src/tracker/tracker.c 'a fate that is not counted' \
+    's/(NO_ROOM\] \+= others);/\1 - (others > 2);/'
 tracker_must_find src/tracker/tracker.c 'a covariance that is none' \
     's/^(    memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += 9.0f * (out->covariance[0] + out->covariance[2]);/'
 tracker_must_find src/tracker/tracker.c 'a scan that is too late, and changes the density' \
     's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
-tracker_must_find src/tracker/life_cycle.c 'an end that is not told' 's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
-tracker_must_find src/tracker/life_cycle.c 'an identity that comes again' 's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
+tracker_must_find src/tracker/life_cycle.c 'an end that is not told' \
+    's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
+tracker_must_find src/tracker/life_cycle.c 'an identity that comes again' \
+    's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_spent\(search\) > search->limit_units;/return 0;/'
-tracker_must_find src/bearings/batch_validate.c 'a batch that is unsound for its times' 's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
+tracker_must_find src/bearings/batch_validate.c 'a batch that is unsound for its times' \
+    's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
 must_pass fuzz_tracker_small src/tracker/tracker.c
 
 objects=$(find "$build/program/tools/rhotrack" -name '*.o' ! -name main.o 2>/dev/null)
@@ -143,9 +153,12 @@ else
     ar rcs "$folder/program.a" $objects "$build/program/scenes.o"
     seeded fuzz_config tools/rhotrack/settings/parameters.c 'parameters beyond their limits' \
         's/number < text->min \|\| number > text->max/0/'
-    seeded fuzz_scene tools/rhotrack/scene/scene_read.c 'a scene whose text is not given back' 's/^    free\(text\);$//'
-    seeded fuzz_tables tools/rhotrack/io/csv/row_check.c 'numbers beyond their limits' 's/number < min \|\| number > max/0/'
-    seeded fuzz_tables tools/rhotrack/io/csv/table.c 'a table that is not given back' 's/free\(table->text\);//'
+    seeded fuzz_scene tools/rhotrack/scene/scene_read.c 'a scene whose text is not given back' \
+        's/^    free\(text\);$//'
+    seeded fuzz_tables tools/rhotrack/io/csv/row_check.c 'numbers beyond their limits' \
+        's/number < min \|\| number > max/0/'
+    seeded fuzz_tables tools/rhotrack/io/csv/table.c 'a table that is not given back' \
+        's/free\(table->text\);//'
     must_pass fuzz_tables tools/rhotrack/io/csv/table.c
 fi
 echo "$passed passed, $failed failed"

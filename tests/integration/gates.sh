@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates/gates.py passes on a clean little library, and goes red for each thing that it forbids, with file and function.
+# tools/gates/gates.py passes on a clean little library, and goes red for each thing that it
+# forbids, with file and function.
 set -eu
 cd "$(dirname "$0")/../.."
 BUILD=$(mktemp -d)
@@ -29,7 +30,8 @@ must_fail() { # what, targets, source, the finding expected
         echo "gates.py did not see $1"
         exit 1
     fi
-    grep -qF -- "$4" "$BUILD/output" || { echo "gates.py saw $1, but said:"; cat "$BUILD/output"; exit 1; }
+    grep -qF -- "$4" "$BUILD/output" || { echo "gates.py saw $1, but said:"; cat \
+        "$BUILD/output"; exit 1; }
     faults=$((faults + 1))
 }
 
@@ -49,9 +51,11 @@ void rho_say(int n) { printf("%d", n); }' 'src/base/sample.c:2: rho_say: calls p
 must_fail 'errno' m4f '#include <errno.h>
 int rho_last(void) { return errno; }' 'src/base/sample.c:2: rho_last: calls __errno (errno)'
 must_fail 'a constant without f, soft float' m0plus \
-    'float rho_f(float v) { return v * 0.1; }' 'src/base/sample.c:1: rho_f: calls __aeabi_dmul (double arithmetic)'
+    'float rho_f(float v) { return v * 0.1; }' \
+    'src/base/sample.c:1: rho_f: calls __aeabi_dmul (double arithmetic)'
 must_fail 'a constant without f, single precision in hardware' m4f \
-    'float rho_f(float v) { return v * 0.1; }' 'src/base/sample.c:1: rho_f: calls __aeabi_f2d (double arithmetic)'
+    'float rho_f(float v) { return v * 0.1; }' \
+    'src/base/sample.c:1: rho_f: calls __aeabi_f2d (double arithmetic)'
 must_fail 'a float made of 64 bits' m0plus,m4f '#include <stdint.h>
 float rho_f(int64_t v) { return (float)v; }' 'src/base/sample.c:2: rho_f: calls __aeabi_l2f (float and 64 bits'
 must_fail '64 bits made of a float' m4f '#include <stdint.h>
@@ -69,10 +73,13 @@ int rho_f(void) { return level; }' "src/base/sample.c: refers to level (not the 
 must_fail 'a counter of its own' m4f 'static int count;
 int rho_next(void) { return ++count; }' 'src/base/sample.c: count: mutable global'
 must_fail 'a static in a function' m4f \
-    'int rho_next(void) { static int last = 3; return ++last; }' 'src/base/sample.c: last.0: mutable global'
-must_fail 'a public variable' m4f 'int rho_level = 3;' 'src/base/sample.c: rho_level: mutable global'
+    'int rho_next(void) { static int last = 3; return ++last; }' \
+    'src/base/sample.c: last.0: mutable global'
+must_fail 'a public variable' m4f 'int rho_level = 3;' \
+    'src/base/sample.c: rho_level: mutable global'
 must_fail 'recursion' m4f \
-    'int rho_f(int n) { return n < 2 ? 1 : rho_f(n - 1) + rho_f(n - 2); }' 'src/base/sample.c:1: rho_f: recursion: rho_f > rho_f'
+    'int rho_f(int n) { return n < 2 ? 1 : rho_f(n - 1) + rho_f(n - 2); }' \
+    'src/base/sample.c:1: rho_f: recursion: rho_f > rho_f'
 tail='int rho_f(int n, int sum) { return n == 0 ? sum : rho_f(n - 1, sum + n); }'
 must_fail 'recursion that -Os makes a loop' m4f "$tail" 'rho_f > rho_f [Cortex-M4F -O0]'
 must_fail 'two functions that call each other' m4f 'int rho_g(int n);
@@ -83,6 +90,7 @@ int rho_f(int n) { char room[n]; rho_fill(room, n); return room[0]; }' 'src/base
 must_fail 'alloca' m4f 'void rho_fill(char *at, int n);
 void rho_f(int n) { rho_fill(__builtin_alloca((unsigned)n), n); }' 'src/base/sample.c:2: rho_f: frame grows at run time'
 must_fail 'a function pointer' m4f \
-    'int rho_f(int (*of)(int), int n) { return of(n) + 1; }' 'src/base/sample.c:1: rho_f: calls by a pointer'
+    'int rho_f(int (*of)(int), int n) { return of(n) + 1; }' \
+    'src/base/sample.c:1: rho_f: calls by a pointer'
 must_fail 'code that does not compile' m4f 'int rho_f(' 'src/base/sample.c:1'
 echo "gates.py: $faults seeded faults seen"

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Latitudes, longitudes and heights: plots, truth and radars on the earth, slant ranges with heights, maps.
-# Runs beside others.
+# Latitudes, longitudes and heights: plots, truth and radars on the earth, slant ranges with
+# heights, maps. Runs beside others.
 scene=$(realpath "$(dirname "$0")/geodetic.py")
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
@@ -30,41 +30,49 @@ END
 cat origin.ini places.ini >places_m.ini
 
 # ---- plots and truth ----
-# Plots are exact, with 10 m claimed: tracks lag some metres behind paths that bend with the earth. A wrong frame is off by hundreds.
+# Plots are exact, with 10 m claimed: tracks lag some metres behind paths that bend with the earth.
+# A wrong frame is off by hundreds.
 track() { run track "$1.csv" --config "$2" -o "$1.tracks.csv"; } # name, parameters
 judge() { run evaluate "$1" "$2" --config origin.ini --json; }   # truth, tracks
 
-awk -F, 'NR == 1 || $2 == 1' ground.csv >ground1.csv && mv ground1.csv ground.csv # which two radars put in two places
+# which two radars put in two places
+awk -F, 'NR == 1 || $2 == 1' ground.csv >ground1.csv && mv ground1.csv ground.csv
 for name in plots plots_m level polar heights ground; do
     case $name in
     plots | plots_m | level) track $name origin.ini ;;
     *) track $name radars.ini ;;
     esac
-    check "$name: four tracks" grep -q ' 4 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room' stderr
+    check "$name: four tracks" grep -q ' 4 tracks confirmed; lost: 0 invalid, 0 stale, 0 no room' \
+        stderr
 done
 for truth in truth.csv truth_m.csv; do
     for name in plots plots_m; do
         judge $truth $name.tracks.csv
         # the filter's own errors are 0.7 m: it takes the earth's curvature, 0.01 m/s^2, for noise
-        check "$name by $truth: on the truth" json stdout 'o["targets_found"] == 4 and o["rmse_m"] < 5'
+        check "$name by $truth: on the truth" json stdout \
+            'o["targets_found"] == 4 and o["rmse_m"] < 5'
     done
     judge $truth heights.tracks.csv
-    check "heights by $truth: on the truth" json stdout 'o["targets_found"] == 4 and o["rmse_m"] < 5'
+    check "heights by $truth: on the truth" json stdout \
+        'o["targets_found"] == 4 and o["rmse_m"] < 5'
     judge $truth polar.tracks.csv
     check "polar by $truth: on the truth" json stdout 'o["targets_found"] == 4 and o["rmse_m"] < 5'
 done
 judge level_truth.csv level.tracks.csv
-check 'without heights: on the truth without heights' json stdout 'o["targets_found"] == 4 and o["rmse_m"] < 5'
+check 'without heights: on the truth without heights' json stdout \
+    'o["targets_found"] == 4 and o["rmse_m"] < 5'
 # slant ranges taken as ground ranges
 judge level_truth.csv ground.tracks.csv
-check 'polar without heights: near it' json stdout 'o["targets_found"] == 4 and 100 < o["rmse_m"] < 700'
+check 'polar without heights: near it' json stdout \
+    'o["targets_found"] == 4 and 100 < o["rmse_m"] < 700'
 # ---- the origin on the date line, and longitudes beyond 180 ----
 shift_lon() { awk -F, -v OFS=, -v by="$1" -v wrap="$2" 'NR > 1 { $4 += by; if (wrap && $4 > 180) $4 -= 360
     $4 = sprintf("%.9f", $4) } 1' plots.csv; }
 sed 's/origin_lon_deg = 10/origin_lon_deg = 179.93/' origin.ini >line.ini
 shift_lon 169.93 1 >wrapped.csv
 shift_lon 169.93 0 >onward.csv
-check 'the plots lie on both sides of the date line' bash -c "cut -d, -f4 wrapped.csv | grep -q '^-179' && cut -d, -f4 wrapped.csv | grep -q '^179'"
+check 'the plots lie on both sides of the date line' bash -c \
+    "cut -d, -f4 wrapped.csv | grep -q '^-179' && cut -d, -f4 wrapped.csv | grep -q '^179'"
 run track wrapped.csv --config line.ini -o wrapped.tracks.csv
 check 'the date line is no line' cmp plots.tracks.csv wrapped.tracks.csv
 run track onward.csv --config line.ini -o onward.tracks.csv
@@ -79,7 +87,8 @@ check 'a place in metres: azimuths are not turned, horizons not tilted' json std
     'o["targets_found"] == 0 or o["rmse_m"] > 300'
 run track turned.csv --config places_m.ini -o turned.tracks.csv
 judge truth.csv turned.tracks.csv
-check 'a place in metres, azimuths of the local frame, heights above the ellipsoid: on the truth' json stdout \
+check 'a place in metres, azimuths of the local frame, heights above the ellipsoid: on the truth' \
+    json stdout \
     'o["targets_found"] == 4 and o["rmse_m"] < 5'
 run config --config radars.ini
 check 'config shows the place in metres, too' grep -q '^sensor.1.x_m .* 70[0-9][0-9][0-9]' stdout
@@ -90,10 +99,12 @@ for name in plots polar heights; do
     check "$name: to a log" exits 0
     run track $name.lcm --config radars.ini -o $name.log.csv
     judge truth.csv $name.log.csv
-    check "$name: tracks of the log are on the truth" json stdout 'o["targets_found"] == 4 and o["rmse_m"] < 5'
+    check "$name: tracks of the log are on the truth" json stdout \
+        'o["targets_found"] == 4 and o["rmse_m"] < 5'
 done
 run convert plots.lcm back.csv
-check 'and back: places in metres, to float32' bash -c "[ \"\$(python3 '$scene' plots back.csv | cut -c1-4)\" = 0.00 ]"
+check 'and back: places in metres, to float32' bash -c \
+    "[ \"\$(python3 '$scene' plots back.csv | cut -c1-4)\" = 0.00 ]"
 run convert truth.csv truth.lcm --config origin.ini
 judge truth.lcm plots.tracks.csv
 check 'truth: to a log, and evaluated' json stdout 'o["targets_found"] == 4 and o["rmse_m"] < 5'
@@ -105,12 +116,14 @@ check 'plot draws them' grep -q '</svg>' picture.svg
 run initiate plots.csv --config origin.ini
 cp stdout initiated
 run initiate plots_m.csv --config origin.ini
-check 'initiate takes them: as many tracks as in metres' test "$(wc -l <initiated)" -eq "$(wc -l <stdout)"
+check 'initiate takes them: as many tracks as in metres' test "$(wc -l <initiated)" -eq \
+    "$(wc -l <stdout)"
 run maintain heights.csv --config radars.ini
 check 'maintain takes them' exits 0
 
 # ---- a node says where its frame is ----
-run node --lcm 'file://plots.lcm?speed=0' --config origin.ini --set range_max_m=100000 --log said.lcm
+run node --lcm 'file://plots.lcm?speed=0' --config origin.ini --set range_max_m=100000 \
+    --log said.lcm
 check 'a node: origin in RHO_STATUS' python3 -c '
 import struct
 log = open("said.lcm", "rb").read()
@@ -122,7 +135,8 @@ assert origin == (500000000, 100000000, 100000), origin'
 # ---- a flat earth: without origin, with heights ----
 printf 't_s,sensor_id,range_m,azimuth_deg,alt_m,sensor_x_m,sensor_y_m,sensor_z_m\n1,1,5000,90,3100,1000,2000,100\n' >flat.csv
 run maintain flat.csv
-check 'flat: the ground range of a slant range and a height' matches "$(sed -n 2p stdout | cut -d, -f4-6)" '5000.1*,2000*,3100*'
+check 'flat: the ground range of a slant range and a height' matches \
+    "$(sed -n 2p stdout | cut -d, -f4-6)" '5000.1*,2000*,3100*'
 
 # ---- noise ----
 noisy() { run maintain one.csv --config origin.ini "$@"; }
@@ -145,7 +159,8 @@ check 'a line and a place for each of four tracks' json map.geojson \
     '[f["geometry"]["type"] for f in o["features"]] == 4 * ["LineString", "Point"] and o["type"] == "FeatureCollection"'
 # farthest of all points; a path that bends with the earth is followed so much late
 read -r ground height <<<"$(python3 "$scene" map map.geojson)"
-check 'the lines are where the aircraft were' awk -v g="$ground" -v h="$height" 'BEGIN { exit !(g < 3 && h < 3) }'
+check 'the lines are where the aircraft were' awk -v g="$ground" -v h="$height" \
+    'BEGIN { exit !(g < 3 && h < 3) }'
 check 'what a place says' json map.geojson '(lambda p: p["track_id"] == 1 and p["kind"] == "place" and p["status"] == "confirmed"
     and p["t_s"] == 116 and abs(p["speed_mps"] - 132.2) < 0.2 and abs(p["heading_deg"] - 40.7) < 0.2
     and abs(p["climb_mps"]) < 0.2 and p["hits"] == 30 and not p["is_over"])(o["features"][1]["properties"])'
@@ -164,7 +179,8 @@ check 'lines are cut at longitude 180' json line.geojson \
     'any(f["geometry"]["type"] == "MultiLineString" for f in o["features"]) and all(abs(a[0] - b[0]) < 1
     for f in o["features"] if f["geometry"]["type"] == "MultiLineString" for l in f["geometry"]["coordinates"] for a, b in zip(l, l[1:]))'
 run maintain heights.csv --config radars.ini -o one.geojson
-check 'maintain writes one, too' json one.geojson '[f["properties"]["kind"] for f in o["features"]] == ["track", "place"]'
+check 'maintain writes one, too' json one.geojson \
+    '[f["properties"]["kind"] for f in o["features"]] == ["track", "place"]'
 printf 't_s,sensor_id,lat_deg,lon_deg\n1,1,50,10\n2,1,,\n' >two.csv
 run track two.csv --config origin.ini -o none.geojson
 check 'without a track: a map without features' json none.geojson 'o["features"] == []'
@@ -191,28 +207,45 @@ earth='t_s,sensor_id,lat_deg,lon_deg,alt_m\n1,1,50,10,0\n'
 slant='t_s,sensor_id,range_m,azimuth_deg,alt_m\n1,1,50000,10,5000\n'
 with=(--config radars.ini)
 refuse 'no origin' "1: column 'lat_deg': origin_lat_deg and origin_lon_deg are not set*" "$earth"
-refuse 'no origin of a radar' "1: column 'sensor_lat_deg': origin_lat_deg and*" 't_s,sensor_id,range_m,azimuth_deg,sensor_lat_deg,sensor_lon_deg\n1,1,5,5,50,10\n'
-refuse 'a latitude beyond a pole' '3: lat_deg 90.1 is outside -90 .. 90' "${earth}2,1,90.1,10,0\n" "${with[@]}"
-refuse 'a longitude beyond a turn' '3: lon_deg 360.5 is outside -180 .. 360' "${earth}2,1,50,360.5,0\n" "${with[@]}"
-refuse 'a longitude below -180' '3: lon_deg -180.5 is outside -180 .. 360' "${earth}2,1,50,-180.5,0\n" "${with[@]}"
-refuse 'a height beyond reason' '3: alt_m 2000000 is outside -10000 .. 1000000' "${earth}2,1,50,10,2000000\n" "${with[@]}"
+refuse 'no origin of a radar' "1: column 'sensor_lat_deg': origin_lat_deg and*" \
+    't_s,sensor_id,range_m,azimuth_deg,sensor_lat_deg,sensor_lon_deg\n1,1,5,5,50,10\n'
+refuse 'a latitude beyond a pole' '3: lat_deg 90.1 is outside -90 .. 90' "${earth}2,1,90.1,10,0\n" \
+    "${with[@]}"
+refuse 'a longitude beyond a turn' '3: lon_deg 360.5 is outside -180 .. 360' \
+    "${earth}2,1,50,360.5,0\n" "${with[@]}"
+refuse 'a longitude below -180' '3: lon_deg -180.5 is outside -180 .. 360' \
+    "${earth}2,1,50,-180.5,0\n" "${with[@]}"
+refuse 'a height beyond reason' '3: alt_m 2000000 is outside -10000 .. 1000000' \
+    "${earth}2,1,50,10,2000000\n" "${with[@]}"
 refuse 'no number' "3: lat_deg 'fifty' is not a number" "${earth}2,1,fifty,10,0\n" "${with[@]}"
 refuse 'half a place' '3: lon_deg is empty' "${earth}2,1,50,,0\n" "${with[@]}"
 refuse 'a height alone' '3: lat_deg is empty' "${earth}2,1,,,7000\n" "${with[@]}"
-refuse 'too far away' '3: lat_deg 10, 10 is * km from the origin, farther than 2000 km' "${earth}2,1,10,10,0\n" "${with[@]}"
-refuse 'two places' "1: both 'lat_deg' and 'x_m' are there" 't_s,sensor_id,x_m,y_m,lat_deg,lon_deg\n1,1,1,1,50,10\n' "${with[@]}"
-refuse 'two heights' "1: both 'lat_deg' and 'z_m' are there" 't_s,sensor_id,lat_deg,lon_deg,z_m\n1,1,50,10,5\n' "${with[@]}"
-refuse 'a latitude alone' "1: no column 'lon_deg' beside 'lat_deg'" 't_s,sensor_id,lat_deg\n1,1,50\n' "${with[@]}"
-refuse 'metres and a height above the ellipsoid' "1: no column 'lat_deg' beside 'alt_m'" 't_s,sensor_id,x_m,y_m,alt_m\n1,1,50,10,5\n' "${with[@]}"
-refuse 'polar plots with places' "1: both 'range_m' and 'lat_deg' are there" 't_s,sensor_id,range_m,azimuth_deg,lat_deg,lon_deg\n1,1,50,10,5,5\n' "${with[@]}"
-refuse 'two sources of heights' "1: both 'alt_m' and 'elevation_deg' are there" 't_s,sensor_id,range_m,azimuth_deg,alt_m,elevation_deg\n1,1,50,10,5,5\n' "${with[@]}"
+refuse 'too far away' '3: lat_deg 10, 10 is * km from the origin, farther than 2000 km' \
+    "${earth}2,1,10,10,0\n" "${with[@]}"
+refuse 'two places' "1: both 'lat_deg' and 'x_m' are there" \
+    't_s,sensor_id,x_m,y_m,lat_deg,lon_deg\n1,1,1,1,50,10\n' "${with[@]}"
+refuse 'two heights' "1: both 'lat_deg' and 'z_m' are there" \
+    't_s,sensor_id,lat_deg,lon_deg,z_m\n1,1,50,10,5\n' "${with[@]}"
+refuse 'a latitude alone' "1: no column 'lon_deg' beside 'lat_deg'" \
+    't_s,sensor_id,lat_deg\n1,1,50\n' "${with[@]}"
+refuse 'metres and a height above the ellipsoid' "1: no column 'lat_deg' beside 'alt_m'" \
+    't_s,sensor_id,x_m,y_m,alt_m\n1,1,50,10,5\n' "${with[@]}"
+refuse 'polar plots with places' "1: both 'range_m' and 'lat_deg' are there" \
+    't_s,sensor_id,range_m,azimuth_deg,lat_deg,lon_deg\n1,1,50,10,5,5\n' "${with[@]}"
+refuse 'two sources of heights' "1: both 'alt_m' and 'elevation_deg' are there" \
+    't_s,sensor_id,range_m,azimuth_deg,alt_m,elevation_deg\n1,1,50,10,5,5\n' "${with[@]}"
 refuse 'a radar in two places' "1: both 'sensor_lat_deg' and 'sensor_x_m' are there" 't_s,sensor_id,range_m,azimuth_deg,sensor_x_m,sensor_y_m,sensor_lat_deg,sensor_lon_deg\n1,1,50,10,5,5,5,5\n' "${with[@]}"
-refuse 'a height above the range' '3: alt_m 20000 differs from the radar'"'"'s height by more than range_m 9000' "${slant}2,1,9000,10,20000\n" "${with[@]}"
-refuse 'the same on a flat earth' '3: alt_m 20000 differs from the radar'"'"'s height by more than range_m 9000' "${slant}2,1,9000,10,20000\n"
+refuse 'a height above the range' \
+    '3: alt_m 20000 differs from the radar'"'"'s height by more than range_m 9000' \
+    "${slant}2,1,9000,10,20000\n" "${with[@]}"
+refuse 'the same on a flat earth' \
+    '3: alt_m 20000 differs from the radar'"'"'s height by more than range_m 9000' \
+    "${slant}2,1,9000,10,20000\n"
 # shellcheck disable=SC2059
 printf "${slant}2,1,9000,10,20000\n3,1,50000,10,5000\n" >bad.csv
 run track bad.csv "${with[@]}" --keep-going -o kept.csv
-check 'or skipped and counted' bash -c "[ $status -eq 0 ] && grep -q '2 scans, 2 plots, .*, 1 bad rows skipped' stderr"
+check 'or skipped and counted' bash -c \
+    "[ $status -eq 0 ] && grep -q '2 scans, 2 plots, .*, 1 bad rows skipped' stderr"
 printf 't_s,target_id,lat_deg,lon_deg\n1,1,50,10\n1,2,50,\n' >bad.csv
 run evaluate bad.csv plots.tracks.csv --config origin.ini
 check 'evaluate: a bad place' says 2 'rhotrack: bad.csv:3: lon_deg is empty'
@@ -230,20 +263,28 @@ set_refuse() { # name, pattern, options...
     check "$name" says 2 "rhotrack: $pattern"
 }
 set_refuse 'half an origin' 'origin_lat_deg is set without origin_lon_deg' --set origin_lat_deg=50
-set_refuse 'a radar without an origin' 'sensor 3: lat_deg and lon_deg: origin_lat_deg and origin_lon_deg are not set*' --set sensor.3.lat_deg=50 --set sensor.3.lon_deg=10
-set_refuse 'half a radar' 'sensor 3: lat_deg, lon_deg and alt_m go together: lon_deg is not set' --set sensor.3.lat_deg=50 --config origin.ini
-set_refuse 'a radar in two places, by parameters' 'sensor 3: its place is said twice*' --set sensor.3.lat_deg=50 --set sensor.3.lon_deg=10 --set sensor.3.x_m=5 --config origin.ini
-set_refuse 'a radar too far away' 'sensor 3: lat_deg and lon_deg are more than 2000 km from the origin' --set sensor.3.lat_deg=0 --set sensor.3.lon_deg=10 --config origin.ini
+set_refuse 'a radar without an origin' \
+    'sensor 3: lat_deg and lon_deg: origin_lat_deg and origin_lon_deg are not set*' \
+    --set sensor.3.lat_deg=50 --set sensor.3.lon_deg=10
+set_refuse 'half a radar' 'sensor 3: lat_deg, lon_deg and alt_m go together: lon_deg is not set' \
+    --set sensor.3.lat_deg=50 --config origin.ini
+set_refuse 'a radar in two places, by parameters' 'sensor 3: its place is said twice*' \
+    --set sensor.3.lat_deg=50 --set sensor.3.lon_deg=10 --set sensor.3.x_m=5 --config origin.ini
+set_refuse 'a radar too far away' \
+    'sensor 3: lat_deg and lon_deg are more than 2000 km from the origin' --set sensor.3.lat_deg=0 \
+    --set sensor.3.lon_deg=10 --config origin.ini
 
 run track plots_m.csv -o out.geojson
-check 'a map without an origin' says 2 'rhotrack: GeoJSON has latitudes and longitudes: origin_lat_deg and origin_lon_deg are not set*'
+check 'a map without an origin' says 2 \
+    'rhotrack: GeoJSON has latitudes and longitudes: origin_lat_deg and origin_lon_deg are not set*'
 check 'no output' test ! -e out.geojson
 run track plots.csv --config origin.ini --covariance -o out.geojson
 check 'a map with covariances' says 2 'rhotrack: out.geojson: --covariance has no place in GeoJSON'
 run track plots.csv --config origin.ini --follow -o out.geojson
 check 'a map that is followed' says 2 'rhotrack: out.geojson: GeoJSON is complete at the end alone*'
 run initiate plots.csv --config origin.ini -o out.geojson
-check 'a map of initiated tracks' grep -q 'rhotrack: out.geojson: initiate writes CSV files and LCM logs' stderr
+check 'a map of initiated tracks' grep -q \
+    'rhotrack: out.geojson: initiate writes CSV files and LCM logs' stderr
 run convert plots.csv out.geojson --config origin.ini
 check 'a map of plots' says 2 'rhotrack: plots.csv: these are plots; GeoJSON is made of tracks'
 run convert tracks.lcm out.geojson --kind plots --config origin.ini

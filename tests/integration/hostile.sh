@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# 2000 hostile datagrams a second beside a radar's: the tracker lives, counts them, and steps every scan of the radar.
+# 2000 hostile datagrams a second beside a radar's: the tracker lives, counts them, and steps every
+# scan of the radar.
 # shellcheck source=tests/integration/network.bash
 . "$(dirname "$0")/network.bash"
 here=$(realpath "$(dirname "$0")")
@@ -45,7 +46,8 @@ cat sent node.err
 sent_of() { sed -n "s/^$1=//p" sent; }
 read_status node.lcm
 check 'the rate was kept' test "$(sent_of total)" -ge 12000
-check 'what is no LCM is refused and counted' test "$(status_of fragments_refused)" -ge "$(sent_of refused)"
+check 'what is no LCM is refused and counted' test "$(status_of fragments_refused)" -ge \
+    "$(sent_of refused)"
 check 'other contents are counted' test \
     $(($(status_of messages_bad) + $(status_of messages_wrong_type) + $(status_of scans_bad) + $(status_of scans_duplicate))) \
     -ge "$(sent_of mutated)"
@@ -65,5 +67,6 @@ check 'no scan of the radar is lost' matches "$(cat steps)" '100 0'
 grep -v ,tentative, expected.csv | cut -d, -f1,4-9 >expected
 "$program" convert node.lcm got.csv --kind tracks 2>convert.err
 grep -v ,tentative, got.csv | cut -d, -f1,4-9 >got
-check 'its tracks are those of the radar alone' sh -c 'test -s expected && test $(grep -cvxFf got expected) -eq 0'
+check 'its tracks are those of the radar alone' sh -c \
+    'test -s expected && test $(grep -cvxFf got expected) -eq 0'
 finish

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Several hosts on one bridge: two radars, the tracker, a stock logger. 0, 1 and 10 % of the datagrams to the tracker
-# are lost: tracks go on, losses are counted.
+# Several hosts on one bridge: two radars, the tracker, a stock logger. 0, 1 and 10 % of the
+# datagrams to the tracker are lost: tracks go on, losses are counted.
 # shellcheck source=tests/integration/network.bash
 . "$(dirname "$0")/network.bash"
 . "$(dirname "$0")/checks.bash"
@@ -61,14 +61,17 @@ at_once() {
     cp node.err stderr
 }
 
-within() { [ "$1" -ge "$2" ] && [ "$1" -le "$3" ] || { echo "$1 is not within $2 .. $3"; return 1; }; }
+within() { [ "$1" -ge "$2" ] && [ "$1" -le "$3" ] || { echo \
+    "$1 is not within $2 .. $3"; return 1; }; }
 
 # Each scan was taken, or is missing between others, or was lost at the very start or end.
 accounted() { within $(($(status_of scans_accepted) + $(status_of scans_lost))) $((2 * scans - 3)) $((2 * scans)); }
 
-# The confirmed tracks of the stock log beside the truth, from the tenth second on: most targets have theirs, always.
+# The confirmed tracks of the stock log beside the truth, from the tenth second on: most targets
+# have theirs, always.
 tracks_go_on() { # least completeness
-    "$program" convert stock.lcm tracks.csv --kind tracks 2>convert.err || { cat convert.err; return 1; }
+    "$program" convert stock.lcm tracks.csv --kind tracks 2>convert.err \
+        || { cat convert.err; return 1; }
     awk -F, 'NR == 1 || $1 >= 10' tracks.csv >late.csv
     awk -F, 'NR == 1 || $1 >= 10' truth.csv >late-truth.csv
     "$program" evaluate late-truth.csv late.csv --json >figures || return 1
@@ -101,7 +104,8 @@ for per_mille in 0 10 100; do
     dropped=$(lost tracker)
     check "$name: every scan is accounted for" accounted
     if [ "$per_mille" -eq 0 ]; then
-        check "$name: nothing is lost" test "$(status_of scans_lost)" -eq 0 -a "$(status_of scans_incomplete)" -eq 0
+        check "$name: nothing is lost" test "$(status_of scans_lost)" -eq 0 -a \
+            "$(status_of scans_incomplete)" -eq 0
         # nobody knows at the first scan that the other radar is there, too
         check "$name: all scans are stepped, in order but for the first" test \
             "$(status_of scan)" -eq $((2 * scans)) -a "$(status_of scans_late)" -le 1
@@ -110,7 +114,8 @@ for per_mille in 0 10 100; do
         # a lost message makes its scan incomplete; two of one scan lose it
         check "$name: losses are counted ($dropped datagrams)" within \
             $(($(status_of scans_incomplete) + 2 * $(status_of scans_lost))) $((dropped * 7 / 10 - 2)) "$dropped"
-        check "$name: tracks go on" tracks_go_on "$([ "$per_mille" -eq 10 ] && echo .95 || echo .85)"
+        check "$name: tracks go on" tracks_go_on \
+            "$([ "$per_mille" -eq 10 ] && echo .95 || echo .85)"
     fi
     check "$name: the stock log, read by the Python package, has one list of tracks a step" test \
         "$(lists_of stock.lcm)" -eq "$(status_of scan)"

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# initiate by the papers' methods: facts of the paper's data, what is refused, and what is said of limits.
-# Runs beside others.
+# initiate by the papers' methods: facts of the paper's data, what is refused, and what is said of
+# limits. Runs beside others.
 table3=$(realpath "$(dirname "$0")/../vectors/radar-table3.csv")
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
@@ -22,24 +22,32 @@ facts() {
     run initiate "$2" --method "$3" --json "${more[@]}"
     check "$1" json stdout "$4"
 }
-facts 'Table 1, ideal: HT peaks 7' table1.csv ht 'o["peak_votes"][:4] == [7, 7, 7] and o["votes"] == 21 * 3142'
-facts 'Table 1, ideal: MHT peaks 6' table1.csv mht 'o["peak_votes"] == [6, 6, 6] and o["votes"] == 54'
-facts 'Table 1, ideal: IHT peaks 6' table1.csv iht 'o["peak_votes"] == [6, 6, 6] and o["votes"] == o["candidates"]'
-facts 'Table 1, ideal: NHT, reading A, peaks 5' table1.csv nht 'o["peak_votes"] == [5, 5, 5] and o["votes"] == 15' nht_reading=a
-facts 'Table 1, ideal: NHT, reading C, peaks 5' table1.csv nht 'o["peak_votes"] == [5, 5, 5] and o["votes"] == 15 * 289'
+facts 'Table 1, ideal: HT peaks 7' table1.csv ht \
+    'o["peak_votes"][:4] == [7, 7, 7] and o["votes"] == 21 * 3142'
+facts 'Table 1, ideal: MHT peaks 6' table1.csv mht \
+    'o["peak_votes"] == [6, 6, 6] and o["votes"] == 54'
+facts 'Table 1, ideal: IHT peaks 6' table1.csv iht \
+    'o["peak_votes"] == [6, 6, 6] and o["votes"] == o["candidates"]'
+facts 'Table 1, ideal: NHT, reading A, peaks 5' table1.csv nht \
+    'o["peak_votes"] == [5, 5, 5] and o["votes"] == 15' nht_reading=a
+facts 'Table 1, ideal: NHT, reading C, peaks 5' table1.csv nht \
+    'o["peak_votes"] == [5, 5, 5] and o["votes"] == 15 * 289'
 pairs='(o["scans"], o["plots"], o["pairs"], o["candidates"]) == (7, 21, 54, 21)'
 facts 'Table 3: HT' "$table3" ht "$pairs and max(o['peak_votes']) == 3 and o['votes'] == 21 * 3142"
 facts 'Table 3: MHT' "$table3" mht "$pairs and max(o['peak_votes']) == 1 and o['votes'] == 54"
 facts 'Table 3: IHT' "$table3" iht "$pairs and max(o['peak_votes']) == 1 and o['votes'] == 21"
 facts 'Table 3: NHT casts one vote of .0533' "$table3" nht \
-    "$pairs and o['votes'] == 1 and abs(o['peak_votes'][0] - .0533) < 5e-5 and o['tracks'] == 1" nht_reading=a
+    "$pairs and o['votes'] == 1 and abs(o['peak_votes'][0] - .0533) < 5e-5 and o['tracks'] == 1" \
+    nht_reading=a
 facts 'peaks are in descending order' "$table3" ht \
     'o["peak_votes"] == sorted(o["peak_votes"], reverse=True) and o["tracks"] == len(o["peak_votes"])'
-facts 'what JSON must hold' "$table3" nht 'o["method"] == "nht" and all(k in o for k in ["state_bytes", "wall_us"])'
+facts 'what JSON must hold' "$table3" nht \
+    'o["method"] == "nht" and all(k in o for k in ["state_bytes", "wall_us"])'
 
 # ---- tracks ----
 run initiate table1.csv --method iht
-check 'columns' matches "$(head -n 1 stdout)" 'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
+check 'columns' matches "$(head -n 1 stdout)" \
+    'track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score'
 are_table1() {
     awk -F, 'NR > 1 {
             n++
@@ -53,29 +61,36 @@ are_table1() {
 }
 check 'the fit through the plots that voted is the target, at the last scan' are_table1 stdout
 run initiate table1.csv --method ht --set tau=0.9
-check 'HT: likewise, above a higher share' awk -F, 'NR > 1 && $9 == 7 && $10 == 7 { n++ } END { exit n != 3 }' stdout
+check 'HT: likewise, above a higher share' awk -F, \
+    'NR > 1 && $9 == 7 && $10 == 7 { n++ } END { exit n != 3 }' stdout
 run initiate table1.csv --method kernel --json
 check 'the work of a batch' json stdout '(o["work"], o["partial_steps"], o["plots_not_tried"]) == (o["work_worst"], 0, 0) and o["work"] > 0'
 run initiate table1.csv --method kernel --json --set work_max=1
-check 'a limit on it leaves plots out' json stdout 'o["partial_steps"] == 1 and o["plots_not_tried"] > 0'
+check 'a limit on it leaves plots out' json stdout \
+    'o["partial_steps"] == 1 and o["plots_not_tried"] > 0'
 run initiate table1.csv --method iht --json -o out.csv
 check 'tracks in the file, with --json' are_table1 out.csv
 { head -n 1 table1.csv; echo '0,1,1000,0'; echo '2,1,,'; } >one.csv
 run initiate one.csv --method ht
 check 'one scan that voted has a line but no place or velocity' \
-    awk -F, 'NR > 1 && ($9 != 1 || $3 $4 $5 $6 != "" || $7 == "") { exit 1 } END { exit NR < 2 }' stdout
+    awk -F, 'NR > 1 && ($9 != 1 || $3 $4 $5 $6 != "" || $7 == "") { exit 1 } END { exit NR < 2 }' \
+    stdout
 for method in ht mht iht nht; do
     { head -n 1 table1.csv; echo '0,1,,'; } >none.csv
     run initiate none.csv --method $method --json
-    check "$method: no plots" json stdout '(o["scans"], o["votes"], o["peak_votes"], o["tracks"]) == (1, 0, [], 0)'
+    check "$method: no plots" json stdout \
+        '(o["scans"], o["votes"], o["peak_votes"], o["tracks"]) == (1, 0, [], 0)'
 done
 run initiate table1.csv --method iht --set scans=5
-check 'more scans than asked for are said' matches "$(cat stderr)" 'rhotrack: the last 5 of 7 scans are taken'
+check 'more scans than asked for are said' matches "$(cat stderr)" \
+    'rhotrack: the last 5 of 7 scans are taken'
 
 # ---- thresholds and parameters ----
 facts 'votes_min' table1.csv iht 'o["peak_votes"] == []' votes_min=6.5
-facts 'tau 0 leaves every cell that no better one is near' table1.csv mht 'len(o["peak_votes"]) > 3' tau=0
-facts 'v_max of a user goes before the paper'"'"'s' table1.csv iht 'o["peak_votes"] == [6, 6]' v_max_mps=250
+facts 'tau 0 leaves every cell that no better one is near' table1.csv mht \
+    'len(o["peak_votes"]) > 3' tau=0
+facts 'v_max of a user goes before the paper'"'"'s' table1.csv iht \
+    'o["peak_votes"] == [6, 6]' v_max_mps=250
 facts 'distinct scans can count' "$table3" ht 'max(o["peak_votes"]) == 3' vote=scans
 facts 'wider tolerances' "$table3" nht 'o["votes"] > 1' eps_theta_rad=0.03
 facts 'a large falsity lets no pair vote' "$table3" nht 'o["votes"] == 0' lambda_k=1000
@@ -93,13 +108,18 @@ refused() { # name, pattern, arguments...
     run "$@"
     check "$name" says 2 "rhotrack: $pattern"
 }
-refused 'unknown method' "no method 'houg'; there are: kernel, ht, mht, iht, nht, passive, passive-paper" initiate table1.csv --method houg
+refused 'unknown method' \
+    "no method 'houg'; there are: kernel, ht, mht, iht, nht, passive, passive-paper" initiate \
+    table1.csv --method houg
 for method in passive passive-paper; do
-    refused "plots for method $method" "table1.csv:1: plots, which are no bearings (column 'x_m'): *" \
+    refused "plots for method $method" \
+        "table1.csv:1: plots, which are no bearings (column 'x_m'): *" \
         initiate table1.csv --method $method
 done
-refused 'unknown reading' "--set nht_reading=b: nht_reading 'b' is not one of a|c" initiate table1.csv --set nht_reading=b
-refused 'unknown vote' "--set vote=1: vote '1' is not one of scans|counts" initiate table1.csv --set vote=1
+refused 'unknown reading' "--set nht_reading=b: nht_reading 'b' is not one of a|c" initiate \
+    table1.csv --set nht_reading=b
+refused 'unknown vote' "--set vote=1: vote '1' is not one of scans|counts" initiate table1.csv \
+    --set vote=1
 refused 'too fine cells' 'plots 34397 m from the origin take 68796 cells of rho at d_rho_m 1; there are 16384: d_rho_m 4.2 would do' \
     initiate "$table3" --method ht --set d_rho_m=1
 # What is suggested does.
@@ -113,7 +133,9 @@ done
 refused 'too wide tolerances' '2 eps_rho_m is more than 255 cells of d_rho_m 5' \
     initiate table1.csv --method nht --set eps_rho_m=700
 printf 't_s,sensor_id,x_m,y_m\n0,1,1,1\n2000000000,1,5,5\n' >long.csv
-refused 'scans of sixty years' 'the scans taken span 2e+09 s; at most 9e+08 s make a batch' initiate long.csv --method iht
-refused 'speeds' 'v_min_mps 500 is not below v_max_mps 400' initiate table1.csv --method iht --set v_min_mps=500
+refused 'scans of sixty years' 'the scans taken span 2e+09 s; at most 9e+08 s make a batch' \
+    initiate long.csv --method iht
+refused 'speeds' 'v_min_mps 500 is not below v_max_mps 400' initiate table1.csv --method iht \
+    --set v_min_mps=500
 
 finish

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The library in other people's builds: what make and CMake install, where, and what it says; the examples of
-# tools/examples, each built and run here, and for a Cortex-M4F where its compiler is; capacities that do not agree.
+# The library in other people's builds: what make and CMake install, where, and what it says; the
+# examples of tools/examples, each built and run here, and for a Cortex-M4F where its compiler is;
+# capacities that do not agree.
 root=$(realpath "$(dirname "$0")/../..")
 build=$(cd "$root" && realpath -m "${BUILD:-build}")
 # shellcheck source=tests/integration/checks.bash
@@ -33,12 +34,14 @@ install_by_make() { # stage, arguments...
 }
 
 no_files_but() { # folder, pattern of their paths
-    ! find "$1" ! -type d | sed "s|^$1||" | grep -vE "$2" >unexpected || { cat unexpected; return 1; }
+    ! find "$1" ! -type d | sed "s|^$1||" | grep -vE "$2" >unexpected \
+        || { cat unexpected; return 1; }
 }
 
 # The rows of the table of tools/examples/README.md, without spaces: object|embedded|own.
 ram() { # object, column
-    sed 's/, where scans.*messages//; s/ //g' "$root/tools/examples/README.md" | awk -F '|' -v o="$1" -v c="$2" '$2 == o {print $c}'
+    sed 's/, where scans.*messages//; s/ //g' "$root/tools/examples/README.md" | awk -F '|' \
+        -v o="$1" -v c="$2" '$2 == o {print $c}'
 }
 embedded=$(ram rho_tracker 3)
 small=$(ram rho_tracker 4)
@@ -53,10 +56,12 @@ check 'make install' exits 0
 check 'nothing is put elsewhere' no_files_but "$stage" "$usual"
 is_whole() {
     local file
-    for file in bin/rhotrack lib/librhotrack.a lib/pkgconfig/rhotrack.pc lib/cmake/rhotrack/rhotrackConfig.cmake; do
+    for file in bin/rhotrack lib/librhotrack.a lib/pkgconfig/rhotrack.pc \
+        lib/cmake/rhotrack/rhotrackConfig.cmake; do
         [ -s "$stage/opt/rt/$file" ] || { echo "no $file"; return 1; }
     done
-    diff -r "$root/include/rhotrack" "$stage/opt/rt/include/rhotrack" && cmp "$root/LICENSE" "$stage/opt/rt/share/doc/rhotrack/LICENSE"
+    diff -r "$root/include/rhotrack" "$stage/opt/rt/include/rhotrack" && cmp "$root/LICENSE" \
+        "$stage/opt/rt/share/doc/rhotrack/LICENSE"
 }
 check 'all is there, and headers are as they were' is_whole
 check 'everybody may read it' test -z "$(find "$stage/opt" ! -perm -444 -o -type d ! -perm -555)"
@@ -65,13 +70,15 @@ check 'no file knows where it was staged or built' leaks_nothing "$stage/opt"
 no_placeholders() { ! grep -rnE '@[A-Z_]+@' "$1"/lib/pkgconfig "$1"/lib/cmake; }
 check 'templates are filled in' no_placeholders "$stage/opt/rt"
 go "$stage/opt/rt/bin/rhotrack" --version
-check 'the installed program runs, version of the Makefile' test "$(cat stdout)" = "rhotrack $version"
+check 'the installed program runs, version of the Makefile' test "$(cat stdout)" = \
+    "rhotrack $version"
 
 # ---- pkg-config ----
 export PKG_CONFIG_LIBDIR=$stage/opt/rt/lib/pkgconfig
 says_flags() { # arguments..., the words expected
     local words=${*: -1}
-    test "$(pkg-config "${@:1:$#-1}" rhotrack | xargs)" = "$words" || { pkg-config "${@:1:$#-1}" rhotrack; return 1; }
+    test "$(pkg-config "${@:1:$#-1}" rhotrack | xargs)" = "$words" || { pkg-config \
+        "${@:1:$#-1}" rhotrack; return 1; }
 }
 check 'pkg-config: flags' says_flags --cflags --libs '-I/opt/rt/include -L/opt/rt/lib -lrhotrack'
 check 'pkg-config: version' says_flags --modversion "$version"
@@ -86,7 +93,8 @@ check '... and tracks' tracks examples/pkg_config/example "$embedded"
 
 # ---- other capacities than the library's ----
 refuses() { go "$1" && exits 1 && grep -qx 'tracker: size' stdout || { cat stdout; return 1; }; }
-for flags in -DRHO_MAX_TRACKS=31 -DRHO_PROFILE_WORKSTATION "-I.. -DRHO_CONFIG_FILE='\"my_config.h\"'"; do
+for flags in -DRHO_MAX_TRACKS=31 -DRHO_PROFILE_WORKSTATION \
+    "-I.. -DRHO_CONFIG_FILE='\"my_config.h\"'"; do
     go make -B -C examples/pkg_config PKG_CONFIG='pkg-config --define-prefix' CFLAGS="$flags"
     check "an application with $flags builds" exits 0
     check '... and is told RHO_ERROR_SIZE' refuses examples/pkg_config/example
@@ -95,7 +103,8 @@ done
 # ---- capacities of one's own, installed ----
 odd='PREFIX=/usr LIBDIR=/usr/lib/odd INCLUDEDIR=/inc/odd DOCDIR=/usr/doc-rt'
 # shellcheck disable=SC2086 # words on purpose
-install_by_make "$folder/own" install-lib $odd RHO_CONFIG_FILE="$own" BUILD="$folder/build-own" OPT=-O0
+install_by_make "$folder/own" install-lib $odd RHO_CONFIG_FILE="$own" BUILD="$folder/build-own" \
+    OPT=-O0
 check 'make install-lib with RHO_CONFIG_FILE, in odd folders' exits 0
 check 'nothing is put elsewhere' no_files_but own \
     '^/usr/lib/odd/(librhotrack\.a|(pkgconfig|cmake)/.*)$|^/inc/odd/rhotrack/(detail/)?[a-z_]+\.h$|^/usr/doc-rt/LICENSE$'
@@ -118,9 +127,11 @@ refuses_to_install() { # pattern, arguments...
 }
 check 'PREFIX that is no path' refuses_to_install 'begin with /' PREFIX=here
 check 'unknown PROFILE' refuses_to_install 'PROFILE is' PROFILE=desktop
-check 'PROFILE and RHO_CONFIG_FILE' refuses_to_install 'is for PROFILE=embedded' PROFILE=workstation \
+check 'PROFILE and RHO_CONFIG_FILE' refuses_to_install \
+    'is for PROFILE=embedded' PROFILE=workstation \
     RHO_CONFIG_FILE="$own" BUILD="$folder/build-own"
-check 'capacities by -D' refuses_to_install 'would not be installed' LIBRARY_CFLAGS=-DRHO_MAX_TRACKS=4
+check 'capacities by -D' refuses_to_install 'would not be installed' \
+    LIBRARY_CFLAGS=-DRHO_MAX_TRACKS=4
 
 # ---- the workstation profile, and make uninstall ----
 install_by_make "$folder/big" install PREFIX=/opt/rt PROFILE=workstation
@@ -157,7 +168,8 @@ make_by_cmake() { # binary
     exits 0
 }
 takes() { # folder of the package: find_package has the versions that it should have, and no others
-    local good="$version;$version EXACT;0.1;0.1...0.5;0.0...$version" bad="0.0;0.2;1;1.1;0.1.99;0.1.1...0.5;0.0...<$version"
+    local good="$version;$version EXACT;0.1;0.1...0.5;0.0...$version" \
+        bad="0.0;0.2;1;1.1;0.1.99;0.1.1...0.5;0.0...<$version"
     mkdir -p ask
     cat >ask/CMakeLists.txt <<END
 cmake_minimum_required(VERSION 3.19)
@@ -186,7 +198,8 @@ natively_by_cmake() {
     check '... and tracks' tracks found/example "$embedded"
     check 'versions: those of the same 0.y alone' takes "$folder/moved/lib/cmake/rhotrack"
 
-    configure "$root" cmake-build -DCMAKE_BUILD_TYPE=Debug -DRHOTRACK_CONFIG_FILE="$own" -DCMAKE_INSTALL_LIBDIR=lib
+    configure "$root" cmake-build -DCMAKE_BUILD_TYPE=Debug -DRHOTRACK_CONFIG_FILE="$own" \
+        -DCMAKE_INSTALL_LIBDIR=lib
     check 'CMake configures the library with RHOTRACK_CONFIG_FILE' exits 0
     make_by_cmake cmake-build
     check '... builds it' exits 0
@@ -196,22 +209,27 @@ natively_by_cmake() {
     check 'no file knows where it was staged or built' leaks_nothing -I cmade -e "$folder"
     check 'templates are filled in' no_placeholders cmade/opt/rt
     check 'versions: those of the same 0.y alone' takes "$folder/cmade/opt/rt/lib/cmake/rhotrack"
-    configure examples/find_package found-own -DCMAKE_PREFIX_PATH="$folder/cmade/opt/rt" && make_by_cmake found-own
+    configure examples/find_package found-own -DCMAKE_PREFIX_PATH="$folder/cmade/opt/rt" \
+        && make_by_cmake found-own
     check 'find_package example builds with it' exits 0
     check '... has the capacities, and tracks' tracks found-own/example "$small"
     export PKG_CONFIG_LIBDIR=cmade/opt/rt/lib/pkgconfig
-    check 'pkg-config says the same of it' says_flags --cflags --libs '-I/opt/rt/include -L/opt/rt/lib -lrhotrack'
+    check 'pkg-config says the same of it' says_flags --cflags --libs \
+        '-I/opt/rt/include -L/opt/rt/lib -lrhotrack'
     check '... and its version' says_flags --modversion "$version"
     unset PKG_CONFIG_LIBDIR
 
-    configure examples/add_subdirectory added -DRHOTRACK="$root" -DCMAKE_BUILD_TYPE=Debug -DRHOTRACK_PROFILE=workstation
+    configure examples/add_subdirectory added -DRHOTRACK="$root" -DCMAKE_BUILD_TYPE=Debug \
+        -DRHOTRACK_PROFILE=workstation
     make_by_cmake added
     check 'add_subdirectory example builds' exits 0
     check '... has the profile, and tracks' tracks added/example '[0-9]{7}'
     DESTDIR=$folder/added-stage go cmake --install added --prefix /opt/rt
     check '... and installs nothing of the library' test ! -e added-stage
-    configure examples/add_subdirectory flags -DRHOTRACK="$root" -DCMAKE_C_FLAGS='-ffast-math -ffp-contract=fast'
-    check 'no fused operations, no fast-math, whatever the application compiles with' same_flags flags/compile_commands.json
+    configure examples/add_subdirectory flags -DRHOTRACK="$root" \
+        -DCMAKE_C_FLAGS='-ffast-math -ffp-contract=fast'
+    check 'no fused operations, no fast-math, whatever the application compiles with' same_flags \
+        flags/compile_commands.json
     configure "$root" wrong -DRHOTRACK_PROFILE=desktop
     check 'unknown RHOTRACK_PROFILE' grep -q 'RHOTRACK_PROFILE is embedded or workstation' stderr
     configure "$root" wrong2 -DRHOTRACK_CONFIG_FILE="$folder/none.h"
@@ -233,28 +251,34 @@ sizeof() { # object, compiler and flags...: its bytes
     local header=${1#rho_}
     [ "$header" != report ] || header=tracker
     printf '#include "rhotrack/%s.h"\nchar object[sizeof(struct %s)];\n' "$header" "$1" |
-        "${@:2}" -std=c99 -I"$root/include" -fno-common -x c -c -o object.o - && nm_bytes object object.o nm
+        "${@:2}" -std=c99 -I"$root/include" -fno-common -x c -c -o object.o - \
+            && nm_bytes object object.o nm
 }
 holds_table() { # compiler and flags...
     local object bytes sums=(0 0 0 0 0) column
     for object in rho_tracker rho_initiator rho_report rho_scan_assembler; do
         for column in 3 4; do
-            bytes=$(if [ "$column" = 3 ]; then sizeof "$object" "$@"; else sizeof "$object" "$@" "-DRHO_CONFIG_FILE=\"$own\""; fi)
-            [ "$bytes" = "$(ram "$object" "$column")" ] || { echo "$object: $bytes bytes, not $(ram "$object" "$column")"; return 1; }
+            bytes=$(if [ "$column" = 3 ]; then sizeof "$object" "$@"; else sizeof "$object" "$@" \
+                "-DRHO_CONFIG_FILE=\"$own\""; fi)
+            [ "$bytes" = "$(ram "$object" "$column")" ] || { echo \
+                "$object: $bytes bytes, not $(ram "$object" "$column")"; return 1; }
             [ "$object" = rho_scan_assembler ] || sums[column]=$((sums[column] + bytes))
         done
     done
-    [ "${sums[3]} ${sums[4]}" = "$(ram together 3) $(ram together 4)" ] || { echo "together: ${sums[*]}"; return 1; }
+    [ "${sums[3]} ${sums[4]}" = "$(ram together 3) $(ram together 4)" ] || { echo \
+        "together: ${sums[*]}"; return 1; }
 }
 
 # ---- for a Cortex-M4F ----
 has_fused() { arm-none-eabi-objdump -d "$@" | grep -qP '\tvfn?m[as]'; }
-has_none_fused() { [ -s "$1" ] && arm-none-eabi-objdump -d "$@" >listing && [ -s listing ] && ! has_fused "$@"; }
+has_none_fused() { [ -s "$1" ] && arm-none-eabi-objdump -d "$@" >listing && [ -s listing ] \
+    && ! has_fused "$@"; }
 ram_of() { # program, column: its static objects take what the table says
     local object bytes
     for object in tracker initiator report; do
         bytes=$(nm_bytes "$object" "$1" arm-none-eabi-nm)
-        [ "$bytes" = "$(ram "rho_$object" "$2")" ] || { echo "$object: $bytes bytes, not $(ram "rho_$object" "$2")"; return 1; }
+        [ "$bytes" = "$(ram "rho_$object" "$2")" ] || { echo \
+            "$object: $bytes bytes, not $(ram "rho_$object" "$2")"; return 1; }
     done
 }
 for_cortex() {
@@ -265,12 +289,15 @@ for_cortex() {
         CFLAGS="-Os $cortex -ffp-contract=fast" LDFLAGS=--specs=rdimon.specs
     check 'drop-in example links for a Cortex-M4F' exits 0
     check '... with the RAM of the table' ram_of examples/drop_in/example 4
-    check '... and no fused operation, whatever the application compiles with' has_none_fused examples/drop_in/build/src/*/*.o
-    install_by_make "$folder/m4" install-lib PREFIX=/opt/m4 BUILD="$folder/build-m4" CC=arm-none-eabi-gcc AR=arm-none-eabi-ar \
+    check '... and no fused operation, whatever the application compiles with' has_none_fused \
+        examples/drop_in/build/src/*/*.o
+    install_by_make "$folder/m4" install-lib PREFIX=/opt/m4 BUILD="$folder/build-m4" \
+        CC=arm-none-eabi-gcc AR=arm-none-eabi-ar \
         OPT=-O0 CFLAGS="$cortex"
     check 'make install-lib for a Cortex-M4F' exits 0
     # shellcheck disable=SC2086 # words on purpose
-    go arm-none-eabi-gcc $cortex -Im4/opt/m4/include -o m4-example examples/main.c -Lm4/opt/m4/lib -lrhotrack --specs=rdimon.specs
+    go arm-none-eabi-gcc $cortex -Im4/opt/m4/include -o m4-example examples/main.c -Lm4/opt/m4/lib \
+        -lrhotrack --specs=rdimon.specs
     check '... and an application links with it' exits 0
     command -v cmake >/dev/null 2>&1 || return
     configure examples/find_package m4-found -DCMAKE_PREFIX_PATH="$folder/m4/opt/m4"

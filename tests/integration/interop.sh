@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The codec beside stock LCM: the C and the Python that lcm-gen makes of lcm_types/, and the Python package lcm, with
-# random messages of each type, both ways. What is not installed is skipped, and said to be.
-# Runs beside others.
+# The codec beside stock LCM: the C and the Python that lcm-gen makes of lcm_types/, and the Python
+# package lcm, with random messages of each type, both ways. What is not installed is skipped, and
+# said to be. Runs beside others.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 lcm_gen=${LCM_GEN:-/usr/bin/lcm-gen}
@@ -58,14 +58,16 @@ else
     count "$folder/interop" c "$messages"
     if [ "$("$lcm_gen" --version)" = 'lcm-gen 1.3.1' ]; then
         tests/vectors/make_message_vectors.sh "$folder/vectors.h"
-        check 'message_vectors.h is what lcm-gen 1.3.1 encodes' cmp "$folder/vectors.h" tests/vectors/message_vectors.h
+        check 'message_vectors.h is what lcm-gen 1.3.1 encodes' cmp \
+            "$folder/vectors.h" tests/vectors/message_vectors.h
     else
         echo "skipped: interop: message_vectors.h made anew, $lcm_gen is not 1.3.1"
     fi
     if [ -z "$python" ]; then
         echo 'skipped: interop with Python: the package lcm is not installed (tools/python.sh)'
     else
-        check 'the interpreter is found from any folder' test "$(cd "$folder" && "$OLDPWD/tests/python.sh")" = "$python"
+        check 'the interpreter is found from any folder' test \
+            "$(cd "$folder" && "$OLDPWD/tests/python.sh")" = "$python"
         mkdir "$folder/out"
         "$folder/interop" write "$folder/out" "$messages"
         with_bindings_of "$lcm_gen"

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# simulate, evaluate, plot, experiment, bench and the demo, as a user types them. Program in $RHOTRACK.
-# Runs beside others.
+# simulate, evaluate, plot, experiment, bench and the demo, as a user types them. Program in
+# $RHOTRACK. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 root=$(realpath "$(dirname "$0")/../..")
 . "$(dirname "$0")/checks.bash"
@@ -26,11 +26,14 @@ for scenario in crossing clutter air-traffic; do
 done
 "$RHOTRACK" simulate clutter --seed 3 -o "$folder/again"
 "$RHOTRACK" simulate clutter --seed 4 -o "$folder/otherwise"
-check "the same seed gives the same plots" cmp -s "$folder/clutter/plots.csv" "$folder/again/plots.csv"
-check "another seed gives others" sh -c "! cmp -s '$folder/clutter/plots.csv' '$folder/otherwise/plots.csv'"
+check "the same seed gives the same plots" cmp -s "$folder/clutter/plots.csv" \
+    "$folder/again/plots.csv"
+check "another seed gives others" sh -c \
+    "! cmp -s '$folder/clutter/plots.csv' '$folder/otherwise/plots.csv'"
 "$RHOTRACK" simulate crossing --seed 3 --runs 3 -o "$folder/runs"
 check "--runs makes a folder a run" test -s "$folder/runs/run-0002/plots.csv"
-check "runs differ" sh -c "! cmp -s '$folder/runs/run-0000/plots.csv' '$folder/runs/run-0001/plots.csv'"
+check "runs differ" sh -c \
+    "! cmp -s '$folder/runs/run-0000/plots.csv' '$folder/runs/run-0001/plots.csv'"
 expect_exit 2 "an unknown scenario" "$RHOTRACK" simulate nothing -o "$folder/nothing"
 
 # the table in the program and the one in the tests are the same
@@ -40,7 +43,8 @@ check "the program's real plots are the vector file's" sh -c "
     awk -F, '/^[0-9]/ { printf \"%d %d %d\\n\", \$1, \$3, \$4 }' $root/tests/vectors/radar-table3.csv | sort >'$folder/b'
     test \$(wc -l <'$folder/a') -eq 21 && cmp -s '$folder/a' '$folder/b'"
 
-# --- evaluate: two targets over three scans; track 1 is 30 m off, lost to track 2 at the end; track 9 is nobody's
+# --- evaluate: two targets over three scans; track 1 is 30 m off, lost to track 2 at the end; track
+# 9 is nobody's
 cat >"$folder/truth.csv" <<CSV
 t_s,target_id,x_m,y_m,vx_mps,vy_mps
 0,0,0,0,10,0
@@ -58,7 +62,8 @@ t_s,track_id,status,x_m,y_m,vx_mps,vy_mps
 20.0005,2,confirmed,200,40,10,3
 20,3,confirmed,5000,0,0,0
 CSV
-evaluate() { "$RHOTRACK" evaluate "$folder/truth.csv" "$folder/tracks.csv" --json --set gospa_cutoff_m=1000; }
+evaluate() { "$RHOTRACK" evaluate "$folder/truth.csv" "$folder/tracks.csv" --json \
+    --set gospa_cutoff_m=1000; }
 value() { evaluate | python3 -c "import json, sys; print(round(json.load(sys.stdin)['$1'], 4))"; }
 is() { check "evaluate: $1 is $2" test "$(value "$1")" = "$2"; }
 is targets 2
@@ -82,29 +87,39 @@ is gospa_m 817.0067
 printf 't_s,track_id,x_m,y_m\n' >"$folder/none.csv"
 check "no track at all is a result" sh -c "'$RHOTRACK' evaluate '$folder/truth.csv' '$folder/none.csv' --json | grep -q '\"completeness\":.*0'"
 printf 't_s,track_id,x_m,y_m\n10.002,1,0,0\n' >"$folder/odd.csv"
-expect_exit 2 "a time that the truth does not have" "$RHOTRACK" evaluate "$folder/truth.csv" "$folder/odd.csv"
-check "and it names file and line" sh -c "'$RHOTRACK' evaluate '$folder/truth.csv' '$folder/odd.csv' 2>&1 | grep -q 'odd.csv:2: '"
+expect_exit 2 "a time that the truth does not have" "$RHOTRACK" evaluate "$folder/truth.csv" \
+    "$folder/odd.csv"
+check "and it names file and line" sh -c \
+    "'$RHOTRACK' evaluate '$folder/truth.csv' '$folder/odd.csv' 2>&1 | grep -q 'odd.csv:2: '"
 
 # --- plot
 crossing="$folder/crossing"
 for kind in scans tracks parameter-space errors; do
-    check "plot $kind" "$RHOTRACK" plot "$kind" "$crossing/plots.csv" "$crossing/truth.csv" "$crossing/tracks.csv" \
+    check "plot $kind" "$RHOTRACK" plot "$kind" "$crossing/plots.csv" "$crossing/truth.csv" \
+        "$crossing/tracks.csv" \
         -o "$folder/$kind.svg"
-    check "plot $kind is well-formed" python3 -c "import xml.dom.minidom as m; m.parse('$folder/$kind.svg')"
+    check "plot $kind is well-formed" python3 -c \
+        "import xml.dom.minidom as m; m.parse('$folder/$kind.svg')"
 done
-expect_exit 2 "an unknown picture" "$RHOTRACK" plot nothing "$crossing/plots.csv" -o "$folder/nothing.svg"
-expect_exit 2 "a picture of a file that is not there" "$RHOTRACK" plot scans "$folder/nowhere.csv" -o "$folder/nothing.svg"
+expect_exit 2 "an unknown picture" "$RHOTRACK" plot nothing "$crossing/plots.csv" -o \
+    "$folder/nothing.svg"
+expect_exit 2 "a picture of a file that is not there" "$RHOTRACK" plot scans "$folder/nowhere.csv" \
+    -o "$folder/nothing.svg"
 check "and no picture is left" sh -c "! ls '$folder'/nothing.svg* 2>/dev/null"
 
 # --- experiment, bench, demo
 check "experiment initiation ends with its score" sh -c "
     '$RHOTRACK' experiment initiation --runs 2 -o '$folder/experiment' | tail -1 | grep -Eq '^[0-9]+ bars held, [0-9]+ missed$'"
 check "and writes a page" test -s "$folder/experiment/index.html"
-for picture in situation-I situation-II situation-III situation-IV situation-real-10 situation-real-100 noise times \
+for picture in situation-I situation-II situation-III situation-IV situation-real-10 \
+    situation-real-100 noise times \
     example found false; do
-    check "the page shows $picture.svg" grep -q "src=\"$picture.svg\"" "$folder/experiment/index.html"
-    check "$picture.svg is well-formed" python3 -c "import xml.dom.minidom as m; m.parse('$folder/experiment/$picture.svg')"
-    check "$picture.svg is not too large" test "$(stat -c %s "$folder/experiment/$picture.svg")" -lt 400000
+    check "the page shows $picture.svg" grep -q "src=\"$picture.svg\"" \
+        "$folder/experiment/index.html"
+    check "$picture.svg is well-formed" python3 -c \
+        "import xml.dom.minidom as m; m.parse('$folder/experiment/$picture.svg')"
+    check "$picture.svg is not too large" test "$(stat -c %s "$folder/experiment/$picture.svg")" \
+        -lt 400000
 done
 run experiment initiation --runs 2 --method nht --json -o "$folder/nht"
 check "experiment initiation --method nht" exits 0
@@ -120,7 +135,8 @@ check "experiment initiation --method kernel has its bars alone" json stdout \
     'o["method"] == "kernel" and len(o["cases"]) > 30 and "paper" not in o'
 for method in ht mht iht; do
     run experiment initiation --runs 1 --method "$method" -o "$folder/$method"
-    check "experiment initiation --method $method" sh -c "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
+    check "experiment initiation --method $method" sh -c \
+        "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
 done
 run experiment polar --runs 1 --json -o "$folder/polar"
 check "experiment polar" exits 0
@@ -133,17 +149,20 @@ check "the double filter is within 10 % at every clutter and case" json stdout \
 check "experiment polar writes a page" test -s "$folder/polar/index.html"
 for picture in map gates errors along; do
     check "the page shows $picture.svg" grep -q "src=\"$picture.svg\"" "$folder/polar/index.html"
-    check "$picture.svg is well-formed" python3 -c "import xml.dom.minidom as m; m.parse('$folder/polar/$picture.svg')"
+    check "$picture.svg is well-formed" python3 -c \
+        "import xml.dom.minidom as m; m.parse('$folder/polar/$picture.svg')"
 done
 cp stdout first.json
 run experiment polar --runs 1 --json -o "$folder/polar"
 check "the same seed gives the same figures, but for times" sh -c "
     grep -v 'search_ms\|frame_us' first.json >a; grep -v 'search_ms\|frame_us' stdout >b; cmp a b"
 run experiment polar --runs 1 -o "$folder/polar"
-check "experiment polar ends with its score" sh -c "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
+check "experiment polar ends with its score" sh -c \
+    "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
 passive="$folder/passive"
 run experiment passive --runs 3 -o "$passive"
-check "experiment passive ends with its score" sh -c "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
+check "experiment passive ends with its score" sh -c \
+    "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
 cp stdout passive.txt
 run experiment passive --runs 3 --json -o "$passive"
 check "experiment passive --json is JSON with its score" json stdout '(
@@ -152,19 +171,23 @@ check "experiment passive --json is JSON with its score" json stdout '(
     o["pruning_runs"] == o["paper_runs"] == o["default_runs"] == 3 and
     o["bars_held"] + o["bars_missed"] == len(o["bars"]) > 60 and
     o["bars_held"] == sum(bar["held"] for bar in o["bars"]))'
-check "at so few runs no time is judged" json stdout 'not any(" ms " in bar["what"] for bar in o["bars"])'
+check "at so few runs no time is judged" json stdout \
+    'not any(" ms " in bar["what"] for bar in o["bars"])'
 check "the default finds nearly all, about as well as the fit that knows" json stdout \
     '(all(c["rms_over_fit"] is None or c["rms_over_fit"] < 3 for c in o["default"]) and
     sum(c["targets"] > 0 and c["found"] > 0.8 for c in o["default"]) >= 24)'
 check "its figures have as many lines as the paper's" json stdout \
     '[(f["target_lines"], f["ghost_lines"] > 0) for f in o["figures"]][:2] == [(2, True), (2, False)]'
 for number in 2 3 4 5 6 7 8 9; do
-    check "the page shows figure-$number.svg" grep -q "src=\"figure-$number.svg\"" "$passive/index.html"
-    check "figure-$number.svg is well-formed" python3 -c "import xml.dom.minidom as m; m.parse('$passive/figure-$number.svg')"
+    check "the page shows figure-$number.svg" grep -q "src=\"figure-$number.svg\"" \
+        "$passive/index.html"
+    check "figure-$number.svg is well-formed" python3 -c \
+        "import xml.dom.minidom as m; m.parse('$passive/figure-$number.svg')"
     check "figure-$number.svg is neither empty nor too large" sh -c "
         size=\$(stat -c %s '$passive/figure-$number.svg'); test \$size -gt 15000 && test \$size -lt 400000"
 done
-# cells of its tables, in the page and on the terminal: all of the page's but the times and what the header says
+# cells of its tables, in the page and on the terminal: all of the page's but the times and what the
+# header says
 check "every figure of the page's tables is printed, too" python3 - passive.txt "$passive/index.html" <<'PYTHON'
 import html, re, sys
 printed = open(sys.argv[1]).read()
@@ -191,32 +214,41 @@ run experiment passive --runs 1 --method passive-paper --json -o "$folder/passiv
 check "experiment passive --method passive-paper has pruning and the paper's" json stdout \
     'o["method"] == "passive-paper" and "default" not in o and len(o["paper"]) == 15 and len(o["figures"]) == 6'
 run experiment passive --runs 1 --method kernel -o "$folder/refused"
-check "experiment passive knows no method of plots" says 2 "*passive knows the methods passive, passive-paper*kernel*"
+check "experiment passive knows no method of plots" says 2 \
+    "*passive knows the methods passive, passive-paper*kernel*"
 run experiment passive --set sigma_rad=1 -o "$folder/refused"
 check "nor parameters" says 2 "*--set*"
 run experiment polar --runs 1 --method passive -o "$folder/refused"
 check "the others know no method of bearings" says 2 "*polar*kernel*passive*"
-# experiment false-alarms takes two minutes even with --runs 1: lab/test_experiments.c calls its functions instead
+# experiment false-alarms takes two minutes even with --runs 1: lab/test_experiments.c calls its
+# functions instead
 for name in initiation polar false-alarms passive; do
     run experiment "$name" --runs 1 --method nonsense -o "$folder/refused"
     check "experiment $name knows no other method" says 2 "*$name*knows the method*nonsense*"
 done
 run experiment initiation --runs 1 --method nonsense -o "$folder/refused"
-check "and the methods that initiation knows are named" says 2 "*kernel, ht, mht, iht, nht, not*nonsense*"
+check "and the methods that initiation knows are named" says 2 \
+    "*kernel, ht, mht, iht, nht, not*nonsense*"
 run experiment polar --runs 1 --method nht -o "$folder/refused"
 check "which the others do not know" says 2 "*polar*kernel*nht*"
 check "a refused experiment writes nothing" test ! -e "$folder/refused"
 run experiment nothing
-check "an unknown experiment names all there are" says 2 "*nothing*initiation*polar*false-alarms*passive*"
+check "an unknown experiment names all there are" says 2 \
+    "*nothing*initiation*polar*false-alarms*passive*"
 run experiment real-skies
-check "experiment real-skies says where it is" says 2 "*real-skies*make experiments*tools/lab/real_skies.py"
-check "bench kalman --json is JSON" sh -c "'$RHOTRACK' bench kalman --json | python3 -m json.tool >/dev/null"
+check "experiment real-skies says where it is" says 2 \
+    "*real-skies*make experiments*tools/lab/real_skies.py"
+check "bench kalman --json is JSON" sh -c \
+    "'$RHOTRACK' bench kalman --json | python3 -m json.tool >/dev/null"
 check "bench initiate" "$RHOTRACK" bench initiate
-check "bench hough --json is JSON" sh -c "'$RHOTRACK' bench hough --json | python3 -m json.tool >/dev/null"
-check "bench passive --json is JSON" sh -c "'$RHOTRACK' bench passive --json | python3 -m json.tool >/dev/null"
+check "bench hough --json is JSON" sh -c \
+    "'$RHOTRACK' bench hough --json | python3 -m json.tool >/dev/null"
+check "bench passive --json is JSON" sh -c \
+    "'$RHOTRACK' bench passive --json | python3 -m json.tool >/dev/null"
 expect_exit 2 "an unknown bench" "$RHOTRACK" bench nothing
 RHOTRACK="$RHOTRACK" "$root/tools/demo.sh" "$folder/demo" >"$folder/demo.txt" 2>/dev/null
-check "the demo tracks all three aircraft and nothing else" grep -q '^3 of 3 targets tracked, 0 false tracks$' "$folder/demo.txt"
+check "the demo tracks all three aircraft and nothing else" grep -q \
+    '^3 of 3 targets tracked, 0 false tracks$' "$folder/demo.txt"
 check "the demo's page is there" test -s "$folder/demo/index.html"
 # scene, turns, plots, 2 of 2, share of time, switches, error m, others a turn
 check "both vessels of both harbour scenes are tracked nearly all the time, as themselves" awk '

@@ -1,11 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Plots in the order in which they were received: held for hold_ms, so that late ones are in time; later ones by retrodiction.
-# Runs beside others.
+# Plots in the order in which they were received: held for hold_ms, so that late ones are in time;
+# later ones by retrodiction. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-# Two targets for 40 scans, 4 s apart; every fifth scan comes so many seconds after its time, the others at once.
+# Two targets for 40 scans, 4 s apart; every fifth scan comes so many seconds after its time, the
+# others at once.
 scans() { # DELAY_S, or nothing: without the column
     echo "t_s,${1:+received_s,}sensor_id,x_m,y_m"
     awk -v delay="${1-}" 'BEGIN {
@@ -30,14 +31,17 @@ run track in_time.csv -o expected.csv
 run track held.csv -o held_tracks.csv --set hold_ms=500
 check 'scans that are 300 ms late are in time where hold_ms is 500' cmp held_tracks.csv expected.csv
 run track held.csv --set hold_ms=0 --json
-check 'no scan is late at 4 s a scan' json stdout 'o["counters"]["scans_late"] == 0 and o["fates"]["stale"] == 0'
+check 'no scan is late at 4 s a scan' json stdout \
+    'o["counters"]["scans_late"] == 0 and o["fates"]["stale"] == 0'
 
 # ---- later ----
 run track later.csv --json -o later_tracks.csv
 check 'scans that are 5 s late update tracks' json stdout \
     'o["counters"]["scans_retrodicted"] == 6 and o["counters"]["scans_late"] == 0 and o["tracks_confirmed"] == 2'
-check 'all their plots are claimed' json stdout 'o["fates"]["stale"] == 0 and o["fates"]["claimed"] + o["fates"]["held"] == 80'
-check 'both are tracked to the end' matches "$(tail -n 2 later_tracks.csv | cut -d, -f1,3 | uniq)" 156.000000,confirmed
+check 'all their plots are claimed' json stdout \
+    'o["fates"]["stale"] == 0 and o["fates"]["claimed"] + o["fates"]["held"] == 80'
+check 'both are tracked to the end' matches "$(tail -n 2 later_tracks.csv | cut -d, -f1,3 | uniq)" \
+    156.000000,confirmed
 run track later.csv --set late_max_s=0 --json
 check 'with late_max_s 0 they are stale' json stdout \
     'o["counters"]["scans_late"] == 6 and o["counters"]["scans_retrodicted"] == 0 and o["fates"]["stale"] == 12'
@@ -48,22 +52,27 @@ check 'scans that are 30 s late are stale, but for one near the end' json stdout
 # ---- several files ----
 sed 's/,1,/,2,/' held.csv >second.csv
 run track held.csv second.csv --set hold_ms=500 --json -o both.csv
-check 'two files are merged by time' json stdout 'o["counters"]["scans_late"] == 0 and o["scans"] == 80'
+check 'two files are merged by time' json stdout \
+    'o["counters"]["scans_late"] == 0 and o["scans"] == 80'
 
 # ---- time biases ----
-# A second radar of the same targets, half a second later, whose clock is 1 s behind: in one file as its clock says, in one
-# of its own, in the order of reception, as logs, and through a node.
+# A second radar of the same targets, half a second later, whose clock is 1 s behind: in one file as
+# its clock says, in one of its own, in the order of reception, as logs, and through a node.
 shifted() { # SECONDS
-    awk -F, -v by="$1" 'NR > 1 { $1 = sprintf("%.3f", $1 + by); $2 = 2 } NR > 1 { print }' OFS=, in_time.csv
+    awk -F, -v by="$1" 'NR > 1 { $1 = sprintf("%.3f", $1 + by); $2 = 2 } NR > 1 { print }' OFS=, \
+        in_time.csv
 }
-{ cat in_time.csv; shifted 0.5; } | (read -r header && echo "$header" && sort -s -t, -n -k 1,1) >right.csv
-{ cat in_time.csv; shifted -0.5; } | (read -r header && echo "$header" && sort -s -t, -n -k 1,1) >behind.csv
+{ cat in_time.csv; shifted 0.5; } | (read -r header && echo "$header" && sort -s -t, -n -k 1,1) \
+    >right.csv
+{ cat in_time.csv; shifted -0.5; } | (read -r header && echo "$header" && sort -s -t, -n -k 1,1) \
+    >behind.csv
 { head -n 1 in_time.csv; shifted -0.5; } >behind_alone.csv
 awk -F, 'NR == 1 { print "received_s," $0; next }
     { print ($2 == 1 ? $1 : sprintf("%.3f", $1 + 1)) "," $0 }' behind.csv |
     (read -r header && echo "$header" && sort -s -t, -n -k 1,1) >behind_received.csv
 run track right.csv -o expected.csv --json
-check 'the right times: nothing is late' json stdout 'o["counters"]["scans_retrodicted"] == 0 and o["scans"] == 80'
+check 'the right times: nothing is late' json stdout \
+    'o["counters"]["scans_retrodicted"] == 0 and o["scans"] == 80'
 settings=(--set sensor.2.time_bias_s=-1)
 same() { # file, arguments
     run track "$@" "${settings[@]}" -o biased.csv && exits 0 && cmp biased.csv expected.csv
@@ -90,14 +99,16 @@ assert one == other and one, (len(one), len(other), [x for x in zip(one, other) 
 run track behind_received.csv --json -o biased.csv
 check 'not told of it, its scans are late' json stdout 'o["counters"]["scans_retrodicted"] > 30'
 settings=(--set sensor.1.time_bias_s=1 --set sensor.2.time_bias_s=-9)
-{ sed 1d in_time.csv | awk -F, '{ $1 = sprintf("%.3f", $1 + 1); print }' OFS=,; shifted -8.5; } | sort -s -t, -n -k 1,1 |
+{ sed 1d in_time.csv | awk -F, '{ $1 = sprintf("%.3f", $1 + 1); print }' OFS=,; shifted -8.5; } \
+    | sort -s -t, -n -k 1,1 |
     (head -n 1 in_time.csv; cat) >apart.csv
 check 'clocks that are 10 s apart, in one file' same apart.csv
 run convert apart.csv apart.lcm
 check 'in a log' same apart.lcm
 
 # ---- more than a feed has room for: 11 sectors a second, some 3 s late ----
-run simulate two-radars --set radars.0.late_s=3 --set radars.1.late_s=3 --set settings.hold_ms=3000 --set duration_s=150 --seed 5 -o busy
+run simulate two-radars --set radars.0.late_s=3 --set radars.1.late_s=3 \
+    --set settings.hold_ms=3000 --set duration_s=150 --seed 5 -o busy
 run convert busy/plots.csv busy.lcm --config busy/scenario.ini
 for late_max_s in 20 0; do
     run track busy.lcm --config busy/scenario.ini --set late_max_s=$late_max_s --json
@@ -105,7 +116,8 @@ for late_max_s in 20 0; do
         'o["fates"]["stale"] == 0 and o["counters"]["scans_retrodicted"] == 0 and o["scans"] > 1600'
 done
 run node --lcm 'file://busy.lcm?speed=0' --config busy/scenario.ini --log node.lcm
-check 'a node says how many could not' grep -q '^rhotrack: scans that did not wait for hold_ms (no room for more): [1-9]' stderr
+check 'a node says how many could not' grep -q \
+    '^rhotrack: scans that did not wait for hold_ms (no room for more): [1-9]' stderr
 run node --lcm 'file://busy.lcm?speed=0' --config busy/scenario.ini --set hold_ms=500 --log node.lcm
 check 'and nothing where there is room' bash -c '! grep -q "no room for more" stderr'
 
@@ -114,7 +126,8 @@ run simulate doppler --set settings.scan_interval_s=4 -o turning
 unnumbered turning/plots.csv 5 4 >turning/polar.csv
 turning=(--config turning/scenario.ini)
 run track turning/polar.csv "${turning[@]}" -o expected.csv
-awk -F, 'NR == 1 { print $0 ",received_s"; next } { printf "%s,%.6f\n", $0, $1 + 0.05 }' turning/polar.csv >evenly.csv
+awk -F, 'NR == 1 { print $0 ",received_s"; next } { printf "%s,%.6f\n", $0, $1 + 0.05 }' \
+    turning/polar.csv >evenly.csv
 awk -F, 'BEGIN { srand(3) } NR == 1 { print $0 ",received_s"; next }
     { received = $1 + 0.4 * rand(); last = received > last ? received : last; printf "%s,%.6f\n", $0, last }' \
     turning/polar.csv >unevenly.csv
@@ -126,7 +139,8 @@ for file in evenly unevenly; do
         run convert $file.csv $file.lcm "${turning[@]}" $option
         check "convert, received $file $option: nothing is said" bash -c '! test -s stderr'
         run track $file.lcm "${turning[@]}" -o found.csv
-        check "convert, received $file $option: as many scans" grep -q "rhotrack: $(awk -F, 'NR > 1 && $3 == ""' turning/polar.csv | wc -l) scans" stderr
+        check "convert, received $file $option: as many scans" grep -q \
+            "rhotrack: $(awk -F, 'NR > 1 && $3 == ""' turning/polar.csv | wc -l) scans" stderr
     done
     run initiate turning/polar.csv "${turning[@]}"
     mv stdout expected_lines.csv
@@ -138,34 +152,41 @@ done
 run simulate two-radars --set duration_s=60 --seed 2 -o two
 run convert two/plots.csv two.lcm
 run track two.lcm --config two/scenario.ini -o two_tracks.csv
-check 'a log out of order: all is used' grep -Eqx 'rhotrack: two.lcm: [0-9]{2,} scans out of order' stderr
+check 'a log out of order: all is used' grep -Eqx \
+    'rhotrack: two.lcm: [0-9]{2,} scans out of order' stderr
 check 'nothing is said to be lost or late' bash -c '! grep -Eq "lost$|dropped|scans late" stderr'
 # The 40th scan of radar 2 is lost.
-lost=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } $at["sensor_id"] == 2 { print $at["scan"] }' two/plots.csv |
+lost=$(awk -F, \
+    'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } $at["sensor_id"] == 2 { print $at["scan"] }' \
+    two/plots.csv |
     sort -nu | sed -n 40p)
 awk -F, -v lost="$lost" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; print; next }
     !($at["sensor_id"] == 2 && $at["scan"] == lost)' two/plots.csv >gap.csv
 run convert gap.csv gap.lcm
 run track gap.lcm --config two/scenario.ini -o two_tracks.csv
-check 'one that is lost is counted once' grep -Eqx 'rhotrack: gap.lcm: [0-9]+ scans out of order, 1 scans lost' stderr
+check 'one that is lost is counted once' grep -Eqx \
+    'rhotrack: gap.lcm: [0-9]+ scans out of order, 1 scans lost' stderr
 run node --lcm 'file://gap.lcm?speed=10' --config two/scenario.ini
 check 'a node says the same at its end' bash -c 'grep -qx "rhotrack: scans lost: 1" stderr && grep -q "^rhotrack: scans out of order: [0-9]" stderr'
 check 'and before that what is lost, once, and nothing of what is late' \
     matches "$(grep 'scans .*so far' stderr)" 'rhotrack: scans lost: 1 so far'
 run track gap.lcm --config two/scenario.ini --set late_max_s=0 --set hold_ms=0 -o two_tracks.csv
-check 'what is not used is dropped' grep -Eq '^rhotrack: gap.lcm: .*[0-9]+ scans late, dropped, [0-9]+ scans lost' stderr
+check 'what is not used is dropped' grep -Eq \
+    '^rhotrack: gap.lcm: .*[0-9]+ scans late, dropped, [0-9]+ scans lost' stderr
 
 run track later.csv
 check 'more can be held' matches "$(cat stderr)" '*too late; hold_ms waits longer)*'
 run track too_late.csv --set hold_ms=10000 --set late_max_s=10
-check 'not where hold_ms is at its largest' matches "$(cat stderr)" '*too late; late_max_s takes older ones)*'
+check 'not where hold_ms is at its largest' matches "$(cat stderr)" \
+    '*too late; late_max_s takes older ones)*'
 run track too_late.csv --set hold_ms=10000 --set late_max_s=60
 check 'nor more where late_max_s is, too' matches "$(cat stderr)" '*, 0 too late); *'
 
 # ---- refused ----
 sed '20s/^\([0-9.]*\),[0-9.]*,/\1,3.000,/' held.csv >bad.csv
 run track bad.csv -o out.csv
-check 'received_s does not go back' says 2 '*bad.csv:20: received_s goes back from * s to 3.000000 s'
+check 'received_s does not go back' says 2 \
+    '*bad.csv:20: received_s goes back from * s to 3.000000 s'
 run track bad.csv --keep-going --json
 check 'or such rows are skipped' json stdout 'o["rows_skipped"] == 1'
 sed '20s/^\([0-9.]*\),[0-9.]*,/\1,,/' held.csv >bad.csv
@@ -187,7 +208,8 @@ run track numbered.csv -o out.csv
 check 'those of one with a number may differ' exits 0
 printf 't_s,sensor_id,x_m,y_m\n4e12,1,1,1\n' >bad.csv
 run track bad.csv --set sensor.1.time_bias_s=-10
-check 'a time that is beyond what is believed once its bias is off' says 2 "*bad.csv:2: t_s is beyond 4e12 s without *"
+check 'a time that is beyond what is believed once its bias is off' says 2 \
+    "*bad.csv:2: t_s is beyond 4e12 s without *"
 run track in_time.csv --set late_max_s=61
 check 'late_max_s is a minute at most' says 2 '*late_max_s*60*'
 

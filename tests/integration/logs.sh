@@ -5,7 +5,8 @@
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-# make SCENARIO NAME OPTIONS...: NAME.csv and truth.csv of a scenario, and the same as logs, in a folder of that name
+# make SCENARIO NAME OPTIONS...: NAME.csv and truth.csv of a scenario, and the same as logs, in a
+# folder of that name
 make_files() {
     local scenario=$1 name=$2
     shift 2
@@ -25,9 +26,11 @@ made_same() { exits 0 && cmp "$1" "$2"; }
 same_tracks() { # scenario, options
     local scenario=$1
     shift
-    run track "$scenario/in.csv" --config "$scenario/scenario.ini" --covariance "$@" -o "$scenario/tracks.csv"
+    run track "$scenario/in.csv" --config "$scenario/scenario.ini" --covariance "$@" -o \
+        "$scenario/tracks.csv"
     check "$scenario $*: tracks of the CSV file" exits 0
-    run track "$scenario/in.lcm" --config "$scenario/scenario.ini" --covariance "$@" -o "$scenario/same.csv"
+    run track "$scenario/in.lcm" --config "$scenario/scenario.ini" --covariance "$@" -o \
+        "$scenario/same.csv"
     check "$scenario $*: tracks of the log" exits 0
     check "$scenario $*: there are some, and they are the same" \
         sh -c "test \$(wc -l <'$scenario/tracks.csv') -gt 5 && cmp '$scenario/tracks.csv' '$scenario/same.csv'"
@@ -56,7 +59,8 @@ t_s,sensor_id,x_m,y_m,scan
 3.9,1,40,0,9
 CSV
 run track late.csv
-check 'a scan may hold times in any order, scans may not' says 2 'rhotrack: late.csv:6: time goes back from 4.000000 s to 3.900000 s'
+check 'a scan may hold times in any order, scans may not' says 2 \
+    'rhotrack: late.csv:6: time goes back from 4.000000 s to 3.900000 s'
 # A scan may begin before the last plots of the one before; its utime may be within it.
 for first in 0.0 -0.6; do
     python3 - "$first" >mixed.csv <<'PYTHON'
@@ -70,8 +74,10 @@ PYTHON
     run convert mixed.csv mixed.lcm
     run track mixed.lcm --covariance -o tracks.csv
     run track mixed.csv --covariance -o same.csv
-    check "scans that begin at $first s and overlap: none is torn apart" grep -q 'rhotrack: 8 scans, 40 plots' stderr
-    check "scans that begin at $first s and overlap: the same as out of a log" made_same tracks.csv same.csv
+    check "scans that begin at $first s and overlap: none is torn apart" grep -q \
+        'rhotrack: 8 scans, 40 plots' stderr
+    check "scans that begin at $first s and overlap: the same as out of a log" made_same \
+        tracks.csv same.csv
 done
 
 # two radars and their targets' bearings together, all in one log
@@ -161,24 +167,29 @@ run convert one.lcm one.again.csv
 check 'maintain: its track as a log' sh -c "
     cut -d, -f1-12,15-18 one.csv >a; cut -d, -f1-12,15-18 one.again.csv >b; cmp a b"
 run maintain passive-three/in.lcm
-check 'maintain: bearings are refused' says 2 'rhotrack: passive-three/in.lcm: maintain takes plots, and these are bearings'
+check 'maintain: bearings are refused' says 2 \
+    'rhotrack: passive-three/in.lcm: maintain takes plots, and these are bearings'
 head -c 500 /dev/zero >garbage.bytes
 run plot tracks radar/in.lcm radar/tracks.lcm radar/truth.lcm -o map.svg
 check 'plot' sh -c 'grep -q "<svg" map.svg'
 cat garbage.bytes passive-three/in.lcm radar/tracks.lcm radar/in.lcm >node.lcm
 run plot tracks node.lcm -o map.svg
-check 'plot: tracks of a log with bearings, too; damage is told once' says 0 'rhotrack: node.lcm: 500 bytes skipped at byte 0'
+check 'plot: tracks of a log with bearings, too; damage is told once' says 0 \
+    'rhotrack: node.lcm: 500 bytes skipped at byte 0'
 run plot tracks passive-three/in.lcm -o map.svg
-check 'plot: a log of bearings alone' says 2 'rhotrack: plot tracks: bearings * are shown by plot scans alone'
+check 'plot: a log of bearings alone' says 2 \
+    'rhotrack: plot tracks: bearings * are shown by plot scans alone'
 run plot tracks peaks.lcm -o map.svg
-check 'plot: nothing to draw in it' says 2 'rhotrack: peaks.lcm: no messages of plots, bearings, truth or tracks in it'
+check 'plot: nothing to draw in it' says 2 \
+    'rhotrack: peaks.lcm: no messages of plots, bearings, truth or tracks in it'
 
 # ---- what may be wrong with a log ----
 
 cat garbage.bytes radar/in.lcm >damaged.lcm
 run track radar/in.lcm -o whole.csv
 run track damaged.lcm -o again.csv
-check 'damage at the start is skipped and told' matches "$(cat stderr)" '*damaged.lcm: 500 bytes skipped*'
+check 'damage at the start is skipped and told' matches "$(cat stderr)" \
+    '*damaged.lcm: 500 bytes skipped*'
 check 'and what follows is read' made_same whole.csv again.csv
 python3 - <<'PYTHON'
 import struct
@@ -195,22 +206,27 @@ check 'every message twice: told' matches "$(cat stderr)" '*double.lcm: * scans 
 check 'and taken once' made_same whole.csv again.csv
 cat radar/in.lcm radar/in.lcm >two.lcm
 run track two.lcm
-check 'two recordings in one' says 2 "rhotrack: two.lcm: the sensors' clock starts anew at * s: two recordings in one*"
+check 'two recordings in one' says 2 \
+    "rhotrack: two.lcm: the sensors' clock starts anew at * s: two recordings in one*"
 merge radar/in.lcm passive-three/in.lcm >mixed.lcm
 cat garbage.bytes mixed.lcm >damaged.lcm
 run track damaged.lcm -o again.csv
-check 'a log with plots and bearings: damage is told once' matches "$(head -n 1 stderr) $(grep -c skipped stderr)" 'rhotrack: damaged.lcm: 500 bytes skipped at byte 0 1'
+check 'a log with plots and bearings: damage is told once' matches \
+    "$(head -n 1 stderr) $(grep -c skipped stderr)" \
+    'rhotrack: damaged.lcm: 500 bytes skipped at byte 0 1'
 printf 't_s,sensor_id,x_m,y_m\n' >pause.csv
 for t in 0 1 2 3 4 9000 9001 9002 9003 9004 9005; do echo "$t,1,$t,5"; done >>pause.csv
 run convert pause.csv pause.lcm
 run track pause.lcm
-check 'a log with a long pause goes on behind it' matches "$(tail -n 1 stderr)" 'rhotrack: 9 scans, 9 plots, *'
+check 'a log with a long pause goes on behind it' matches "$(tail -n 1 stderr)" \
+    'rhotrack: 9 scans, 9 plots, *'
 check 'and says what the pause cost' grep -q 'rhotrack: pause.lcm: 2 scans with bad times' stderr
 mkfifo pipe.lcm
 for command in track initiate maintain; do
     cat radar/in.lcm >pipe.lcm 2>pipe.error &
     run "$command" pipe.lcm
-    check "$command: a log through a pipe" says 2 'rhotrack: pipe.lcm: a log is looked at twice, so that a pipe will not do'
+    check "$command: a log through a pipe" says 2 \
+        'rhotrack: pipe.lcm: a log is looked at twice, so that a pipe will not do'
     kill $! 2>/dev/null
 done
 run track radar/truth.lcm

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# For scripts whose nodes and publishers speak to one another over lo: in a network of their own where the system allows one, else on
-# a port of their own. Source it before checks.bash.
+# For scripts whose nodes and publishers speak to one another over lo: in a network of their own
+# where the system allows one, else on a port of their own. Source it before checks.bash.
 
 if [ -z "${RHO_ON_LOOPBACK:-}" ] && command -v ip >/dev/null && unshare -Urn true 2>/dev/null; then
     RHO_ON_LOOPBACK=1 exec unshare -Urn bash "$0"

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# maintain: one track through each gate, on targets that pull in a beam full of clutter, and what it refuses.
-# Runs beside others.
+# maintain: one track through each gate, on targets that pull in a beam full of clutter, and what it
+# refuses. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
@@ -10,7 +10,8 @@ for scene in popup weave; do
     run simulate $scene --seed 3 -o $scene
     check "$scene" exits 0
 done
-check 'columns of plots with heights' matches "$(head -n 1 popup/plots.csv)" 't_s,sensor_id,x_m,y_m,z_m,sigma_m,scan,target_id'
+check 'columns of plots with heights' matches "$(head -n 1 popup/plots.csv)" \
+    't_s,sensor_id,x_m,y_m,z_m,sigma_m,scan,target_id'
 check 'columns of a truth with heights' matches "$(head -n 1 popup/truth.csv)" \
     't_s,target_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps'
 check 'four clutter plots a scan but in the first three' matches "$(wc -l <popup/plots.csv)" $((1 + 161 * 6 - 3 * 4))
@@ -46,7 +47,8 @@ check 'the acceleration is there while it pulls, and not before' awk -F, '
     $1 > 4 && $1 < 9.5 && $12 * $12 > 2500 { exit 1 }' hough.csv
 run maintain sharp/plots.csv --config sharp/scenario.ini --no-input-estimation
 check 'best is the default' cmp best.csv stdout
-check 'and has no input estimation' grep -q '^rhotrack: --no-input-estimation says nothing to --gate best' stderr
+check 'and has no input estimation' grep -q \
+    '^rhotrack: --no-input-estimation says nothing to --gate best' stderr
 run simulate weave --seed 5 --set radars.0.pd=0.9 --set clutter.0.count=10 -o hard
 run maintain hard/plots.csv --config hard/scenario.ini -o out.csv
 run evaluate hard/truth.csv out.csv --json
@@ -62,7 +64,8 @@ run maintain sharp/plots.csv --set gate=none --gate hough
 check '--gate goes before the parameter' writes_same_as hough.csv
 run maintain sharp/plots.csv --gate nearest --no-input-estimation
 cp stdout plain.csv
-check 'a plain filter has no accelerations' awk -F, 'NR > 1 && ($10 || $11 || $12) { exit 1 }' plain.csv
+check 'a plain filter has no accelerations' awk -F, 'NR > 1 && ($10 || $11 || $12) { exit 1 }' \
+    plain.csv
 run maintain sharp/plots.csv --gate hough --set gamma=0.5 --set onset_confidence=0.99 -o forgets.csv
 run evaluate sharp/truth.csv forgets.csv --json
 check 'forgetting follows more closely' json stdout "o['rmse_mps'] < 0.5 * $(python3 -c '
@@ -72,7 +75,8 @@ check 'planes and cells have an effect' bash -c '! cmp -s stdout hough.csv'
 run maintain sharp/plots.csv --gate hough --set planes=yz+xz+xy
 check 'planes in any order' writes_same_as hough.csv
 run config --set planes=yz+xy
-check 'config says which planes' grep -q '^planes .* xy+xz+yz  xy|xz|yz, joined by +  *xy+yz  set ' stdout
+check 'config says which planes' grep -q \
+    '^planes .* xy+xz+yz  xy|xz|yz, joined by +  *xy+yz  set ' stdout
 run maintain sharp/plots.csv --gate nearest --set input_model=physical --set input_sigma_mps2=100
 check 'so have the model and V(0)' bash -c '! cmp -s stdout nearest.csv'
 run maintain sharp/plots.csv --gate nearest --set filter_noise_m=5 --set filter_noise_mps=30
@@ -92,15 +96,19 @@ check 'covariance: the other columns are the same' cmp hough.csv first_columns.c
 check 'covariance: 21 columns more' awk -F, 'NF != 39 { exit 1 }' stdout
 
 # ---- scans ----
-run simulate popup --seed 3 --set radars.0.sigma_mps=1 --set radars.0.pd=0.8 --set clutter=[] -o misses
+run simulate popup --seed 3 --set radars.0.sigma_mps=1 --set radars.0.pd=0.8 --set clutter=[] \
+    -o misses
 run maintain misses/plots.csv --gate nearest --config misses/scenario.ini --json -o out.csv
-check 'misses are counted' json stdout 'o["misses"] + o["fates"]["claimed"] == 161 and 10 < o["misses"] < 60'
-check 'and their rows coast' awk -F, 'NR > 1 && ($18 == -1) != ($3 == "coasting") { exit 1 }' out.csv
+check 'misses are counted' json stdout \
+    'o["misses"] + o["fates"]["claimed"] == 161 and 10 < o["misses"] < 60'
+check 'and their rows coast' awk -F, 'NR > 1 && ($18 == -1) != ($3 == "coasting") { exit 1 }' \
+    out.csv
 { head -n 1 misses/plots.csv; echo '-0.5,1,,,,,,,,,0,'; tail -n +2 misses/plots.csv; } >late.csv
 run maintain late.csv --gate nearest --config misses/scenario.ini
 check 'nothing is written before there is a plot' writes_same_as out.csv
 
-# A target at (10 km, 0) that goes north at 100 m/s; a scan looks at it, the next at the west, where there is a plot.
+# A target at (10 km, 0) that goes north at 100 m/s; a scan looks at it, the next at the west, where
+# there is a plot.
 awk 'BEGIN {
     print "t_s,sensor_id,x_m,y_m,sector_from_rad,sector_to_rad"
     for (k = 0; k < 20; k++)
@@ -132,7 +140,8 @@ check 'plots of two sensors go to one track' awk -F, 'NR > 1 && ($2 != 1 || $18 
     END { exit ($4 - 7900)^2 + ($5 - 4000)^2 + ($6 - 3000)^2 > 900 || ($7 - 200)^2 > 400 }' stdout
 
 # A radar's plots, each at its own time, with range rates: a lone target.
-run simulate polar --seed 3 --set targets.0.count=1 --set clutter=[] --set radars.0.pd=1 --set radars.0.sigma_range_rate_mps=1 -o polar
+run simulate polar --seed 3 --set targets.0.count=1 --set clutter=[] --set radars.0.pd=1 \
+    --set radars.0.sigma_range_rate_mps=1 -o polar
 run maintain polar/plots.csv --gate nearest --config polar/scenario.ini -o out.csv
 run evaluate polar/truth.csv out.csv --json
 check 'polar plots' json stdout 'o["completeness"] > 0.9 and o["rmse_m"] < 200'
@@ -145,13 +154,16 @@ cut -d, -f1-4,6-8,10 sharp/plots.csv >level.csv
 run maintain level.csv --gate hough
 check 'hough without heights' exits 0
 run maintain level.csv --gate hough --set planes=xz+yz
-check 'and without a plane left' says 2 'rhotrack: --gate hough: the scan at 0.000000 s has no heights, so that planes must hold xy'
+check 'and without a plane left' says 2 \
+    'rhotrack: --gate hough: the scan at 0.000000 s has no heights, so that planes must hold xy'
 run maintain popup/plots.csv --gate nearest
-check 'places alone and the literal model: it says so' grep -q '^rhotrack: places alone do not show the inputs of input_model literal' stderr
+check 'places alone and the literal model: it says so' grep -q \
+    '^rhotrack: places alone do not show the inputs of input_model literal' stderr
 run maintain popup/plots.csv --gate huogh
 check 'an unknown gate' says 2 "rhotrack: --gate 'huogh' is not one of best|hough|nearest|none"
 run maintain sharp/plots.csv --set planes=xy+zz
-check 'an unknown plane' says 2 "rhotrack: --set planes=xy+zz: planes 'xy+zz' is not one of xy|xz|yz, or several joined by +"
+check 'an unknown plane' says 2 \
+    "rhotrack: --set planes=xy+zz: planes 'xy+zz' is not one of xy|xz|yz, or several joined by +"
 run maintain
 check 'no input' says 2 'rhotrack: maintain: too few arguments; usage: *'
 run maintain popup/plots.csv weave/plots.csv --gate nearest
@@ -163,7 +175,8 @@ run maintain nothing.csv --gate nearest
 check 'not one plot' says 2 'rhotrack: nothing.csv: not one plot to start the track from'
 run simulate passive-two -o passive
 run maintain passive/bearings.csv --gate nearest
-check 'bearings' says 2 'rhotrack: passive/bearings.csv: maintain takes plots, and these are bearings'
+check 'bearings' says 2 \
+    'rhotrack: passive/bearings.csv: maintain takes plots, and these are bearings'
 sed '7s/^[^,]*,1,[^,]*/1,1,12x/' sharp/plots.csv >broken.csv
 run maintain broken.csv --gate nearest -o none_left.csv
 check 'a bad cell' says 2 "rhotrack: broken.csv:7: x_m*"
@@ -171,7 +184,8 @@ check 'and no output is left again' test ! -e none_left.csv
 run maintain broken.csv --gate nearest --keep-going --json
 check 'with --keep-going it is skipped' json stdout 'o["rows_skipped"] == 1 and o["plots"] == 792'
 run maintain sharp/plots.csv --gate nearest --follow
-check 'options of others' says 2 'rhotrack: maintain takes no --follow; see rhotrack maintain --help'
+check 'options of others' says 2 \
+    'rhotrack: maintain takes no --follow; see rhotrack maintain --help'
 
 # ---- heights in `evaluate`: only where both files have them ----
 cut -d, -f1-4,6-7 sharp/truth.csv >flat_truth.csv

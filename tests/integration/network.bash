@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
-# For scripts that need a network: they go on in one of their own (namespaces of user, network and mounts), where
-# multicast goes over lo. Where the system allows none they say so and end: `skipped: ...`.
-# Source it before checks.bash, with the script's arguments.
+# For scripts that need a network: they go on in one of their own (namespaces of user, network and
+# mounts), where multicast goes over lo. Where the system allows none they say so and end: `skipped:
+# ...`. Source it before checks.bash, with the script's arguments.
 
 tests_folder=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 lcm_url='udpm://239.255.76.67:7667?ttl=1'
@@ -50,10 +50,11 @@ table ip loss {
 NFT
 }
 
-lost() { ip netns exec "$1" nft list table ip loss | sed -n 's/.*counter packets \([0-9]*\).*/\1/p'; }
+lost() { ip netns exec "$1" nft list table ip loss | sed -n \
+    's/.*counter packets \([0-9]*\).*/\1/p'; }
 
-# The Python that has the package lcm, as $python, and the messages' bindings by lcm-gen in the folder bindings; where
-# there is no such Python the script ends. After checks.bash.
+# The Python that has the package lcm, as $python, and the messages' bindings by lcm-gen in the
+# folder bindings; where there is no such Python the script ends. After checks.bash.
 need_bindings() {
     local type
     python=$("$tests_folder/python.sh")
@@ -63,8 +64,9 @@ need_bindings() {
     done
 }
 
-# The newest RHO_STATUS of a log as NAME=VALUE lines in the file status, by the Python bindings of lcm-gen. A step_max_us is of
-# one second, and the newest may be idle: longest_step_us is that of all.
+# The newest RHO_STATUS of a log as NAME=VALUE lines in the file status, by the Python bindings of
+# lcm-gen. A step_max_us is of one second, and the newest may be idle: longest_step_us is that of
+# all.
 read_status() { # log
     "$python" - "$1" >status <<'PYTHON'
 import sys

@@ -1,13 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# node and publish: the same tracks live as from a file, a clean end, logs, other providers, bad URLs.
+# node and publish: the same tracks live as from a file, a clean end, logs, other providers, bad
+# URLs.
 # shellcheck source=tests/integration/loopback.bash
 . "$(dirname "$0")/loopback.bash"
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-# start NAME OPTIONS...: a node with NAME.csv, NAME.lcm, NAME.err; $node is its process. It listens when it returns.
-# It waits long for parts and other sensors: on a machine that is busy publish may pause for more than 20 ms.
+# start NAME OPTIONS...: a node with NAME.csv, NAME.lcm, NAME.err; $node is its process. It listens
+# when it returns. It waits long for parts and other sensors: on a machine that is busy publish may
+# pause for more than 20 ms.
 start() {
     local name=$1
     shift
@@ -50,7 +52,8 @@ for t in a:
 PYTHON
 }
 
-"$program" simulate traffic --seed 3 --set targets.0.count=6 --set duration_s=150 --set clutter.0.plots=60 -o scene
+"$program" simulate traffic --seed 3 --set targets.0.count=6 --set duration_s=150 \
+    --set clutter.0.plots=60 -o scene
 run track scene/plots.csv --config scene/scenario.ini
 cp stdout tracks.csv
 check 'there is something to track' test "$(wc -l <tracks.csv)" -gt 20
@@ -127,14 +130,16 @@ run publish scene/plots.csv --speed 200
 sleep 0.2
 stop INT "$node"
 check 'it is followed' grep -q 'sensor restarts: 1' again.err
-check 'tracks again' test "$(awk -F, '$1 == "140.000000" && $3 == "confirmed"' again.csv | wc -l)" -ge 10
+check 'tracks again' test "$(awk -F, '$1 == "140.000000" && $3 == "confirmed"' again.csv | wc -l)" \
+    -ge 10
 
 # ---- a loop goes on ----
 start loop
 timeout -s INT 1.5 "$program" publish scene/plots.csv --speed 400 --loop 2>/dev/null
 sleep 0.2
 stop INT "$node"
-check 'a loop has times that go on' awk -F, 'NR > 1 { if ($1 + 0 < t) exit 1; t = $1 + 0 } END { exit !(t > 300) }' loop.csv
+check 'a loop has times that go on' awk -F, \
+    'NR > 1 { if ($1 + 0 < t) exit 1; t = $1 + 0 } END { exit !(t > 300) }' loop.csv
 check 'and numbers without gaps' test -z "$(grep -E 'lost|late|restart|double' loop.err)"
 
 # ---- bearings ----
@@ -147,8 +152,10 @@ check 'tracks of bearings are those of track' writes_same_as passive.csv
 
 # Plots within a frame's scans: each waits for the frame that began before it.
 "$program" simulate passive-three --seed 4 --set duration_s=200 -o three
-awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%.6f", $1 + 0.012 * $2) } { print }' three/bearings.csv >bearings.csv
-awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%.6f", $1 + 0.02); $2 = 9 } { print }' scene/plots.csv >plots.csv
+awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%.6f", $1 + 0.012 * $2) } { print }' three/bearings.csv \
+    >bearings.csv
+awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%.6f", $1 + 0.02); $2 = 9 } { print }' scene/plots.csv \
+    >plots.csv
 run track plots.csv bearings.csv --config scene/scenario.ini
 cp stdout merged.csv
 start both
@@ -156,7 +163,8 @@ run publish plots.csv bearings.csv --speed 100
 sleep 0.2
 stop INT "$node"
 check 'plots and bearings together as well, though live' cmp merged.csv both.csv
-check 'without a loss, but for room to wait for a sensor that has ended' matches "$(grep -Evc 'no route|no room for more' both.err)" 1
+check 'without a loss, but for room to wait for a sensor that has ended' matches \
+    "$(grep -Evc 'no route|no room for more' both.err)" 1
 
 # ---- files instead of a network ----
 run publish scene/plots.csv --speed 0 --lcm 'file://played.lcm?mode=w'
@@ -167,9 +175,11 @@ check 'a node reads it, and ends with it' writes_same_as tracks.csv
 "$program" convert scene/plots.csv scene.lcm
 cp scene.lcm both.lcm
 run node --lcm 'file://both.lcm?speed=0' --log ./both.lcm
-check 'a node does not log over what it reads' says 2 'rhotrack: node: ./both.lcm would be written over *'
+check 'a node does not log over what it reads' says 2 \
+    'rhotrack: node: ./both.lcm would be written over *'
 run publish scene/plots.csv both.lcm --lcm 'file://both.lcm?mode=w'
-check 'nor does publish write over what it plays' says 2 'rhotrack: publish: both.lcm would be written over *'
+check 'nor does publish write over what it plays' says 2 \
+    'rhotrack: publish: both.lcm would be written over *'
 check 'and it is as it was' cmp scene.lcm both.lcm
 
 # Prints a log's first and last time in seconds.
@@ -235,7 +245,8 @@ refused 'no address' 'udpm://239.255.76.67:7667?sources_allowed=,' 'sources_allo
 refused 'a provider that is none' nix://there 'liblcm does not open it'
 refused 'a file that is not there' file://nothing.lcm 'liblcm does not open it'
 run publish scene/plots.csv --lcm file://played.lcm
-check 'publish does not write where it would read' says 2 'rhotrack: --lcm file://played.lcm: *mode=w*'
+check 'publish does not write where it would read' says 2 \
+    'rhotrack: --lcm file://played.lcm: *mode=w*'
 run publish nothing.csv
 check 'publish without its input' exits 2
 run node --log nowhere/at.lcm

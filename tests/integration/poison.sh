@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates/poison.sh passes on a clean little library, and goes red for each thing that it forbids.
+# tools/gates/poison.sh passes on a clean little library, and goes red for each thing that it
+# forbids.
 set -eu
 cd "$(dirname "$0")/../.."
 top=$(pwd)
@@ -37,7 +38,8 @@ must_pass 'words in comments and strings' \
 must_pass 'a constant table of pointers' \
     'static const char *const names[] = {"a", "b"}; const char *rho_name(int i) { return names[i]; }'
 word() { # source: its last line has the word
-    must_fail "$1" "$1" 'forbidden words in the sources' "src/base/sample.c:$(wc -l <<<"$1"): $(tail -n 1 <<<"$1")"
+    must_fail "$1" "$1" 'forbidden words in the sources' \
+        "src/base/sample.c:$(wc -l <<<"$1"): $(tail -n 1 <<<"$1")"
 }
 word 'double rho_twice(float v) { return v + v; }'
 word 'void *malloc(unsigned long); void *rho_new(void) { return malloc(8); }'
@@ -50,7 +52,8 @@ int rho_last(void) { return errno; }'
 word 'int rho_f(int n) { if (n) goto end; n = 1; end: return n; }'
 must_fail 'a function of libm' 'float sinf(float); float rho_f(float v) { return sinf(v); }' \
     'takes from elsewhere' 'sample.o: sinf'
-must_fail 'a counter of its own' 'int rho_count(void); static int n; int rho_count(void) { return ++n; }' \
+must_fail 'a counter of its own' \
+    'int rho_count(void); static int n; int rho_count(void) { return ++n; }' \
     'mutable globals' 'sample.o: n'
 must_fail 'a public variable' 'int rho_level = 3;' 'mutable globals' 'sample.o: rho_level'
 must_fail 'a name without prefix' 'int helper(int v); int helper(int v) { return v; }' \

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Polar plots: simulate polar, track, initiate; the same plots in other forms, from elsewhere, with biases.
-# Runs beside others.
+# Polar plots: simulate polar, track, initiate; the same plots in other forms, from elsewhere, with
+# biases. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
@@ -13,7 +13,8 @@ simulate() { # folder, options...
     run evaluate "$1/truth.csv" "$1/tracks.csv" --json
     cp stdout "$1/figures.json"
 }
-# 20 of 20 and nothing else at 58 of 60 seeds, not at the first, delays of 2.15 .. 2.8 scans without range rates
+# 20 of 20 and nothing else at 58 of 60 seeds, not at the first, delays of 2.15 .. 2.8 scans without
+# range rates
 for seed in 2 3 4 5 6; do
     for rate in 0 1; do
         rates=()
@@ -25,9 +26,11 @@ for seed in 2 3 4 5 6; do
     done
 done
 head -n 1 seed2-rate0/plots.csv >header
-check 'without sigma_range_rate_mps there is no such column' matches "$(cat header)" 't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,*'
+check 'without sigma_range_rate_mps there is no such column' matches "$(cat header)" \
+    't_s,sensor_id,range_m,azimuth_rad,sensor_x_m,*'
 head -n 1 seed2-rate1/plots.csv >header
-check 'with it there is' matches "$(cat header)" 't_s,sensor_id,range_m,azimuth_rad,range_rate_mps,sensor_x_m,*'
+check 'with it there is' matches "$(cat header)" \
+    't_s,sensor_id,range_m,azimuth_rad,range_rate_mps,sensor_x_m,*'
 check 'and scenario.ini has its noise' grep -qx 'sigma_range_rate_mps = 1' seed2-rate1/scenario.ini
 cut -d, -f1-4,6- seed2-rate1/plots.csv >without.csv
 check 'the other columns are the same' cmp seed2-rate0/plots.csv without.csv
@@ -41,7 +44,8 @@ first, second = sum(values[:half]), sum(values[half:])
 sys.exit(0 if first < second else f"{first} and {second}")' "$@"
 }
 # 0.15 .. 0.5 scans at each of 20 seeds
-check 'range rates make targets found earlier' sum_below delay_scans seed?-rate1/figures.json seed?-rate0/figures.json
+check 'range rates make targets found earlier' sum_below delay_scans seed?-rate1/figures.json \
+    seed?-rate0/figures.json
 sed 's/^sigma_range_rate_mps.*/sigma_range_rate_mps = 50/' seed2-rate1/scenario.ini >vague.ini
 run track seed2-rate1/plots.csv --config vague.ini
 check 'their noise has an effect' bash -c '! cmp -s seed2-rate1/tracks.csv stdout'
@@ -55,7 +59,8 @@ check 'and other targets' bash -c '! cmp -s seed2-rate0/truth.csv seed3-rate0/tr
 
 # Turns open with a row of their own, so a turn without plots is a scan at its time.
 simulate dark --seed 1 --set clutter=[] --set radars.0.pd=0
-check 'turns without plots are scans' grep -q 'rhotrack: 15 scans, 0 plots, 0 tracks confirmed' dark/summary
+check 'turns without plots are scans' grep -q 'rhotrack: 15 scans, 0 plots, 0 tracks confirmed' \
+    dark/summary
 simulate thin --seed 1 --set clutter.0.plots=0.3 --set targets=[] --set duration_s=160
 plots=$(awk -F, 'NR > 1 && $3 != ""' thin/plots.csv | wc -l)
 check 'where some turns have plots, some do not, all count' \
@@ -64,7 +69,8 @@ check 'that file has both kinds of turns' awk -F, '$3 != "" { n++; turn[int($1 /
     END { exit !(length(turn) > 5 && length(turn) < 35) }' thin/plots.csv
 
 simulate odd --seed 1 --set radars.0.turn_s=2.6666667 --set duration_s=40.1
-check 'scans have the times of the turns, also of odd ones' json odd/figures.json 'o["targets_found"] == 3'
+check 'scans have the times of the turns, also of odd ones' json odd/figures.json \
+    'o["targets_found"] == 3'
 simulate long --seed 1 --set radars.0.turn_s=60 --set duration_s=120
 check 'long turns are tracked' grep -q 'rhotrack: 2 scans' long/summary
 
@@ -92,10 +98,11 @@ for seed in 1 2 3 4 5; do
     cp stdout "cartesian$seed.json"
 done
 # its square is 0.92 of the other's, standard deviation 0.04 a seed
-check 'polar plots give better tracks than the same plots with one sigma' sum_below rmse_m polar?.json cartesian?.json
+check 'polar plots give better tracks than the same plots with one sigma' sum_below rmse_m \
+    polar?.json cartesian?.json
 
-# ---- two targets for 20 scans, 10 s apart, the second seen 2.5 s after the first, which goes over azimuth pi ----
-# Columns: t_s,sensor_id,range_m,azimuth_rad; more with heights: elevation_rad.
+# ---- two targets for 20 scans, 10 s apart, the second seen 2.5 s after the first, which goes over
+# azimuth pi ---- Columns: t_s,sensor_id,range_m,azimuth_rad; more with heights: elevation_rad.
 make_plots() { # heights (0 or 1)
     awk -v heights="$1" '
         function noise(size) { return size * (rand() + rand() + rand() - 1.5) }
@@ -129,11 +136,13 @@ last_scan_is_true() { # file
 }
 make_plots 0 >plots.csv
 # Straight, so that a track led on in time is the same line.
-settings=(--set scan_interval_s=9 --set accel_max_mps2=0 --set sigma_azimuth_rad=0.001 --set sigma_range_m=10)
+settings=(--set scan_interval_s=9 --set accel_max_mps2=0 --set sigma_azimuth_rad=0.001 \
+    --set sigma_range_m=10)
 run track plots.csv "${settings[@]}"
 cp stdout tracks.csv
 cp stderr summary
-check 'both targets are confirmed, in place at the time of the scan, with their plots' last_scan_is_true tracks.csv
+check 'both targets are confirmed, in place at the time of the scan, with their plots' \
+    last_scan_is_true tracks.csv
 check 'two rows a scan' grep -q 'rhotrack: 20 scans, 40 plots, 2 tracks confirmed' summary
 check 'and no third track' awk -F, 'NR > 1 { seen[$2] } END { exit length(seen) != 2 }' tracks.csv
 
@@ -146,12 +155,15 @@ same() { # name, file, options...
 }
 awk -F, '{ print $4 "," $3 "," $2 "," $1 }' plots.csv >form.csv
 same 'another order of columns' form.csv "${settings[@]}"
-awk -F, '{ print $0 (NR == 1 ? ",sigma_range_m,sigma_azimuth_rad" : ",10,0.001") }' plots.csv >form.csv
-same 'columns of sigmas go before --set' form.csv --set scan_interval_s=9 --set accel_max_mps2=0 --set sigma_range_m=99 \
+awk -F, '{ print $0 (NR == 1 ? ",sigma_range_m,sigma_azimuth_rad" : ",10,0.001") }' plots.csv \
+    >form.csv
+same 'columns of sigmas go before --set' form.csv --set scan_interval_s=9 --set accel_max_mps2=0 \
+    --set sigma_range_m=99 \
     --set sigma_azimuth_rad=0.1
 awk -F, '{ print $0 (NR == 1 ? ",sigma_range_m,sigma_azimuth_rad" : ",,") }' plots.csv >form.csv
 same 'empty cells leave the sigmas to --set' form.csv "${settings[@]}"
-same "a sensor's own sigmas go before those of all" plots.csv --set scan_interval_s=9 --set accel_max_mps2=0 \
+same "a sensor's own sigmas go before those of all" plots.csv --set scan_interval_s=9 \
+    --set accel_max_mps2=0 \
     --set sensor.1.sigma_range_m=10 --set sensor.1.sigma_azimuth_rad=0.001
 run track plots.csv --set scan_interval_s=9 --set accel_max_mps2=0
 check 'and have an effect' bash -c '! cmp -s tracks.csv stdout'
@@ -200,7 +212,8 @@ shift_plots -200 0.03 -0.75 >biased.csv
 printf '[sensor 1]\nrange_bias_m = -200\nazimuth_bias_rad = 0.03\ntime_bias_s = -0.75\n' >biases.ini
 run track biased.csv "${settings[@]}" --config biases.ini
 check 'all biases together, from an INI file' near tracks.csv 0.1 0 0 0
-run track plots.csv "${settings[@]}" --set sensor.2.range_bias_m=300 --set sensor.2.azimuth_bias_rad=0.1
+run track plots.csv "${settings[@]}" --set sensor.2.range_bias_m=300 \
+    --set sensor.2.azimuth_bias_rad=0.1
 check "another sensor's biases are not this one's" writes_same_as tracks.csv
 
 # ---- places ----
@@ -223,25 +236,30 @@ sed -e 's/^area_x_min_m.*/area_x_min_m = -53000/' -e 's/^area_x_max_m.*/area_x_m
     seed2-rate1/scenario.ini >elsewhere.ini
 run track elsewhere.csv --config elsewhere.ini
 # (a radar that has a place has a range, too, and the clutter map learns by parts of it)
-check 'a simulated radar elsewhere, range rates and clutter' moved seed2-rate1/tracks.csv 0.3 12000 -7000 0
+check 'a simulated radar elsewhere, range rates and clutter' moved seed2-rate1/tracks.csv 0.3 \
+    12000 -7000 0
 
 # Empty cells once left the tracker with the place of the scan before.
-awk -F, 'NR == 1 { print; print "0,1,,,,0,90000,0,0,0," } NR > 1 { $6 = $7 = ""; print }' OFS=, seed2-rate1/plots.csv >form.csv
+awk -F, 'NR == 1 { print; print "0,1,,,,0,90000,0,0,0," } NR > 1 { $6 = $7 = ""; print }' OFS=, \
+    seed2-rate1/plots.csv >form.csv
 run track form.csv --config seed2-rate1/scenario.ini -o tracks_form.csv
 run evaluate seed2-rate1/truth.csv tracks_form.csv --json
-check 'a place is not that of the scan before' json stdout '(o["targets_found"], o["tracks"]) == (20, 20)'
+check 'a place is not that of the scan before' json stdout \
+    '(o["targets_found"], o["tracks"]) == (20, 20)'
 
 # ---- heights ----
 make_plots 1 >high.csv
 run track high.csv "${settings[@]}" --set sigma_elevation_rad=0.001
 cp stdout high_tracks.csv
 check 'with elevations both targets are in place' last_scan_is_true high_tracks.csv
-check 'at their heights' awk -F, '$1 == "190.000000" && ($6 - ($18 == 0 ? 6000 : 9000))^2 > 100^2 { exit 1 }' high_tracks.csv
+check 'at their heights' awk -F, \
+    '$1 == "190.000000" && ($6 - ($18 == 0 ? 6000 : 9000))^2 > 100^2 { exit 1 }' high_tracks.csv
 awk -F, 'NR > 1 { $5 = sprintf("%.8f", $5 * 57.29577951308232) } { print }' OFS=, high.csv |
     sed 's/elevation_rad/elevation_deg/' >form.csv
 run track form.csv "${settings[@]}" --set sigma_elevation_rad=0.001
 check 'elevation_deg' near high_tracks.csv 0.1 0 0 0
-awk -F, '{ print $0 (NR == 1 ? ",sensor_x_m,sensor_y_m,sensor_z_m" : ",0,0,700") }' high.csv >form.csv
+awk -F, '{ print $0 (NR == 1 ? ",sensor_x_m,sensor_y_m,sensor_z_m" : ",0,0,700") }' high.csv \
+    >form.csv
 run track form.csv "${settings[@]}" --set sigma_elevation_rad=0.001
 awk -F, 'NR > 1 { $6 -= 700 } { print }' OFS=, stdout >lowered.csv
 cp lowered.csv stdout
@@ -280,15 +298,18 @@ check 'initiate: with a bias' both_found 0 0
 # 18 .. 20 of 20 and nothing else at each of 20 seeds
 awk -F, 'NR == 1 || $1 == "60.000000"' seed2-rate0/truth.csv >truth.csv
 for rate in 0 1; do
-    run initiate "seed2-rate$rate/plots.csv" --config "seed2-rate$rate/scenario.ini" -o initiated.csv
+    run initiate "seed2-rate$rate/plots.csv" --config "seed2-rate$rate/scenario.ini" \
+        -o initiated.csv
     run evaluate truth.csv initiated.csv --json
-    check "initiate: simulated, range rate $rate" json stdout 'o["targets_found"] >= 17 and o["gospa_false"] == 0'
+    check "initiate: simulated, range rate $rate" json stdout \
+        'o["targets_found"] >= 17 and o["gospa_false"] == 0'
 done
 
 awk -F, 'NR > 1 { $3 += 12000; $4 -= 7000 } { print }' OFS=, truth.csv >moved_truth.csv
 run initiate elsewhere.csv --config elsewhere.ini -o initiated.csv
 run evaluate moved_truth.csv initiated.csv --json
-check 'initiate: range rates from elsewhere' json stdout 'o["targets_found"] >= 17 and o["gospa_false"] == 0'
+check 'initiate: range rates from elsewhere' json stdout \
+    'o["targets_found"] >= 17 and o["gospa_false"] == 0'
 
 # ---- plot ----
 run plot scans seed2-rate0/plots.csv seed2-rate0/truth.csv -o scans.svg
@@ -307,7 +328,8 @@ run plot scans two_range.csv --set sensor.1.range_bias_m=300 -o two_range.svg
 check 'plot scans: a bias is taken off' cmp two.svg two_range.svg
 
 # ---- rotating: sectors ----
-# What initiate finds at the start of the last turn is where the targets are then; and so of whole turns.
+# What initiate finds at the start of the last turn is where the targets are then; and so of whole
+# turns.
 cat >found.py <<'PYTHON'
 import csv, math, sys
 found = [[float(row[name]) for name in ("t_s", "x_m", "y_m")] for row in csv.DictReader(open(sys.argv[1]))]
@@ -319,8 +341,10 @@ assert len(found) == 3, found
 PYTHON
 run simulate rotating -o sectors
 run initiate sectors/plots.csv --config sectors/scenario.ini --json -o found.csv
-check 'initiate: the sectors of a turn are one scan' grep -qx 'rhotrack: the last 7 of 15 scans are taken' stderr
-check 'initiate: JSON counts turns' json stdout 'o["scans"] == 7 and o["tracks"] == 3 and o["plots"] > 600'
+check 'initiate: the sectors of a turn are one scan' grep -qx \
+    'rhotrack: the last 7 of 15 scans are taken' stderr
+check 'initiate: JSON counts turns' json stdout \
+    'o["scans"] == 7 and o["tracks"] == 3 and o["plots"] > 600'
 check 'initiate: three targets, where they are' python3 found.py found.csv sectors/truth.csv
 run simulate rotating -o turns --set radars.0.sectors=1
 run initiate turns/plots.csv --config turns/scenario.ini -o found.csv
@@ -329,7 +353,8 @@ run initiate sectors/plots.csv --config sectors/scenario.ini --method iht --set 
 check 'methods of the literature: the same turns' json stdout 'o["scans"] == 7 and o["plots"] > 600'
 run simulate two-radars -o late --set duration_s=100 --set radars.0.late_s=3 --set radars.1.late_s=3
 run initiate late/plots.csv --config late/scenario.ini --set hold_ms=20
-check 'initiate: what comes late is left out and counted' grep -qx 'rhotrack: [0-9]* scans that came late are left out' stderr
+check 'initiate: what comes late is left out and counted' grep -qx \
+    'rhotrack: [0-9]* scans that came late are left out' stderr
 check 'initiate: and ends well' exits 0
 python3 - <<'PYTHON'
 rows = list(open("sectors/plots.csv"))
@@ -337,13 +362,15 @@ keep = [row for row in rows[1:] if int(row.rstrip().rsplit(",", 2)[1]) > 3 * 32]
 open("last.csv", "w").writelines(rows[:1] + keep)
 PYTHON
 run plot parameter-space sectors/plots.csv --config sectors/scenario.ini -o space.svg
-check 'plot parameter-space: the last 12 turns of 15' grep -qx 'rhotrack: the last 12 of 15 scans are taken' stderr
+check 'plot parameter-space: the last 12 turns of 15' grep -qx \
+    'rhotrack: the last 12 of 15 scans are taken' stderr
 run plot parameter-space last.csv --config sectors/scenario.ini -o last.svg
 check 'plot parameter-space: of sectors' cmp space.svg last.svg
 run plot parameter-space /dev/stdin -o stdin.svg
 check 'plot parameter-space: not through a pipe' exits 2
 run plot parameter-space seed2-rate0/plots.csv --config seed2-rate0/scenario.ini -o space.svg
-check 'plot parameter-space: turns whose plots have their own times' grep -qx 'rhotrack: the last 12 of 15 scans are taken' stderr
+check 'plot parameter-space: turns whose plots have their own times' grep -qx \
+    'rhotrack: the last 12 of 15 scans are taken' stderr
 awk 'BEGIN { print "t_s,sensor_id,x_m,y_m"; for (k = 0; k < 20; k++) print k ",0," 50 * k "," 900 - 20 * k }' >one.csv
 cut -d, -f1,3,4 one.csv >bare.csv
 run plot parameter-space one.csv -o one.svg
@@ -354,10 +381,12 @@ check 'track needs it' says 2 "rhotrack: bare.csv:1: no column 'sensor_id'"
 # Such a file once left the script for gnuplot behind.
 { cat bare.csv; echo 3,1,1; } >back.csv
 run plot parameter-space back.csv -o refused.svg
-check 'plot parameter-space: times do not go back' says 2 'rhotrack: back.csv:22: time goes back from 19.000000 s to 3.000000 s'
+check 'plot parameter-space: times do not go back' says 2 \
+    'rhotrack: back.csv:22: time goes back from 19.000000 s to 3.000000 s'
 sed '5s/^[^,]*,\(.*\)/3,\1e9/' bare.csv >far.csv
 run plot parameter-space far.csv -o refused.svg
-check 'plot parameter-space: places as track has them' says 2 'rhotrack: far.csv:5: y_m * is outside *'
+check 'plot parameter-space: places as track has them' says 2 \
+    'rhotrack: far.csv:5: y_m * is outside *'
 check 'plot parameter-space: nothing is left of those' bash -c '! ls refused.svg* 2>/dev/null'
 
 finish

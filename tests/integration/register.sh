@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Two radars with biases: simulate two-radars, register, and tracks with what it found; what it refuses.
-# Runs beside others.
+# Two radars with biases: simulate two-radars, register, and tracks with what it found; what it
+# refuses. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
@@ -21,7 +21,8 @@ check 'the sectors of each radar are numbered from 1, each once' awk -F, '
     NR > 1 && $3 == "" { if (seen[$2 "," $9]++) exit 1; count[$2]++; if ($9 + 0 > most[$2]) most[$2] = $9 + 0 }
     END { for (s in count) if (count[s] != most[s] || count[s] < 1900) exit 1 }' late/plots.csv
 run simulate two-radars "${prompt[@]}" -o sectors
-check 'without late data there is no column received_s' bash -c '! head -n 1 sectors/plots.csv | grep -q received_s'
+check 'without late data there is no column received_s' bash -c \
+    '! head -n 1 sectors/plots.csv | grep -q received_s'
 run simulate two-radars "${prompt[@]}" "${whole[@]}" -o turns
 run track turns/plots.csv --config turns/scenario.ini
 check 'whole turns are scans' grep -q 'rhotrack: 20[89] scans' stderr
@@ -46,11 +47,13 @@ check 'with the biases configured they come out again, in all' json stdout "$goo
 run register sectors/plots.csv --config sectors/scenario.ini --set reference_sensor=2
 check 'another reference' grep -q '^the time of radar 2 counts as right' stdout
 run register sectors/plots.csv --config sectors/scenario.ini
-check 'a table' bash -c 'grep -Eq "^ +1 .* 0\.0000 +-$" stdout && grep -q "^20 targets in common" stdout'
+check 'a table' bash -c \
+    'grep -Eq "^ +1 .* 0\.0000 +-$" stdout && grep -q "^20 targets in common" stdout'
 
 # ---- a clock that is off ----
 run simulate two-radars "${prompt[@]}" --set radars.1.time_bias_s=-1 -o behind
-check 'then the file is in the order of arrival' bash -c 'head -n 1 behind/plots.csv | grep -q received_s'
+check 'then the file is in the order of arrival' bash -c \
+    'head -n 1 behind/plots.csv | grep -q received_s'
 run track behind/plots.csv --config behind/scenario.ini --json -o raw.csv
 check 'which track reads; scans that are said to be a second old are late' json stdout \
     'o["counters"]["scans_retrodicted"] > 1000 and o["scans"] == 6688'
@@ -63,9 +66,11 @@ run track behind/plots.csv --config behind/scenario.ini --config behind.ini --js
 check 'with it nothing is late but by what it is not known to' json stdout \
     'o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and o["fates"]["stale"] < 60'
 run evaluate behind/truth.csv right.csv
-check 'tracks are at other times than the truth then' says 2 'rhotrack: right.csv:*: the truth has no such time within 1 ms *'
+check 'tracks are at other times than the truth then' says 2 \
+    'rhotrack: right.csv:*: the truth has no such time within 1 ms *'
 run evaluate behind/truth.csv right.csv --set time_tolerance_s=0.1 --json
-check 'within time_tolerance_s they are judged' json stdout 'o["completeness"] > 0.95 and o["tracks"] == 20 and o["rmse_m"] < 120'
+check 'within time_tolerance_s they are judged' json stdout \
+    'o["completeness"] > 0.95 and o["tracks"] == 20 and o["rmse_m"] < 120'
 for kind in truth exact shifted; do
     awk -v kind=$kind 'BEGIN { print kind == "truth" ? "t_s,target_id,x_m,y_m" : "t_s,track_id,x_m,y_m,vx_mps,vy_mps"
         by = kind == "shifted" ? 0.02 : 0
@@ -78,25 +83,31 @@ run plot errors truth.csv exact.csv -o exact.svg
 check 'plot errors draws them' test -s exact.svg
 sed 's/,3,100,0$/,4,100,0/' exact.csv >other.csv
 run plot errors truth.csv other.csv -o other.svg
-check 'plot errors: others look otherwise' bash -c 'test -s other.svg && ! cmp -s exact.svg other.svg'
+check 'plot errors: others look otherwise' bash -c \
+    'test -s other.svg && ! cmp -s exact.svg other.svg'
 run plot errors truth.csv -o none.svg
-check 'plot errors: no track, no picture' says 2 'rhotrack: plot errors: no target has a track within *'
+check 'plot errors: no track, no picture' says 2 \
+    'rhotrack: plot errors: no target has a track within *'
 run plot errors truth.csv shifted.csv -o shifted.svg --set time_tolerance_s=0.05
 check 'plot errors: tracks are led to the truth' cmp shifted.svg exact.svg
 rm shifted.svg
 run plot errors truth.csv shifted.csv -o shifted.svg
-check 'plot errors: or refused, as by evaluate' says 2 'rhotrack: shifted.csv:2: the truth has no such time within 1 ms (time_tolerance_s)'
+check 'plot errors: or refused, as by evaluate' says 2 \
+    'rhotrack: shifted.csv:2: the truth has no such time within 1 ms (time_tolerance_s)'
 check 'plot errors: then nothing is left' bash -c '! ls shifted.svg* none.svg* 2>/dev/null'
 run convert behind/plots.csv behind.lcm --config behind/scenario.ini
 run track behind.lcm --config behind/scenario.ini --config behind.ini --json -o log.csv
-check 'and from a log' json stdout 'o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and o["scans"] == 6688'
+check 'and from a log' json stdout \
+    'o["counters"]["scans_retrodicted"] + o["counters"]["scans_late"] < 60 and o["scans"] == 6688'
 run register behind.lcm --config behind/scenario.ini --config behind.ini --json
 check 'register of the log' json stdout "$off"
 
 # ---- what comes very late ----
 run simulate two-radars --set radars.0.late_s=15 --set radars.1.late_s=15 "${whole[@]}" -o very_late
-run track very_late/plots.csv --config very_late/scenario.ini --set hold_ms=10000 --json -o tracks.csv
-check 'what comes later still is late' json stdout 'o["counters"]["scans_retrodicted"] > 10 and o["counters"]["scans_late"] == 0'
+run track very_late/plots.csv --config very_late/scenario.ini --set hold_ms=10000 --json \
+    -o tracks.csv
+check 'what comes later still is late' json stdout \
+    'o["counters"]["scans_retrodicted"] > 10 and o["counters"]["scans_late"] == 0'
 
 # ---- what it is for ----
 run track turns/plots.csv --config turns/scenario.ini -o raw.csv
@@ -109,11 +120,13 @@ check 'tracks are nearer to the truth with them' json stdout \
 
 # ---- experiment two-radars ----
 run experiment two-radars --runs 2 -o page --json
-check 'experiment: tracks with the biases of register are nearly as good as with the true ones' json stdout \
+check 'experiment: tracks with the biases of register are nearly as good as with the true ones' \
+    json stdout \
     'len(o["cases"]) == 6 and (lambda c: c[3]["rmse_m"] < 1.1 * c[4]["rmse_m"] and c[3]["rmse_m"] < 0.95 * c[2]["rmse_m"] and c[3]["rmse_m"] < min(c[0]["rmse_m"], c[1]["rmse_m"]) and c[3]["duplicates_per_target"] < 0.02 and all(0.9 < x["completeness"] <= 1 for x in c[:5]))(o["cases"])'
 check 'experiment: biases of both radars' json stdout \
     'o["range_bias_m"]["estimates"] == 4 and o["time_bias_s"]["estimates"] == 2 and 0 < o["range_bias_m"]["rms"] < 10'
-check 'experiment: a page and its pictures' test -s page/index.html -a -s page/map.svg -a -s page/raw.svg \
+check 'experiment: a page and its pictures' test -s page/index.html -a -s page/map.svg -a \
+    -s page/raw.svg \
     -a -s page/right.svg -a -s page/range.svg -a -s page/azimuth.svg
 
 # ---- what it refuses ----
@@ -121,7 +134,8 @@ run register first.csv --config sectors/scenario.ini
 check 'one radar' says 2 'rhotrack: register: only one radar is in the input; *'
 run simulate parallel -o cartesian
 run register cartesian/plots.csv
-check 'Cartesian plots' says 2 'rhotrack: register: sensor 1: its plots are not in range and azimuth'
+check 'Cartesian plots' says 2 \
+    'rhotrack: register: sensor 1: its plots are not in range and azimuth'
 run simulate passive-two -o passive
 run register passive/bearings.csv
 check 'bearings' says 2 'rhotrack: register takes plots in range and azimuth, and no bearings'
@@ -137,7 +151,8 @@ run register sectors/plots.csv --config sectors/scenario.ini -o -
 check 'with -o - the INI file is standard output' writes_same_as sectors_again.ini
 check 'and the table standard error' cmp table stderr
 run register sectors/plots.csv --config sectors/scenario.ini -o - --json
-check 'JSON has no room there' says 2 'rhotrack: register: --json and -o - both write on standard output'
+check 'JSON has no room there' says 2 \
+    'rhotrack: register: --json and -o - both write on standard output'
 run register empty/plots.csv --config empty/scenario.ini -o none.ini
 check 'no common target' says 1 'rhotrack: register: no target was tracked by two radars *'
 check 'no file then' test ! -e none.ini
@@ -148,7 +163,8 @@ check 'each bias is said to be not known' test "$(grep -c 'not known' stdout)" -
 check 'no file then either' test ! -e none.ini
 ln -s sectors/plots.csv link.csv
 run register first.csv second.csv ./second.csv --config sectors/scenario.ini
-check 'a file twice' says 2 'rhotrack: register: ./second.csv is given twice, and its plots would count twice'
+check 'a file twice' says 2 \
+    'rhotrack: register: ./second.csv is given twice, and its plots would count twice'
 run register sectors/plots.csv link.csv --config sectors/scenario.ini
 check 'by another name' says 2 'rhotrack: register: link.csv is given twice, *'
 for ending in csv lcm ast geojson svg JSON; do

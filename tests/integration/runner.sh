@@ -27,7 +27,8 @@ check plain 'exit 0'
 check wrong 'exit 3'
 check crash 'echo "[       OK ] a"; kill -SEGV $$'
 check cmocka 'echo "[  PASSED  ] 4 test(s)." >&2'
-check cmocka_wrong 'echo "[  PASSED  ] 2 test(s)."; echo "[  FAILED  ] 3 test(s), listed below:"; exit 3'
+check cmocka_wrong \
+    'echo "[  PASSED  ] 2 test(s)."; echo "[  FAILED  ] 3 test(s), listed below:"; exit 3'
 check counting 'echo "6 passed, 2 failed"; exit 1'
 
 must_say '1 passed, 0 failed' 0 plain
@@ -39,8 +40,10 @@ must_say '1 passed, 1 failed' 1 plain missing
 must_say '7 passed, 4 failed' 1 cmocka wrong cmocka_wrong plain
 check skipping 'echo "skipped: no such tool"; echo "0 passed, 0 failed"'
 must_say '0 passed, 0 failed' 0 skipping
-grep -qF '| skipped: no such tool' "$folder/output" || { echo 'run.sh does not show what was skipped'; exit 1; }
-tail -n 4 "$folder/output" | grep -q '^skipped in .*: no such tool$' || { echo 'run.sh does not sum up what was skipped'; exit 1; }
+grep -qF '| skipped: no such tool' "$folder/output" || { echo \
+    'run.sh does not show what was skipped'; exit 1; }
+tail -n 4 "$folder/output" | grep -q '^skipped in .*: no such tool$' || { echo \
+    'run.sh does not sum up what was skipped'; exit 1; }
 
 # Two that wait for one another pass beside one another alone.
 meet() { # own name, the other's

@@ -1,15 +1,18 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# RHO_SCAN_KINDS: a build with some kinds of scans refuses messages of the others, gives the full build's bytes of what it has,
-# and finds targets whose plots have noise of one axis also without the faster search for these. Runs beside others.
+# RHO_SCAN_KINDS: a build with some kinds of scans refuses messages of the others, gives the full
+# build's bytes of what it has, and finds targets whose plots have noise of one axis also without
+# the faster search for these. Runs beside others.
 root=$(realpath "$(dirname "$0")/../..")
 build=$(realpath "${BUILD:-$root/build}")
 # shellcheck source=tests/integration/checks.bash
 . "$root/tests/integration/checks.bash"
 
 lines() { # kinds: what such a build says
-    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_SCAN_KINDS="$1" -Wall -Wextra -Werror -o kinds \
-        "$root/tests/integration/scan_kinds.c" "$root"/src/wire/scan_*.c "$root"/src/initiation/*.c \
+    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_SCAN_KINDS="$1" -Wall \
+        -Wextra -Werror -o kinds \
+        "$root/tests/integration/scan_kinds.c" "$root"/src/wire/scan_*.c \
+        "$root"/src/initiation/*.c \
         "$build/librhotrack.a" && ./kinds
 }
 
@@ -35,5 +38,6 @@ check 'bearings alone' same_as_all 4 'kind 2'
 check 'plots and bearings' same_as_all 5 'kind [02]|one axis bytes'
 check 'polar plots and bearings' same_as_all 6 'kind [12]'
 check 'kinds that do not exist' grep -q 'RHO_SCAN_KINDS must be 1 .. 7' \
-    <(${CC:-gcc} -std=c11 -I"$root/include" -DRHO_SCAN_KINDS=8 -fsyntax-only "$root/src/wire/scan_assembler.c" 2>&1)
+    <(${CC:-gcc} -std=c11 -I"$root/include" -DRHO_SCAN_KINDS=8 -fsyntax-only \
+    "$root/src/wire/scan_assembler.c" 2>&1)
 finish

@@ -1,8 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Scenes: what `simulate` says of mistakes in them, that seeds make bytes, what the files hold, and that each scene that ships
-# simulates and can be tracked, evaluated and drawn.
-# Runs beside others.
+# Scenes: what `simulate` says of mistakes in them, that seeds make bytes, what the files hold, and
+# that each scene that ships simulates and can be tracked, evaluated and drawn. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 scenes=$(realpath "$(dirname "$program")/../tools/scenes")
@@ -25,12 +24,14 @@ refuse 'no version' '1: version is missing' '{}'
 refuse 'another version' '1: version: this program knows version 1' '{"version": 2}'
 refuse 'no duration' '1: duration_s is missing' '{"version": 1}'
 refuse 'no sensors' '1: no sensors*' '{"version": 1, "duration_s": 9}'
-refuse 'a text for a number' '1: duration_s: must be a number, and is a text' '{"version": 1, "duration_s": "9"}'
+refuse 'a text for a number' '1: duration_s: must be a number, and is a text' \
+    '{"version": 1, "duration_s": "9"}'
 refuse 'infinite' '1: duration_s: inf is outside*' '{"version": 1, "duration_s": 1e999}'
 refuse 'out of range, with line and place' '3: radars?0?.turn_s: -4 is outside 0.001 .. 3600' \
     $'{"version": 1, "duration_s": 9, "radars": [\n{\n"turn_s": -4}]}'
 refuse 'an unknown key' "2: radar: unknown key, did you mean 'radars'?" "$start,"$'\n"radar": []}'
-refuse 'an unknown key of a radar' "1: radars?0?.colour: unknown key" "${start%\}\]}, \"colour\": 3}]}"
+refuse 'an unknown key of a radar' "1: radars?0?.colour: unknown key" \
+    "${start%\}\]}, \"colour\": 3}]}"
 refuse 'a key twice' '1: version: is there twice' "$start, \"version\": 1}"
 refuse 'two things that exclude each other' '1: radars?0?.interval_s: does not go with turn_s' \
     "${start%\}\]}, \"interval_s\": 3}]}"
@@ -42,49 +43,69 @@ refuse 'a parent that is not there' '1: targets?0?.parent: targets?3? is no path
     "$start, \"targets\": [{\"parent\": 3, \"from_s\": 1}]}"
 refuse 'flights as a parent' '1: targets?1?.parent: targets?0? is no path before this one' \
     "$start, \"targets\": [{\"flights\": 2, \"box_m\": [-1e5, 1e5, -1e5, 1e5], \"least_s\": 20}, {\"parent\": 0, \"from_s\": 0}]}"
-refuse 'a group without speed' '1: targets?0?: speed_mps is missing' "$start, \"targets\": [{\"count\": 3, \"range_m\": 5}]}"
-refuse 'half a number of targets' '1: targets?0?.count: 2.5 is not a whole number' "$start, \"targets\": [{\"count\": 2.5}]}"
+refuse 'a group without speed' '1: targets?0?: speed_mps is missing' \
+    "$start, \"targets\": [{\"count\": 3, \"range_m\": 5}]}"
+refuse 'half a number of targets' '1: targets?0?.count: 2.5 is not a whole number' \
+    "$start, \"targets\": [{\"count\": 2.5}]}"
 refuse 'a span the wrong way' '1: clutter?0?.range_m: the first, 5, is above the second, 2' \
     "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5, \"range_m\": [5, 2]}]}"
-refuse 'an unknown kind' "1: clutter?0?.kind: 'rain' is none of uniform, cell, *" "$start, \"clutter\": [{\"kind\": \"rain\"}]}"
-refuse 'a density of no area' '1: clutter?0?: needs box_m*' "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots_per_km2\": 1}]}"
+refuse 'an unknown kind' "1: clutter?0?.kind: 'rain' is none of uniform, cell, *" \
+    "$start, \"clutter\": [{\"kind\": \"rain\"}]}"
+refuse 'a density of no area' '1: clutter?0?: needs box_m*' \
+    "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots_per_km2\": 1}]}"
 refuse 'no such sensor' '1: events?0?.sensors: there is no sensor 2' \
     "$start, \"events\": [{\"kind\": \"mask\", \"sensors\": [2]}]}"
 refuse 'two sensors of a number' '1: passive?0?.sensor_id: sensor 1 is there already' \
     "$start, \"passive\": [{\"sensor_id\": 1}]}"
-refuse 'an unknown setting' "1: settings.v_mix: unknown parameter*" "$start, \"settings\": {\"v_mix\": 3}}"
+refuse 'an unknown setting' "1: settings.v_mix: unknown parameter*" \
+    "$start, \"settings\": {\"v_mix\": 3}}"
 refuse 'a setting out of range' '1: settings.pd: *' "$start, \"settings\": {\"pd\": 3}}"
-refuse 'platforms' '1: platforms: sensors that move are not simulated yet' "$start, \"platforms\": [{}]}"
-refuse 'radars of two kinds' '1: radars?1?: radars measure all*' "${start%]}, {\"interval_s\": 2, \"sigma_m\": 10}], \"area\": [0, 1, 0, 1]}"
+refuse 'platforms' '1: platforms: sensors that move are not simulated yet' \
+    "$start, \"platforms\": [{}]}"
+refuse 'radars of two kinds' '1: radars?1?: radars measure all*' \
+    "${start%]}, {\"interval_s\": 2, \"sigma_m\": 10}], \"area\": [0, 1, 0, 1]}"
 plane='{"version": 1, "duration_s": 9, "radars": [{"interval_s": 2, "sigma_m": 10, "sigma_mps": 1}]'
-refuse 'clutter in x and y without an area' '1: clutter?0?: needs box_m*' "$plane, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5}]}"
-refuse 'clutter without velocities' '1: clutter?0?.kind: has no velocities, which sensor 1 measures*' \
+refuse 'clutter in x and y without an area' '1: clutter?0?: needs box_m*' \
+    "$plane, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5}]}"
+refuse 'clutter without velocities' \
+    '1: clutter?0?.kind: has no velocities, which sensor 1 measures*' \
     "$plane, \"clutter\": [{\"kind\": \"cell\", \"plots\": 5, \"at_m\": [0, 0], \"radius_m\": 9}]}"
 refuse 'heights of a radar that has none' '1: targets: heights are for radars with sigma_m' \
     "$start, \"targets\": [{\"at_m\": [1, 2, 3], \"velocity_mps\": [1, 1]}]}"
 refuse 'a pull beside a turn' '1: targets?0?.legs?0?.turn_degps: does not go with accel_mps2' \
     "$plane, \"targets\": [{\"at_m\": [1, 2], \"velocity_mps\": [1, 1], \"legs\": [{\"for_s\": 1, \"accel_mps2\": [1, 2], \"turn_degps\": 3}]}]}"
-refuse 'one point' '1: targets?0?.points: must be two or more*' "$plane, \"targets\": [{\"points\": [[0, 1, 2]]}]}"
-refuse 'points that go back in time' '1: targets?0?.points: times must grow' "$plane, \"targets\": [{\"points\": [[1, 1, 2], [1, 2, 3]]}]}"
-refuse 'points and legs' '1: targets?0?.legs: does not go with points' "$plane, \"targets\": [{\"points\": [], \"legs\": []}]}"
+refuse 'one point' '1: targets?0?.points: must be two or more*' \
+    "$plane, \"targets\": [{\"points\": [[0, 1, 2]]}]}"
+refuse 'points that go back in time' '1: targets?0?.points: times must grow' \
+    "$plane, \"targets\": [{\"points\": [[1, 1, 2], [1, 2, 3]]}]}"
+refuse 'points and legs' '1: targets?0?.legs: does not go with points' \
+    "$plane, \"targets\": [{\"points\": [], \"legs\": []}]}"
 refuse 'too much' '1: 2.5e+07 scans *' "{\"version\": 1, \"duration_s\": 1e5, \"radars\": [{\"interval_s\": 0.004, \"sigma_range_m\": 30, \"sigma_azimuth_rad\": 0.003}]}"
-refuse 'a goal that is none' "1: goal.completness: unknown key, did you mean 'completeness'?" "$start, \"goal\": {\"completness\": 3}}"
-refuse 'flights without a box' '1: targets?0?: box_m is missing' "$start, \"targets\": [{\"flights\": 3}]}"
-refuse 'flights that last no time' '1: targets?0?: least_s is missing' "$start, \"targets\": [{\"flights\": 3, \"box_m\": [0, 9, 0, 9]}]}"
-refuse 'flights and a count' '1: targets?0?.flights: does not go with count' "$start, \"targets\": [{\"flights\": 3, \"count\": 3}]}"
+refuse 'a goal that is none' "1: goal.completness: unknown key, did you mean 'completeness'?" \
+    "$start, \"goal\": {\"completness\": 3}}"
+refuse 'flights without a box' '1: targets?0?: box_m is missing' \
+    "$start, \"targets\": [{\"flights\": 3}]}"
+refuse 'flights that last no time' '1: targets?0?: least_s is missing' \
+    "$start, \"targets\": [{\"flights\": 3, \"box_m\": [0, 9, 0, 9]}]}"
+refuse 'flights and a count' '1: targets?0?.flights: does not go with count' \
+    "$start, \"targets\": [{\"flights\": 3, \"count\": 3}]}"
 refuse 'a disc of three numbers' '1: targets?0?.keep_discs_m?0?: *' \
     "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_discs_m\": [[1, 2, 3]]}]}"
 refuse 'a disc inside out' '1: targets?0?.keep_discs_m: must be ?x, y, from, to?' \
     "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_discs_m\": [[1, 2, 4, 3]]}]}"
 refuse 'a share of no disc' '1: targets?0?.keep_all_share: needs keep_discs_m' \
     "$start, \"targets\": [{\"count\": 1, \"range_m\": 5, \"speed_mps\": 3, \"keep_all_share\": 0.5}]}"
-refuse 'a beginning the wrong way' '1: radars?0?.start_s: the first, 4, is above the second, 2' "${start%\}\]}, \"start_s\": [4, 2]}]}"
-refuse 'range rates of two kinds' '1: clutter?0?.range_rate_sigma_mps: does not go with range_rate_max_mps' \
+refuse 'a beginning the wrong way' '1: radars?0?.start_s: the first, 4, is above the second, 2' \
+    "${start%\}\]}, \"start_s\": [4, 2]}]}"
+refuse 'range rates of two kinds' \
+    '1: clutter?0?.range_rate_sigma_mps: does not go with range_rate_max_mps' \
     "$start, \"clutter\": [{\"kind\": \"uniform\", \"plots\": 5, \"range_rate_max_mps\": 5, \"range_rate_sigma_mps\": 1}]}"
 for keep in '"keep_discs_m": [[0, 0, 60, 70]]' '"spacing_m": 200'; do
-    printf '%s' "$start, \"targets\": [{\"count\": 2, \"range_m\": 50, \"speed_mps\": 0, $keep}]}" >wrong.json
+    printf '%s' "$start, \"targets\": [{\"count\": 2, \"range_m\": 50, \"speed_mps\": 0, $keep}]}" \
+        >wrong.json
     run simulate wrong.json -o none
-    check "no room: $keep" says 2 'rhotrack: wrong.json: targets?0?: none of 10000 random paths keeps *'
+    check "no room: $keep" says 2 \
+        'rhotrack: wrong.json: targets?0?: none of 10000 random paths keeps *'
 done
 printf '%s' "$start, \"targets\": [{\"count\": 1, \"range_m\": 50, \"speed_mps\": 30, \"keep_range_m\": 60}]}" >wrong.json
 run simulate wrong.json -o none
@@ -96,19 +117,22 @@ check 'no such scene' says 2 'rhotrack: no scene `towrs`, did you mean `towers`?
 printf 'v_min_mps = 3\n' >some.ini
 run simulate towers --config some.ini -o none
 check 'a scene takes no parameters' says 2 'rhotrack: simulate: a scene takes no --config*'
-for set in radars '=3' 'radars[1].pd=3' 'radars[x]=3' 'radars.pd=3' 'radars[0.pd=3' 'nothing.at=3' 'version.x=3' 'radars[0].pd.x=1'; do
+for set in radars '=3' 'radars[1].pd=3' 'radars[x]=3' 'radars.pd=3' 'radars[0.pd=3' 'nothing.at=3' \
+    'version.x=3' 'radars[0].pd.x=1'; do
     run simulate towers --set "$set" -o none
     check "no place: $set" says 2 "rhotrack: --set *"
 done
 run simulate towers --set radar.0.pd=3 -o none
 check 'no place: the nearest' says 2 "rhotrack: --set radar.0.pd=3: there is no such place in the scene: 'radar', did you mean 'radars'?"
 run simulate towers --set radars.1.pd=3 -o none
-check 'no place: how many there are' says 2 "rhotrack: --set radars.1.pd=3: there is no such place in the scene: '1' of a list of 1"
+check 'no place: how many there are' says 2 \
+    "rhotrack: --set radars.1.pd=3: there is no such place in the scene: '1' of a list of 1"
 run simulate towers --set 'radars[0].pd=3' -o none
 check 'a value out of range by --set' says 2 'rhotrack: towers:*: radars?0?.pd: 3 is outside 0 .. 1'
 run simulate towers --set 'radars[0].range=3' -o none
 check 'an unknown key by --set' says 2 "rhotrack: towers:*: radars?0?.range: unknown key*"
-run simulate towers --set 'clutter[2]={"kind": "uniform", "plots": 3}' --set settings.gate=nearest --set duration_s=40 \
+run simulate towers --set 'clutter[2]={"kind": "uniform", "plots": 3}' --set settings.gate=nearest \
+    --set duration_s=40 \
     --set 'radars.0.told={"pd": 0.5}' -o changed
 check '--set' bash -c 'grep -qx "gate = nearest" changed/scenario.ini && grep -qx "pd = 0.5" changed/scenario.ini && ! grep -q ^44 changed/plots.csv'
 
@@ -160,7 +184,8 @@ run simulate all.json --seed 4 -o other
 for file in plots bearings truth; do
     check "another seed, another $file.csv" bash -c "! cmp -s all/$file.csv other/$file.csv"
 done
-check 'bytes that do not change with machine or compiler' matches "$(cat all/plots.csv all/bearings.csv all/truth.csv all/paths.csv | cksum)" \
+check 'bytes that do not change with machine or compiler' matches \
+    "$(cat all/plots.csv all/bearings.csv all/truth.csv all/paths.csv | cksum)" \
     '931175272 555584'
 run simulate all.json --seed 3 --runs 2 -o runs
 check 'runs: the first' diff -r all runs/run-0000
@@ -171,11 +196,14 @@ check 'columns of plots' matches "$(head -n 1 all/plots.csv)" \
     't_s,sensor_id,range_m,azimuth_rad,range_rate_mps,sensor_x_m,sensor_y_m,sector_from_rad,sector_to_rad,scan,received_s,target_id'
 check 'columns of bearings' matches "$(head -n 1 all/bearings.csv)" \
     't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan,received_s,target_id'
-check 'columns of the truth' matches "$(head -n 1 all/truth.csv)" 't_s,target_id,x_m,y_m,vx_mps,vy_mps'
-check 'columns of the paths' matches "$(head -n 1 all/paths.csv)" 't_s,target_id,x_m,y_m,vx_mps,vy_mps,is_covered'
+check 'columns of the truth' matches "$(head -n 1 all/truth.csv)" \
+    't_s,target_id,x_m,y_m,vx_mps,vy_mps'
+check 'columns of the paths' matches "$(head -n 1 all/paths.csv)" \
+    't_s,target_id,x_m,y_m,vx_mps,vy_mps,is_covered'
 check 'what a tracker is told' matches "$(sed 's/#.*//' all/scenario.ini | tr '\n' ';')" \
     ';v_min_mps = 20;v_max_mps = 400;accel_max_mps2 = 30;gate = best;;\[sensor 1\];x_m = 0.000;y_m = 0.000;pd = 0.8;sigma_range_m = 60;sigma_azimuth_rad = 0.003;sigma_range_rate_mps = 1;range_rate_span_mps = 100;range_min_m = 1000;range_max_m = 80000;;\[sensor 7\];x_m = 40000.000;*'
-check 'truth: the paths that are covered' bash -c "diff <(grep ',1\$' all/paths.csv | sed 's/,1\$//') <(tail -n +2 all/truth.csv)"
+check 'truth: the paths that are covered' bash -c \
+    "diff <(grep ',1\$' all/paths.csv | sed 's/,1\$//') <(tail -n +2 all/truth.csv)"
 run config --config all/scenario.ini
 check 'scenario.ini is good' exits 0
 
@@ -195,7 +223,8 @@ for file in "$scenes"/*/*.json; do
     done
 done
 for number in 1 2 3; do # of the manual's examples
-    awk -v n=$number '/^```json/ { k++; on = 1; next } /^```/ { on = 0 } on && k == n' "$scenes/README.md" >"example-$number.json"
+    awk -v n=$number '/^```json/ { k++; on = 1; next } /^```/ { on = 0 } on && k == n' \
+        "$scenes/README.md" >"example-$number.json"
     run simulate "example-$number.json" -o "example-$number"
     check "example $number of the manual simulates" exits 0
     run track "example-$number/plots.csv" --config "example-$number/scenario.ini" -o tracks.csv
@@ -203,11 +232,13 @@ for number in 1 2 3; do # of the manual's examples
 done
 check 'the manual names all that ship' matches "$(sed -n 's/^| \([a-z0-9-]*\) | .*/\1/p' "$scenes/README.md" | sed '1,/^name$/d' | tail -n "$(ls "$scenes"/*/*.json | wc -l)" | sort | tr '\n' ' ')" \
     "$(cd "$scenes" && ls ./*/*.json | sed 's/.*\///; s/.json$//' | sort | tr '\n' ' ')"
-sim() { run simulate "$1" -o "$1" && run track "$1/plots.csv" --config "$1/scenario.ini" -o "$1/tracks.csv"; }
+sim() { run simulate "$1" -o "$1" && run track "$1/plots.csv" --config "$1/scenario.ini" -o \
+    "$1/tracks.csv"; }
 sim helicopters
 run evaluate helicopters/truth.csv helicopters/tracks.csv --json
 check 'helicopters are found' json stdout 'o["completeness"] > 0.9 and o["targets"] == 12'
-run track radar-and-bearings/plots.csv radar-and-bearings/bearings.csv --config radar-and-bearings/scenario.ini -o both.csv
+run track radar-and-bearings/plots.csv radar-and-bearings/bearings.csv \
+    --config radar-and-bearings/scenario.ini -o both.csv
 check 'a radar and passive sensors together' exits 0
 run evaluate radar-and-bearings/truth.csv both.csv --json
 check 'and find the targets' json stdout 'o["completeness"] > 0.9 and o["targets"] == 8'

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Each attack in SECURITY.md names a test, and that is there: a file, and where a name follows it a test in it.
-# Runs beside others.
+# Each attack in SECURITY.md names a test, and that is there: a file, and where a name follows it a
+# test in it. Runs beside others.
 # shellcheck source=tests/integration/checks.bash
 here=$(realpath "$(dirname "$0")")
 . "$here/checks.bash"

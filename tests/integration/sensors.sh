@@ -1,12 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Three sensor processes at once, each with its own clock of sending: the tracks are those of the files merged by time.
+# Three sensor processes at once, each with its own clock of sending: the tracks are those of the
+# files merged by time.
 # shellcheck source=tests/integration/network.bash
 . "$(dirname "$0")/network.bash"
 here=$(realpath "$(dirname "$0")")
 . "$here/checks.bash"
 
-# play OPTIONS FILE...: a node with the options, and a publish process a file, all at the same time; live.csv, live.err
+# play OPTIONS FILE...: a node with the options, and a publish process a file, all at the same time;
+# live.csv, live.err
 play() {
     local options=() players=() node
     while [ "$1" != -- ]; do
@@ -31,8 +33,8 @@ play() {
     cp live.err stderr
 }
 
-# The newest RHO_SENSORS of a log: number and is_doubted, a line each. After fingerprint and head (30 bytes, then the count),
-# 38 bytes each: lcm_types/sensor_t.lcm.
+# The newest RHO_SENSORS of a log: number and is_doubted, a line each. After fingerprint and head
+# (30 bytes, then the count), 38 bytes each: lcm_types/sensor_t.lcm.
 read_sensors() { # log
     python3 - "$1" <<'PYTHON'
 import struct, sys
@@ -75,11 +77,14 @@ run track radar1.csv radar2.csv radar3.csv -o expected.csv
 play --set hold_ms=90 -- radar1.csv radar2.csv radar3.csv
 check 'three radars: all ends well' exits 0
 check 'three radars: every scan is stepped' grep -q ' 87 steps' live.err
-check 'three radars: nothing is lost, stale or double' test -z "$(grep -E 'lost|stale|double|bad' live.err)"
-check 'three radars: four tracks' awk -F, '$1 == "28.000000" && $3 == "confirmed" { n++ } END { exit n != 4 }' live.csv
+check 'three radars: nothing is lost, stale or double' test -z \
+    "$(grep -E 'lost|stale|double|bad' live.err)"
+check 'three radars: four tracks' awk -F, \
+    '$1 == "28.000000" && $3 == "confirmed" { n++ } END { exit n != 4 }' live.csv
 check 'three radars: the tracks are those of the files' same_from 0
 
-# ---- three radars over eight targets, the third of which is 170 m off from 120 s on; then all is well again ----
+# ---- three radars over eight targets, the third of which is 170 m off from 120 s on; then all is
+# well again ----
 python3 - <<'PYTHON'
 import math, random
 random.seed(5)
@@ -102,7 +107,8 @@ rhotrack: sensor 3 is trusted again'
 awk -F, 'NR == 1 || $1 < 240' liar.csv >begun.csv
 "$program" convert begun.csv begun.lcm
 run node --lcm 'file://begun.lcm?speed=0' --log said.lcm "${limits[@]}"
-check 'a liar: the last words' matches "$(tail -n 1 stderr)" 'rhotrack: sensor 3 contradicts the others'
+check 'a liar: the last words' matches "$(tail -n 1 stderr)" \
+    'rhotrack: sensor 3 contradicts the others'
 check 'a liar: on RHO_SENSORS' matches "$(read_sensors said.lcm)" '1 0
 2 0
 3 1'

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# tools/gates/size.sh finds tools/lab/MEASUREMENTS.md true and holds its bars as the sources are. It goes red where the page
-# says something else, where code has grown, and where an object is too large or does not compile.
+# tools/gates/size.sh finds tools/lab/MEASUREMENTS.md true and holds its bars as the sources are. It
+# goes red where the page says something else, where code has grown, and where an object is too
+# large or does not compile.
 set -eu
 cd "$(dirname "$0")/../.."
 common=$(realpath -m "${BUILD:-build}")
@@ -30,8 +31,10 @@ export BUILD=$copy/build
 
 bars() { SIZE_FLAGS=$1 tools/gates/size.sh --bars; }
 must_fail 'more crossings than fit' 'embedded, .* 49152  MISSED' bars -DRHO_MAX_PASSIVE_POINTS=2000
-must_fail 'more candidates than fit' 'workstation, .* 92160  MISSED' bars -DRHO_MAX_PASSIVE_CANDIDATES=200
-must_fail 'a capacity beyond its range' 'RHO_MAX_PASSIVE_POINTS must be' bars -DRHO_MAX_PASSIVE_POINTS=8
+must_fail 'more candidates than fit' 'workstation, .* 92160  MISSED' bars \
+    -DRHO_MAX_PASSIVE_CANDIDATES=200
+must_fail 'a capacity beyond its range' 'RHO_MAX_PASSIVE_POINTS must be' bars \
+    -DRHO_MAX_PASSIVE_POINTS=8
 
 if ! grep -q '^skipped' "$copy/sizes"; then
     cp -r src include tools "$copy"
@@ -54,13 +57,17 @@ if ! grep -q '^skipped' "$copy/sizes"; then
         { echo 'size.sh compares with another compiler'; exit 1; }
     cp tools/lab/MEASUREMENTS.md "$page"
 
-    echo 'float rho_more(float v); float rho_more(float v) { return v * v + 1.0f; }' >>"$copy/src/base/angle.c"
+    echo 'float rho_more(float v); float rho_more(float v) { return v * v + 1.0f; }' \
+        >>"$copy/src/base/angle.c"
     must_fail 'code that has grown' '^+| base and measurement ' "$copy/tools/gates/size.sh"
     "$copy/tools/gates/size.sh" --update
-    "$copy/tools/gates/size.sh" >/dev/null || { echo 'size.sh --update did not write what is'; exit 1; }
+    "$copy/tools/gates/size.sh" >/dev/null || { echo 'size.sh --update did not write what is'; \
+        exit 1; }
     cp src/base/angle.c "$copy/src/base"
 
-    sed -i '/^float rho_angle_wrap/,/^{/ s/^{$/{\n    volatile char room[512];\n    room[0] = 0;/' "$copy/src/base/angle.c"
-    must_fail 'a stack that has grown' '^+| base .* 5[0-9][0-9] .* rho_angle' "$copy/tools/gates/size.sh"
+    sed -i '/^float rho_angle_wrap/,/^{/ s/^{$/{\n    volatile char room[512];\n    room[0] = 0;/' \
+        "$copy/src/base/angle.c"
+    must_fail 'a stack that has grown' '^+| base .* 5[0-9][0-9] .* rho_angle' \
+        "$copy/tools/gates/size.sh"
 fi
 echo "size.sh: $faults seeded faults seen"

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# node --snapshot: a node that is started again goes on as if it had not ended; what is no snapshot of it is told.
+# node --snapshot: a node that is started again goes on as if it had not ended; what is no snapshot
+# of it is told.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
@@ -11,7 +12,8 @@ node() {
     run node --lcm "file://$log?speed=0" --print --config scene/scenario.ini "$@"
 }
 
-"$program" simulate traffic --seed 3 --set targets.0.count=6 --set duration_s=300 --set clutter.0.plots=60 -o scene
+"$program" simulate traffic --seed 3 --set targets.0.count=6 --set duration_s=300 \
+    --set clutter.0.plots=60 -o scene
 "$program" convert scene/plots.csv all.lcm
 # both halves, in the middle of the tracks
 middle=$(awk -F, 'NR > 1 && $1 != last { last = $1; if (++n == 16) print $1 }' scene/plots.csv)
@@ -31,8 +33,10 @@ node second.lcm --snapshot state
 cp stdout after.csv
 check 'the second says that it goes on' grep -q '^rhotrack: state: tracks go on$' stderr
 check 'and ends well' test "$status" -eq 0
-check 'before and after are the whole, byte for byte' sh -c 'tail -n +2 after.csv | cat before.csv - | cmp - all.csv'
-check 'there were tracks to go on with' sh -c "awk -F, -v t=$middle '\$1 == t && \$3 != \"tentative\"' after.csv | grep -q ."
+check 'before and after are the whole, byte for byte' sh -c \
+    'tail -n +2 after.csv | cat before.csv - | cmp - all.csv'
+check 'there were tracks to go on with' sh -c \
+    "awk -F, -v t=$middle '\$1 == t && \$3 != \"tentative\"' after.csv | grep -q ."
 check 'nothing unfinished is left' sh -c '! ls *.part'
 node second.lcm
 check 'without it tracks begin later' sh -c "! awk -F, -v t=$middle '\$1 == t' stdout | grep -q ."
@@ -68,12 +72,14 @@ cp kept state
 awk -F, -v OFS=, 'NR > 1 { $1 -= 5000 } 1' scene/plots.csv >earlier.csv
 "$program" convert earlier.csv earlier.lcm
 node earlier.lcm --snapshot state
-check 'sensors with an earlier clock are tracked all the same' sh -c 'test "$(wc -l <stdout)" -eq "$(wc -l <all.csv)"'
+check 'sensors with an earlier clock are tracked all the same' sh -c \
+    'test "$(wc -l <stdout)" -eq "$(wc -l <all.csv)"'
 cp first.csv state
 node second.lcm --snapshot state
 check 'a file that is no snapshot is not written over' cmp -s first.csv state
 check 'and told' says 2 'rhotrack: state: is no snapshot, and would be written over'
 node second.lcm --snapshot no/folder/state
-check 'one that cannot be written is told' grep -q '^rhotrack: no/folder/state: No such file or directory; the snapshot is not written$' stderr
+check 'one that cannot be written is told' grep -q \
+    '^rhotrack: no/folder/state: No such file or directory; the snapshot is not written$' stderr
 check 'and is exit 1' test "$status" -eq 1
 finish

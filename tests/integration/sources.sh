@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# node with sources_allowed: a radar's datagrams are tracked, those of other addresses are refused, counted
-# and said, however many.
+# node with sources_allowed: a radar's datagrams are tracked, those of other addresses are refused,
+# counted and said, however many.
 # shellcheck source=tests/integration/loopback.bash
 . "$(dirname "$0")/loopback.bash"
 # shellcheck source=tests/integration/checks.bash
@@ -32,7 +32,8 @@ open_url=$LCM_DEFAULT_URL
 
 start() { # URL: a node that listens when it returns; $node is its process
     rm -f node.lcm
-    "$program" node --lcm "$1" --log node.lcm --config scene/scenario.ini --set hold_ms=500 2>node.err </dev/null &
+    "$program" node --lcm "$1" --log node.lcm --config scene/scenario.ini \
+        --set hold_ms=500 2>node.err </dev/null &
     node=$!
     wait_until 5 test -s node.lcm
 }
@@ -58,8 +59,10 @@ start "$open_url&sources_allowed=127.0.0.1"
 python3 send.py 127.0.0.66 scene.lcm >sent
 stop
 check 'with it he is not: not one step' test "$steps" -eq 0
-check 'and each datagram is counted' grep -q "datagrams of addresses that are not in sources_allowed: $(cat sent)$" node.err
-check 'and so while it runs' grep -q 'datagrams of addresses that are not in sources_allowed: [0-9]* so far' node.err
+check 'and each datagram is counted' grep -q \
+    "datagrams of addresses that are not in sources_allowed: $(cat sent)$" node.err
+check 'and so while it runs' grep -q \
+    'datagrams of addresses that are not in sources_allowed: [0-9]* so far' node.err
 check 'the node ends with 0' exits 0
 
 start "$open_url&sources_allowed=127.0.0.77,127.0.0.66"
@@ -68,13 +71,15 @@ stop
 check "an address that is allowed is tracked ($steps steps)" test "$steps" -ge 390
 check 'what the node itself sends is no fault' test -z "$(grep sources_allowed node.err)"
 
-# ---- both at once: the radar of one address, a stranger with other contents and numbers of another ----
+# ---- both at once: the radar of one address, a stranger with other contents and numbers of another
+# ----
 awk -F, -v OFS=, 'NR > 1 && $3 != "" { $3 += 3 } { print }' scene/plots.csv >forged.csv
 "$program" convert forged.csv forged.lcm 2>/dev/null
 run node --lcm 'file://scene.lcm?speed=0' --print --config scene/scenario.ini
 cp stdout alone.csv
 rm -f node.lcm
-"$program" node --lcm "$open_url&sources_allowed=127.0.0.66" --print --log node.lcm --config scene/scenario.ini \
+"$program" node --lcm "$open_url&sources_allowed=127.0.0.66" --print --log node.lcm \
+    --config scene/scenario.ini \
     --set hold_ms=500 >both.csv 2>node.err </dev/null &
 node=$!
 wait_until 5 test -s node.lcm
@@ -82,5 +87,6 @@ python3 send.py 127.0.0.99 forged.lcm >/dev/null &
 python3 send.py 127.0.0.66 scene.lcm >/dev/null
 wait $!
 stop
-check "beside a stranger who plays the radar: the tracks of the radar alone ($steps steps)" cmp alone.csv both.csv
+check "beside a stranger who plays the radar: the tracks of the radar alone ($steps steps)" cmp \
+    alone.csv both.csv
 finish

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# What the public headers state of stacks is an upper bound, and tools/gates/stack.py goes red where it is not, or is missing.
+# What the public headers state of stacks is an upper bound, and tools/gates/stack.py goes red where
+# it is not, or is missing.
 set -euo pipefail # a pipe into tee goes red, too
 cd "$(dirname "$0")/../.."
 copy=$(mktemp -d)
@@ -25,9 +26,12 @@ must_fail() { # what, file, a sed command on it, the message expected
 
 must_fail 'too small a figure' frames.h 's/Stack: 120 bytes/Stack: 60 bytes/' \
     'frames.h:[0-9]*: rho_frames_init states 60 bytes of stack; it takes [0-9]*: rho_frames_init > memset'
-must_fail 'too small a figure for a whole header' detail/gate.h 's/Stack: 100 bytes at most/Stack: 8 bytes at most/' 'rho_gate_box states 8 bytes'
-must_fail 'too small a figure in kilobytes' tracker.h 's/Stack: 3.8 KB/Stack: 0.9 KB/' 'rho_tracker_step states 921 bytes'
-must_fail 'a function that states nothing' types.h 's/Stack: 100 bytes at most where.*/Nothing./' 'rho_is_coordinate states no stack'
+must_fail 'too small a figure for a whole header' detail/gate.h \
+    's/Stack: 100 bytes at most/Stack: 8 bytes at most/' 'rho_gate_box states 8 bytes'
+must_fail 'too small a figure in kilobytes' tracker.h 's/Stack: 3.8 KB/Stack: 0.9 KB/' \
+    'rho_tracker_step states 921 bytes'
+must_fail 'a function that states nothing' types.h 's/Stack: 100 bytes at most where.*/Nothing./' \
+    'rho_is_coordinate states no stack'
 
 # The path of a function adds up to its bytes.
 tools/gates/stack.py --path rho_kalman_predict | awk '

@@ -1,11 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# track on long files: memory does not grow with them, whatever they hold; and the bar that shows how far it is.
+# track on long files: memory does not grow with them, whatever they hold; and the bar that shows
+# how far it is.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-# KIND MEGABYTES: scans of clutter, the same few again and again with times that go on; a column to be ignored makes the
-# rows long, so that there are not too many to track.
+# KIND MEGABYTES: scans of clutter, the same few again and again with times that go on; a column to
+# be ignored makes the rows long, so that there are not too many to track.
 generate() {
     python3 - "$1" "$2" <<'PYTHON'
 import random
@@ -34,7 +35,8 @@ with open(f"{kind}.csv", "w") as file:
 PYTHON
 }
 
-# A log of scans of plots.csv and bearings.csv among a camera's pictures, MEGABYTES of these, and scans as many.
+# A log of scans of plots.csv and bearings.csv among a camera's pictures, MEGABYTES of these, and
+# scans as many.
 generate_log() {
     head -n $(($1 * 2000)) plots.csv >some.csv
     "$program" convert some.csv plots.lcm 2>stderr
@@ -103,9 +105,11 @@ check 'a pipe: memory' grows_not pipe
 # ---- rows without end ----
 { printf 't_s,sensor_id,x_m,y_m,note\n0,1,2,3,\n0,1,"2,3,\n'; sed -n 2,3001p plots.csv; } >quote.csv
 run track quote.csv
-check 'a quotation mark without a second one' says 2 'rhotrack: quote.csv:3: a row of more than 1 MiB: a quoted cell has no end'
+check 'a quotation mark without a second one' says 2 \
+    'rhotrack: quote.csv:3: a row of more than 1 MiB: a quoted cell has no end'
 run track quote.csv --keep-going -o tracks.csv
-check 'with --keep-going its row alone is skipped' matches "$(cat stderr)" 'rhotrack: 300 scans, 3001 plots, *, 1 bad rows skipped; *'
+check 'with --keep-going its row alone is skipped' matches "$(cat stderr)" \
+    'rhotrack: 300 scans, 3001 plots, *, 1 bad rows skipped; *'
 { printf 't_s,sensor_id,x_m,y_m\n0,1,2,3\n#'; head -c 1100000 /dev/zero | tr '\0' 'c'; } >line.csv
 run track line.csv
 check 'a line without an end' says 2 'rhotrack: line.csv:3: a line of more than 1 MiB'
@@ -145,5 +149,6 @@ PYTHON
 }
 check 'a bar with scans a second and time left, which goes away' bar_is_right
 run track plots.csv -o tracks.csv
-check 'none where standard error is no terminal' matches "$(wc -l <stderr) $(cat stderr)" '1 rhotrack: *'
+check 'none where standard error is no terminal' matches "$(wc -l <stderr) $(cat stderr)" \
+    '1 rhotrack: *'
 finish

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# What the images of the radar node take of their budget: flash and RAM, stack included, as the linker laid them. Exit 1
-# where it is exceeded. The last line is what tools/lab/MEASUREMENTS.md says of the M4.
-# Environment: BUILD.
+# What the images of the radar node take of their budget: flash and RAM, stack included, as the
+# linker laid them. Exit 1 where it is exceeded. The last line is what tools/lab/MEASUREMENTS.md
+# says of the M4. Environment: BUILD.
 set -eu
 cd "$(dirname "$0")/../.."
 flash_most=$((96 * 1024)) ram_most=$((176 * 1024)) failed=0
@@ -16,11 +16,13 @@ for core in m4 m7; do
         $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
         END {print flash + 0, ram + 0}')
     verdict=ok
-    if [ "$flash" -eq 0 ] || [ "$flash" -gt "$flash_most" ] || [ "$ram" -eq 0 ] || [ "$ram" -gt "$ram_most" ]; then
+    if [ "$flash" -eq 0 ] || [ "$flash" -gt "$flash_most" ] || [ "$ram" -eq 0 ] || [ "$ram" -gt \
+        "$ram_most" ]; then
         verdict=MISSED
         failed=1
     fi
-    printf '%-44s %9d %9d %9d %9d  %s\n' "Cortex-${core^^}, default mode, stack included" "$flash" "$flash_most" "$ram" \
+    printf '%-44s %9d %9d %9d %9d  %s\n' "Cortex-${core^^}, default mode, stack included" "$flash" \
+        "$flash_most" "$ram" \
         "$ram_most" "$verdict"
     [ "$core" = m7 ] || said="$(digits "$flash") bytes of flash and $(digits "$ram") of RAM"
 done

@@ -25,5 +25,6 @@ for argument in "$@"; do
     esac
     arguments+=",arg=$argument"
 done
-exec timeout --signal=KILL "${EMULATE_SECONDS:-120}" qemu-system-arm -M "$machine" -display none -monitor none -serial null \
+exec timeout --signal=KILL "${EMULATE_SECONDS:-120}" qemu-system-arm -M "$machine" -display none \
+    -monitor none -serial null \
     -icount shift=6 -semihosting-config "$arguments" -kernel "$image" </dev/null 2>&1

@@ -22,7 +22,8 @@ promise_of() {
 worst_of() {
     local name=$1 line said
     shift
-    said=$("$root/tools/firmware/emulate.sh" "$core" "$build/firmware/$core/worst/$name.elf" "$@") || {
+    said=$("$root/tools/firmware/emulate.sh" "$core" "$build/firmware/$core/worst/$name.elf" "$@") \
+        || {
         echo "$said"
         return 1
     }

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The same input gives the same bytes, whatever the compiler and its optimisation: builds the program with gcc and clang
-# at -O0 and -O3, lets each simulate, track, initiate by every method, and maintain, with a fixed seed, plots and bearings,
-# and compares all files.
+# The same input gives the same bytes, whatever the compiler and its optimisation: builds the
+# program with gcc and clang at -O0 and -O3, lets each simulate, track, initiate by every method,
+# and maintain, with a fixed seed, plots and bearings, and compares all files.
 set -eu
 cd "$(dirname "$0")/../.."
 build=${BUILD:-build}/determinism
@@ -15,7 +15,8 @@ mkdir -p "$build"
 make_variant() { # gcc-O0
     folder=$build/$1
     make --no-print-directory -s BUILD="$folder" CC="${1%-*}" OPT="-${1#*-}" "$folder/rhotrack" \
-        >"$build/$1.log" 2>&1 || { grep -v '^  ' "$build/$1.log"; echo "determinism: $1 does not build"; exit 1; }
+        >"$build/$1.log" 2>&1 || { grep -v '^  ' "$build/$1.log"; echo \
+        "determinism: $1 does not build"; exit 1; }
 }
 export -f make_variant
 export build
@@ -23,7 +24,8 @@ export build
 printf '%s\n' $variants | xargs -P "$(nproc)" -I{} bash -euc 'make_variant {}'
 
 run() { # variant, scenario: its files in output/SCENARIO
-    local rhotrack=$build/$1/rhotrack data=$build/$1/output/$2 method files='tracks.csv found.csv' input=plots.csv
+    local rhotrack=$build/$1/rhotrack data=$build/$1/output/$2 method files='tracks.csv found.csv' \
+        input=plots.csv
     local more=()
     if [ "${2%%-*}" = passive ]; then
         input=bearings.csv
@@ -36,14 +38,16 @@ run() { # variant, scenario: its files in output/SCENARIO
         "$rhotrack" initiate "$data/$input" -o "$data/found.csv" || return 1
     if [ "$2" = crossing ]; then # traffic's area has too many cells of 5 m
         for method in ht mht iht nht; do
-            "$rhotrack" initiate "$data/plots.csv" --method "$method" -o "$data/$method.csv" || return 1
+            "$rhotrack" initiate "$data/plots.csv" --method "$method" -o "$data/$method.csv" \
+                || return 1
             files+=" $method.csv"
         done
     fi
     if [ "$2" = popup ]; then
         files=tracks.csv # the last scans start no track
         for method in best hough nearest; do
-            "$rhotrack" maintain "$data/plots.csv" --gate "$method" --covariance -o "$data/$method.csv" || return 1
+            "$rhotrack" maintain "$data/plots.csv" --gate "$method" --covariance -o \
+                "$data/$method.csv" || return 1
             files+=" $method.csv"
         done
     fi
@@ -65,7 +69,8 @@ for variant in $variants; do
             exit 1
         }
     done
-    (cd "$build/$variant/output" && find . -type f | sort | xargs sha256sum) >"$build/$variant.sha256"
+    (cd "$build/$variant/output" && find . -type f | sort | xargs sha256sum) \
+        >"$build/$variant.sha256"
 done
 
 status=0

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# The C examples of a document are true: each ```c block that has a main is compiled with gcc and clang, all warnings
-# as errors, linked with the library, and run: it must exit with 0. Blocks without a main are compiled only.
-# Usage: extract_example.sh [DOCUMENT [LIBRARY]]
+# The C examples of a document are true: each ```c block that has a main is compiled with gcc and
+# clang, all warnings as errors, linked with the library, and run: it must exit with 0. Blocks
+# without a main are compiled only. Usage: extract_example.sh [DOCUMENT [LIBRARY]]
 set -eu
 cd "$(dirname "$0")/../.."
 document=${1:-README.md}
@@ -31,7 +31,8 @@ for source in "$folder"/*.c; do
         # shellcheck disable=SC2086 # words on purpose
         if grep -q '\bmain *(' "$source"; then
             "$compiler" $flags -o "$program" "$source" "$library"
-            "$(realpath "$program")" >"$program.out" || { echo "examples: $source exits with $?"; exit 1; }
+            "$(realpath "$program")" >"$program.out" || { echo \
+                "examples: $source exits with $?"; exit 1; }
             programs=$((programs + 1))
         else
             "$compiler" $flags -c -o "$program.o" "$source"

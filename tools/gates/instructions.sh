@@ -1,10 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Instructions that the library executes for typical jobs (tools/instructions): on this machine, counted by valgrind, and on
-# Cortex-M4F and M7 under QEMU, where arm-none-eabi-gcc and qemu-system-arm are installed. Mean and worst of several inputs.
-# Bars hold on the M4F. Then the initiator's window with each plot's own covariance against the isotropic path, and what the
-# accumulator takes a vote. Exit 1 where a bar does not hold; under CI=true also where nothing is counted on a Cortex-M.
-# Environment: BUILD, CC.
+# Instructions that the library executes for typical jobs (tools/instructions): on this machine,
+# counted by valgrind, and on Cortex-M4F and M7 under QEMU, where arm-none-eabi-gcc and
+# qemu-system-arm are installed. Mean and worst of several inputs. Bars hold on the M4F. Then the
+# initiator's window with each plot's own covariance against the isotropic path, and what the
+# accumulator takes a vote. Exit 1 where a bar does not hold; under CI=true also where nothing is
+# counted on a Cortex-M. Environment: BUILD, CC.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${BUILD:-build} most_ratio=1.5 failed=0
@@ -15,15 +16,18 @@ trap 'rm -rf "$folder"' EXIT
 # ---- programs -------------------------------------------------------------------------------
 
 for job in filters track tracker maintain initiation passive wire; do
-    ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/$job" "tools/instructions/$job.c" \
+    ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -Wl,-z,now -o "$folder/$job" \
+        "tools/instructions/$job.c" \
         "$build/librhotrack.a"
 done
-${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -DRHO_PROFILE_WORKSTATION -Wl,-z,now -o "$folder/hough" \
+${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -DRHO_PROFILE_WORKSTATION -Wl,-z,now -o \
+    "$folder/hough" \
     tools/instructions/hough.c "$build/workstation/librhotrack.a"
 cores=''
 if command -v arm-none-eabi-gcc >/dev/null && command -v qemu-system-arm >/dev/null; then
     cores='m4 m7'
-    make --no-print-directory -s BUILD="$build" job-images >"$folder/make" 2>&1 || { cat "$folder/make"; exit 1; }
+    make --no-print-directory -s BUILD="$build" job-images >"$folder/make" 2>&1 || { cat \
+        "$folder/make"; exit 1; }
 fi
 
 # ---- counting -------------------------------------------------------------------------------
@@ -32,7 +36,8 @@ fi
 count_here() { # program arguments
     local program=$1
     shift
-    valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file="$folder/out" "$folder/$program" "$@" \
+    valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file="$folder/out" \
+        "$folder/$program" "$@" \
         >"$folder/said" 2>"$folder/stderr" || { cat "$folder/stderr" >&2; exit 1; }
     sum=$(awk '/Collected/ {print $NF}' "$folder/stderr") max=''
     calls=$(sed -n 's/^calls \([0-9]*\).*/\1/p' "$folder/said")
@@ -41,12 +46,15 @@ count_here() { # program arguments
 count_on() { # m4 or m7, program arguments
     local core=$1 program=$2
     shift 2
-    tools/firmware/emulate.sh "$core" "$build/firmware/$core/jobs/$program.elf" "$@" >"$folder/said" ||
+    tools/firmware/emulate.sh "$core" "$build/firmware/$core/jobs/$program.elf" "$@" \
+        >"$folder/said" ||
         { cat "$folder/said" >&2; exit 1; }
-    read -r calls sum max < <(sed -n 's/^calls \([0-9]*\) sum \([0-9]*\) max \([0-9]*\)/\1 \2 \3/p' "$folder/said")
+    read -r calls sum max < <(sed -n \
+        's/^calls \([0-9]*\) sum \([0-9]*\) max \([0-9]*\)/\1 \2 \3/p' "$folder/said")
 }
 
-# row TEXT UNIT BAR JOB ARGUMENTS: one line; the counts are divided by UNIT (tracks). BAR: at most so many on the M4F; -: none.
+# row TEXT UNIT BAR JOB ARGUMENTS: one line; the counts are divided by UNIT (tracks). BAR: at most
+# so many on the M4F; -: none.
 row() {
     local text=$1 unit=$2 bar=$3 here mean='-' worst='-' other='-' verdict=''
     shift 3
@@ -106,8 +114,10 @@ row 'noise of its own, 10 in the gate' 1 - maintain 10 1
 
 head_of 'initiation, window of 7 scans of 4 x 2.5 km, 3 targets'
 for clutter in 0 10 100; do
-    row "batch, $clutter clutter plots a scan, isotropic noise" 1 - initiation batch isotropic "$clutter" 5
-    row "newest, $clutter, min_scans 0, isotropic noise" 1 - initiation newest isotropic "$clutter" 5
+    row "batch, $clutter clutter plots a scan, isotropic noise" 1 - initiation batch isotropic \
+        "$clutter" 5
+    row "newest, $clutter, min_scans 0, isotropic noise" 1 - initiation newest isotropic \
+        "$clutter" 5
     row "newest, $clutter, min_scans 0, own covariances" 1 - initiation newest own "$clutter" 5
 done
 count_here initiation batch isotropic 100 5
@@ -140,7 +150,8 @@ votes() { # points: a row with and without pruning
         printf "%-8s %12s %12s %15.2f %15.2f\n", points, pruned, plain, pruned / votes, plain / votes }'
 }
 
-printf '\naccumulator, workstation profile, %s: 5 m x 1 mrad, 30 x 30 km, 7 scans, 5 votes\n' "$(uname -m)"
+printf '\naccumulator, workstation profile, %s: 5 m x 1 mrad, 30 x 30 km, 7 scans, 5 votes\n' \
+    "$(uname -m)"
 printf '%-8s %12s %12s %15s %15s\n' points instructions 'not pruned' 'a vote' 'not pruned'
 votes 30
 votes 300

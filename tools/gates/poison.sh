@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 #
 # What the library must never have: heap, stdio, errno, double, mutable globals, foreign symbols.
-# Looks at the text of src/ and include/ (comments and strings left out) and at the symbols of $BUILD/librhotrack.a.
-# Usage: poison.sh [ROOT [LIBRARY]]. Exit 1 where anything is found.
+# Looks at the text of src/ and include/ (comments and strings left out) and at the symbols of
+# $BUILD/librhotrack.a. Usage: poison.sh [ROOT [LIBRARY]]. Exit 1 where anything is found.
 set -u
 root=${1:-$(dirname "$0")/../..}
 library=${2:-${BUILD:-build}/librhotrack.a}
@@ -20,7 +20,8 @@ report() { # heading, findings (a line each; none: nothing wrong)
 
 # The code of a file with comments and strings blanked, line by line behind FILE:LINE.
 code_of() {
-    perl -0777 -pe 's{(/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*")}{$1 =~ s/[^\n]/ /gr}gse' "$1" | awk -v file="$1" '{print file ":" NR ": " $0}'
+    perl -0777 -pe 's{(/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*")}{$1 =~ s/[^\n]/ /gr}gse' "$1" | awk \
+        -v file="$1" '{print file ":" NR ": " $0}'
 }
 
 files=$(find src include -name '*.[ch]' | sort)
@@ -34,7 +35,8 @@ report 'symbols that the library takes from elsewhere' \
        grep -vE ' (rho_\w+|memcpy|memset|memmove|memcmp|_GLOBAL_OFFSET_TABLE_)$')"
 report 'public symbols without the prefix rho_' \
     "$(nm -A -g --defined-only "$library" | sed -nE 's/.*:([^:]+:)[0-9a-f]+ (. .*)/\1 \2/p' | grep -vE ' rho_\w+$')"
-# Not .data.rel.ro: constant tables of pointers, which the dynamic loader relocates once and then protects.
+# Not .data.rel.ro: constant tables of pointers, which the dynamic loader relocates once and then
+# protects.
 report 'mutable globals' \
     "$(objdump -t "$library" | awk '/file format/ {object = $1}
        (/ O .*\.(data|bss|tdata|tbss)/ || /\*COM\*/) && !/\.data\.rel\.ro/ {print object, $NF}')"

@@ -1,9 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The worst scans of each shipped configuration that a guided search finds (tools/instructions/worst.c), in QEMU, against what is
-# promised (tools/firmware/promises.bash). Prints a table and the skies that were found; a sky worse than those kept in
-# tests/firmware/worst_skies.txt belongs there. Exit 1 where a promise does not hold.
-# Environment: BUILD, WORST_SEED (default 1), WORST_SKIES (300), WORST_NODES (all).
+# The worst scans of each shipped configuration that a guided search finds
+# (tools/instructions/worst.c), in QEMU, against what is promised (tools/firmware/promises.bash).
+# Prints a table and the skies that were found; a sky worse than those kept in
+# tests/firmware/worst_skies.txt belongs there. Exit 1 where a promise does not hold. Environment:
+# BUILD, WORST_SEED (default 1), WORST_SKIES (300), WORST_NODES (all).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=$(realpath "${BUILD:-$root/build}")
@@ -21,6 +22,7 @@ for name in ${WORST_NODES:-$shipped}; do
     if [ "$instructions" -gt "$promised" ] || [ "$instructions" -gt "$most" ]; then
         verdict=BROKEN failed=1
     fi
-    printf '%-10s %12d %12d %12d %12d %7s  %s\n' "$name" "$instructions" "$work" "$promised" "$most" "$verdict" "$sky"
+    printf '%-10s %12d %12d %12d %12d %7s  %s\n' "$name" "$instructions" "$work" "$promised" \
+        "$most" "$verdict" "$sky"
 done
 exit "$failed"

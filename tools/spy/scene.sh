@@ -1,9 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# Something to look at: a turning radar in clutter and two bearing sensors, aircraft that appear one after the other and fly
-# straight or turn, played to a tracker, ten times as fast as it happened. Usage: RHOTRACK=program scene.sh [SECONDS], on the LCM network of
-# LCM_DEFAULT_URL. Everything ends with it.
+# Something to look at: a turning radar in clutter and two bearing sensors, aircraft that appear one
+# after the other and fly straight or turn, played to a tracker, ten times as fast as it happened.
+# Usage: RHOTRACK=program scene.sh [SECONDS], on the LCM network of LCM_DEFAULT_URL. Everything ends
+# with it.
 set -eu
 program=$(realpath "${RHOTRACK:-$(dirname "$0")/../../build/rhotrack}")
 seconds=${1:-30}
@@ -66,7 +67,8 @@ with open("polar.csv", "w") as polar, open("bearings.csv", "w") as bearings, ope
             print(f"{turn * TURN_S:.6f},{i},{x:.1f},{y:.1f}", file=truth)
 PYTHON
 sleep 4 # for who looks on to be there
-timeout "$seconds" "$program" node --set sigma_range_m=20 --set sigma_azimuth_rad=0.0025 --set v_max_mps=400 &
+timeout "$seconds" "$program" node --set sigma_range_m=20 --set sigma_azimuth_rad=0.0025 \
+    --set v_max_mps=400 &
 sleep 0.5
 timeout "$seconds" "$program" publish polar.csv bearings.csv truth.csv --speed 10 --loop &
 wait

@@ -1,9 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# A picture of lcm-spy itself with the viewer opened from it, on a virtual display, while COMMAND publishes.
-# Usage: screenshot-lcm-spy.sh FILE.png SECONDS COMMAND...     (after `make spy`)
-# Debian: xvfb xdotool imagemagick, and what `tools/setup.sh spy` installs. In a network of its own (unshare).
+# A picture of lcm-spy itself with the viewer opened from it, on a virtual display, while COMMAND
+# publishes. Usage: screenshot-lcm-spy.sh FILE.png SECONDS COMMAND...     (after `make spy`) Debian:
+# xvfb xdotool imagemagick, and what `tools/setup.sh spy` installs. In a network of its own
+# (unshare).
 set -eu
 if [ $# -lt 3 ]; then
     sed -n 's/^# Usage: /usage: /p' "$0" >&2
