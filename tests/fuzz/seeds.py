@@ -35,7 +35,7 @@ def write_dictionary(path, words):
 def write_configs(folder):
     """INI files with every parameter at its default, its least and its most, and of two sensors;
     the words of all of them."""
-    text = (HERE.parents[1] / "tools" / "rhotrack" / "parameters.h").read_text(encoding="utf-8")
+    text = (HERE.parents[1] / "tools" / "rhotrack" / "settings" / "parameters.h").read_text(encoding="utf-8")
     text = re.sub(r"\\\n *", " ", text)
     every, sensors = text.split("#define SENSOR_PARAMETERS")[:2]
     rows = re.findall(r'X\(\w+, "(\w+)", "[^"]*", ([^,]+), ([^,]+), ([^,]+), \d, (\d),', every)

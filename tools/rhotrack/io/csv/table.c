@@ -149,15 +149,18 @@ const char *table_time_us(const struct table *table, size_t row, int column, int
 const char *table_int32(const struct table *table, size_t row, int column, int32_t *value)
 {
     const char *text = text_of(table, row, column);
+    const char *why;
+    double number = 0.0;
 
     if (text) {
         return text_to_int32(text, value);
     }
-    if (table_is_empty(table, row, column)) {
-        return "is empty";
+    why = table_number(table, row, column, &number);
+    if (!why && (number < INT32_MIN || number > INT32_MAX)) {
+        why = "is out of range";
     }
-    *value = (int32_t)number_of(table, row, column);
-    return NULL;
+    *value = why ? 0 : (int32_t)number;
+    return why;
 }
 
 /* ---- Tables of numbers ---- */
