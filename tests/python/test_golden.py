@@ -70,6 +70,9 @@ class Line:
             settings = self.settings()
             scans = rhotrack.read(*self.inputs, settings=settings, keep_going=True)
             rows = rhotrack.Tracker(settings, covariance=self.covariance).run(scans)
+            again = rhotrack.Tracker(settings, covariance=self.covariance).run(scans[:])
+            for name in rows.dtype.names:
+                np.testing.assert_array_equal(rows[name], again[name], err_msg=name)
             return csv_of(rows, TRACKS + (rhotrack.scans.COVARIANCE if self.covariance else []))
         scans = rhotrack.read(*self.inputs, settings=self.settings())
         is_passive = "bearing_rad" in scans[0].dtype.names

@@ -210,12 +210,13 @@ class Passive:
 
     @property
     def accumulator(self) -> np.ndarray:
-        """Cells of the last search's last pass, (theta, rho): of passive a bit a scan, of
-        passive-paper 1 and the votes of all pairs of sensors, 0 where they do not agree."""
+        """The paper's cells after find, (theta, rho), uint8: 1 and the votes of all pairs of
+        sensors, 0 where a pair does not confirm the cell."""
+        if self.method == "passive":
+            raise Error("method 'passive' keeps no accumulator; 'passive-paper' does")
         cells = self._search.cells
         shape = len(cells), len(cells[0])
-        kind = "u2" if self.method == "passive" else "u1"
-        return array_of(cells, shape[0] * shape[1], kind).reshape(shape)
+        return array_of(cells, shape[0] * shape[1], "u1").reshape(shape)
 
     def ghosts(self, frame: np.ndarray) -> dict[tuple[int, int], Ghosts]:
         """The ghost matrix of each pair of sensors of a frame, by their sensor_id."""
