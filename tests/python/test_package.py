@@ -192,18 +192,34 @@ def test_two_sensors_and_two_targets_have_two_ghosts():
     of_frame = rhotrack.Passive(prune="none").ghosts(frame)[1, 2]
     np.testing.assert_allclose(of_frame.delta_rad, matrix.delta_rad, atol=1e-6)
     assert (of_frame.reason == matrix.reason).all()
+    crossings = np.stack([matrix.x_m.diagonal(), matrix.y_m.diagonal()], axis=1)
+    np.testing.assert_allclose(crossings, targets, atol=1)
 
 
-def test_passive_cells_are_an_array(scene):
+def test_the_papers_lines_are_where_all_pairs_of_sensors_vote(scene):
     folder = scene("passive-three")
     settings = rhotrack.Settings(folder / "scenario.ini")
     frames = rhotrack.read(folder / "bearings.csv", settings=settings)
     paper = rhotrack.Passive(settings, method="passive-paper")
-    assert len(paper.find(frames)) > 0 and paper.accumulator.any()
-    with pytest.raises(rhotrack.Error, match="method"):
-        rhotrack.Passive(settings).accumulator
-    rows = frames.rows
-    np.testing.assert_array_equal(rhotrack.Tracker(settings).run(rows),
+    planes = paper.accumulators(frames[-8:])
+    assert len(planes) == 3
+    middle = np.mean([[row["sensor_x_m"], row["sensor_y_m"]] for row in np.unique(
+        frames[0][["sensor_id", "sensor_x_m", "sensor_y_m"]])], axis=0)
+    for line in paper.find(frames):
+        votes = []
+        for plane in planes.values():
+            rho = line["rho_m"] - middle @ [np.cos(line["theta_rad"]), np.sin(line["theta_rad"])]
+            i = np.abs(plane.theta_rad - line["theta_rad"]).argmin()
+            j = np.abs(plane.rho_m - rho).argmin()
+            votes.append(plane.votes[i - 1:i + 2, j - 1:j + 2].max())
+        assert min(votes) == line["score"]
+
+
+def test_rows_of_many_frames_are_split_into_frames(scene):
+    folder = scene("passive-three")
+    settings = rhotrack.Settings(folder / "scenario.ini")
+    frames = rhotrack.read(folder / "bearings.csv", settings=settings)
+    np.testing.assert_array_equal(rhotrack.Tracker(settings).run(frames.rows),
                                   rhotrack.Tracker(settings).run(frames))
 
 

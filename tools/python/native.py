@@ -15,8 +15,8 @@ from cffi import FFI
 HERE = Path(__file__).resolve().parent
 FLAGS = ["-std=c11", "-DRHO_PROFILE_WORKSTATION"]
 SOURCE = '#include "program.h"\n#include "rhotrack/detail/angle.h"\n'
-MACROS = ("RHO_MAX_PLOTS", "RHO_MAX_BEARINGS", "RHO_MAX_CLASSIC_CELLS", "RHO_CLASSIC_VOTE",
-          "RHO_MEASURES_Z", "RHO_MEASURES_VELOCITY", "RHO_MEASURES_RANGE_RATE")
+MACROS = ("RHO_MAX_PLOTS", "RHO_MAX_BEARINGS", "RHO_CLASSIC_VOTE", "RHO_PAPER_RHO_CELLS",
+          "RHO_MEASURES_RANGE_RATE")
 
 
 def declarations(compiler, include):

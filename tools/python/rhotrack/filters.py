@@ -219,11 +219,13 @@ class HoughGate:
 
 
 class Ghosts(NamedTuple):
-    """delta_rad: (bearings of a, bearings of b), the angle between them, 0 for ghosts; reason: the
-    same shape, "kept" or why the crossing is a ghost: "sides", "apart", "range", "row", "column".
-    """
+    """Matrices of the shape (bearings of a, bearings of b): delta_rad, the angle between two, 0 for
+    ghosts; reason, "kept" or why the crossing is a ghost: "sides", "apart", "range", "row",
+    "column"; x_m and y_m, where those that are kept cross, else NaN."""
     delta_rad: np.ndarray
     reason: np.ndarray
+    x_m: np.ndarray
+    y_m: np.ndarray
 
 
 def ghosts(bearings_a_rad: Any, bearings_b_rad: Any, place_a_m: tuple[float, float],
@@ -240,7 +242,12 @@ def ghosts(bearings_a_rad: Any, bearings_b_rad: Any, place_a_m: tuple[float, flo
                                     pointer_to(b, "float *"), len(b), range_max_m),
                  "bearings_a_rad, bearings_b_rad or range_max_m")
     lib.rho_ghost_prune(matrix, rules[prune])
-    side = lib.RHO_MAX_BEARINGS
-    delta = array_of(matrix.delta_rad, side * side, "f4").reshape(side, side)
-    reason = array_of(matrix.reason, side * side, "u1").reshape(side, side)
-    return Ghosts(delta[:len(a), :len(b)], REASONS[reason[:len(a), :len(b)]])
+    side, shape = lib.RHO_MAX_BEARINGS, np.s_[:len(a), :len(b)]
+    delta = array_of(matrix.delta_rad, side * side, "f4").reshape(side, side)[shape]
+    reason = REASONS[array_of(matrix.reason, side * side, "u1").reshape(side, side)[shape]]
+    x_m, y_m = np.full(reason.shape, np.nan, "f4"), np.full(reason.shape, np.nan, "f4")
+    crossing = ffi.new("struct rho_crossing *")
+    for i, j in np.argwhere(reason == "kept"):
+        if lib.rho_crossing_find(base, a[i], b[j], range_max_m, crossing) == lib.RHO_CROSSING_MEETS:
+            x_m[i, j], y_m[i, j] = crossing.x_m, crossing.y_m
+    return Ghosts(delta, reason, x_m, y_m)

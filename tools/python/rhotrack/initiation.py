@@ -159,7 +159,7 @@ class Passive:
     """Tracks of the last frames of bearings, as `rhotrack initiate` finds them.
 
     method: "passive", the tracker's own, or "passive-paper", the paper's to the letter. Tracks are
-    as those of Initiator; the scores of passive-paper are votes.
+    as those of Initiator; the scores of passive-paper are votes. Frames are as Scans has them.
     """
 
     def __init__(self, settings: Settings | None = None, method: str = "passive",
@@ -208,15 +208,31 @@ class Passive:
                          bin(one.scans).count("1"), one.votes))
         return rows
 
-    @property
-    def accumulator(self) -> np.ndarray:
-        """The paper's cells after find, (theta, rho), uint8: 1 and the votes of all pairs of
-        sensors, 0 where a pair does not confirm the cell."""
-        if self.method == "passive":
-            raise Error("method 'passive' keeps no accumulator; 'passive-paper' does")
-        cells = self._search.cells
-        shape = len(cells), len(cells[0])
-        return array_of(cells, shape[0] * shape[1], "u1").reshape(shape)
+    def accumulators(self, frames: Any) -> dict[tuple[int, int], Accumulator]:
+        """The paper's accumulator of each pair of sensors, by their sensor_id, of all frames given:
+        distinct frames whose crossings vote for a cell. rho_m counts from the sensors' centroid."""
+        scans = as_scans(frames, self.settings)
+        looks = [self.ghosts(scans[i]) for i in range(len(scans))]
+        places = {one["sensor_id"]: (one["sensor_x_m"], one["sensor_y_m"])
+                  for i in range(len(scans)) for one in scans[i]}
+        middle = np.mean(list(places.values()), axis=0, dtype="f4")
+        step_m, columns = self.config.rho_cell_m, lib.RHO_PAPER_RHO_CELLS
+        num_rows = round(np.pi / self.config.theta_cell_rad)
+        theta = (np.arange(num_rows, dtype="f4") + 0.5) * np.pi / num_rows
+        found = {}
+        for pair in dict.fromkeys(pair for look in looks for pair in look):
+            votes = np.zeros((num_rows, columns), "u2")
+            for look in (look[pair] for look in looks if pair in look):
+                is_there = ~np.isnan(look.x_m)
+                rho = (np.outer(np.cos(theta), look.x_m[is_there] - middle[0])
+                       + np.outer(np.sin(theta), look.y_m[is_there] - middle[1]))
+                cell = np.floor(rho / step_m + columns / 2).astype(int)
+                row, point = np.nonzero((cell >= 0) & (cell < columns))
+                has_voted = np.zeros(votes.shape, bool)
+                has_voted[row, cell[row, point]] = True
+                votes += has_voted
+            found[pair] = Accumulator(votes, theta, (np.arange(columns) + 0.5 - columns / 2) * step_m)
+        return found
 
     def ghosts(self, frame: np.ndarray) -> dict[tuple[int, int], Ghosts]:
         """The ghost matrix of each pair of sensors of a frame, by their sensor_id."""
