@@ -206,9 +206,9 @@ static struct parameters *ready(const struct parameters *settings, char *const *
     struct asterix_place place = {.is_given = false};
 
     *copy = *settings;
-    for (int i = 0; i < num_paths && !place.is_given &&
-                    !parameters_is_set(copy, PARAMETER_ORIGIN_LAT_DEG) &&
-                    !parameters_is_set(copy, PARAMETER_ORIGIN_LON_DEG);
+    for (int i = 0;
+         i < num_paths && !place.is_given && !parameters_is_set(copy, PARAMETER_ORIGIN_LAT_DEG) &&
+         !parameters_is_set(copy, PARAMETER_ORIGIN_LON_DEG);
          i++) {
         place = asterix_file_place(paths[i]);
         if (place.is_given) {
@@ -306,16 +306,32 @@ static struct program_row row_of(int64_t time_us, int32_t sensor_id)
 {
     return (struct program_row){.t_s = seconds(time_us),
                                 .sensor_id = sensor_id,
-                                .x_m = NAN, .y_m = NAN, .z_m = NAN,
-                                .vx_mps = NAN, .vy_mps = NAN, .vz_mps = NAN,
-                                .range_m = NAN, .azimuth_rad = NAN, .elevation_rad = NAN,
-                                .range_rate_mps = NAN, .bearing_rad = NAN,
-                                .sigma_m = NAN, .sigma_mps = NAN,
-                                .sigma_range_m = NAN, .sigma_cross_m = NAN, .sigma_up_m = NAN,
-                                .sigma_azimuth_rad = NAN, .sigma_elevation_rad = NAN,
-                                .sigma_range_rate_mps = NAN, .sigma_rad = NAN, .snr_db = NAN,
-                                .sector_from_rad = NAN, .sector_to_rad = NAN,
-                                .sensor_x_m = NAN, .sensor_y_m = NAN, .sensor_z_m = NAN};
+                                .x_m = NAN,
+                                .y_m = NAN,
+                                .z_m = NAN,
+                                .vx_mps = NAN,
+                                .vy_mps = NAN,
+                                .vz_mps = NAN,
+                                .range_m = NAN,
+                                .azimuth_rad = NAN,
+                                .elevation_rad = NAN,
+                                .range_rate_mps = NAN,
+                                .bearing_rad = NAN,
+                                .sigma_m = NAN,
+                                .sigma_mps = NAN,
+                                .sigma_range_m = NAN,
+                                .sigma_cross_m = NAN,
+                                .sigma_up_m = NAN,
+                                .sigma_azimuth_rad = NAN,
+                                .sigma_elevation_rad = NAN,
+                                .sigma_range_rate_mps = NAN,
+                                .sigma_rad = NAN,
+                                .snr_db = NAN,
+                                .sector_from_rad = NAN,
+                                .sector_to_rad = NAN,
+                                .sensor_x_m = NAN,
+                                .sensor_y_m = NAN,
+                                .sensor_z_m = NAN};
 }
 
 /* Plots do not tell their scan's time where the first one has another; a row without one does. */
@@ -457,8 +473,8 @@ static float said(float value, double otherwise)
     return isnan(value) ? (float)otherwise : value;
 }
 
-static double of_sensor(const struct making *making, int32_t sensor_id,
-                        enum sensor_parameter_id id, enum parameter_id otherwise)
+static double of_sensor(const struct making *making, int32_t sensor_id, enum sensor_parameter_id id,
+                        enum parameter_id otherwise)
 {
     return parameters_of_sensor(making->settings, sensor_id, id,
                                 making->settings->value[otherwise]);
@@ -518,17 +534,17 @@ static void polar_plot(const struct making *making, const struct program_row *ro
         .azimuth_rad = row->azimuth_rad,
         .elevation_rad = row->elevation_rad,
         .range_rate_mps = row->range_rate_mps,
-        .sigma_range_m = said(row->sigma_range_m, of_sensor(making, id, SENSOR_SIGMA_RANGE_M,
-                                                            PARAMETER_SIGMA_RANGE_M)),
+        .sigma_range_m = said(row->sigma_range_m,
+                              of_sensor(making, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)),
         .sigma_azimuth_rad =
             said(row->sigma_azimuth_rad,
                  of_sensor(making, id, SENSOR_SIGMA_AZIMUTH_RAD, PARAMETER_SIGMA_AZIMUTH_RAD)),
         .sigma_elevation_rad =
             said(row->sigma_elevation_rad,
                  of_sensor(making, id, SENSOR_SIGMA_ELEVATION_RAD, PARAMETER_SIGMA_ELEVATION_RAD)),
-        .sigma_range_rate_mps = said(
-            row->sigma_range_rate_mps,
-            of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS, PARAMETER_SIGMA_RANGE_RATE_MPS)),
+        .sigma_range_rate_mps =
+            said(row->sigma_range_rate_mps, of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
+                                                      PARAMETER_SIGMA_RANGE_RATE_MPS)),
         .snr_db = said(row->snr_db, 0.0)};
 
     seen_from.time_bias_s = 0.0f;
@@ -557,9 +573,9 @@ static void cartesian_plot(const struct making *making, const struct program_row
         .sigma_up_m = said(row->sigma_up_m, (double)sigma_m),
         .sigma_mps =
             said(row->sigma_mps, of_sensor(making, id, SENSOR_SIGMA_MPS, PARAMETER_SIGMA_MPS)),
-        .sigma_range_rate_mps = said(
-            row->sigma_range_rate_mps,
-            of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS, PARAMETER_SIGMA_RANGE_RATE_MPS)),
+        .sigma_range_rate_mps =
+            said(row->sigma_range_rate_mps, of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
+                                                      PARAMETER_SIGMA_RANGE_RATE_MPS)),
         .snr_db = said(row->snr_db, 0.0)};
     if (!rho_measurement_is_valid(plot, measures_of(row))) {
         refuse(making, row, "x_m, y_m, z_m, a velocity or a sigma is out of range");
@@ -583,9 +599,8 @@ static void make_scan(const struct making *making, const struct program_row *row
     scan->sector_from_rad = said(rows->sector_from_rad, 0.0);
     scan->sector_to_rad = said(rows->sector_to_rad, 0.0);
     scan->measures = measured ? measures_of(measured) : 0;
-    made->has_sensor =
-        parameters_to_sensor(making->settings, rows->sensor_id, &made->sensor) ||
-        !isnan(rows->sensor_x_m) || !isnan(rows->sensor_z_m);
+    made->has_sensor = parameters_to_sensor(making->settings, rows->sensor_id, &made->sensor) ||
+                       !isnan(rows->sensor_x_m) || !isnan(rows->sensor_z_m);
     parameters_to_any_sensor(making->settings, rows->sensor_id, &made->sensor);
     made->sensor.x_m = said(rows->sensor_x_m, (double)made->sensor.x_m);
     made->sensor.y_m = said(rows->sensor_y_m, (double)made->sensor.y_m);
@@ -631,11 +646,10 @@ static void make_look(const struct making *making, const struct program_row *row
                 of_sensor(making, rows->sensor_id, SENSOR_SIGMA_RAD, PARAMETER_SIGMA_RAD);
             struct rho_bearing *bearing = &bearings[look->num_bearings++];
 
-            *bearing = (struct rho_bearing){
-                .offset_us = offset_of(making, &rows[i], look->time_us),
-                .bearing_rad = rows[i].bearing_rad,
-                .sigma_rad = said(rows[i].sigma_rad, sigma_rad),
-                .snr_db = said(rows[i].snr_db, 0.0)};
+            *bearing = (struct rho_bearing){.offset_us = offset_of(making, &rows[i], look->time_us),
+                                            .bearing_rad = rows[i].bearing_rad,
+                                            .sigma_rad = said(rows[i].sigma_rad, sigma_rad),
+                                            .snr_db = said(rows[i].snr_db, 0.0)};
             if (!rho_measurement_is_bearing(bearing)) {
                 refuse(making, &rows[i], "bearing_rad or sigma_rad is out of range");
             }
@@ -701,11 +715,10 @@ const char *program_kind(const char *path)
         return "scans";
     }
     struct table *header = table_read_header(path);
-    const char *kind = table_find(header, "status") >= 0 && table_find(header, "track_id") >= 0
-                           ? "tracks"
-                       : table_find(header, "target_id") >= 0 && table_find(header, "sensor_id") < 0
-                           ? "truth"
-                           : "scans";
+    const char *kind =
+        table_find(header, "status") >= 0 && table_find(header, "track_id") >= 0      ? "tracks"
+        : table_find(header, "target_id") >= 0 && table_find(header, "sensor_id") < 0 ? "truth"
+                                                                                      : "scans";
 
     table_free(header);
     return kind;
@@ -795,8 +808,7 @@ static void add_tracks(struct program_tracks *tracks, const struct rho_report *r
             row->status[k] = (unsigned char)status[k];
         }
         if (tracks->has_covariances) {
-            memcpy(tracks->covariances[tracks->count], track->covariance,
-                   sizeof track->covariance);
+            memcpy(tracks->covariances[tracks->count], track->covariance, sizeof track->covariance);
         }
         tracks->count++;
     }

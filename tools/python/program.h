@@ -122,9 +122,9 @@ struct program_pipeline {
     struct pipeline *pipeline;
     struct parameters *settings;
     bool is_open;
-    struct rho_tracker *tracker;      /* in memory of the pipeline, as */
-    const struct rho_report *report;  /* of the last step */
-    struct program_tracks tracks;     /* of the last program_pipeline_run */
+    struct rho_tracker *tracker;     /* in memory of the pipeline, as */
+    const struct rho_report *report; /* of the last step */
+    struct program_tracks tracks;    /* of the last program_pipeline_run */
 };
 
 struct program_pipeline *program_pipeline(const struct parameters *settings, bool has_covariances);
