@@ -3,8 +3,8 @@
  * step: the state of one step, and the functions below the phases of src/step: those call them, and
  * none of them calls a phase. Private to src/tracker and src/step.
  *
- * Options of config.h: functions are declared in every build, their callers ask the option first
- * (`if (RHO_SECTORS)`), and a file is compiled only where the fields exist that it works on.
+ * Options of config.h: every build compiles every function, and callers ask the option first
+ * (`if (RHO_SECTORS)`), so that the linker leaves out what a build does not need.
  */
 #ifndef RHOTRACK_STEP_H
 #define RHOTRACK_STEP_H
@@ -66,10 +66,8 @@ struct step {
     int is_partial;
     /* bit i: track i is in the scan's field of view and was predicted */
     uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
-#if RHO_PLOT_STRIPS == 1
     struct plot_box boxes[RHO_PLOT_BOXES]; /* of plots that follow each other, as many in each */
     uint32_t plots_of_box;
-#endif
     struct rho_track_model model;
     float log_pd;
     float log_miss;  /* ln(1 - pd) */
@@ -121,42 +119,24 @@ struct plots_near {
 void rho_tracker_sort_plots(struct step *step);
 struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
                                          float y_min_m, float y_max_m);
-#if RHO_PLOT_STRIPS > 1
+int rho_tracker_next_box(const struct step *step, struct plots_near *near);
+
 static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
                                         uint32_t *row)
 {
-    if (near->next >= near->end) {
+    if (near->next >= near->end && (RHO_PLOT_STRIPS > 1 || !rho_tracker_next_box(step, near))) {
         return 0;
     }
-    *row = step->tracker->strips.plots[near->next++];
+    *row = RHO_PLOT_STRIPS > 1 ? step->tracker->strips.plots[near->next] : near->next;
+    near->next++;
     return 1;
 }
 
 /* An upper bound of their number. */
 static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
 {
-    (void)step;
-    return near->end - near->next;
+    return RHO_PLOT_STRIPS > 1 ? near->end - near->next : step->num_gated;
 }
-#else
-int rho_tracker_next_box(const struct step *step, struct plots_near *near);
-
-static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
-                                        uint32_t *row)
-{
-    if (near->next >= near->end && !rho_tracker_next_box(step, near)) {
-        return 0;
-    }
-    *row = near->next++;
-    return 1;
-}
-
-static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
-{
-    (void)near;
-    return step->num_gated;
-}
-#endif
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
