@@ -450,7 +450,7 @@ tidy:
 cppcheck:
 	@echo "  cppcheck src tools/rhotrack tools/firmware"
 	@cppcheck $(cppcheck_flags) --std=c99 src || failed=1; \
-	cppcheck $(cppcheck_flags) --std=c11 -DRHO_PROFILE_WORKSTATION tools/rhotrack || failed=1; \
+	cppcheck $(cppcheck_flags) --std=c11 -DRHO_PROFILE_WORKSTATION -Itools/rhotrack tools/rhotrack || failed=1; \
 	cppcheck $(cppcheck_flags) --std=c99 -DMPS2_ETHERNET=0x40200000u -Itools/firmware tools/firmware || failed=1; \
 	test -z "$$failed"
 

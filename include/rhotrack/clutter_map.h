@@ -70,10 +70,11 @@ struct rho_echo_returns {
     float returns[RHO_ECHO_HIT_CLASSES][RHO_ECHO_GAP_CLASSES];
 };
 
-/* Places of the table of echoes; a build without the map (RHO_MAX_ECHOES 0) has no object of it. */
+/* Sizes of the map; a build without it (RHO_MAX_ECHOES 0) holds the smallest one and never uses it. */
 #define RHO_ECHO_PLACES (RHO_MAX_ECHOES > 0 ? RHO_MAX_ECHOES : 1)
-
-#define RHO_ECHO_TABLES (RHO_ECHO_REGIONS * RHO_ECHO_REGIONS + 1)
+#define RHO_ECHO_PLOTS (RHO_MAX_ECHOES > 0 ? RHO_MAX_PLOTS : 1)
+#define RHO_ECHO_STROBES (RHO_MAX_ECHOES > 0 ? RHO_STROBE_BINS : 1)
+#define RHO_ECHO_TABLES ((RHO_MAX_ECHOES > 0 ? RHO_ECHO_REGIONS * RHO_ECHO_REGIONS : 1) + 1)
 
 struct rho_clutter_map {
     int64_t time_us;         /* of the newest scan */
@@ -95,14 +96,14 @@ struct rho_clutter_map {
      * echoes and strobes, 1/m^2); the echo that explains the plot best, and its share of that
      * density
      */
-    float denser[RHO_MAX_PLOTS], best_per_m2[RHO_MAX_PLOTS];
-    uint16_t best_echo[RHO_MAX_PLOTS];
+    float denser[RHO_ECHO_PLOTS], best_per_m2[RHO_ECHO_PLOTS];
+    uint16_t best_echo[RHO_ECHO_PLOTS];
     /*
      * of the newest scan: plots by direction, and the eighths of the sensor's range with plots, a
      * bit each
      */
-    uint16_t strobe_count[RHO_STROBE_BINS];
-    uint8_t strobe_ranges[RHO_STROBE_BINS];
+    uint16_t strobe_count[RHO_ECHO_STROBES];
+    uint8_t strobe_ranges[RHO_ECHO_STROBES];
 };
 
 /*

@@ -486,12 +486,13 @@
                                        32 * RHO_MAX_CLASSIC_KERNELS + 2 * RHO_CLASSIC_CHAINS)) +   \
      128)
 #define RHO_RAM_HYPOTHESES_BYTES (410 * RHO_MAX_HYPOTHESES + 17 * (RHO_MAX_TRACKS + 1) + 2048)
-#define RHO_RAM_STRIPS_BYTES (RHO_PLOT_STRIPS > 1 ? 2 * (RHO_PLOT_STRIPS + RHO_MAX_PLOTS) + 16 : 0)
+#define RHO_RAM_STRIPS_BYTES                                                                       \
+    (2 * (RHO_PLOT_STRIPS + (RHO_PLOT_STRIPS > 1 ? RHO_MAX_PLOTS : 1)) + 16)
 #define RHO_RAM_CLUTTER_MAP_BYTES                                                                  \
     (RHO_MAX_ECHOES > 0 ? 64 * RHO_MAX_ECHOES + 10 * RHO_MAX_PLOTS + 3 * RHO_STROBE_BINS +         \
                               480 * (RHO_ECHO_REGIONS * RHO_ECHO_REGIONS + 1) + 40                 \
-                        : 0)
-#define RHO_RAM_SECOND_PLOTS_BYTES (RHO_MAX_ECHOES > 0 ? 76 * RHO_MAX_SENSORS : 0)
+                        : 1080)
+#define RHO_RAM_SECOND_PLOTS_BYTES (76 * RHO_MAX_SENSORS)
 #define RHO_RAM_TRACKER_BYTES                                                                      \
     (RHO_MAX_TRACKS * (520 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
      (144 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \

@@ -105,15 +105,12 @@ struct rho_track {
     int8_t shown[2];
     uint8_t has_shown;
     uint8_t is_shared; /* two sensors have seen it; 0 without RHO_SECTORS */
-#if RHO_SECTORS
     /*
      * of the two sensors that saw it last, the newer first: the tracker's count of their scans then
      */
     int32_t look_sensor_id[2];
     uint16_t look[2];
     int64_t ahead_us; /* while a late scan is stepped: the time from which it was moved back */
-#endif
-#if RHO_MAX_ECHOES > 0
     /*
      * by class of hits: how far echoes of the clutter map explained its plots, until the map has
      * been told that they are a target's
@@ -131,7 +128,6 @@ struct rho_track {
     uint32_t twin_id;
     float twin_nat;
     float second_share; /* scratch of a step: how far the track has all its second plots itself */
-#endif
     struct rho_input input;
 };
 

@@ -154,10 +154,8 @@ struct rho_tracker_counters {
     uint32_t candidates_dropped; /* RHO_MAX_CANDIDATES */
     uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
     uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
-#if RHO_SECTORS
-    uint32_t scans_retrodicted; /* of the accepted: late, by late_max_s at most */
-    uint32_t sensors_doubted;   /* times that a sensor became suspect */
-#endif
+    uint32_t scans_retrodicted;  /* of the accepted: late, by late_max_s at most */
+    uint32_t sensors_doubted;    /* times that a sensor became suspect */
 };
 
 /*
@@ -178,14 +176,12 @@ struct rho_tracker_work {
     uint32_t plots_not_tried;
 };
 
-#if RHO_PLOT_STRIPS > 1
-/* The plots of the scan that is stepped, by strips of x. */
+/* The plots of the scan that is stepped, by strips of x; of no use with a single strip. */
 struct rho_tracker_strips {
     float x_min_m, per_m;
     uint16_t starts[RHO_PLOT_STRIPS + 2]; /* of strip s: from starts[s] to starts[s + 1] in ... */
-    uint16_t plots[RHO_MAX_PLOTS];        /* ... their rows */
+    uint16_t plots[RHO_PLOT_STRIPS > 1 ? RHO_MAX_PLOTS : 1]; /* ... their rows */
 };
-#endif
 
 /* A sensor's newest scan (RHO_SECTORS). */
 struct rho_tracker_look {
@@ -274,20 +270,14 @@ struct rho_tracker {
     int64_t youth_us;
     uint32_t num_paces;
     struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
-#if RHO_SECTORS
     uint32_t num_looks;
     struct rho_tracker_look looks[RHO_MAX_SENSORS]; /* of the sensors that came first */
-#endif
     struct rho_track tracks[RHO_MAX_TRACKS];
     struct rho_assignment assignment;
     struct rho_hypotheses hypotheses; /* of the gate best */
-#if RHO_PLOT_STRIPS > 1
     struct rho_tracker_strips strips;
-#endif
-#if RHO_MAX_ECHOES > 0
     struct rho_clutter_map clutter_map;
     struct rho_second_plots second_plots[RHO_MAX_SENSORS]; /* of the sensors that came first */
-#endif
 };
 
 /*

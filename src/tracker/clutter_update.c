@@ -21,8 +21,6 @@
 #include "rhotrack/measurement.h"
 #include "step.h"
 
-#if RHO_MAX_ECHOES > 0
-
 /* Hits of a track from which it is a target's, if it is not too slow. */
 #define TARGET_HITS 12
 /*
@@ -244,7 +242,7 @@ static void add_echo_densities(struct step *step, float range_max_m)
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     unsigned place = map->first_echo, left_out = 0;
     rho_tracker_begin_share(step, RHO_WORK_ECHOES_SHARE);
-    for (unsigned i = 0; i < RHO_MAX_ECHOES; i++, place = (place + 1u) % RHO_MAX_ECHOES) {
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
         if (!is_in_scan(step, &map->echoes[place])) {
             continue;
         }
@@ -271,8 +269,8 @@ static struct direction direction_of(const struct step *step, uint32_t row)
 {
     const struct rho_plot *plot = &step->scan->plots[row];
     const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
-    const unsigned bin = (unsigned)(rho_clutter_map_turn(&view) * (float)RHO_STROBE_BINS);
-    return (struct direction){bin < RHO_STROBE_BINS ? bin : 0, view.range_m};
+    const unsigned bin = (unsigned)(rho_clutter_map_turn(&view) * (float)RHO_ECHO_STROBES);
+    return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
 }
 
 /* An eighth of the range. */
@@ -319,8 +317,8 @@ static float sector_width(const struct step *step)
 static float strobe_density(const struct step *step, unsigned bin, float plots, float range_max_m)
 {
     const struct rho_clutter_map *map = &step->tracker->clutter_map;
-    const unsigned bins[3] = {bin == 0 ? RHO_STROBE_BINS - 1u : bin - 1u, bin,
-                              bin + 1u == RHO_STROBE_BINS ? 0 : bin + 1u};
+    const unsigned bins[3] = {bin == 0 ? RHO_ECHO_STROBES - 1u : bin - 1u, bin,
+                              bin + 1u == RHO_ECHO_STROBES ? 0 : bin + 1u};
     unsigned count = 0, ranges = 0;
     for (int k = 0; k < 3; k++) {
         count += map->strobe_count[bins[k]];
@@ -329,7 +327,7 @@ static float strobe_density(const struct step *step, unsigned bin, float plots, 
     if (!((float)count > STROBE_PLOTS_MIN)) {
         return 0.0f; /* most directions */
     }
-    const float width_rad = 3.0f * RHO_TWO_PI / (float)RHO_STROBE_BINS;
+    const float width_rad = 3.0f * RHO_TWO_PI / (float)RHO_ECHO_STROBES;
     const float others_rad = sector_width(step) - width_rad;
     const float usual = others_rad > 0.0f ? (plots - (float)count) * width_rad / others_rad : plots;
     return (float)count > STROBE_PLOTS_MIN + STROBE_TIMES_USUAL * usual &&
@@ -370,7 +368,7 @@ static void add_strobe_densities(struct step *step, float range_max_m)
         float density = 0.0f;
         for (unsigned k = 0; k < 3; k++) { /* at the strobe's edge */
             const float beside = strobe_density(
-                step, (at.bin + RHO_STROBE_BINS + k - 1u) % RHO_STROBE_BINS, plots, range_max_m);
+                step, (at.bin + RHO_ECHO_STROBES + k - 1u) % RHO_ECHO_STROBES, plots, range_max_m);
             density = beside > density ? beside : density;
         }
         if (density > 0.0f && at.range_m > 0.0f) {
@@ -555,7 +553,7 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     const float v_min2 = map->v_min_mps * map->v_min_mps;
-    for (unsigned place = 0; place < RHO_MAX_ECHOES; place++) {
+    for (unsigned place = 0; place < RHO_ECHO_PLACES; place++) {
         struct rho_echo *echo = &map->echoes[place];
         const int is_seen = echo->hits > 0 && echo->was_looked_at && echo->plot >= 0;
         const int by_target = is_seen && is_of_target(targets, (uint32_t)echo->plot);
@@ -603,10 +601,10 @@ static void add_echoes(struct step *step, const uint32_t *targets, const uint32_
         if (!becomes_echo(step, targets, taken, i)) {
             continue;
         }
-        while (place < RHO_MAX_ECHOES && map->echoes[place].hits > 0) {
+        while (place < RHO_ECHO_PLACES && map->echoes[place].hits > 0) {
             place++;
         }
-        if (place == RHO_MAX_ECHOES) {
+        if (place == RHO_ECHO_PLACES) {
             map->echoes_dropped = rho_count(map->echoes_dropped, 1);
             continue;
         }
@@ -666,5 +664,3 @@ int rho_tracker_has_sound_returns(const struct rho_track *track)
     return rho_are_finite(track->returns, RHO_ECHO_HIT_CLASSES) &&
            rho_are_finite(track->start_m, 2) && rho_are_finite(&track->start_sigma_m, 1);
 }
-
-#endif

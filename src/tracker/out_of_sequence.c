@@ -5,8 +5,6 @@
  */
 #include "step.h"
 
-#if RHO_SECTORS
-
 #define LATE_LIMIT_S 60.0f
 
 void rho_tracker_set_late_default(struct rho_tracker_config *config)
@@ -81,5 +79,3 @@ void rho_tracker_end_late(struct step *step)
     step->time_us = tracker->time_us;
     step->report->time_us = step->time_us;
 }
-
-#endif

@@ -11,8 +11,6 @@
 
 #include "step.h"
 
-#if RHO_PLOT_STRIPS > 1
-
 /* Plots of any place, and limits of any size, have one. */
 static unsigned strip_of(const struct rho_tracker_strips *strips, float x_m)
 {
@@ -42,7 +40,7 @@ static void lay_strips(struct rho_tracker_strips *strips, const struct step *ste
  * Counting sort: the plots of strip s are counted two places on, then put one place on, which moves
  * to their end.
  */
-void rho_tracker_sort_plots(struct step *step)
+static void sort_by_strips(struct step *step)
 {
     struct rho_tracker_strips *strips = &step->tracker->strips;
     uint16_t *starts = strips->starts;
@@ -63,20 +61,7 @@ void rho_tracker_sort_plots(struct step *step)
     }
 }
 
-struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
-                                         float y_min_m, float y_max_m)
-{
-    const struct rho_tracker_strips *strips = &step->tracker->strips;
-    return (struct plots_near){
-        .next = strips->starts[strip_of(strips, x_min_m)],
-        .end = strips->starts[strip_of(strips, x_max_m) + 1u],
-        .within = {x_min_m, x_max_m, y_min_m, y_max_m},
-    };
-}
-
-#else
-
-void rho_tracker_sort_plots(struct step *step)
+static void bound_boxes(struct step *step)
 {
     step->plots_of_box = (step->num_gated + RHO_PLOT_BOXES - 1u) / RHO_PLOT_BOXES;
     for (unsigned k = 0; k < RHO_PLOT_BOXES; k++) {
@@ -96,11 +81,25 @@ void rho_tracker_sort_plots(struct step *step)
     }
 }
 
+void rho_tracker_sort_plots(struct step *step)
+{
+    if (RHO_PLOT_STRIPS > 1) {
+        sort_by_strips(step);
+    } else {
+        bound_boxes(step);
+    }
+}
+
 struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
                                          float y_min_m, float y_max_m)
 {
-    (void)step;
-    return (struct plots_near){0, 0, 0, {x_min_m, x_max_m, y_min_m, y_max_m}};
+    struct plots_near near = {.within = {x_min_m, x_max_m, y_min_m, y_max_m}};
+    if (RHO_PLOT_STRIPS > 1) {
+        const struct rho_tracker_strips *strips = &step->tracker->strips;
+        near.next = strips->starts[strip_of(strips, x_min_m)];
+        near.end = strips->starts[strip_of(strips, x_max_m) + 1u];
+    }
+    return near;
 }
 
 int rho_tracker_next_box(const struct step *step, struct plots_near *near)
@@ -119,5 +118,3 @@ int rho_tracker_next_box(const struct step *step, struct plots_near *near)
     }
     return 0;
 }
-
-#endif

@@ -19,8 +19,6 @@
 #include "rhotrack/measurement.h"
 #include "step.h"
 
-#if RHO_SECTORS
-
 /* Standard deviations from a track's place to the end of where its plot is expected. */
 #define GATE_SIGMAS 3.0f
 
@@ -242,5 +240,3 @@ int rho_tracker_has_sound_looks(const struct rho_tracker *tracker)
     }
     return 1;
 }
-
-#endif

@@ -10,8 +10,6 @@
 #include "rhotrack/detail/approx.h"
 #include "step.h"
 
-#if RHO_SECTORS
-
 /* Memory of the means in looks and hits, and the least number of them that is used. */
 #define WATCH_MAX 16u
 #define WATCH_MIN 12u
@@ -214,5 +212,3 @@ float rho_tracker_find_suspect(struct step *step)
     const float shown = step->is_suspect ? look->distance2 : 1.0f;
     return shown < 1.0f ? 1.0f : shown < FACTOR_MAX ? shown : FACTOR_MAX;
 }
-
-#endif

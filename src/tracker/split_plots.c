@@ -10,8 +10,6 @@
 #include "rhotrack/detail/clutter_map_cells.h"
 #include "step.h"
 
-#if RHO_MAX_ECHOES > 0
-
 /*
  * Bounds of the bins in standard deviations, their prior shares, and the weight of the prior in
  * plots.
@@ -509,5 +507,3 @@ int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker)
     }
     return 1;
 }
-
-#endif

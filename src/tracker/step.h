@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * step: what the files of one step share. Private to src/tracker.
+ * step: the state of one step, and the functions below the phases of src/step: those call them, and
+ * none of them calls a phase. Private to src/tracker and src/step.
  *
- * A step runs the six phases in their order. Each phase is a file: predict.c, claim.c, update.c,
- * age.c, initiate.c, report.c. step.c calls them for a scan of plots, bearing_frame.c for a frame
- * of bearings. Every other file is below the phases: it is called by them and calls none of them.
- *
- * Options of config.h: functions are declared in every build, their callers ask the option first
- * (`if (RHO_SECTORS)`), and a file is compiled only where the fields exist that it works on.
+ * Options of config.h: every build compiles every function, and callers ask the option first
+ * (`if (RHO_SECTORS)`), so that the linker leaves out what a build does not need.
  */
 #ifndef RHOTRACK_STEP_H
 #define RHOTRACK_STEP_H
@@ -33,6 +30,9 @@ struct plot_box {
 };
 
 #define RHO_PLOT_BOXES 8
+
+/* Parts of RHO_MAX_PLOTS plots that a large scan is claimed in; plots beyond are ignored. */
+#define RHO_TRACKER_PARTS_MAX 4u
 
 struct step {
     struct rho_tracker *tracker;
@@ -66,10 +66,8 @@ struct step {
     int is_partial;
     /* bit i: track i is in the scan's field of view and was predicted */
     uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
-#if RHO_PLOT_STRIPS == 1
     struct plot_box boxes[RHO_PLOT_BOXES]; /* of plots that follow each other, as many in each */
     uint32_t plots_of_box;
-#endif
     struct rho_track_model model;
     float log_pd;
     float log_miss;  /* ln(1 - pd) */
@@ -94,46 +92,7 @@ static inline int rho_tracker_is_score(int32_t mnat)
     return mnat >= -RHO_SCORE_MAX_MNAT && mnat <= RHO_SCORE_MAX_MNAT;
 }
 
-/* ---- the phases ------------------------------------------------------------------------------ */
-
-/*
- * step_begin.c: the report begins; 0 where the inputs are too late for the tracker and have their
- * fates. rho_tracker_report ends the step in either case.
- */
-int rho_tracker_begin(struct step *step);
-/* Uses the pd of step->sensor. */
-void rho_tracker_set_pd(struct step *step);
-int rho_tracker_is_time(int64_t time_us);
-int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
-
-/* predict.c: the tracks that the scan can see; one track */
-void rho_tracker_predict(struct step *step);
-void rho_tracker_predict_track(struct step *step, struct rho_track *track);
-
-/* claim.c: gates the plots and assigns them to tracks; changes no track */
-void rho_tracker_claim(struct step *step);
-
-/* update.c: tracks take the plots that they were assigned */
-void rho_tracker_update(struct step *step);
-
-/* age.c: misses, ends and confirmations of all tracks; of one, after its miss was counted */
-void rho_tracker_age(struct step *step);
-void rho_tracker_age_track(struct step *step, struct rho_track *track, int is_missed,
-                           const struct rho_track_limits *limits);
-
-/* initiate.c, bearing_initiation.c: tracks start from what no track claimed */
-void rho_tracker_initiate(struct step *step);
-void rho_tracker_initiate_passive(struct step *step);
-
-/* report.c: one estimate for each track at the step's time; fates, counters and tracks */
-void rho_tracker_merge_estimates(struct step *step);
-void rho_tracker_report(struct step *step);
-
 /* ---- scans ----------------------------------------------------------------------------------- */
-
-/* scan_overflow.c: claim and update in parts, of a scan of more than RHO_MAX_PLOTS plots */
-#define RHO_TRACKER_PARTS_MAX 4u /* plots beyond are ignored */
-void rho_tracker_claim_parts(struct step *step);
 
 /* out_of_sequence.c (RHO_SECTORS): scans older than the newest step that may still update tracks */
 void rho_tracker_set_late_default(struct rho_tracker_config *config);
@@ -160,42 +119,24 @@ struct plots_near {
 void rho_tracker_sort_plots(struct step *step);
 struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
                                          float y_min_m, float y_max_m);
-#if RHO_PLOT_STRIPS > 1
+int rho_tracker_next_box(const struct step *step, struct plots_near *near);
+
 static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
                                         uint32_t *row)
 {
-    if (near->next >= near->end) {
+    if (near->next >= near->end && (RHO_PLOT_STRIPS > 1 || !rho_tracker_next_box(step, near))) {
         return 0;
     }
-    *row = step->tracker->strips.plots[near->next++];
+    *row = RHO_PLOT_STRIPS > 1 ? step->tracker->strips.plots[near->next] : near->next;
+    near->next++;
     return 1;
 }
 
 /* An upper bound of their number. */
 static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
 {
-    (void)step;
-    return near->end - near->next;
+    return RHO_PLOT_STRIPS > 1 ? near->end - near->next : step->num_gated;
 }
-#else
-int rho_tracker_next_box(const struct step *step, struct plots_near *near);
-
-static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
-                                        uint32_t *row)
-{
-    if (near->next >= near->end && !rho_tracker_next_box(step, near)) {
-        return 0;
-    }
-    *row = near->next++;
-    return 1;
-}
-
-static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
-{
-    (void)near;
-    return step->num_gated;
-}
-#endif
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
@@ -428,9 +369,6 @@ int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32
 /* The plot as a track takes it. */
 struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row);
 
-/* merged_plots.c: pairs of tracks take one plot, before the others take theirs */
-void rho_tracker_share_merged_plots(struct step *step);
-
 /* ---- life cycle ------------------------------------------------------------------------------ */
 
 /* life_cycle.c: thresholds confirm and end tracks. Ended ones are FREE until they are removed */
@@ -464,12 +402,6 @@ int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *tr
                                    const struct rho_track_limits *limits);
 /* The track's place is less well known than the range of its sensor. */
 int rho_tracker_is_place_unknown(const struct step *step, const struct rho_track *track);
-
-/* track_starts.c: any initiator's candidate becomes a track where there is room; else 0 */
-int rho_tracker_admit(struct step *step, struct rho_track *track,
-                      const struct rho_track_limits *limits);
-/* Without an initiator, unclaimed plots and bearings are held nowhere. */
-void rho_tracker_refuse_unclaimed(struct step *step);
 
 /* tracker.c: the filter of tracks of plots */
 enum rho_track_filter rho_tracker_filter_of(const struct rho_tracker_config *config);

@@ -9,8 +9,6 @@
 /* Of the message's members (lcm_types/echo_t.lcm). */
 #define SIGMA_MAX_M 1e6f
 
-#if RHO_MAX_ECHOES > 0
-
 static float at_most(float value, float most)
 {
     return value > most ? most : value < -most ? -most : value;
@@ -58,21 +56,6 @@ static void add_echoes(const struct rho_tracker *tracker, struct rho_message_clu
         }
     }
 }
-
-#else
-
-static unsigned count_echoes(const struct rho_tracker *tracker)
-{
-    (void)tracker;
-    return 0;
-}
-
-static void add_echoes(const struct rho_tracker *tracker, struct rho_message_clutter_map *list)
-{
-    (void)tracker, (void)list;
-}
-
-#endif
 
 static unsigned num_parts(unsigned echoes)
 {

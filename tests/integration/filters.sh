@@ -10,7 +10,7 @@ build=$(realpath "${BUILD:-$root/build}")
 lines() { # filters: what such a build says
     ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_FILTERS="$1" -Wall -Wextra \
         -Werror -o filters \
-        "$root/tests/integration/filters.c" "$root"/src/tracker/*.c \
+        "$root/tests/integration/filters.c" "$root"/src/{tracker,step}/*.c \
         "$build/librhotrack.a" && ./filters
 }
 

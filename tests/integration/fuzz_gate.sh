@@ -129,21 +129,21 @@ ar rcs "$folder/small.a" "$folder"/small/*.o
 
 tracker_must_find() { seeded fuzz_tracker_small "$@"; } # file, what is wrong, sed expression
 
-tracker_must_find src/tracker/report.c 'a fate that is not counted' \
+tracker_must_find src/step/report.c 'a fate that is not counted' \
     's/(NO_ROOM\] \+= others);/\1 - (others > 2);/'
-tracker_must_find src/tracker/report.c 'a covariance that is none' \
+tracker_must_find src/step/report.c 'a covariance that is none' \
     's/^(    memcpy\(out->covariance, at->kalman.covariance.*)/\1 out->covariance[1] += 9.0f * (out->covariance[0] + out->covariance[2]);/'
-tracker_must_find src/tracker/step_begin.c 'a scan that is too late, and changes the density' \
+tracker_must_find src/step/step_begin.c 'a scan that is too late, and changes the density' \
     's/(counters.scans_late = rho_count.*)/\1 step->tracker->unclaimed_plots += 1.0f;/'
 tracker_must_find src/tracker/life_cycle.c 'an end that is not told' \
     's/(report->ended\[[^;]*;)/if (track->track_id != 3) \1/'
-tracker_must_find src/tracker/track_starts.c 'an identity that comes again' \
+tracker_must_find src/step/track_starts.c 'an identity that comes again' \
     's/next_track_id == UINT32_MAX \? 1/next_track_id == 7 ? 1/'
 tracker_must_find src/initiation/search_budget.c 'a search without its limit' \
     's/return rho_initiator_spent\(search\) > search->limit_units;/return 0;/'
 tracker_must_find src/bearings/batch_validate.c 'a batch that is unsound for its times' \
     's/(k > 0 \&\& batch->time_us\[k\] <= )/batch->time_us[k] < 0 || \1/'
-must_pass fuzz_tracker_small src/tracker/report.c
+must_pass fuzz_tracker_small src/step/report.c
 
 objects=$(find "$build/program/tools/rhotrack" -name '*.o' ! -name main.o 2>/dev/null)
 if [ -z "$objects" ] || [ ! -f "$build/workstation/librhotrack.a" ]; then

@@ -33,9 +33,10 @@ seed include/rhotrack/detail/linalg.h '#include "rhotrack/tracker.h"' \
     'base may not include rhotrack/tracker.h of tracker'
 seed include/rhotrack/detail/gate.h '#include "rhotrack/detail/window.h"' \
     'association may not include'
-seed src/initiation/window.c '#include "rhotrack/kalman.h"' 'initiation may not include'
+seed src/window/window.c '#include "rhotrack/kalman.h"' 'window may not include'
 seed src/base/angle.c '#include <stdio.h>' 'system header <stdio.h>'
-seed src/base/angle.c '#include "../tracker/step.h"' 'private header'
+seed src/base/angle.c '#include "../tracker/step.h"' 'base may not include ../tracker/step.h'
+seed include/rhotrack/tracker.h '#include "../../src/tracker/step.h"' 'private header'
 seed src/base/angle.c '#include SOME_MACRO' 'include of a macro'
 seed src/base/angle.c '#include "rhotrack/nothing.h"' 'there is no header'
 

@@ -12,7 +12,7 @@ lines() { # kinds: what such a build says
     ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_SCAN_KINDS="$1" -Wall \
         -Wextra -Werror -o kinds \
         "$root/tests/integration/scan_kinds.c" "$root"/src/wire/scan_*.c \
-        "$root"/src/initiation/*.c \
+        "$root"/src/{window,initiation}/*.c \
         "$build/librhotrack.a" && ./kinds
 }
 

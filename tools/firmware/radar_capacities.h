@@ -10,6 +10,11 @@
 /* One radar: no scans of others come in between, one is assembled at a time. */
 #define RHO_MAX_OPEN_SCANS 1
 
+/* Its identity may change a few times. */
+#ifndef RHO_MAX_SENSORS
+#define RHO_MAX_SENSORS 4
+#endif
+
 /*
  * Tracks of plots by hypotheses alone: the gate best. The filters of the others, and of bearings,
  * are left out.

@@ -94,9 +94,11 @@ def check_file(path, room, rooms, allowed):
                 yield path, number, f"there is no header {name}"
             elif home != room and home not in allowed[room]:
                 yield path, number, f"{room} may not include {name} of {home}"
-        elif "include" in path.parts or len(
-                target.parts) > 1 or not (path.parent / target).is_file():
+        elif "include" in path.parts or not (path.parent / target).is_file():
             yield path, number, f"private header \"{name}\""
+        elif len(target.parts) > 1 and (len(target.parts) != 3 or target.parts[0] != ".." or
+                                        target.parts[1] not in allowed[room]):
+            yield path, number, f"{room} may not include {name}"
 
 
 class Objects:

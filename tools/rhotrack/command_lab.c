@@ -31,7 +31,7 @@ void command_lab(char **argv)
     ssize_t length = readlink("/proc/self/exe", path, PATH_MAX);
 
     if (length > 0) {
-        strcpy(path + length, "-lab");
+        memcpy(path + length, "-lab", sizeof "-lab");
         execv(path, argv);
     }
     fail(EXIT_RUNTIME,

@@ -23,8 +23,6 @@
 
 #include "rhotrack/config.h"
 
-#if RHO_MAX_ECHOES > 0
-
 /* Distances on an axis: up to 1, 2, 3, 4, 6, 8, 12, 16 standard deviations. */
 #define RHO_SECOND_BINS 8
 
@@ -36,5 +34,4 @@ struct rho_second_plots {
     float along[RHO_SECOND_BINS], across[RHO_SECOND_BINS]; /* of these, by distance */
 };
 
-#endif
 #endif

@@ -8,15 +8,15 @@
 /* All return NULL and set the value, or return the reason as a constant text. */
 
 /* Plain decimal, within float range; NaN, Inf, hexadecimal and trailing text are refused. */
-const char *text_to_number(const char *text, double *value);
+const char *text_to_number(const char *cell, double *value);
 
 /*
  * A decimal number of seconds in microseconds, rounded to nearest, without a detour over floating
  * point where it has no exponent; |t| <= 4e12 s.
  */
-const char *text_to_time_us(const char *text, int64_t *time_us);
+const char *text_to_time_us(const char *cell, int64_t *time_us);
 
 /* A whole number within int32_t. */
-const char *text_to_int32(const char *text, int32_t *value);
+const char *text_to_int32(const char *cell, int32_t *value);
 
 #endif

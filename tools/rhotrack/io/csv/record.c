@@ -533,9 +533,9 @@ bool record_read(const struct table *table, const struct record_columns *columns
                  const struct parameters *parameters, struct record *record,
                  char reason[ROW_REASON_BYTES])
 {
-    const struct checking checking = {.cells = {.table = table, .row = row, .reason = reason},
-                                      .columns = columns};
+    struct checking checking = {.cells = {.table = table, .row = row}, .columns = columns};
 
+    checking.cells.reason = reason;
     *record = (struct record){.line = table->lines[row]};
     return row_key(&checking.cells, columns->t_s, columns->sensor_id, &record->time_us,
                    &record->sensor_id) &&

@@ -3,7 +3,7 @@
  * update: tracks take the plots that they were assigned, and sensors are compared with the
  * predictions.
  */
-#include "step.h"
+#include "phases.h"
 
 /* ---- tracks with a Kalman filter ------------------------------------------------------------- */
 

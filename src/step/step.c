@@ -2,7 +2,7 @@
 /*
  * step: one scan goes through the six phases.
  */
-#include "step.h"
+#include "phases.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/measurement.h"

@@ -2,7 +2,7 @@
 /*
  * age: tracks without a plot have a miss where the sensor looked; evidence and time end tracks.
  */
-#include "step.h"
+#include "phases.h"
 
 /* Standard deviations of a speed that is surely below the slowest target's. */
 #define SLOW_SIGMAS 3.0f

@@ -5,7 +5,7 @@
  * A track that the scan cannot see stays at its own time. So scans of other sectors or sensors
  * change no bit of its estimate.
  */
-#include "step.h"
+#include "phases.h"
 
 void rho_tracker_predict_track(struct step *step, struct rho_track *track)
 {

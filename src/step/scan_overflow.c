@@ -9,7 +9,7 @@
  */
 #include <string.h>
 
-#include "step.h"
+#include "phases.h"
 
 /* Rows that a track can tell. */
 #define ROWS_MAX ((uint32_t)INT16_MAX)

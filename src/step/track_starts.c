@@ -4,7 +4,7 @@
  */
 #include <string.h>
 
-#include "step.h"
+#include "phases.h"
 
 /* By which tentative tracks give way: the score; of a hidden track how far it has fallen. */
 static int32_t precedence(const struct step *step, const struct rho_track *track)

@@ -2,8 +2,8 @@
 /*
  * claim: gates the scan's plots and assigns them to tracks, each at most one.
  */
+#include "phases.h"
 #include "rhotrack/measurement.h"
-#include "step.h"
 
 /* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the
  * paper. */

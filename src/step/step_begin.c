@@ -4,8 +4,8 @@
  */
 #include <string.h>
 
+#include "phases.h"
 #include "rhotrack/detail/approx.h"
-#include "step.h"
 
 /* White acceleration that follows manoeuvres of accel_max: half of it, kept up for a second. */
 #define ACCEL_SHARE 0.5f

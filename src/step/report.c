@@ -4,7 +4,7 @@
  */
 #include <string.h>
 
-#include "step.h"
+#include "phases.h"
 
 /* Tracks that the scan cannot see, and tracks that started at their plots' own times, stay as they
  * are; the report moves their last estimates. */

@@ -19,9 +19,9 @@
  * target alone does, but no more than by a miss. A pair that never parts loses a little each time,
  * until the second track is tentative.
  */
+#include "phases.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/measurement.h"
-#include "step.h"
 
 /*
  * Noise of a merged plot, as a multiple of the sensor's own: the root of 1 + 2^2, as it lies up to

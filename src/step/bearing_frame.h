@@ -5,8 +5,8 @@
 #ifndef RHOTRACK_BEARING_FRAME_H
 #define RHOTRACK_BEARING_FRAME_H
 
+#include "phases.h"
 #include "rhotrack/measurement.h"
-#include "step.h"
 
 static inline int is_bearing(const struct rho_bearing *bearing)
 {

@@ -10,10 +10,10 @@
 
 #include <string.h>
 
+#include "phases.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/measurement.h"
-#include "step.h"
 
 /* A target at the border of a sector has bearings so many standard deviations beyond it. */
 #define BEARING_SIGMAS 4.0f

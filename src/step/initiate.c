@@ -2,7 +2,7 @@
 /*
  * initiate: tracks start from the plots that no track claimed.
  */
-#include "step.h"
+#include "phases.h"
 
 /* The row of a held plot in its scan; -1: it came with an earlier sector. */
 static int16_t row_of(struct rho_initiator *initiator, unsigned m, unsigned plot)
