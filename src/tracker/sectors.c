@@ -177,9 +177,9 @@ static int holds_end(const struct step *step, const struct rho_track *track, flo
     }
     /* turned by a small angle */
     const float turn = way * margin_rad;
-    return rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                    track->kalman.state[0] - turn * dy_m,
-                                    track->kalman.state[1] + turn * dx_m);
+    return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                  track->kalman.state[0] - turn * dy_m,
+                                  track->kalman.state[1] + turn * dx_m);
 }
 
 static int is_sector(const struct rho_scan *scan)
@@ -197,8 +197,8 @@ int rho_tracker_has_passed(const struct step *step, const struct rho_track *trac
         /* either neighbour may have had its plot */
         return holds_end(step, track, 1.0f) && holds_end(step, track, -1.0f);
     }
-    return rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                    track->kalman.state[0], track->kalman.state[1]);
+    return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                  track->kalman.state[0], track->kalman.state[1]);
 }
 
 float rho_tracker_turns(const struct step *step)

@@ -263,8 +263,8 @@ static int is_other_sensor(const struct rho_window_scan *held, const struct rho_
            !is_equal(was->z_m, sensor->z_m);
 }
 
-int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
-                       const struct rho_sensor *sensor)
+int rho_window_continues(const struct rho_window *window, const struct rho_scan *scan,
+                         const struct rho_sensor *sensor)
 {
     if (!RHO_SECTORS || window->magic != WINDOW_MAGIC || window->num_scans == 0) {
         return 0;
@@ -431,7 +431,7 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     if (status != RHO_OK) {
         return status;
     }
-    window->is_continued = rho_window_goes_on(window, scan, sensor) != 0;
+    window->is_continued = rho_window_continues(window, scan, sensor) != 0;
     window->is_remeasured = 0;
     if (window->is_continued) {
         add_sector(window, scan, sensor, fates);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Private to message: what the generated tables say of the messages, and the few functions that all messages share.
+ * message_codec: the form of the generated tables that describe the messages, and the few functions
+ * that all messages share. Private to message.
  *
- * A struct is described by runs of members of the same width, one behind the other in memory as on the wire. Tables
- * hold offsets instead of pointers, so that they stay in flash.
+ * A struct is described by runs of members of the same width, one behind the other in memory as on
+ * the wire. Tables hold offsets instead of pointers, so that they stay in flash.
  */
 #ifndef RHOTRACK_MESSAGE_CODEC_H
 #define RHOTRACK_MESSAGE_CODEC_H

@@ -436,15 +436,15 @@ static void a_scan_looks_within_its_sector_and_range(void **state)
                                 .range_max_m = 5000.0f,
                                 .sector_from_rad = 2.0f,
                                 .sector_to_rad = -2.0f}; /* over pi */
-    assert_true(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -1000.0f, 10.0f));
-    assert_true(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -1000.0f, -10.0f));
-    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, 3000.0f, 0.0f));  /* its sector */
-    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, 950.0f, 0.0f));   /* too near */
-    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -4100.0f, 0.0f)); /* too far */
-    assert_true(rho_measurement_looks_at(&sensor, 3.0f, -3.0f, -1000.0f, 10.0f));
-    assert_false(rho_measurement_looks_at(&sensor, -3.1f, -2.0f, -1000.0f, 10.0f)); /* the scan's */
-    assert_true(rho_measurement_looks_at(NULL, 0.0f, 0.0f, 1e6f, 1e6f));
-    assert_false(rho_measurement_looks_at(NULL, 0.0f, 0.5f, 1e6f, 1e6f));
+    assert_true(rho_measurement_covers(&sensor, 0.0f, 0.0f, -1000.0f, 10.0f));
+    assert_true(rho_measurement_covers(&sensor, 0.0f, 0.0f, -1000.0f, -10.0f));
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, 3000.0f, 0.0f));  /* its sector */
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, 950.0f, 0.0f));   /* too near */
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, -4100.0f, 0.0f)); /* too far */
+    assert_true(rho_measurement_covers(&sensor, 3.0f, -3.0f, -1000.0f, 10.0f));
+    assert_false(rho_measurement_covers(&sensor, -3.1f, -2.0f, -1000.0f, 10.0f)); /* the scan's */
+    assert_true(rho_measurement_covers(NULL, 0.0f, 0.0f, 1e6f, 1e6f));
+    assert_false(rho_measurement_covers(NULL, 0.0f, 0.5f, 1e6f, 1e6f));
 }
 
 int main(void)

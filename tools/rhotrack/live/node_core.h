@@ -17,7 +17,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "io/scans/late_scans.h"
+#include "io/scans/sequence_counts.h"
 #include "pipeline/pipeline_snapshot.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
@@ -84,7 +84,7 @@ const struct rho_tracker_counters *node_core_tracker(const struct node_core *cor
 const struct rho_node_counters *node_core_counters(const struct node_core *core);
 
 /* Scans that came out of sequence, and were used. */
-const struct feed_order *node_core_order(const struct node_core *core);
+const struct sequence_counts *node_core_order(const struct node_core *core);
 
 /*
  * The sensors that are heard, as RHO_SENSORS says it, with the time of the last call that told it.

@@ -176,7 +176,7 @@ static void print_head(const struct node_core *core, const char *url, FILE *out)
 {
     const struct rho_report *report = node_core_report(core);
     const struct rho_scan_assembler_counters *assembler = node_core_assembler(core);
-    const struct feed_losses losses = feed_order_losses(node_core_order(core), assembler);
+    const struct scan_losses losses = sequence_counts_losses(node_core_order(core), assembler);
 
     fprintf(out, "\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     fprintf(out,

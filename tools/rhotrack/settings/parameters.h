@@ -358,6 +358,7 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
  * The same for what takes the sensors' messages, with every sensor that anything was said of. Exit
  * 1 where it refuses.
  */
-void parameters_to_feed(const struct parameters *parameters, struct rho_scan_assembler *feed);
+void parameters_to_assembler(const struct parameters *parameters,
+                             struct rho_scan_assembler *assembler);
 
 #endif
