@@ -69,15 +69,15 @@ struct message_checks {
 };
 
 /*
- * Those of a message. Apart from its format, so that firmware which only encodes it does not carry
- * them; nor does it the tables of other messages, as each has its own.
+ * The rules of a message. They are apart from its format, so that firmware which only encodes it
+ * does not carry them; nor does it carry the tables of other messages, as each has its own.
  */
 struct message_rules {
     const struct message_format *format;
     struct message_checks head, element;
 };
 
-/* What message.h promises of ..._encode, ..._decode, ..._validate, ..._begin, ..._add. */
+/* The common part of message.h's ..._encode, ..._decode, ..._validate, ..._begin and ..._add. */
 enum rho_status rho_message_encode(const struct message_format *format, const void *message,
                                    uint8_t *buffer, size_t capacity, size_t *size);
 enum rho_status rho_message_decode(const struct message_format *format, const uint8_t *data,

@@ -126,8 +126,8 @@ def main():
     for path, line, name, found, value in mutants:
         text = path.read_text()
         lines = text.splitlines(keepends=True)
-        lines[line] = lines[line][:found.start("number")] + value + lines[line][found.end("number"
-                                                                                          ):]
+        first, last = found.span("number")
+        lines[line] = lines[line][:first] + value + lines[line][last:]
         try:
             path.write_text("".join(lines))
             by = tree.noticed_by(path.parent.name)

@@ -135,7 +135,7 @@ static int update(struct maintaining *maintaining, const struct rho_scan *scan,
     return row;
 }
 
-/* Not started while no scan has a plot. */
+/* No track starts while no scan has a plot. */
 static void step(struct maintaining *maintaining, const struct rho_scan *scan,
                  const struct rho_sensor *sensor)
 {

@@ -20,7 +20,7 @@ enum { PERIOD_US = 100000, HEAD_LINES = 4, ROWS_DEFAULT = 24 };
 
 /* ---- Standard output that may be full ---- */
 
-/* What can be written without waiting: of a pipe that is ready so much fits. */
+/* Bytes that can be written without waiting: a pipe that is ready takes as many. */
 enum { PIECE_BYTES = 4096, LOOK_MS = 100 };
 
 /* A text to fill; finish_text hands it on. */
@@ -157,7 +157,7 @@ static int count_status(const struct rho_report *report, enum rho_track_status s
     return count;
 }
 
-/* What stands on standard error where there is no table. */
+/* Lines on standard error where there is no table. */
 static void print_sensors(const struct node_core *core, FILE *out)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
