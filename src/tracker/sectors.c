@@ -95,12 +95,12 @@ void rho_tracker_note_look(struct step *step)
     look = look ? look : add_look(step->tracker, scan->sensor_id);
     if (look->count > 0) {
         const unsigned ends =
-            rho_angle_sector_goes_on(look->sector_from_rad, look->sector_to_rad,
-                                     scan->sector_from_rad, scan->sector_to_rad, 0.0f);
+            rho_angle_sector_continues(look->sector_from_rad, look->sector_to_rad,
+                                       scan->sector_from_rad, scan->sector_to_rad, 0.0f);
         /* the two halves of a turn meet at both ends, which do not tell the direction */
-        step->turning = ends == RHO_ANGLE_GOES_ON_LEFT    ? 1.0f
-                        : ends == RHO_ANGLE_GOES_ON_RIGHT ? -1.0f
-                                                          : 0.0f;
+        step->turning = ends == RHO_ANGLE_CONTINUES_LEFT    ? 1.0f
+                        : ends == RHO_ANGLE_CONTINUES_RIGHT ? -1.0f
+                                                            : 0.0f;
     }
     look->time_us = scan->time_us;
     look->count = (uint16_t)(look->count == UINT16_MAX ? 1 : look->count + 1);
