@@ -239,7 +239,7 @@ uninstall:
 # golden files, and the checks of the sources that take seconds. test-all runs everything else behind it.
 quick_scripts := $(addprefix tests/integration/,command_line.sh documents.sh examples.sh headers.sh layers.sh security.sh)
 quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
-                 $(addprefix tools/gates/,layers.py poison.sh extract_example.sh)
+                 $(addprefix tools/gates/,layers.py tested.py poison.sh extract_example.sh)
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs))
 other_programs := $(filter-out $(quick_programs),$(unit_programs) $(tool_programs))
 other_scripts := $(filter-out $(quick_scripts),$(sort $(wildcard tests/integration/*.sh tests/lab/test_*.py)) \

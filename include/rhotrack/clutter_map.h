@@ -70,7 +70,7 @@ struct rho_echo_returns {
     float returns[RHO_ECHO_HIT_CLASSES][RHO_ECHO_GAP_CLASSES];
 };
 
-/* Sizes of the map; a build without it (RHO_MAX_ECHOES 0) holds the smallest one and never uses it. */
+/* Sizes of the map; a build without it (RHO_MAX_ECHOES 0) holds the smallest and never uses it. */
 #define RHO_ECHO_PLACES (RHO_MAX_ECHOES > 0 ? RHO_MAX_ECHOES : 1)
 #define RHO_ECHO_PLOTS (RHO_MAX_ECHOES > 0 ? RHO_MAX_PLOTS : 1)
 #define RHO_ECHO_STROBES (RHO_MAX_ECHOES > 0 ? RHO_STROBE_BINS : 1)

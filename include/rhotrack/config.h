@@ -497,7 +497,7 @@
     (RHO_MAX_TRACKS * (520 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
      (144 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \
      RHO_RAM_STRIPS_BYTES + RHO_RAM_CLUTTER_MAP_BYTES + RHO_RAM_SECOND_PLOTS_BYTES + 640)
-#define RHO_RAM_FEED_BYTES                                                                         \
+#define RHO_RAM_SCAN_ASSEMBLER_BYTES                                                               \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      248 * RHO_MAX_SENSORS + 520)
 

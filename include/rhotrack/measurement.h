@@ -166,8 +166,8 @@ int rho_measurement_bearing(const float state[6], float x_m, float y_m, float be
  * range limits. NULL: a sensor at the origin that covers the sector of the scan. Cost: an
  * arctangent.
  */
-int rho_measurement_looks_at(const struct rho_sensor *sensor, float sector_from_rad,
-                             float sector_to_rad, float x_m, float y_m);
+int rho_measurement_covers(const struct rho_sensor *sensor, float sector_from_rad,
+                           float sector_to_rad, float x_m, float y_m);
 
 #ifdef __cplusplus
 }

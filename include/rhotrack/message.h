@@ -374,10 +374,8 @@ const char *rho_message_truth_field(const struct rho_message_place *place);
 
 /* ---- work_t ---- */
 
-/*
- * What the limits of a tracker did: on the work of its steps, and of its outputs on what they had
- */
-/* room for. Once a second, with status_t. Channel RHO_WORK. */
+/* Counters of a tracker's limits: on the work of its steps, and on the room of its outputs. */
+/* Once a second, with status_t. Channel RHO_WORK. */
 /* Counters count since the start and stay at the largest number that they may have. */
 
 #define RHO_MESSAGE_WORK_CHANNEL "RHO_WORK"

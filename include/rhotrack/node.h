@@ -153,7 +153,7 @@ RHO_MUST_CHECK enum rho_status rho_node_take(struct rho_node *node, const char *
                                              const uint8_t *data, size_t size, int64_t now_us);
 
 /*
- * What the caller has to do next. now_us INT64_MAX: all that is there is stepped.
+ * The next task of the caller. now_us INT64_MAX: all that is there is stepped.
  * RHO_NODE_NOTHING also where the node is not initialised. Cost: that of rho_scan_assembler_next,
  * the plots of a scan copied where it waits, of passive sensors that of rho_frames_push.
  * Stack: 450 bytes.

@@ -399,6 +399,28 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
                                                 struct rho_report *report);
 
 /*
+ * Starts a track from plots that another initiator has found: the papers' Hough transforms
+ * (classic.h), or the caller's own. The tracker is stepped without an initiator (NULL); after a
+ * step the caller's initiator takes the plots with the fate NO_ROOM, which no track has claimed.
+ *   plots      num_plots >= 1 of any scans so far, as rho_track_start takes them; row is that in the
+ *              last step's scan, or -1
+ *   score_mnat evidence for a target, above the caller's threshold: the track is confirmed at 0 and
+ *              more, tentative below until plots have raised it to 0, and ends below -4605. A
+ *              tracker that was also stepped with an initiator compares with that one's thresholds
+ *   report     of the last step; it shows the new track from now on
+ * A full tracker gives up its lowest tentative track below the score (tracks_no_room).
+ * Errors: NULL, STATE (not initialised, or the report is not the last step's), VALUE (num_plots, a
+ * score at which tracks end or beyond 1e9, a plot later than the last scan by more than
+ * RHO_LIMIT_OFFSET_US, a row beyond the scan), CAPACITY (no room), and those of rho_track_start; no
+ * track is started, and *report is unchanged.
+ * Cost: a filter step a plot, and the report. Stack: 2.9 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
+                                                       const struct rho_track_plot *plots,
+                                                       unsigned num_plots, int32_t score_mnat,
+                                                       struct rho_report *report);
+
+/*
  * Takes one frame of bearings through all phases: its scans in their order, each with the bearings'
  * own times.
  *   passive  NULL: existing tracks are maintained, none is started, unclaimed bearings are held

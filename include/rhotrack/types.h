@@ -186,7 +186,7 @@ struct rho_sensor {
     float range_rate_span_mps;
 };
 
-/* What a step did with an input: every plot or bearing gets exactly one fate. */
+/* The use that a step made of an input: every plot or bearing gets exactly one fate. */
 enum rho_fate {
     RHO_FATE_CLAIMED = 0, /* updated a track */
     RHO_FATE_HELD,        /* kept for initiation; may start a track now or later */

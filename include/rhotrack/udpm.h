@@ -62,7 +62,7 @@ struct rho_udpm_datagram {
 /* As many addresses as there may be sensors. */
 #define RHO_UDPM_MAX_SOURCES RHO_MAX_SENSORS
 
-/* Who may send, and what was refused; zeros: everybody, nothing. Counters saturate. */
+/* The permitted senders, and counters of refusals; zeros: everybody may send. Counters saturate. */
 struct rho_udpm_guard {
     uint32_t refused_source;                /* datagrams: from another address */
     uint32_t refused_mac;                   /* the caller's: without the right code */

@@ -87,8 +87,8 @@ static int close_gap(float *gap_rad, float free_rad, float tolerance_rad)
     return 1;
 }
 
-unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_rad,
-                                  float next_to_rad, float gap_max_rad)
+unsigned rho_angle_sector_continues(float from_rad, float to_rad, float next_from_rad,
+                                    float next_to_rad, float gap_max_rad)
 {
     const float width_rad = rho_angle_sector_width(from_rad, to_rad);
     const float next_rad = rho_angle_sector_width(next_from_rad, next_to_rad);
@@ -104,12 +104,12 @@ unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_
         return 0;
     }
     if (left_rad <= tolerance_rad && right_rad <= tolerance_rad) {
-        return RHO_ANGLE_GOES_ON_LEFT | RHO_ANGLE_GOES_ON_RIGHT;
+        return RHO_ANGLE_CONTINUES_LEFT | RHO_ANGLE_CONTINUES_RIGHT;
     }
     if (left_rad < right_rad) {
-        return left_rad <= gap_max_rad + tolerance_rad ? RHO_ANGLE_GOES_ON_LEFT : 0u;
+        return left_rad <= gap_max_rad + tolerance_rad ? RHO_ANGLE_CONTINUES_LEFT : 0u;
     }
-    return right_rad <= gap_max_rad + tolerance_rad ? RHO_ANGLE_GOES_ON_RIGHT : 0u;
+    return right_rad <= gap_max_rad + tolerance_rad ? RHO_ANGLE_CONTINUES_RIGHT : 0u;
 }
 
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)

@@ -38,7 +38,7 @@
 #define RHO_PASSIVE_GAIN_MIN_NAT 1.0e-3f /* above rounding errors */
 #define RHO_PASSIVE_SPREAD_SIGMAS 2.0f   /* of a crossing's rho: its votes, and lines it is on */
 
-/* What is computed once for a search. Positions count from the sensors' centroid. */
+/* Values computed once for a search. Positions count from the sensors' centroid. */
 struct rho_passive_search {
     struct rho_passive *passive;
     float middle_x_m, middle_y_m; /* the centroid */

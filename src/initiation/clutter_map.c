@@ -101,8 +101,8 @@ static void remove_returns(struct rho_clutter_map *map, unsigned region, unsigne
     }
 }
 
-void rho_clutter_map_take_back(struct rho_clutter_map *map, unsigned region,
-                               const float returns[RHO_ECHO_HIT_CLASSES])
+void rho_clutter_map_remove_returns(struct rho_clutter_map *map, unsigned region,
+                                    const float returns[RHO_ECHO_HIT_CLASSES])
 {
     for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
         remove_returns(map, region, c, returns[c]);
@@ -110,7 +110,7 @@ void rho_clutter_map_take_back(struct rho_clutter_map *map, unsigned region,
     }
 }
 
-float rho_clutter_map_kept(float share)
+float rho_clutter_map_remaining(float share)
 {
     return 1.0f - share / TURNS_REMEMBERED;
 }
@@ -135,11 +135,11 @@ static void advance_blocks(struct rho_clutter_map *map)
     memset(map->tables[1], 0, sizeof map->tables[1]);
 }
 
-void rho_clutter_map_move_on(struct rho_clutter_map *map, float share)
+void rho_clutter_map_age(struct rho_clutter_map *map, float share)
 {
     const struct rho_echo_returns none = {.looks = {{0.0f}}};
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        add_table(&map->tables[0][r], rho_clutter_map_kept(share), &none);
+        add_table(&map->tables[0][r], rho_clutter_map_remaining(share), &none);
     }
     map->scans_to_blocks -= share;
     if (!(map->scans_to_blocks > 0.0f)) {
@@ -164,7 +164,7 @@ struct echo_view rho_clutter_map_view(const struct rho_sensor *sensor, float x_m
     return (struct echo_view){dx_m / range_m, dy_m / range_m, range_m};
 }
 
-float rho_clutter_map_turn(const struct echo_view *view)
+float rho_clutter_map_direction(const struct echo_view *view)
 {
     return (rho_atan2(view->along_y, view->along_x) + RHO_PI) / RHO_TWO_PI;
 }
@@ -180,7 +180,7 @@ uint8_t rho_clutter_map_region(const struct rho_sensor *sensor, float range_max_
                                float y_m)
 {
     const struct echo_view view = rho_clutter_map_view(sensor, x_m, y_m);
-    return (uint8_t)(cell_of(rho_clutter_map_turn(&view)) * RHO_ECHO_REGIONS +
+    return (uint8_t)(cell_of(rho_clutter_map_direction(&view)) * RHO_ECHO_REGIONS +
                      cell_of(rho_sqrt(view.range_m / range_max_m)));
 }
 
@@ -190,7 +190,7 @@ static void predict_axis(float axis[3], float dt_s)
     axis[1] += dt_s * axis[2];
 }
 
-void rho_clutter_map_predict(struct rho_echo *echo, int64_t time_us)
+void rho_clutter_map_predict_echo(struct rho_echo *echo, int64_t time_us)
 {
     const float dt_s = rho_seconds_between(echo->time_us, time_us);
     echo->x_m += dt_s * echo->vx_mps;
@@ -212,8 +212,8 @@ static void update_axis(float axis[3], float variance_m2, float off_m, float mov
     axis[0] = (1.0f - place) * axis[0] + PLACE_NOISE * variance_m2;
 }
 
-void rho_clutter_map_take(struct rho_echo *echo, const struct rho_sensor *sensor,
-                          const struct rho_plot *plot)
+void rho_clutter_map_update_echo(struct rho_echo *echo, const struct rho_sensor *sensor,
+                                 const struct rho_plot *plot)
 {
     const struct echo_view view = rho_clutter_map_view(sensor, echo->x_m, echo->y_m);
     const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
@@ -230,13 +230,13 @@ void rho_clutter_map_take(struct rho_echo *echo, const struct rho_sensor *sensor
     echo->unseen = 0;
 }
 
-int rho_clutter_map_is_lost(const struct rho_echo *echo)
+int rho_clutter_map_is_echo_lost(const struct rho_echo *echo)
 {
     return echo->unseen > scans_kept[rho_clutter_map_hit_class(echo->hits)];
 }
 
-void rho_clutter_map_begin(const struct rho_clutter_map *map, struct rho_echo *echo,
-                           int32_t sensor_id, int64_t time_us, const struct rho_plot *plot)
+void rho_clutter_map_start_echo(const struct rho_clutter_map *map, struct rho_echo *echo,
+                                int32_t sensor_id, int64_t time_us, const struct rho_plot *plot)
 {
     const float speed_mps = SPEED_SHARE * map->v_min_mps;
     *echo = (struct rho_echo){

@@ -91,7 +91,7 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     /* the oldest scan is remembered before it is overwritten, unless the push will be refused */
     if (RHO_MAX_CLUTTER_CELLS > 0 && initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
-        !rho_window_goes_on(&initiator->window, scan, sensor)) {
+        !rho_window_continues(&initiator->window, scan, sensor)) {
         rho_initiator_add_to_memory(initiator);
     }
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);

@@ -177,7 +177,7 @@ struct voter {
 /* Rounding may add this factor to the distance of a vote from its kernel. */
 #define GATE_ROUNDING 1.001f
 
-/* What all kernels from scan a to scan b share. */
+/* The values common to all kernels from scan a to scan b. */
 struct span {
     uint8_t a, b;
     uint8_t misses_max; /* scans between that need not vote */
@@ -219,7 +219,7 @@ struct fan {
 void rho_initiator_prepare_vote_gates(struct search *search);
 void rho_initiator_find_vote_gate(const struct search *search, float far_m, struct ending *ending);
 
-/* What an ambiguous range rate can mean: error + i span, i from first to last. */
+/* The candidates of an ambiguous range rate: error + i span, i from first to last. */
 struct aliases {
     struct rho_window_range_rate seen;
     float span_mps;

@@ -116,10 +116,10 @@ static int was_covered(const struct search *search, const struct line_fit *fit, 
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
     float t_s = search->time_s[m];
-    return rho_measurement_looks_at(rho_window_sensor(scan), scan->sector_from_rad,
-                                    scan->sector_to_rad,
-                                    fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
-                                    fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s);
+    return rho_measurement_covers(rho_window_sensor(scan), scan->sector_from_rad,
+                                  scan->sector_to_rad,
+                                  fit->x_m + (fit->vx_mps + 0.5f * fit->ax_mps2 * t_s) * t_s,
+                                  fit->y_m + (fit->vy_mps + 0.5f * fit->ay_mps2 * t_s) * t_s);
 }
 
 /*

@@ -463,8 +463,8 @@ int rho_measurement_bearing(const float state[6], float x_m, float y_m, float be
     return 1;
 }
 
-int rho_measurement_looks_at(const struct rho_sensor *sensor, float sector_from_rad,
-                             float sector_to_rad, float x_m, float y_m)
+int rho_measurement_covers(const struct rho_sensor *sensor, float sector_from_rad,
+                           float sector_to_rad, float x_m, float y_m)
 {
     float dx_m = x_m - (sensor ? sensor->x_m : 0.0f);
     float dy_m = y_m - (sensor ? sensor->y_m : 0.0f);

@@ -11,7 +11,7 @@
 
 #include "rhotrack/passive_paper.h"
 
-/* What is computed once for a search. The origin is the sensors' centroid. */
+/* Values computed once for a search. The origin is the sensors' centroid. */
 struct rho_passive_paper_search {
     struct rho_passive_paper *paper;
     float middle_x_m, middle_y_m;

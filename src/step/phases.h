@@ -14,6 +14,8 @@
  * fates. rho_tracker_report ends the step in either case.
  */
 int rho_tracker_begin(struct step *step);
+/* Sets how targets may move, and the filter of new tracks. */
+void rho_tracker_set_model(struct step *step);
 /* Uses the pd of step->sensor. */
 void rho_tracker_set_pd(struct step *step);
 int rho_tracker_is_time(int64_t time_us);
@@ -41,6 +43,7 @@ void rho_tracker_initiate_passive(struct step *step);
 /* report.c: one estimate for each track at the step's time; fates, counters and tracks */
 void rho_tracker_merge_estimates(struct step *step);
 void rho_tracker_report(struct step *step);
+void rho_tracker_report_tracks(const struct step *step);
 
 /* scan_overflow.c: claim and update in parts, of a scan of more than RHO_MAX_PLOTS plots */
 void rho_tracker_claim_parts(struct step *step);
@@ -48,7 +51,10 @@ void rho_tracker_claim_parts(struct step *step);
 /* merged_plots.c: pairs of tracks take one plot, before the others take theirs */
 void rho_tracker_share_merged_plots(struct step *step);
 
-/* track_starts.c: any initiator's candidate becomes a track where there is room; else 0 */
+/*
+ * track_starts.c: a started track of any initiator joins the others where there is room; else it
+ * ends, and 0. rho_tracker_start_track does the same between two steps.
+ */
 int rho_tracker_admit(struct step *step, struct rho_track *track,
                       const struct rho_track_limits *limits);
 /* Without an initiator, unclaimed plots and bearings are held nowhere. */

@@ -100,13 +100,18 @@ static void count_fates(const struct step *step)
     counters->plots_in = rho_count(counters->plots_in, step->num_inputs);
 }
 
-void rho_tracker_report(struct step *step)
+void rho_tracker_report_tracks(const struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    count_fates(step);
     tracker->counters.hypotheses_cut = tracker->hypotheses.hypotheses_cut;
     step->report->num_tracks = tracker->num_tracks;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         report_track(step, &tracker->tracks[i], &step->report->tracks[i]);
     }
+}
+
+void rho_tracker_report(struct step *step)
+{
+    count_fates(step);
+    rho_tracker_report_tracks(step);
 }

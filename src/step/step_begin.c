@@ -28,8 +28,7 @@ void rho_tracker_set_pd(struct step *step)
     step->log_miss = rho_log(1.0f - pd);
 }
 
-/* Sets how targets may move, and the filter of new tracks. */
-static void set_model(struct step *step)
+void rho_tracker_set_model(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
@@ -60,7 +59,7 @@ int rho_tracker_begin(struct step *step)
     memset(report, 0, sizeof *report);
     report->time_us = step->time_us;
     report->num_plots = step->num_inputs;
-    set_model(step);
+    rho_tracker_set_model(step);
     step->is_late = rho_tracker_is_late(tracker, step->time_us);
     if (step->is_late && !(RHO_SECTORS && rho_tracker_takes_late(step))) {
         refuse_late(step);

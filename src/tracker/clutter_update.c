@@ -209,8 +209,8 @@ static int is_in_scan(const struct step *step, struct rho_echo *echo)
     echo->plot = -1;
     echo->weight = 0.0f;
     return echo->hits > 0 && echo->sensor_id == scan->sensor_id &&
-           rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                    echo->x_m, echo->y_m);
+           rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                  echo->x_m, echo->y_m);
 }
 
 /* Predicts the echo to the scan's time; 0 where it is lost. */
@@ -218,14 +218,14 @@ static int predict_echo(struct step *step, struct rho_echo *echo, float range_ma
 {
     echo->was_looked_at = 1;
     echo->unseen = (uint8_t)(echo->unseen < UINT8_MAX ? echo->unseen + 1 : UINT8_MAX);
-    if (rho_clutter_map_is_lost(echo)) {
+    if (rho_clutter_map_is_echo_lost(echo)) {
         echo->hits = 0;
         return 0;
     }
     if (echo->region == UINT8_MAX || echo->unseen == 1) {
         echo->region = rho_clutter_map_region(step->sensor, range_max_m, echo->x_m, echo->y_m);
     }
-    rho_clutter_map_predict(echo, step->time_us);
+    rho_clutter_map_predict_echo(echo, step->time_us);
     if (!(echo->along[0] + echo->across[0] < UNKNOWN_SHARE * range_max_m * range_max_m)) {
         echo->hits = 0; /* after a long silence it may be anywhere */
         return 0;
@@ -269,7 +269,7 @@ static struct direction direction_of(const struct step *step, uint32_t row)
 {
     const struct rho_plot *plot = &step->scan->plots[row];
     const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
-    const unsigned bin = (unsigned)(rho_clutter_map_turn(&view) * (float)RHO_ECHO_STROBES);
+    const unsigned bin = (unsigned)(rho_clutter_map_direction(&view) * (float)RHO_ECHO_STROBES);
     return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
 }
 
@@ -498,11 +498,11 @@ static void take_back_returns(struct step *step, struct rho_track *track)
     if (track->has_taken_back) {
         return;
     }
-    rho_clutter_map_take_back(&step->tracker->clutter_map,
-                              rho_clutter_map_region(step->sensor, range_max_of(step),
-                                                     track->kalman.state[0],
-                                                     track->kalman.state[1]),
-                              track->returns);
+    rho_clutter_map_remove_returns(&step->tracker->clutter_map,
+                                   rho_clutter_map_region(step->sensor, range_max_of(step),
+                                                          track->kalman.state[0],
+                                                          track->kalman.state[1]),
+                                   track->returns);
     track->has_taken_back = 1;
 }
 
@@ -531,7 +531,7 @@ static void find_targets(struct step *step, uint32_t *targets, float share)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
-            track->returns[c] *= rho_clutter_map_kept(share); /* as the map forgets */
+            track->returns[c] *= rho_clutter_map_remaining(share); /* as the map forgets */
         }
         if (track->plot < 0 || (uint32_t)track->plot >= step->num_gated) {
             continue;
@@ -567,7 +567,7 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
             if (!by_target && !echo->is_target) {
                 learn_rate(step, echo, &step->scan->plots[echo->plot]);
             }
-            rho_clutter_map_take(echo, step->sensor, &step->scan->plots[echo->plot]);
+            rho_clutter_map_update_echo(echo, step->sensor, &step->scan->plots[echo->plot]);
             echo->is_target |= (uint8_t)by_target;
             taken[echo->plot / 32] |= 1u << echo->plot % 32;
             if (v_min2 > 0.0f && echo->hits >= 3 &&
@@ -610,7 +610,7 @@ static void add_echoes(struct step *step, const uint32_t *targets, const uint32_
         }
         const struct rho_plot *plot = &step->scan->plots[i];
         struct rho_echo *echo = &map->echoes[place];
-        rho_clutter_map_begin(map, echo, step->scan->sensor_id, step->time_us, plot);
+        rho_clutter_map_start_echo(map, echo, step->scan->sensor_id, step->time_us, plot);
         echo->is_target = (uint8_t)is_of_target(targets, i);
         echo->region = rho_clutter_map_region(step->sensor, range_max_m, plot->x_m, plot->y_m);
     }
@@ -639,7 +639,7 @@ void rho_tracker_learn_clutter(struct step *step)
     find_targets(step, targets, share);
     update_echoes(step, targets, taken);
     add_echoes(step, targets, taken);
-    rho_clutter_map_move_on(&step->tracker->clutter_map, share);
+    rho_clutter_map_age(&step->tracker->clutter_map, share);
 }
 
 /* ---- the object ------------------------------------------------------------------------------ */

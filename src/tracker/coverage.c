@@ -117,8 +117,8 @@ int rho_tracker_is_reached(const struct step *step, unsigned row)
 int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
                           const struct rho_track *track)
 {
-    return rho_measurement_looks_at(step->sensor, sector_from_rad, sector_to_rad,
-                                    track->kalman.state[0], track->kalman.state[1]);
+    return rho_measurement_covers(step->sensor, sector_from_rad, sector_to_rad,
+                                  track->kalman.state[0], track->kalman.state[1]);
 }
 
 int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track)

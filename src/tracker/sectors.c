@@ -95,12 +95,12 @@ void rho_tracker_note_look(struct step *step)
     look = look ? look : add_look(step->tracker, scan->sensor_id);
     if (look->count > 0) {
         const unsigned ends =
-            rho_angle_sector_goes_on(look->sector_from_rad, look->sector_to_rad,
-                                     scan->sector_from_rad, scan->sector_to_rad, 0.0f);
+            rho_angle_sector_continues(look->sector_from_rad, look->sector_to_rad,
+                                       scan->sector_from_rad, scan->sector_to_rad, 0.0f);
         /* the two halves of a turn meet at both ends, which do not tell the direction */
-        step->turning = ends == RHO_ANGLE_GOES_ON_LEFT    ? 1.0f
-                        : ends == RHO_ANGLE_GOES_ON_RIGHT ? -1.0f
-                                                          : 0.0f;
+        step->turning = ends == RHO_ANGLE_CONTINUES_LEFT    ? 1.0f
+                        : ends == RHO_ANGLE_CONTINUES_RIGHT ? -1.0f
+                                                            : 0.0f;
     }
     look->time_us = scan->time_us;
     look->count = (uint16_t)(look->count == UINT16_MAX ? 1 : look->count + 1);
@@ -177,9 +177,9 @@ static int holds_end(const struct step *step, const struct rho_track *track, flo
     }
     /* turned by a small angle */
     const float turn = way * margin_rad;
-    return rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                    track->kalman.state[0] - turn * dy_m,
-                                    track->kalman.state[1] + turn * dx_m);
+    return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                  track->kalman.state[0] - turn * dy_m,
+                                  track->kalman.state[1] + turn * dx_m);
 }
 
 static int is_sector(const struct rho_scan *scan)
@@ -197,8 +197,8 @@ int rho_tracker_has_passed(const struct step *step, const struct rho_track *trac
         /* either neighbour may have had its plot */
         return holds_end(step, track, 1.0f) && holds_end(step, track, -1.0f);
     }
-    return rho_measurement_looks_at(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                    track->kalman.state[0], track->kalman.state[1]);
+    return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                  track->kalman.state[0], track->kalman.state[1]);
 }
 
 float rho_tracker_turns(const struct step *step)

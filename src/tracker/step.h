@@ -164,7 +164,7 @@ int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *
 
 /* sectors.c (RHO_SECTORS): how the sectors of one turn follow each other */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
-/* What is known of the scan's sensor; NULL: nothing. */
+/* The record of the scan's sensor; NULL where there is none. */
 struct rho_tracker_look *rho_tracker_own_look(struct step *step);
 void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_looks(const struct rho_tracker *tracker);
@@ -267,7 +267,7 @@ void rho_tracker_end_choice(struct step *step, struct plot_choice *choice);
 /* True where the plot is to be scored: it costs its units. */
 int rho_tracker_is_chosen(struct step *step, struct plot_choice *choice,
                           const struct rho_track *track, const struct rho_plot *plot);
-/* What is left for the search. */
+/* The units of the step's budget that are left for the search. */
 uint32_t rho_tracker_work_left(const struct step *step);
 void rho_tracker_end_work(struct step *step);
 
@@ -334,7 +334,7 @@ int32_t rho_tracker_mnat(float nat);
 /* The gate of a track at its one estimate. measures: of the scan; 0 of bearings. */
 void rho_tracker_open_gate(const struct step *step, const struct rho_track *track,
                            uint32_t measures, struct rho_gate *gate);
-/* What is in the gate always costs less than no plot. gain_nat: over a miss. */
+/* A gated plot always costs less than a miss. gain_nat: over a miss. */
 void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat);
 /* The gain of an offer over clutter, not over a miss; 0 where there was none, *gain_nat stays. */
 int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat);

@@ -150,7 +150,7 @@ static int sees(const struct rho_tracker *tracker, const struct rho_tracker_pace
     sensor = *known;
     sensor.x_m = pace->x_m; /* bearings say themselves where it is */
     sensor.y_m = pace->y_m;
-    return rho_measurement_looks_at(&sensor, 0.0f, 0.0f, x_m, y_m);
+    return rho_measurement_covers(&sensor, 0.0f, 0.0f, x_m, y_m);
 }
 
 /* One of the sensors that saw the track last: two are known of where there are sectors. */

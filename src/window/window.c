@@ -263,8 +263,8 @@ static int is_other_sensor(const struct rho_window_scan *held, const struct rho_
            !is_equal(was->z_m, sensor->z_m);
 }
 
-int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
-                       const struct rho_sensor *sensor)
+int rho_window_continues(const struct rho_window *window, const struct rho_scan *scan,
+                         const struct rho_sensor *sensor)
 {
     if (!RHO_SECTORS || window->magic != WINDOW_MAGIC || window->num_scans == 0) {
         return 0;
@@ -273,9 +273,9 @@ int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *s
     return held->sensor.sensor_id == scan->sensor_id && !is_other_sensor(held, sensor) &&
            window->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
-           rho_angle_sector_goes_on(held->sector_from_rad, held->sector_to_rad,
-                                    scan->sector_from_rad, scan->sector_to_rad,
-                                    SECTOR_GAP_RAD) != 0;
+           rho_angle_sector_continues(held->sector_from_rad, held->sector_to_rad,
+                                      scan->sector_from_rad, scan->sector_to_rad,
+                                      SECTOR_GAP_RAD) != 0;
 }
 
 /*
@@ -305,14 +305,14 @@ static void begin_sector(struct rho_window *window, const struct rho_scan *scan)
 static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
 {
     const unsigned ends =
-        rho_angle_sector_goes_on(slot->sector_from_rad, slot->sector_to_rad, scan->sector_from_rad,
-                                 scan->sector_to_rad, SECTOR_GAP_RAD);
-    if (ends & RHO_ANGLE_GOES_ON_RIGHT) {
+        rho_angle_sector_continues(slot->sector_from_rad, slot->sector_to_rad,
+                                   scan->sector_from_rad, scan->sector_to_rad, SECTOR_GAP_RAD);
+    if (ends & RHO_ANGLE_CONTINUES_RIGHT) {
         slot->sector_from_rad = scan->sector_from_rad;
     } else {
         slot->sector_to_rad = scan->sector_to_rad;
     }
-    if (ends == (RHO_ANGLE_GOES_ON_LEFT | RHO_ANGLE_GOES_ON_RIGHT)) {
+    if (ends == (RHO_ANGLE_CONTINUES_LEFT | RHO_ANGLE_CONTINUES_RIGHT)) {
         slot->sector_from_rad = slot->sector_to_rad = 0.0f; /* the revolution is complete */
     }
 }
@@ -431,7 +431,7 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     if (status != RHO_OK) {
         return status;
     }
-    window->is_continued = rho_window_goes_on(window, scan, sensor) != 0;
+    window->is_continued = rho_window_continues(window, scan, sensor) != 0;
     window->is_remeasured = 0;
     if (window->is_continued) {
         add_sector(window, scan, sensor, fates);

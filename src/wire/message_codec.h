@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Private to message: what the generated tables say of the messages, and the few functions that all messages share.
+ * message_codec: the form of the generated tables that describe the messages, and the few functions
+ * that all messages share. Private to message.
  *
- * A struct is described by runs of members of the same width, one behind the other in memory as on the wire. Tables
- * hold offsets instead of pointers, so that they stay in flash.
+ * A struct is described by runs of members of the same width, one behind the other in memory as on
+ * the wire. Tables hold offsets instead of pointers, so that they stay in flash.
  */
 #ifndef RHOTRACK_MESSAGE_CODEC_H
 #define RHOTRACK_MESSAGE_CODEC_H
@@ -68,15 +69,15 @@ struct message_checks {
 };
 
 /*
- * Those of a message. Apart from its format, so that firmware which only encodes it does not carry
- * them; nor does it the tables of other messages, as each has its own.
+ * The rules of a message. They are apart from its format, so that firmware which only encodes it
+ * does not carry them; nor does it carry the tables of other messages, as each has its own.
  */
 struct message_rules {
     const struct message_format *format;
     struct message_checks head, element;
 };
 
-/* What message.h promises of ..._encode, ..._decode, ..._validate, ..._begin, ..._add. */
+/* The common part of message.h's ..._encode, ..._decode, ..._validate, ..._begin and ..._add. */
 enum rho_status rho_message_encode(const struct message_format *format, const void *message,
                                    uint8_t *buffer, size_t capacity, size_t *size);
 enum rho_status rho_message_decode(const struct message_format *format, const uint8_t *data,

@@ -121,7 +121,7 @@ enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step
 static struct rho_message_peak peak_of(float x_m, float y_m, float vx_mps, float vy_mps)
 {
     float speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
-    /* What stands still has no direction: any line through it will do. */
+    /* A standing target has no direction: any line through it will do. */
     struct rho_line line = speed_mps > 0.0f ? rho_angle_line(x_m, y_m, vx_mps, vy_mps)
                                             : (struct rho_line){.rho_m = x_m, .theta_rad = 0.0f};
 

@@ -18,7 +18,7 @@
 #define CHECK_FACTOR 16777619u
 
 typedef char rho_scan_assembler_fits_its_formula
-    [sizeof(struct rho_scan_assembler) <= RHO_RAM_FEED_BYTES ? 1 : -1];
+    [sizeof(struct rho_scan_assembler) <= RHO_RAM_SCAN_ASSEMBLER_BYTES ? 1 : -1];
 
 static int is_ready(const struct rho_scan_assembler *assembler)
 {

@@ -216,7 +216,7 @@ void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
                                          const struct scan_heading *heading,
                                          const union scan_message *message);
 
-/* What is known of a sensor; the config's `other` where it was not described. */
+/* The description of a sensor; the config's `other` where it was not described. */
 const struct rho_scan_assembler_sensor *
 rho_scan_assembler_description_of(const struct rho_scan_assembler *assembler, int32_t sensor_id);
 

@@ -77,7 +77,7 @@ static void ask_library(void)
         }
     }
     CHECK(rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK);
-    parameters_to_feed(&parameters, &feed);
+    parameters_to_assembler(&parameters, &feed);
 }
 
 static void read_config(void *context)

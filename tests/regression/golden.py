@@ -115,6 +115,22 @@ CASES = {
             --json -o tracks.csv
         plot scans in/bearings.csv -o scans.svg
         """,
+    "passive-full": """
+        simulate passive-clutter --seed 5 --set targets.0.count=20 \
+            --set passive.0.false_bearings=6 --set passive.1.false_bearings=6 -o two
+        initiate two/bearings.csv --config two/scenario.ini --json -o two.csv
+        simulate passive-three --seed 5 --set targets.0.count=16 \
+            --set passive.0.false_bearings=4 --set passive.1.false_bearings=4 \
+            --set passive.2.false_bearings=4 -o three
+        initiate three/bearings.csv --config three/scenario.ini --json -o three.csv
+        initiate three/bearings.csv --config three/scenario.ini --method passive-paper \
+            --json -o paper.csv
+        simulate passive-three --seed 6 --set targets.0.count=10 --set passive.0.sigma_rad=0.01 \
+            --set passive.1.pd=0.7 --set passive.2.false_bearings=5 \
+            --set passive.2.at_m.0=-40000 -o far
+        initiate far/bearings.csv --config far/scenario.ini --json -o far.csv
+        track far/bearings.csv --config far/scenario.ini --covariance --json -o tracks.csv
+        """,
     "maintain": """
         simulate popup --seed 4 --set radars.0.sigma_mps=1 -o in
         maintain in/plots.csv --config in/scenario.ini --covariance --json -o best.csv
@@ -181,6 +197,13 @@ CASES = {
         simulate formation --seed 3 --set radars.0.resolution_m=500 -o in
         track in/plots.csv --config in/scenario.ini --covariance --json -o tracks.csv
         evaluate in/truth.csv tracks.csv --json --by-target
+        """,
+    "long-memory": """
+        simulate split-plots --seed 5 --set duration_s=1800 --set targets.0.count=8 \
+            --set targets.0.speed_mps=[30,40] --set targets.0.range_m=[35000,45000] \
+            --set clutter.0.plots=10 -o in
+        track in/plots.csv --config in/scenario.ini --covariance --json -o tracks.csv
+        evaluate in/truth.csv tracks.csv --json
         """,
     "input-estimation": """
         simulate doppler --seed 3 --set duration_s=120 -o in

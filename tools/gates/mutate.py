@@ -5,8 +5,8 @@ row from which a claim counts from 0 to 1, and says which change no test notices
 
 A constant is a `#define NAME number` or a `static const` number in src/. Constants that are no
 policy (magic numbers, bits, the coefficients of src/base) are left out. A mutant is noticed where
-it does not compile, or a golden file or a unit test of its room differs. Each is tried in a copy of
-the sources, in BUILD/mutate.
+it does not compile, or a golden file differs, or a unit test of its room or of another one fails.
+Each is tried in a copy of the sources, in BUILD/mutate.
 
 Usage: mutate.py [--sample N] [--seed S] [--only REGEX]. Prints each mutant; exit 1 where fewer than nine in ten are noticed.
 """
@@ -88,8 +88,8 @@ class Tree:
                               stderr=subprocess.DEVNULL, timeout=900).returncode == 0
 
     def unit_programs(self, room):
-        tests = sorted((self.folder / "tests/unit" / room).glob("test_*.c"))
-        return [f"build/tests/embedded/unit/{room}/{test.stem}" for test in tests]
+        tests = sorted((self.folder / "tests/unit").glob(f"{room}/test_*.c"))
+        return [f"build/tests/embedded/unit/{test.parent.name}/{test.stem}" for test in tests]
 
     def noticed_by(self, room):
         """What notices the sources as they are now; None: nothing."""
@@ -97,10 +97,13 @@ class Tree:
             return "the compiler"
         if not self.run("tests/regression/golden.py", "--first"):
             return "the golden files"
-        programs = self.unit_programs(room)
-        if not self.run("make", "-j2", "-k", *programs):
-            return "the compiler"
-        return next((program for program in programs if not self.run(program)), None)
+        for programs in (self.unit_programs(room), self.unit_programs("*")):
+            if not self.run("make", "-j2", "-k", *programs):
+                return "the compiler"
+            failed = next((program for program in programs if not self.run(program)), None)
+            if failed:
+                return failed
+        return None
 
 
 def main():
@@ -126,8 +129,8 @@ def main():
     for path, line, name, found, value in mutants:
         text = path.read_text()
         lines = text.splitlines(keepends=True)
-        lines[line] = lines[line][:found.start("number")] + value + lines[line][found.end("number"
-                                                                                          ):]
+        first, last = found.span("number")
+        lines[line] = lines[line][:first] + value + lines[line][last:]
         try:
             path.write_text("".join(lines))
             by = tree.noticed_by(path.parent.name)

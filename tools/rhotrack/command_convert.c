@@ -41,7 +41,7 @@ static bool input_is_log(const char *input, const char *output)
            (!is_regular(input) && !path_ends_with(input, ".csv") && path_ends_with(output, ".csv"));
 }
 
-/* What is neither a table nor a log says what it is. */
+/* Exit 2 where the input, which is no log, is no table either. */
 static void check_table(const char *input)
 {
     table_free(table_read_header(input));
@@ -63,7 +63,7 @@ static void check_output(const char *input, const char *output, bool from_log)
 
 /* ---- CSV to log ---- */
 
-/* Who numbers the scans, or says how long they are, means them as they are. */
+/* Scans that are numbered, or whose length is given, are taken as they are. */
 static bool guesses_scans(const struct message_source *source, const struct parameters *parameters)
 {
     return !message_source_has_numbers(source) &&

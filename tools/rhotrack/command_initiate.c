@@ -165,7 +165,7 @@ static void initiate_kernel(const struct command_line *line)
     free(batch.initiator);
 }
 
-/* What was asked for, or the default for what the file holds. */
+/* The method asked for, or the default for the file's kind. */
 static enum method choose_method(const struct command_line *line)
 {
     bool has_bearings = frame_reader_is_bearings(line->arguments[0]);

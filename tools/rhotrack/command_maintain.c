@@ -112,8 +112,8 @@ static bool looks(const struct maintaining *maintaining, const struct rho_scan *
     double place_m[3];
 
     maintainer_where(maintaining->maintainer, place_m);
-    return rho_measurement_looks_at(sensor, scan->sector_from_rad, scan->sector_to_rad,
-                                    (float)place_m[0], (float)place_m[1]);
+    return rho_measurement_covers(sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                  (float)place_m[0], (float)place_m[1]);
 }
 
 static double pd_of(const struct maintaining *maintaining, const struct rho_sensor *sensor)
@@ -135,7 +135,7 @@ static int update(struct maintaining *maintaining, const struct rho_scan *scan,
     return row;
 }
 
-/* Not started while no scan has a plot. */
+/* No track starts while no scan has a plot. */
 static void step(struct maintaining *maintaining, const struct rho_scan *scan,
                  const struct rho_sensor *sensor)
 {

@@ -218,8 +218,8 @@ static void on_step(void *context, const struct rho_report *report)
 /* ---- Warnings and the summary ---- */
 
 /*
- * What is to be said of it by now: of what may fall again the least that it was for MISSING_US. A
- * number that was skipped is lost only where its scan does not come a moment later.
+ * The count that is certain by now: of a count that may fall again its least value of the last
+ * MISSING_US, as a skipped number is lost only where its scan does not come a moment later.
  */
 static uint64_t count_to_warn_of(struct warning *warning, const struct node_tally *tally,
                                  int64_t now_us)
@@ -408,7 +408,7 @@ static void end_of_messages(struct node *node)
     node->is_over = true;
 }
 
-/* What this node, or another one, has published: it comes back over multicast. */
+/* Messages that this node, or another one, has published come back over multicast. */
 static bool is_output(const char *channel)
 {
     return strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 ||
@@ -516,7 +516,7 @@ static void run(struct node *node)
     show(node, true);
 }
 
-/* Those who take nothing are waited for END_US at most, all together. */
+/* Outputs that take nothing are waited for END_US at most, all together. */
 static void finish(struct node *node)
 {
     const int64_t until_us = clock_us() + END_US;

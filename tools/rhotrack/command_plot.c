@@ -75,7 +75,7 @@ static void put_labels(const struct map *map, const struct plot_points *tracks)
     }
 }
 
-/* What the legend calls track number `index`; empty: nothing. */
+/* The legend's name of track number `index`; empty: none. */
 static void name_track(char *title, size_t size, int32_t id, size_t index, bool many)
 {
     if (!many) {
@@ -162,7 +162,7 @@ static void check_content(const char *kind, const struct plot_data *data)
     }
 }
 
-/* What is found before the picture is begun: what is refused then leaves nothing. */
+/* Read before the picture is begun, so that a refused input leaves no half picture. */
 struct findings {
     struct revolutions revolutions;
     struct plot_errors errors;

@@ -21,7 +21,7 @@
 #define PIECE_NS 100000000 /* a signal between a look and a sleep is noticed after this long */
 #define LATEST_S 1e9       /* nobody waits as long */
 
-/* What a sensor's scans were numbered in the first pass. */
+/* A channel in the first pass, and the numbers of its scans. */
 struct channel {
     char name[RHO_UDPM_MAX_CHANNEL + 1];
     int32_t first_scan, last_scan;
@@ -116,7 +116,7 @@ static struct channel *find_channel(struct player *player, const char *name)
     return channel;
 }
 
-/* What the first pass tells: how long it is, and how many scans each channel has. */
+/* Counts an event of the first pass: its time, and the scans of its channel. */
 static void note_event(struct player *player, const struct message_event *event)
 {
     struct channel *channel = find_channel(player, event->channel);

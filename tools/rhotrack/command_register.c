@@ -10,7 +10,7 @@
 #include "registration/register.h"
 #include "registration/register_output.h"
 
-/* What nobody described stands in the origin; that can be true of one radar alone. */
+/* A radar without a description stands in the origin; that can be true of one radar alone. */
 struct unplaced {
     bool is_any;
     int32_t sensor_id;

@@ -28,7 +28,7 @@ struct tracking {
 
 /* ---- Steps ---- */
 
-/* What is known of the sensor goes before its scan; it may have moved. */
+/* The sensor's description goes before its scan; it may have moved. */
 static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
 {
     enum rho_status status = rho_tracker_set_sensor(tracking->pipeline.tracker, sensor);
@@ -187,7 +187,7 @@ static int64_t quiet_time_us(const struct parameters *parameters)
            ((int64_t)largest_us - least_us);
 }
 
-/* What is there when it ends is tracked. */
+/* Scans that are there when the input ends are tracked. */
 static const char *follow(struct tracking *tracking, struct inputs *inputs,
                           struct tracks_output *tracks, const struct parameters *parameters)
 {
@@ -214,7 +214,7 @@ static double mean_us(const struct tracking *tracking, const struct inputs_count
     return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
 
-/* What would have them in time, where there is more of it to be had. */
+/* The setting that would have them in time, where it can be larger. */
 static const char *advice_on_late(const struct parameters *parameters, uint32_t num_too_late)
 {
     if (parameters->value[PARAMETER_HOLD_MS] < parameters_text(PARAMETER_HOLD_MS).max) {

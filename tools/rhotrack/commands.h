@@ -46,7 +46,7 @@ int command_evaluate(struct command_line *line);
 int command_plot(struct command_line *line);
 int command_convert(struct command_line *line);
 
-/* What no origin helps: before one is looked for, and told. Exit 2. */
+/* Refuses input that no origin helps, before one is looked for. Exit 2. */
 void command_convert_refuse(const struct command_line *line);
 
 int command_node(struct command_line *line);

@@ -40,10 +40,10 @@ float rho_angle_sector_width(float from_rad, float to_rad);
  * or one is the whole circle. Ends within 1 mrad, or a quarter of the narrower sector, count as
  * equal.
  */
-#define RHO_ANGLE_GOES_ON_LEFT 1u  /* counter-clockwise, from its end `to` */
-#define RHO_ANGLE_GOES_ON_RIGHT 2u /* clockwise, from its end `from` */
-unsigned rho_angle_sector_goes_on(float from_rad, float to_rad, float next_from_rad,
-                                  float next_to_rad, float gap_max_rad);
+#define RHO_ANGLE_CONTINUES_LEFT 1u  /* counter-clockwise, from its end `to` */
+#define RHO_ANGLE_CONTINUES_RIGHT 2u /* clockwise, from its end `from` */
+unsigned rho_angle_sector_continues(float from_rad, float to_rad, float next_from_rad,
+                                    float next_to_rad, float gap_max_rad);
 
 /*
  * True (1) where the direction lies in the sector that runs counter-clockwise from .. to, ends

@@ -165,8 +165,8 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
  * within RHO_LIMIT_OFFSET_US of their time. The scan then measures what all its sectors with plots
  * measure. Constant cost.
  */
-int rho_window_goes_on(const struct rho_window *window, const struct rho_scan *scan,
-                       const struct rho_sensor *sensor);
+int rho_window_continues(const struct rho_window *window, const struct rho_scan *scan,
+                         const struct rho_sensor *sensor);
 
 /* The status that rho_window_push would return; nothing is taken. Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *window,

@@ -59,7 +59,7 @@ struct figures {
     double sum_m2, rmse_m;
     unsigned found, rounds, lost, scans;
     uint32_t late, retrodicted, stale;
-    struct feed_losses losses; /* of the last run */
+    struct scan_losses losses; /* of the last run */
 };
 
 /*
@@ -253,7 +253,7 @@ static void add(struct figures *figures, const struct live *live, const struct l
     figures->scans += live->num_events;
     figures->late += node_core_assembler(live->core)->scans_late;
     figures->losses =
-        feed_order_losses(node_core_order(live->core), node_core_assembler(live->core));
+        sequence_counts_losses(node_core_order(live->core), node_core_assembler(live->core));
     figures->retrodicted += tracker->scans_retrodicted;
     figures->stale += tracker->fates[RHO_FATE_STALE];
 }

@@ -471,6 +471,17 @@ static void refused_pairs_change_nothing(void **state)
     assert_int_equal(answer(UINT32_MAX), RHO_ASSIGNMENT_NONE);
 }
 
+static void memory_is_an_object_once_it_is_initialised(void **state)
+{
+    static struct rho_assignment other;
+
+    (void)state;
+    assert_true(rho_assignment_is_ready(&assignment));
+    assert_false(rho_assignment_is_ready(&other));
+    memset(&other, 0x5a, sizeof other);
+    assert_false(rho_assignment_is_ready(&other));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -493,6 +504,7 @@ int main(void)
         cmocka_unit_test_setup(null_is_refused, initialise),
         cmocka_unit_test_setup(refused_sizes_change_nothing, initialise),
         cmocka_unit_test_setup(refused_pairs_change_nothing, initialise),
+        cmocka_unit_test_setup(memory_is_an_object_once_it_is_initialised, initialise),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

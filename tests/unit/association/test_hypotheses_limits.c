@@ -729,6 +729,96 @@ static void arguments_are_checked(void **state)
     assert_int_equal(rho_hypotheses_count(&pool, slot), 1);
 }
 
+/* The gate reaches sqrt(RHO_IMM_GATE) of a plot's sigmas; a later plot may be farther away. */
+static void the_boxs_margin_grows_with_noise_and_time(void **state)
+{
+    struct rho_hypotheses_box box;
+
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    predict(&pool, slot, 1.0);
+    rho_hypotheses_begin_scan(&pool, slot, &box);
+    const float margin_m = rho_hypotheses_box_margin_m(&pool, slot, &box, 20.0f, 0.0f);
+    assert_true(margin_m >= sqrtf(RHO_IMM_GATE) * 20.0f && margin_m <= 2.0f * 20.0f * 6.0f);
+    assert_float_equal(rho_hypotheses_box_margin_m(&pool, slot, &box, 40.0f, 0.0f), 2.0f * margin_m,
+                       1e-3);
+    assert_true(rho_hypotheses_box_margin_m(&pool, slot, &box, 20.0f, 1.0f) >=
+                margin_m + 100.0f); /* a second at 100 m/s */
+}
+
+/* Moved back without noise and on again, a track is where it was, as uncertain as before. */
+static void a_track_returns_to_where_it_had_been(void **state)
+{
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 500.0f, -200.0f, 100.0f);
+    predict(&pool, slot, 4.0);
+    const struct rho_imm was = rho_hypotheses_at(&pool, slot, 0)->imm;
+    assert_int_equal(rho_hypotheses_return(&pool, slot, 1000000), RHO_OK);
+    const struct rho_imm *imm = &rho_hypotheses_at(&pool, slot, 0)->imm;
+    assert_float_equal(imm->state[0], was.state[0] - 3.0f * was.state[3], 0.1);
+    assert_int_equal(rho_hypotheses_return(&pool, slot, 4000000), RHO_OK);
+    for (int i = 0; i < RHO_IMM_STATES; ++i) {
+        assert_float_equal(imm->state[i], was.state[i], 1e-3 * (1.0 + fabs(was.state[i])));
+    }
+    assert_float_equal(imm->covariance[0], was.covariance[0], 0.01 * was.covariance[0]);
+    assert_int_equal(rho_hypotheses_return(NULL, slot, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_return(&pool, slot + 1, 0), RHO_ERROR_STATE);
+}
+
+/* The steps of the pool follow from the new mean time; a model without calm targets stays. */
+static void calm_targets_get_another_mean_time(void **state)
+{
+    struct rho_imm_model model = some_model();
+    struct rho_imm_step expected;
+
+    (void)state;
+    assert_true(model.calm_s > 0.0f);
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    predict(&pool, slot, 2.0);
+    rho_hypotheses_set_calm(&pool, 90.0f);
+    model.calm_s = 90.0f;
+    rho_imm_step_open(&expected, &model, 2.0f);
+    assert_memory_equal(&pool.model, &model, sizeof model);
+    assert_memory_equal(&pool.step, &expected, sizeof expected);
+
+    model.calm_s = 0.0f;
+    assert_int_equal(rho_hypotheses_init(&pool, sizeof pool, &model), RHO_OK);
+    rho_hypotheses_set_calm(&pool, 90.0f);
+    assert_memory_equal(&pool.model, &model, sizeof model);
+}
+
+/* Each damage by itself: a node in two places, one too many, a number that is none, no object. */
+static void a_damaged_pool_is_not_sound(void **state)
+{
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    const uint16_t other = open_at(&pool, 900.0f, 0.0f, 100.0f);
+    predict(&pool, slot, 1.0);
+    assert_true(rho_hypotheses_is_sound(&pool));
+    copy = pool;
+    pool.node_of[slot][0] = pool.node_of[other][0];
+    assert_false(rho_hypotheses_is_sound(&pool));
+    pool = copy;
+    pool.num_free--;
+    assert_false(rho_hypotheses_is_sound(&pool));
+    pool = copy;
+    pool.num_of[slot] = RHO_HYPOTHESES_OF_TRACK + 1;
+    assert_false(rho_hypotheses_is_sound(&pool));
+    pool = copy;
+    pool.nodes[pool.node_of[slot][0]].imm.state[0] = NAN;
+    assert_false(rho_hypotheses_is_sound(&pool));
+    pool = copy;
+    pool.model.memory_s = 0.0f;
+    assert_false(rho_hypotheses_is_sound(&pool));
+    pool = copy;
+    memset(&pool, 0, sizeof pool);
+    assert_false(rho_hypotheses_is_sound(&pool));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -746,6 +836,10 @@ int main(void)
         cmocka_unit_test(what_is_too_old_to_be_known_changes_nothing),
         cmocka_unit_test(a_bearing_orders_the_hypotheses),
         cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(the_boxs_margin_grows_with_noise_and_time),
+        cmocka_unit_test(a_track_returns_to_where_it_had_been),
+        cmocka_unit_test(calm_targets_get_another_mean_time),
+        cmocka_unit_test(a_damaged_pool_is_not_sound),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

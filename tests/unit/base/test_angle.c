@@ -165,31 +165,31 @@ static void equal_ends_are_the_whole_circle(void **state)
 
 static void sectors_go_on_from_either_end(void **state)
 {
-    const unsigned left = RHO_ANGLE_GOES_ON_LEFT, right = RHO_ANGLE_GOES_ON_RIGHT;
+    const unsigned left = RHO_ANGLE_CONTINUES_LEFT, right = RHO_ANGLE_CONTINUES_RIGHT;
 
     (void)state;
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.0f, 1.5f, 0.0f), left);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, -0.5f, 0.0f, 0.0f), right);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.0f, 0.0f, 0.0f), left | right);
-    assert_int_equal(rho_angle_sector_goes_on(3.0f, -3.0f, -3.0f, -2.0f, 0.0f), left);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.0009f, 1.5f, 0.0f), left);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 0.9995f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.0f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, -0.5f, 0.0f, 0.0f), right);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.0f, 0.0f, 0.0f), left | right);
+    assert_int_equal(rho_angle_sector_continues(3.0f, -3.0f, -3.0f, -2.0f, 0.0f), left);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.0009f, 1.5f, 0.0f), left);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 0.9995f, 1.5f, 0.0f), left);
     /* apart, and as far as is allowed; the nearer end */
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.2f, 1.5f, 0.0f), 0);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 1.2f, 1.5f, 0.3f), left);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, -1.5f, -0.2f, 0.3f), right);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 5.0f, 5.5f, 6.0f, 1.0f), right);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.2f, 1.5f, 0.0f), 0);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 1.2f, 1.5f, 0.3f), left);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, -1.5f, -0.2f, 0.3f), right);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 5.0f, 5.5f, 6.0f, 1.0f), right);
     /* narrow ones: of two there is no circle, nor of one twice */
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 4e-4f, 4e-4f, 8e-4f, 0.5f), left);
-    assert_int_equal(rho_angle_sector_goes_on(1.0f, 1.0004f, 0.9996f, 1.0f, 0.5f), right);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 5e-4f, 0.0f, 5e-4f, 0.5f), 0);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 4e-4f, 4e-4f, 8e-4f, 0.5f), left);
+    assert_int_equal(rho_angle_sector_continues(1.0f, 1.0004f, 0.9996f, 1.0f, 0.5f), right);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 5e-4f, 0.0f, 5e-4f, 0.5f), 0);
     /* overlap, the whole circle, no sector */
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 0.5f, 1.5f, 0.3f), 0);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 6.1f, 0.0f, 0.2f, 0.5f), 0);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 0.0f, 1.0f, 0.5f), 0);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 0.0f, 0.0f, 1.0f, 0.5f), 0);
-    assert_int_equal(rho_angle_sector_goes_on(0.0f, 1.0f, 2.0f, 2.0f, 7.0f), 0);
-    assert_int_equal(rho_angle_sector_goes_on(NAN, 1.0f, 1.0f, 2.0f, 0.5f), 0);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 0.5f, 1.5f, 0.3f), 0);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 6.1f, 0.0f, 0.2f, 0.5f), 0);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 0.0f, 1.0f, 0.5f), 0);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 0.0f, 0.0f, 1.0f, 0.5f), 0);
+    assert_int_equal(rho_angle_sector_continues(0.0f, 1.0f, 2.0f, 2.0f, 7.0f), 0);
+    assert_int_equal(rho_angle_sector_continues(NAN, 1.0f, 1.0f, 2.0f, 0.5f), 0);
     assert_float_equal(rho_angle_sector_width(3.0f, -3.0f), 2.0 * 3.14159265 - 6.0, 1e-6);
     assert_float_equal(rho_angle_sector_width(2.0f, 2.0f), 2.0 * 3.14159265, 1e-6);
 }
@@ -321,6 +321,20 @@ static void cells_outside_are_the_nearest(void **state)
     assert_int_equal(rho_angle_theta_cell(1.0f, INT32_MIN), 0);
 }
 
+static void ends_of_sectors_are_within_a_turn_either_way(void **state)
+{
+    const float most_rad = RHO_TWO_PI, beyond_rad = nextafterf(RHO_TWO_PI, INFINITY);
+
+    (void)state;
+    assert_true(rho_angle_is_sector(-most_rad, most_rad));
+    assert_true(rho_angle_is_sector(1.0f, 1.0f));
+    assert_false(rho_angle_is_sector(beyond_rad, 0.0f));
+    assert_false(rho_angle_is_sector(0.0f, beyond_rad));
+    assert_false(rho_angle_is_sector(-beyond_rad, 0.0f));
+    assert_false(rho_angle_is_sector(0.0f, NAN));
+    assert_false(rho_angle_is_sector(INFINITY, 0.0f));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -341,6 +355,7 @@ int main(void)
         cmocka_unit_test(no_direction_is_no_line),
         cmocka_unit_test(cells_divide_the_half_turn),
         cmocka_unit_test(cells_outside_are_the_nearest),
+        cmocka_unit_test(ends_of_sectors_are_within_a_turn_either_way),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

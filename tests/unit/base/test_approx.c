@@ -332,6 +332,23 @@ static void results_have_the_same_bits_everywhere(void **state)
     assert_int_equal(hash, 0x0b283448u);
 }
 
+/* From FLT_MIN to FLT_MAX, and densely over two octaves, between which all others repeat. */
+static void inverse_sqrt_is_within_its_error(void **state)
+{
+    double worst = 0.0;
+
+    (void)state;
+    for (double v = FLT_MIN; v <= FLT_MAX; v *= 1.37) {
+        worst = fmax(worst, fabs(rho_inverse_sqrt((float)v) * sqrt((double)(float)v) - 1.0));
+    }
+    for (int i = 0; i < 30000; ++i) {
+        const float v = 1.0f + 1e-4f * (float)i;
+
+        worst = fmax(worst, fabs(rho_inverse_sqrt(v) * sqrt((double)v) - 1.0));
+    }
+    assert_true(worst <= 3e-7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -352,6 +369,7 @@ int main(void)
         cmocka_unit_test(sqrt_at_the_edges),
         cmocka_unit_test(constants_are_the_nearest_floats),
         cmocka_unit_test(results_have_the_same_bits_everywhere),
+        cmocka_unit_test(inverse_sqrt_is_within_its_error),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

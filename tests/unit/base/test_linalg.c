@@ -496,6 +496,31 @@ static void update_checks_its_pointers(void **state)
     assert_int_equal(rho_linalg_update6(e.x, e.p, 0, 1.0f, 1.0f, NULL), RHO_OK);
 }
 
+/* A full matrix, element by element in double precision. */
+static void a_projection_is_the_product_and_its_variance(void **state)
+{
+    double full[STATES][STATES], expected[STATES], variance = 0.0;
+    float p[PACKED], row[STATES], projected[STATES];
+
+    (void)state;
+    for (int i = 0, k = 0; i < STATES; ++i) {
+        row[i] = 0.5f - 0.3f * (float)i;
+        for (int j = 0; j <= i; ++j) {
+            p[k] = (float)((i == j) * 9 + (7 * i + 3 * j) % 5) - 1.25f;
+            full[i][j] = full[j][i] = p[k++];
+        }
+    }
+    for (int i = 0; i < STATES; ++i) {
+        expected[i] = 0.0;
+        for (int j = 0; j < STATES; ++j) {
+            expected[i] += full[i][j] * row[j];
+        }
+        variance += row[i] * expected[i];
+    }
+    assert_true(fabs(rho_linalg_project6(p, row, projected) - variance) <= 1e-6 * fabs(variance));
+    assert_near(projected, expected, STATES, 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -518,6 +543,7 @@ int main(void)
         cmocka_unit_test(update_refuses_bad_numbers),
         cmocka_unit_test(update_refuses_a_bad_estimate),
         cmocka_unit_test(update_checks_its_pointers),
+        cmocka_unit_test(a_projection_is_the_product_and_its_variance),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

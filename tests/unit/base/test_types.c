@@ -171,6 +171,45 @@ static void a_plots_noise_is_its_larger_horizontal_sigma(void **state)
     assert_true(rho_plot_sigma_m(&plot) == 15.0f);
 }
 
+static void finite_numbers_alone_are_finite(void **state)
+{
+    const float bad[] = {NAN, INFINITY, -INFINITY};
+
+    (void)state;
+    for (size_t place = 0; place < 3; ++place) {
+        for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+            float values[3] = {-FLT_MAX, 0.0f, FLT_MAX};
+
+            assert_true(rho_are_finite(values, 3));
+            values[place] = bad[i];
+            assert_false(rho_are_finite(values, 3));
+            assert_true(rho_are_finite(values, place)); /* those before it */
+        }
+    }
+}
+
+static void coordinates_end_at_their_limit(void **state)
+{
+    (void)state;
+    assert_true(rho_is_coordinate(RHO_LIMIT_POSITION_M));
+    assert_true(rho_is_coordinate(-RHO_LIMIT_POSITION_M));
+    assert_false(rho_is_coordinate(nextafterf(RHO_LIMIT_POSITION_M, INFINITY)));
+    assert_false(rho_is_coordinate(-nextafterf(RHO_LIMIT_POSITION_M, INFINITY)));
+    assert_false(rho_is_coordinate(NAN));
+}
+
+/* A scan at the limit of times, a plot's own time after it, and a few more such moves. */
+static void stored_times_hold_the_latest_plot_of_the_latest_scan(void **state)
+{
+    (void)state;
+    assert_true(rho_is_stored_time(RHO_LIMIT_TIME_US + RHO_LIMIT_OFFSET_US));
+    assert_true(rho_is_stored_time(-RHO_LIMIT_TIME_US - RHO_LIMIT_OFFSET_US));
+    assert_false(rho_is_stored_time(RHO_LIMIT_TIME_US + 10 * (int64_t)RHO_LIMIT_OFFSET_US));
+    assert_false(rho_is_stored_time(-RHO_LIMIT_TIME_US - 10 * (int64_t)RHO_LIMIT_OFFSET_US));
+    assert_false(rho_is_stored_time(INT64_MAX));
+    assert_false(rho_is_stored_time(INT64_MIN));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -184,6 +223,9 @@ int main(void)
         cmocka_unit_test(within_includes_its_ends),
         cmocka_unit_test(within_refuses_what_is_not_finite),
         cmocka_unit_test(a_plots_noise_is_its_larger_horizontal_sigma),
+        cmocka_unit_test(finite_numbers_alone_are_finite),
+        cmocka_unit_test(coordinates_end_at_their_limit),
+        cmocka_unit_test(stored_times_hold_the_latest_plot_of_the_latest_scan),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -686,6 +686,20 @@ static void bearings_that_scatter_too_much_are_no_track(void **state)
     assert_int_equal(passive.num_tracks, 0);
 }
 
+/* Sensors make n (n - 1) / 2 pairs, whichever scans they saw the target in. */
+static void pairs_are_those_of_sensors_that_saw_the_track(void **state)
+{
+    struct rho_passive_track track = {.hits = 0};
+
+    (void)state;
+    assert_int_equal(rho_passive_sensor_pairs(&track), 0);
+    for (unsigned num = 1; num <= RHO_MAX_PASSIVE_SENSORS; num++) {
+        track.claim[num % RHO_MAX_PASSIVE_SCANS][num - 1] = (uint8_t)num;
+        track.claim[0][num - 1] = 9;
+        assert_int_equal(rho_passive_sensor_pairs(&track), num * (num - 1) / 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -711,6 +725,7 @@ int main(void)
         cmocka_unit_test(targets_beyond_200_km_are_found),
         cmocka_unit_test(bearings_of_one_sensor_alone_are_no_track),
         cmocka_unit_test(bearings_that_scatter_too_much_are_no_track),
+        cmocka_unit_test(pairs_are_those_of_sensors_that_saw_the_track),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,6 +49,7 @@ static void expect_refused(enum rho_status status)
 {
     uint8_t fates[sizeof full.fates];
     memcpy(fates, full.fates, sizeof fates);
+    assert_int_equal(rho_passive_accepts(&passive, &full.frame), status);
     assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), status);
     assert_memory_equal(&passive, &before, sizeof passive);
     assert_memory_equal(full.fates, fates, sizeof fates);
@@ -224,6 +225,7 @@ static void a_frame_must_be_newer_than_the_newest(void **state)
     full.frame.time_us = INT64_MIN;
     expect_refused(RHO_ERROR_STATE);
     full.frame.time_us = passive.batch.time_us[4] + 1;
+    assert_int_equal(rho_passive_accepts(&passive, &full.frame), RHO_OK);
     assert_int_equal(rho_passive_push(&passive, &full.frame, full.fates), RHO_OK);
 }
 

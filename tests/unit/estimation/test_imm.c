@@ -962,6 +962,47 @@ static void a_bearing_from_its_own_place_does_nothing(void **state)
     assert_memory_equal(&imm, &before, sizeof imm);
 }
 
+/* The likelihood of a plot with a range rate, whether its sensor's rates were predicted before. */
+static void scores_with_rates_predicted_before_are_the_same(void **state)
+{
+    const struct rho_imm_model model = interval_model(5.0);
+    const struct rho_sensor sensor = {.x_m = -300.0f, .y_m = 40.0f};
+    int num_near = 0;
+
+    (void)state;
+    for (int n = 0; n < 200; ++n) {
+        struct rho_kalman at;
+        struct rho_imm imm;
+        struct rho_imm_rates rates;
+        struct rho_imm_match one, other;
+        struct rho_imm_plot seen;
+
+        rho_kalman_init(&at);
+        for (int axis = 0; axis < 2; ++axis) {
+            assert_int_equal(rho_kalman_open_axis(&at, axis, 5000.0f, 400.0f, 100.0f), RHO_OK);
+            at.state[3 + axis] = (float)uniform(-100.0, 100.0);
+        }
+        const struct rho_plot plot = {.x_m = (float)(5000.0 + 40.0 * normal()),
+                                      .y_m = (float)(5000.0 + 40.0 * normal()),
+                                      .range_rate_mps = (float)uniform(-140.0, 140.0),
+                                      .sigma_range_m = 20.0f,
+                                      .sigma_cross_m = 30.0f,
+                                      .sigma_up_m = 20.0f,
+                                      .sigma_range_rate_mps = 2.0f};
+        rho_imm_start(&imm, &model, &at);
+        rho_imm_predict_rates(&rates, &imm, &sensor);
+        rho_imm_open_plot(&seen, &plot, RHO_MEASURES_RANGE_RATE, &sensor);
+        const int is_near = rho_imm_score_plot(&imm, &seen, &one);
+        assert_int_equal(rho_imm_score_plot_with_rates(&imm, &rates, &seen, &other), is_near);
+        if (is_near) {
+            assert_float_equal(one.log_likelihood, other.log_likelihood, 1e-3);
+            assert_float_equal(one.probability, other.probability, 1e-4);
+            num_near++;
+        }
+    }
+    assert_in_range(num_near, 20, 180);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -977,6 +1018,7 @@ int main(void)
         cmocka_unit_test(an_estimate_is_coupled_where_any_two_axes_are),
         cmocka_unit_test(range_rates_without_a_height_are_those_the_kalman_filter_expects),
         cmocka_unit_test(a_bearing_from_its_own_place_does_nothing),
+        cmocka_unit_test(scores_with_rates_predicted_before_are_the_same),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

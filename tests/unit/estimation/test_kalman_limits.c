@@ -318,6 +318,30 @@ static void the_same_calls_give_the_same_bits(void **state)
     assert_memory_equal(&one, &other, sizeof one);
 }
 
+/* Three standard deviations of the difference must lie within half the span: 3 * 15 < 50. */
+static void a_range_rate_is_clear_where_the_estimate_unfolds_it(void **state)
+{
+    struct rho_sensor sensor = {.range_rate_span_mps = 100.0f};
+    struct rho_kalman_row seen;
+    struct rho_kalman at;
+
+    (void)state;
+    for (int is_vague = 0; is_vague < 2; ++is_vague) {
+        const float variance = is_vague ? 324.0f : 224.0f;
+
+        rho_kalman_init(&at);
+        for (int axis = 0; axis < 2; ++axis) {
+            assert_int_equal(rho_kalman_open_axis(&at, axis, axis ? 0.0f : 1e4f, 1.0f, variance),
+                             RHO_OK);
+        }
+        assert_true(rho_kalman_linearise_range_rate(&at, &sensor, 0.0f, 1.0f, &seen));
+        assert_int_equal(rho_kalman_is_range_rate_clear(&at, &sensor, &seen) != 0, !is_vague);
+        assert_true(rho_kalman_is_range_rate_clear(&at, NULL, &seen));
+    }
+    sensor.range_rate_span_mps = 0.0f; /* not ambiguous */
+    assert_true(rho_kalman_is_range_rate_clear(&at, &sensor, &seen));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +357,7 @@ int main(void)
         cmocka_unit_test(a_vague_start_with_a_sharp_sensor),
         cmocka_unit_test(a_million_hostile_calls),
         cmocka_unit_test(the_same_calls_give_the_same_bits),
+        cmocka_unit_test(a_range_rate_is_clear_where_the_estimate_unfolds_it),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

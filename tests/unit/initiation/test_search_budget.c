@@ -304,6 +304,26 @@ static void turns_survive_a_snapshot(void **state)
     assert_true(rho_initiator_is_sound(&initiator));
 }
 
+/* The caller's limit counts, whatever the config's is; 0 is none. */
+static void a_search_may_have_a_limit_of_its_own(void **state)
+{
+    static const uint32_t configured[] = {RHO_WORK_MAX, 500, 0};
+
+    (void)state;
+    for (size_t i = 0; i < NUM(configured); i++) {
+        start(configured[i]);
+        for (int k = 0; k < WINDOW; k++) {
+            add_pile(MANY);
+            push(k);
+        }
+        assert_int_equal(rho_initiator_search_within(&initiator, RHO_SEARCH_NEWEST, 2000), RHO_OK);
+        assert_true(initiator.budget.work <= 2000 + RHO_INITIATOR_WORK_BEYOND);
+        assert_true(initiator.budget.work > 500);
+        assert_int_equal(initiator.budget.partial_steps, 1);
+        assert_int_equal(initiator.config.work_max, configured[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -314,6 +334,7 @@ int main(void)
         cmocka_unit_test(a_limit_with_room_changes_nothing),
         cmocka_unit_test(places_take_turns),
         cmocka_unit_test(turns_survive_a_snapshot),
+        cmocka_unit_test(a_search_may_have_a_limit_of_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/measurement.h"
 
 #define PI 3.14159265358979323846
@@ -436,15 +437,105 @@ static void a_scan_looks_within_its_sector_and_range(void **state)
                                 .range_max_m = 5000.0f,
                                 .sector_from_rad = 2.0f,
                                 .sector_to_rad = -2.0f}; /* over pi */
-    assert_true(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -1000.0f, 10.0f));
-    assert_true(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -1000.0f, -10.0f));
-    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, 3000.0f, 0.0f));  /* its sector */
-    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, 950.0f, 0.0f));   /* too near */
-    assert_false(rho_measurement_looks_at(&sensor, 0.0f, 0.0f, -4100.0f, 0.0f)); /* too far */
-    assert_true(rho_measurement_looks_at(&sensor, 3.0f, -3.0f, -1000.0f, 10.0f));
-    assert_false(rho_measurement_looks_at(&sensor, -3.1f, -2.0f, -1000.0f, 10.0f)); /* the scan's */
-    assert_true(rho_measurement_looks_at(NULL, 0.0f, 0.0f, 1e6f, 1e6f));
-    assert_false(rho_measurement_looks_at(NULL, 0.0f, 0.5f, 1e6f, 1e6f));
+    assert_true(rho_measurement_covers(&sensor, 0.0f, 0.0f, -1000.0f, 10.0f));
+    assert_true(rho_measurement_covers(&sensor, 0.0f, 0.0f, -1000.0f, -10.0f));
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, 3000.0f, 0.0f));  /* its sector */
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, 950.0f, 0.0f));   /* too near */
+    assert_false(rho_measurement_covers(&sensor, 0.0f, 0.0f, -4100.0f, 0.0f)); /* too far */
+    assert_true(rho_measurement_covers(&sensor, 3.0f, -3.0f, -1000.0f, 10.0f));
+    assert_false(rho_measurement_covers(&sensor, -3.1f, -2.0f, -1000.0f, 10.0f)); /* the scan's */
+    assert_true(rho_measurement_covers(NULL, 0.0f, 0.0f, 1e6f, 1e6f));
+    assert_false(rho_measurement_covers(NULL, 0.0f, 0.5f, 1e6f, 1e6f));
+}
+
+/* ---- bearings, and what a sensor's description says -------------------------------------------- */
+
+/* Against differences of the innovation in double precision. */
+static void a_bearing_is_linear_in_metres_across(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 500; n++) {
+        const float state_m[6] = {(float)uniform(-5e4, 5e4), (float)uniform(-5e4, 5e4)};
+        const double dx = (double)state_m[0] - 300.0, dy = (double)state_m[1] + 700.0;
+        const double range = hypot(dx, dy), off_rad = uniform(-0.1, 0.1);
+        const double bearing = remainder(atan2(dy, dx) + off_rad, 2.0 * PI);
+        float row[6], off_m = 0.0f, range_m = 0.0f;
+
+        assert_true(rho_measurement_bearing(state_m, 300.0f, -700.0f, (float)bearing, row, &off_m,
+                                            &range_m));
+        assert_true(fabs(range_m - range) <= 1e-6 * range);
+        assert_true(fabs(off_m - range * off_rad) <= 2e-6 * range);
+        assert_true(fabs(row[0] + dy / range) <= 1e-6 && fabs(row[1] - dx / range) <= 1e-6);
+        for (int i = 2; i < 6; i++) {
+            assert_true(row[i] == 0.0f);
+        }
+    }
+}
+
+static void a_bearing_needs_a_metre_and_numbers(void **state)
+{
+    float row[6] = {7.0f}, off_m = 7.0f, range_m = 7.0f;
+    const float near_m[6] = {0.5f, 0.5f}, none_m[6] = {NAN, 0.0f}, far_m[6] = {INFINITY, 0.0f};
+    const float at_m[6] = {1.0f, 0.0f};
+
+    (void)state;
+    assert_false(rho_measurement_bearing(near_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_false(rho_measurement_bearing(none_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_false(rho_measurement_bearing(far_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+    assert_true(row[0] == 7.0f && off_m == 7.0f && range_m == 7.0f);
+    assert_true(rho_measurement_bearing(at_m, 0.0f, 0.0f, 0.0f, row, &off_m, &range_m));
+}
+
+static void bearings_have_limits(void **state)
+{
+    const struct rho_bearing good = {.bearing_rad = RHO_PI, .sigma_rad = 0.002f};
+    struct rho_bearing bad = good;
+
+    (void)state;
+    assert_true(rho_measurement_is_bearing(&good));
+    bad.bearing_rad = nextafterf(RHO_PI, 4.0f);
+    assert_false(rho_measurement_is_bearing(&bad));
+    bad.bearing_rad = NAN;
+    assert_false(rho_measurement_is_bearing(&bad));
+    bad = good;
+    bad.sigma_rad = nextafterf(RHO_LIMIT_SIGMA_RAD_MAX, INFINITY);
+    assert_false(rho_measurement_is_bearing(&bad));
+    bad.sigma_rad = nextafterf(RHO_LIMIT_SIGMA_RAD_MIN, 0.0f);
+    assert_false(rho_measurement_is_bearing(&bad));
+    bad.sigma_rad = RHO_LIMIT_SIGMA_RAD_MIN;
+    assert_true(rho_measurement_is_bearing(&bad));
+}
+
+static void percentages_are_factors_of_sigmas(void **state)
+{
+    const struct rho_sensor stated = {.sensor_id = 1};
+    const struct rho_sensor learned = {.sigma_range_percent = 50, .sigma_cross_percent = 250};
+    const struct rho_sensor sharper = {.sigma_range_percent = 50, .sigma_cross_percent = 80};
+    const struct rho_sigma_factors factors = rho_measurement_sigma_factors(&learned);
+
+    (void)state;
+    assert_true(factors.range == 0.5f && factors.cross == 2.5f);
+    assert_true(rho_measurement_sigma_factors(&stated).range == 1.0f);
+    assert_true(rho_measurement_sigma_factors(NULL).cross == 1.0f);
+    assert_true(rho_measurement_widest_factor(&learned) == 2.5f);
+    assert_true(rho_measurement_widest_factor(&sharper) == 1.0f);
+    assert_true(rho_measurement_widest_factor(NULL) == 1.0f);
+}
+
+static void time_biases_are_rounded_to_microseconds(void **state)
+{
+    static const struct {
+        float bias_s;
+        int32_t expected_us;
+    } cases[] = {{0.0f, 0},    {0.5f, 500000}, {-0.5f, -500000},
+                 {1.6e-6f, 2}, {-1.6e-6f, -2}, {0.4e-6f, 0}};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const struct rho_sensor sensor = {.time_bias_s = cases[i].bias_s};
+
+        assert_int_equal(rho_measurement_time_bias_us(&sensor), cases[i].expected_us);
+    }
 }
 
 int main(void)
@@ -462,6 +553,11 @@ int main(void)
         cmocka_unit_test(plots_without_a_line_of_sight_are_isotropic),
         cmocka_unit_test(range_rates_and_their_derivatives),
         cmocka_unit_test(a_scan_looks_within_its_sector_and_range),
+        cmocka_unit_test(a_bearing_is_linear_in_metres_across),
+        cmocka_unit_test(a_bearing_needs_a_metre_and_numbers),
+        cmocka_unit_test(bearings_have_limits),
+        cmocka_unit_test(percentages_are_factors_of_sigmas),
+        cmocka_unit_test(time_biases_are_rounded_to_microseconds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

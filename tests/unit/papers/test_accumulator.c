@@ -295,7 +295,9 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
 #define REFUSED(field, value)                                                                      \
     do {                                                                                           \
         struct rho_accumulator_config bad = paper_cells();                                         \
+        uint16_t rows = 0, cells = 0;                                                              \
         bad.field = (value);                                                                       \
+        assert_int_equal(rho_accumulator_plane(&bad, &rows, &cells), RHO_ERROR_CONFIG);            \
         assert_int_equal(rho_accumulator_init(&accumulator, sizeof accumulator, &bad),             \
                          RHO_ERROR_CONFIG);                                                        \
     } while (0)
@@ -337,16 +339,21 @@ static void bad_points_are_refused(void **state)
     assert_int_equal(rho_accumulator_find(&accumulator, &points, NULL, 4, &result), RHO_ERROR_NULL);
     assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_accumulator_find(&accumulator, &none, peaks, 4, &result), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_check(NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_check(&none), RHO_ERROR_NULL);
+    assert_int_equal(rho_accumulator_check(&points), RHO_OK);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         float was = x_m[i];
         x_m[i] = bad[i];
         assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
                          RHO_ERROR_VALUE);
+        assert_int_equal(rho_accumulator_check(&points), RHO_ERROR_VALUE);
         x_m[i] = was;
     }
     points.num_scans = RHO_ACCUMULATOR_SCANS_MAX + 1u;
     assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
                      RHO_ERROR_VALUE);
+    assert_int_equal(rho_accumulator_check(&points), RHO_ERROR_VALUE);
     points.num_scans = 3;
     scan_end[1] = 31; /* beyond the last scan's */
     assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
@@ -354,6 +361,21 @@ static void bad_points_are_refused(void **state)
     accumulator.magic = 0;
     assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, 4, &result),
                      RHO_ERROR_STATE);
+}
+
+/* 3.14 rad in thousandths, and 8600 m in cells of 5 m; a last row that is not whole counts. */
+static void a_plane_has_the_papers_rows_and_cells(void **state)
+{
+    struct rho_accumulator_config config = paper_cells();
+    uint16_t rows = 0, cells = 0;
+
+    (void)state;
+    assert_int_equal(rho_accumulator_plane(&config, &rows, &cells), RHO_OK);
+    assert_int_equal(rows, 3142);
+    assert_int_equal(cells, 1720);
+    config.theta_cell_rad = 0.5f;
+    assert_int_equal(rho_accumulator_plane(&config, &rows, &cells), RHO_OK);
+    assert_int_equal(rows, 7);
 }
 
 int main(void)
@@ -373,6 +395,7 @@ int main(void)
         cmocka_unit_test(suppression_keeps_the_best_of_each_neighbourhood),
         cmocka_unit_test(bad_configs_are_refused),
         cmocka_unit_test(bad_points_are_refused),
+        cmocka_unit_test(a_plane_has_the_papers_rows_and_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -320,6 +320,27 @@ static void counters_and_scores_saturate(void **state)
     assert_int_equal(track.score_mnat, -1000000000);
 }
 
+/* Moved back, and on again without noise: the estimate that it had. */
+static void a_track_returns_to_the_estimate_that_it_had(void **state)
+{
+    (void)state;
+    struct rho_track track = started(9000);
+    assert_int_equal(rho_track_predict(&track, 12000000, &model), RHO_OK);
+    const struct rho_track was = track;
+    assert_int_equal(rho_track_return(&track, 9000000, &model), RHO_OK);
+    assert_int_equal(track.time_us, 9000000);
+    assert_true(fabsf(track.kalman.state[0] - was.kalman.state[0] + 3.0f * was.kalman.state[3]) <
+                0.01f);
+    assert_int_equal(rho_track_return(&track, 12000000, &model), RHO_OK);
+    assert_int_equal(track.time_us, 12000000);
+    for (int i = 0; i < 6; i++) {
+        assert_true(fabsf(track.kalman.state[i] - was.kalman.state[i]) < 0.01f);
+    }
+    assert_true(fabsf(track.kalman.covariance[0] - was.kalman.covariance[0]) <
+                0.01f * was.kalman.covariance[0]);
+    assert_int_equal(rho_track_return(NULL, 0, &model), RHO_ERROR_NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -336,6 +357,7 @@ int main(void)
         cmocka_unit_test(a_fallen_score_ends_a_track),
         cmocka_unit_test(a_track_in_doubt_comes_back_as_itself),
         cmocka_unit_test(counters_and_scores_saturate),
+        cmocka_unit_test(a_track_returns_to_the_estimate_that_it_had),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -425,7 +425,7 @@ static void misses_count_only_where_the_radar_looked(void **state)
         }
         /* it waits for a scan that looks there while there may be one */
         const int is_covered =
-            rho_measurement_looks_at(&radar, 0.0f, 0.0f, (float)hovering.x_m, (float)hovering.y_m);
+            rho_measurement_covers(&radar, 0.0f, 0.0f, (float)hovering.x_m, (float)hovering.y_m);
         assert_int_equal(report.num_tracks, !views[i].is_seen && is_covered);
     }
 }

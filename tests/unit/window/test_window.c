@@ -80,6 +80,7 @@ static void push_refuses_and_changes_nothing(void **state)
     place(0, 1.0f, 2.0f, 1.0f);
     memset(&window, 0, sizeof window);
     assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused), RHO_ERROR_STATE);
+    assert_int_equal(rho_window_check_push(&window, &scan, fates, &unused), RHO_ERROR_STATE);
     start(3);
     push(10, 1);
     before = window;
@@ -89,9 +90,13 @@ static void push_refuses_and_changes_nothing(void **state)
     assert_int_equal(rho_window_push(&window, &scan, NULL, fates, NULL), RHO_ERROR_NULL);
     scan.plots = NULL;
     assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused), RHO_ERROR_NULL);
+    assert_int_equal(rho_window_check_push(&window, &scan, fates, &unused), RHO_ERROR_NULL);
     scan.plots = plots;
     assert_int_equal(rho_window_push(&window, &scan, NULL, fates, &unused),
                      RHO_ERROR_STATE); /* older */
+    assert_int_equal(rho_window_check_push(&window, &scan, fates, &unused), RHO_ERROR_STATE);
+    scan.time_us = 10;
+    assert_int_equal(rho_window_check_push(&window, &scan, fates, &unused), RHO_OK);
     assert_false(rho_window_accepts(&window, 9));
     assert_true(rho_window_accepts(&window, 10));
     assert_memory_equal(&window, &before, sizeof window);
@@ -453,6 +458,144 @@ static void an_extent_grows_and_has_sides(void **state)
     assert_float_equal(rho_extent_area_m2(&extent, 5.0f), 40.0f, 0.0f);
 }
 
+/* Plots are held in the order of their bins: each lies where its bin starts and the next begins. */
+static void a_place_has_one_bin(void **state)
+{
+    (void)state;
+    start(3);
+    for (uint32_t i = 0; i < PLOTS; i++) {
+        place(i, uniform(-1000.0f, 1000.0f), uniform(-500.0f, 500.0f), 5.0f);
+    }
+    push(0, PLOTS);
+    const struct rho_window_scan *scan = rho_window_scan_at(&window, 0);
+    assert_true(scan->bins_x * scan->bins_y > 1);
+    for (unsigned i = 0; i < scan->num_plots; i++) {
+        const struct rho_window_plot *plot = &scan->plots[i];
+        const unsigned bin = rho_window_bin_of(scan, plot->x_m, plot->y_m);
+        const struct rho_window_bins under =
+            rho_window_bins_under(scan, plot->x_m, plot->x_m, plot->y_m, plot->y_m);
+
+        assert_in_range(i, scan->bin_start[bin], scan->bin_start[bin + 1] - 1);
+        assert_int_equal(under.column_first, under.column_last);
+        assert_int_equal(under.row_first * scan->bins_x + under.column_first, bin);
+    }
+    const struct rho_window_bins all =
+        rho_window_bins_under(scan, -INFINITY, INFINITY, -INFINITY, INFINITY);
+    assert_int_equal(all.column_first, 0);
+    assert_int_equal(all.column_last, scan->bins_x - 1);
+    assert_int_equal(all.row_first, 0);
+    assert_int_equal(all.row_last, scan->bins_y - 1);
+    assert_int_equal(rho_window_bin_of(scan, 1e6f, 1e6f), scan->bins_x * scan->bins_y - 1);
+}
+
+#define DEGREE_RAD 0.017453293f
+
+/* A quarter of a turn, whose plots are at its middle. */
+static struct rho_scan quarter(int64_t time_us, float from_degree)
+{
+    struct rho_scan scan = scan_of(time_us, 1);
+
+    scan.sensor_id = 5;
+    scan.sector_from_rad = from_degree * DEGREE_RAD;
+    scan.sector_to_rad = (from_degree + 90.0f) * DEGREE_RAD;
+    place(0, 1000.0f * cosf((from_degree + 45.0f) * DEGREE_RAD),
+          1000.0f * sinf((from_degree + 45.0f) * DEGREE_RAD), 5.0f);
+    return scan;
+}
+
+/* Without RHO_SECTORS each sector is a scan of its own. */
+static void the_next_sector_of_a_turn_continues_its_scan(void **state)
+{
+    const struct rho_sensor turning = {.sensor_id = 5, .pd = 0.9f},
+                            moved = {.sensor_id = 5, .pd = 0.9f, .x_m = 30.0f};
+    uint32_t unused = 0;
+
+    (void)state;
+    start(3);
+    struct rho_scan scan = quarter(0, 0.0f);
+    assert_false(rho_window_continues(&window, &scan, &turning)); /* nothing is held */
+    assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
+    scan = quarter(1000000, 90.0f);
+    assert_int_equal(rho_window_continues(&window, &scan, &turning) != 0, RHO_SECTORS);
+    assert_false(rho_window_continues(&window, &scan, &moved));
+    scan.sensor_id = 6;
+    assert_false(
+        rho_window_continues(&window, &scan, &(struct rho_sensor){.sensor_id = 6, .pd = 0.9f}));
+    scan = quarter(1000000, 90.0f + 40.0f); /* an eighth of a turn is missing */
+    assert_int_equal(rho_window_continues(&window, &scan, &turning) != 0, RHO_SECTORS);
+    scan = quarter(1000000, 90.0f + 50.0f);
+    assert_false(rho_window_continues(&window, &scan, &turning));
+    scan = quarter(RHO_LIMIT_OFFSET_US + INT64_C(1), 90.0f);
+    assert_false(rho_window_continues(&window, &scan, &turning));
+}
+
+static void a_damaged_window_is_not_sound(void **state)
+{
+    (void)state;
+    start(3);
+    place(0, 1.0f, 2.0f, 1.0f);
+    place(1, 50.0f, 60.0f, 1.0f);
+    push(10, 2);
+    push(20, 1);
+    assert_true(rho_window_is_sound(&window));
+    before = window;
+    window.num_scans = RHO_MAX_SCANS + 1;
+    assert_false(rho_window_is_sound(&window));
+    window = before;
+    rho_window_scan_at(&window, 0)->num_plots = RHO_MAX_PLOTS + 1;
+    assert_false(rho_window_is_sound(&window));
+    window = before;
+    rho_window_scan_at(&window, 0)->plots[1].x_m = NAN;
+    assert_false(rho_window_is_sound(&window));
+    window = before;
+    rho_window_scan_at(&window, 0)->bin_start[1] = 9;
+    assert_false(rho_window_is_sound(&window));
+    window = before;
+    rho_window_scan_at(&window, 1)->time_us = 9; /* before the other one */
+    assert_false(rho_window_is_sound(&window));
+    window = before;
+    memset(&window, 0, sizeof window);
+    assert_false(rho_window_is_sound(&window));
+}
+
+/* A plot due north of the radar, which sees a fifth of the velocity's error times its own 2 m/s. */
+static void range_rates_are_compared_along_the_line_of_sight(void **state)
+{
+    const struct rho_sensor turning = {.sensor_id = 5, .x_m = 100.0f, .y_m = -200.0f};
+    const struct rho_window_place seen_place = {.x_m = 100.0f,
+                                                .y_m = 9800.0f,
+                                                .vx_mps = 70.0f,
+                                                .vy_mps = -30.0f,
+                                                .velocity_noise = {.xx_m2 = 9.0f, .yy_m2 = 16.0f},
+                                                .factor = 1.0f};
+    struct rho_window_range_rate seen = {.error_mps = 0.0f};
+    uint32_t unused = 0;
+
+    (void)state;
+    start(3);
+    place(0, 100.0f, 9800.0f, 5.0f);
+    plots[0].range_rate_mps = -25.0f;
+    plots[0].sigma_range_rate_mps = 2.0f;
+    struct rho_scan scan = scan_of(0, 1);
+    scan.sensor_id = 5;
+    scan.measures = RHO_MEASURES_RANGE_RATE;
+    assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
+    const struct rho_window_scan *held = rho_window_scan_at(&window, 0);
+    assert_true(rho_window_see_range_rate(held, &held->plots[0], &seen_place, &seen));
+    assert_true(fabsf(seen.error_mps - 5.0f) < 1e-3f);
+    assert_true(fabsf(seen.along[0]) < 1e-6f && fabsf(seen.along[1] - 1.0f) < 1e-6f);
+    assert_true(fabsf(seen.variance - 20.0f) < 0.02f); /* 16 and 2^2; 70 m/s turn by 5 m in 10 km */
+    assert_true(fabsf(rho_window_range_rate_distance2(held, &held->plots[0], &seen_place) -
+                      25.0f / seen.variance) < 1e-3f);
+
+    place(0, turning.x_m, turning.y_m, 5.0f);
+    scan.time_us = 1;
+    assert_int_equal(rho_window_push(&window, &scan, &turning, fates, &unused), RHO_OK);
+    held = rho_window_scan_at(&window, 1);
+    assert_false(rho_window_see_range_rate(held, &held->plots[0], &seen_place, &seen));
+    assert_true(rho_window_range_rate_distance2(held, &held->plots[0], &seen_place) == 0.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -467,6 +610,10 @@ int main(void)
         cmocka_unit_test(own_covariances_heights_and_range_rates_decide),
         cmocka_unit_test(covariances_follow_the_line_of_sight),
         cmocka_unit_test(an_extent_grows_and_has_sides),
+        cmocka_unit_test(a_place_has_one_bin),
+        cmocka_unit_test(the_next_sector_of_a_turn_continues_its_scan),
+        cmocka_unit_test(a_damaged_window_is_not_sound),
+        cmocka_unit_test(range_rates_are_compared_along_the_line_of_sight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

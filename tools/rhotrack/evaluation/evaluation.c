@@ -69,7 +69,7 @@ static struct pair_error error_of(size_t number, enum evaluation_motion motion,
     };
 }
 
-/* What it has done since its time before; that is now. */
+/* Notes how the target's velocity changed since its time before. */
 static void move_target(const struct evaluation *e, struct target_life *life,
                         const struct evaluation_point *target, int64_t time_us)
 {

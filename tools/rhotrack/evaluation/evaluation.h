@@ -29,7 +29,7 @@ struct evaluation_point {
 };
 
 /*
- * What a pair's target and track do: a filter can be right about one and wrong about another. A
+ * The motion of a pair of target and track; a filter's errors are measured for each motion. A
  * track that coasts counts as that alone; else the target turns (or speeds up) where its velocity
  * changed since the time before by more than the limit a second, and is straight where it did not.
  */
@@ -99,7 +99,7 @@ struct evaluation;
 
 struct evaluation *evaluation_start(double cutoff_m);
 
-/* What counts as a turn from the next time on. */
+/* Sets the least acceleration that counts as a turn, from the next time on. */
 void evaluation_set_turning(struct evaluation *e, double turning_mps2);
 
 /* One time, later than those before; no identity twice in a list. Either list may be empty. */

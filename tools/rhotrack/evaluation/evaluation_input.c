@@ -153,7 +153,7 @@ static struct points read_points(const struct table *table, const char *id_name,
     return points;
 }
 
-/* What one of the two does not say is not compared: heights, and velocities upwards. */
+/* Heights, and velocities upwards, are compared where both sides have them. */
 static void level(struct points *points, bool has_z, bool has_vz)
 {
     for (size_t i = 0; i < points->count; i++) {

@@ -24,9 +24,9 @@ struct timing {
 struct node_core {
     const struct parameters *parameters;
     struct node_core_events events;
-    struct pipeline chain;
+    struct pipeline pipeline;
     struct rho_node node;
-    struct feed_order order;
+    struct sequence_counts order;
     struct timing timing; /* of all steps */
     struct rho_scan_assembler assembler;
     struct rho_frames frames;
@@ -35,10 +35,10 @@ struct node_core {
 
 /* ---- Start ---- */
 
-static void open_chain(struct node_core *core)
+static void open_pipeline(struct node_core *core)
 {
-    pipeline_open(&core->chain, core->parameters);
-    pipeline_open_passive(&core->chain, core->parameters);
+    pipeline_open(&core->pipeline, core->parameters);
+    pipeline_open_passive(&core->pipeline, core->parameters);
 }
 
 static void open_frames(struct node_core *core)
@@ -59,10 +59,10 @@ static void open_node(struct node_core *core, int32_t epoch)
 {
     const struct rho_node_config config = {
         .assembler = &core->assembler,
-        .tracker = core->chain.tracker,
-        .report = core->chain.report,
+        .tracker = core->pipeline.tracker,
+        .report = core->pipeline.report,
         .frames = &core->frames,
-        .passive = core->chain.passive,
+        .passive = core->pipeline.passive,
         .waiting = core->waiting,
         .waiting_max = WAITING_MAX,
         .passive_range_max_m = (float)core->parameters->value[PARAMETER_RANGE_MAX_M],
@@ -78,43 +78,43 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
 
     core->parameters = parameters;
     core->events = *events;
-    core->chain = pipeline_start();
-    core->chain.is_live = true;
-    memset(core->chain.report, 0, sizeof *core->chain.report);
-    open_chain(core);
+    core->pipeline = pipeline_start();
+    core->pipeline.is_live = true;
+    memset(core->pipeline.report, 0, sizeof *core->pipeline.report);
+    open_pipeline(core);
     open_frames(core);
-    parameters_to_feed(parameters, &core->assembler);
+    parameters_to_assembler(parameters, &core->assembler);
     open_node(core, epoch);
     return core;
 }
 
 enum pipeline_restored node_core_restore(struct node_core *core, const char *path)
 {
-    enum pipeline_restored restored = pipeline_restore(&core->chain, core->parameters, path);
+    enum pipeline_restored restored = pipeline_restore(&core->pipeline, core->parameters, path);
 
-    open_node(core, core->node.epoch); /* the chain has other objects */
+    open_node(core, core->node.epoch); /* the pipeline has other objects */
     core->node.is_restored = restored == PIPELINE_RESTORED;
     return restored;
 }
 
 bool node_core_save(const struct node_core *core, const char *path)
 {
-    return pipeline_save(&core->chain, path);
+    return pipeline_save(&core->pipeline, path);
 }
 
 /* Counters and the clutter map go on across a clock that was set. */
 static void start_anew(struct node_core *core)
 {
-    const struct rho_tracker_counters counters = core->chain.tracker->counters;
-    const struct rho_tracker_work work = core->chain.tracker->work;
+    const struct rho_tracker_counters counters = core->pipeline.tracker->counters;
+    const struct rho_tracker_work work = core->pipeline.tracker->work;
     struct rho_clutter_map *clutter = must_alloc(sizeof *clutter);
 
-    *clutter = core->chain.tracker->clutter_map;
-    pipeline_open(&core->chain, core->parameters);
-    clutter_file_carry(&core->chain.tracker->clutter_map, clutter);
+    *clutter = core->pipeline.tracker->clutter_map;
+    pipeline_open(&core->pipeline, core->parameters);
+    clutter_file_carry(&core->pipeline.tracker->clutter_map, clutter);
     free(clutter);
-    core->chain.tracker->counters = counters;
-    core->chain.tracker->work = work;
+    core->pipeline.tracker->counters = counters;
+    core->pipeline.tracker->work = work;
     core->node.epoch = core->node.epoch == INT32_MAX ? 0 : core->node.epoch + 1;
 }
 
@@ -126,7 +126,7 @@ static void send_step(const struct node_core *core)
     size_t size;
 
     for (uint16_t part = 0; part < rho_node_num_messages(&core->node); part++) {
-        if (rho_node_publish(&core->node, core->chain.initiator, part, buffer, sizeof buffer,
+        if (rho_node_publish(&core->node, core->pipeline.initiator, part, buffer, sizeof buffer,
                              &size) == RHO_OK) {
             core->events.send(core->events.context, rho_node_channel(&core->node, part), buffer,
                               size);
@@ -138,7 +138,7 @@ static void step(struct node_core *core, enum rho_node_due due)
 {
     const int64_t start_us = clock_us();
     struct rho_initiator *initiator =
-        due == RHO_NODE_SCAN ? pipeline_initiator_of(&core->chain, &core->node.scan) : NULL;
+        due == RHO_NODE_SCAN ? pipeline_initiator_of(&core->pipeline, &core->node.scan) : NULL;
     int64_t took_us;
 
     if (rho_node_step(&core->node, initiator) != RHO_OK) {
@@ -150,7 +150,7 @@ static void step(struct node_core *core, enum rho_node_due due)
     core->timing.sum_us += took_us;
     core->timing.max_us = took_us > core->timing.max_us ? took_us : core->timing.max_us;
     if (core->events.stepped) {
-        core->events.stepped(core->events.context, core->chain.report);
+        core->events.stepped(core->events.context, core->pipeline.report);
     }
     send_step(core);
 }
@@ -177,7 +177,7 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
     while (!has_room) {
         before = core->assembler.counters;
         has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
-        feed_order_note(&core->order, &before, &core->assembler);
+        sequence_counts_note(&core->order, &before, &core->assembler);
         run(core, now_us);
     }
 }
@@ -211,7 +211,7 @@ static void send_sensors(const struct node_core *core)
     size_t size;
 
     for (uint16_t part = 0; part < rho_publish_num_sensor_parts(&core->assembler); part++) {
-        if (rho_publish_sensors(&core->assembler, core->chain.tracker, core->node.now_us, part,
+        if (rho_publish_sensors(&core->assembler, core->pipeline.tracker, core->node.now_us, part,
                                 &list) != RHO_OK) {
             return;
         }
@@ -249,7 +249,7 @@ void node_core_status(struct node_core *core, const struct node_core_losses *los
     uint8_t buffer[RHO_MESSAGE_STATUS_MAX_SIZE];
     size_t size;
 
-    rho_node_status(&core->node, core->chain.initiator, &status);
+    rho_node_status(&core->node, core->pipeline.initiator, &status);
     status.fragments_refused = refused < INT32_MAX ? (int32_t)refused : INT32_MAX;
     status.origin_lat_1e7deg = round_origin(core->parameters, PARAMETER_ORIGIN_LAT_DEG, 1e7);
     status.origin_lon_1e7deg = round_origin(core->parameters, PARAMETER_ORIGIN_LON_DEG, 1e7);
@@ -267,8 +267,8 @@ void node_core_send_clutter(const struct node_core *core)
     uint8_t buffer[RHO_MESSAGE_CLUTTER_MAP_MAX_SIZE];
     size_t size;
 
-    for (uint16_t part = 0; part < rho_publish_num_clutter_parts(core->chain.tracker); part++) {
-        if (rho_publish_clutter(core->chain.tracker, part, &list) != RHO_OK) {
+    for (uint16_t part = 0; part < rho_publish_num_clutter_parts(core->pipeline.tracker); part++) {
+        if (rho_publish_clutter(core->pipeline.tracker, part, &list) != RHO_OK) {
             return;
         }
         list.scan = core->node.step;
@@ -285,8 +285,8 @@ unsigned node_core_sensors(const struct node_core *core,
     unsigned count = 0;
 
     for (unsigned place = 0; place < RHO_MAX_SENSORS; place++) {
-        count += rho_publish_sensor(&core->assembler, core->chain.tracker, core->node.now_us, place,
-                                    &sensors[count]) != 0;
+        count += rho_publish_sensor(&core->assembler, core->pipeline.tracker, core->node.now_us,
+                                    place, &sensors[count]) != 0;
     }
     return count;
 }
@@ -310,12 +310,12 @@ int node_core_follow_scans(const struct node_core *core)
 
 const struct rho_report *node_core_report(const struct node_core *core)
 {
-    return core->chain.report;
+    return core->pipeline.report;
 }
 
 struct rho_clutter_map *node_core_clutter(struct node_core *core)
 {
-    return &core->chain.tracker->clutter_map;
+    return &core->pipeline.tracker->clutter_map;
 }
 
 const struct rho_scan_assembler_counters *node_core_assembler(const struct node_core *core)
@@ -330,7 +330,7 @@ const struct rho_frames_counters *node_core_frames(const struct node_core *core)
 
 const struct rho_tracker_counters *node_core_tracker(const struct node_core *core)
 {
-    return &core->chain.tracker->counters;
+    return &core->pipeline.tracker->counters;
 }
 
 const struct rho_node_counters *node_core_counters(const struct node_core *core)
@@ -338,7 +338,7 @@ const struct rho_node_counters *node_core_counters(const struct node_core *core)
     return &core->node.counters;
 }
 
-const struct feed_order *node_core_order(const struct node_core *core)
+const struct sequence_counts *node_core_order(const struct node_core *core)
 {
     return &core->order;
 }
@@ -355,11 +355,11 @@ double node_core_max_us(const struct node_core *core)
 
 void node_core_close(struct node_core *core)
 {
-    pipeline_free(&core->chain);
+    pipeline_free(&core->pipeline);
     free(core);
 }
 
 void node_core_print_learned(const struct node_core *core, FILE *to)
 {
-    learned_print(core->chain.tracker, to);
+    learned_print(core->pipeline.tracker, to);
 }

@@ -17,7 +17,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "io/scans/late_scans.h"
+#include "io/scans/sequence_counts.h"
 #include "pipeline/pipeline_snapshot.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
@@ -67,7 +67,7 @@ int64_t node_core_due_us(const struct node_core *core);
 /* The end: all that is there is stepped. */
 void node_core_flush(struct node_core *core);
 
-/* What its surroundings lost so far. */
+/* Messages that the node's inputs and outputs have lost so far. */
 struct node_core_losses {
     uint64_t datagrams_refused;   /* by the transport */
     uint64_t reports_not_printed; /* standard output took no more */
@@ -84,7 +84,7 @@ const struct rho_tracker_counters *node_core_tracker(const struct node_core *cor
 const struct rho_node_counters *node_core_counters(const struct node_core *core);
 
 /* Scans that came out of sequence, and were used. */
-const struct feed_order *node_core_order(const struct node_core *core);
+const struct sequence_counts *node_core_order(const struct node_core *core);
 
 /*
  * The sensors that are heard, as RHO_SENSORS says it, with the time of the last call that told it.
@@ -111,7 +111,7 @@ double node_core_max_us(const struct node_core *core);
 
 void node_core_close(struct node_core *core);
 
-/* What was learned of sensors that are not as stated (learned.h). */
+/* Learned values of sensors that are not as stated (learned.h). */
 void node_core_print_learned(const struct node_core *core, FILE *to);
 
 #endif

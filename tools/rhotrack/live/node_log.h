@@ -34,8 +34,8 @@ uint64_t node_log_left_out(struct node_log *log);
 bool node_log_watch(struct node_log *log);
 
 /*
- * What is in the queue goes out, if that is done by until_us of clock_us; what is not counts as
- * left out.
+ * Writes the rest of the queue until until_us of clock_us; events that are left then count as left
+ * out.
  */
 void node_log_end(struct node_log *log, int64_t until_us);
 

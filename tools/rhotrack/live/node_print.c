@@ -20,7 +20,7 @@ enum { PERIOD_US = 100000, HEAD_LINES = 4, ROWS_DEFAULT = 24 };
 
 /* ---- Standard output that may be full ---- */
 
-/* What can be written without waiting: of a pipe that is ready so much fits. */
+/* Bytes that can be written without waiting: a pipe that is ready takes as many. */
 enum { PIECE_BYTES = 4096, LOOK_MS = 100 };
 
 /* A text to fill; finish_text hands it on. */
@@ -157,7 +157,7 @@ static int count_status(const struct rho_report *report, enum rho_track_status s
     return count;
 }
 
-/* What stands on standard error where there is no table. */
+/* Lines on standard error where there is no table. */
 static void print_sensors(const struct node_core *core, FILE *out)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
@@ -176,7 +176,7 @@ static void print_head(const struct node_core *core, const char *url, FILE *out)
 {
     const struct rho_report *report = node_core_report(core);
     const struct rho_scan_assembler_counters *assembler = node_core_assembler(core);
-    const struct feed_losses losses = feed_order_losses(node_core_order(core), assembler);
+    const struct scan_losses losses = sequence_counts_losses(node_core_order(core), assembler);
 
     fprintf(out, "\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     fprintf(out,

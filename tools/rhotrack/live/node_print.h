@@ -37,7 +37,7 @@ bool node_print_show(struct node_print *print, const struct node_core *core, con
                      bool is_end);
 
 /*
- * What is left goes out, if that is done by until_us of clock_us; what is not counts as left out.
+ * Writes the rest until until_us of clock_us; reports that are left then count as left out.
  */
 void node_print_end(struct node_print *print, int64_t until_us);
 

@@ -24,7 +24,7 @@ struct node_sensors {
     struct node_sensor of[RHO_MAX_SENSORS];
 };
 
-/* Those of node_core_sensors that have sent follow_scans scans. Returns how many. */
+/* The sensors of node_core_sensors that have sent follow_scans scans. Returns their number. */
 unsigned node_sensors_established(const struct node_core *core,
                                   struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
 

@@ -8,7 +8,7 @@ void node_tally(const struct node_core *core, const struct transport *transport,
     const struct rho_frames_counters *frames = node_core_frames(core);
     const struct rho_tracker_counters *tracker = node_core_tracker(core);
     const struct rho_node_counters *own = node_core_counters(core);
-    const struct feed_losses losses = feed_order_losses(node_core_order(core), assembler);
+    const struct scan_losses losses = sequence_counts_losses(node_core_order(core), assembler);
     struct transport_counters network = transport_counters(transport);
     const struct node_tally all[NODE_TALLIES] = {
         {"datagrams refused (fragments, or no LCM)", network.refused, NODE_TALLY_FAULT},

@@ -14,7 +14,7 @@
 #include "live/transport_parts.h"
 #include "rhotrack/udpm.h"
 
-/* What waits inside liblcm; it drops the newest beyond. Longer messages are none of rhotrack's. */
+/* Capacity of liblcm's queue, which drops newer messages; rhotrack's own are never longer. */
 enum { QUEUE_MESSAGES = 10000, MESSAGE_BYTES = 65536 };
 
 struct provider {

@@ -289,7 +289,7 @@ static int64_t read_control(struct transport *transport, struct msghdr *header)
                                 : transport_time_us(transport, time_us);
 }
 
-/* What this program has sent comes back: no fault. */
+/* Messages that this program has sent come back: no fault. */
 static bool is_own(const struct udpm *udpm, const struct sockaddr_in *source)
 {
     struct sockaddr_in own = {.sin_port = 0};

@@ -9,7 +9,7 @@
 
 #define MAP_KILOMETRES_FROM_M 4000.0
 
-/* What must be seen, in metres. */
+/* The area that must be visible, in metres. */
 struct map_box {
     double x_min_m, x_max_m, y_min_m, y_max_m;
 };

@@ -32,7 +32,7 @@ static struct place *find_sensor(struct place *sensors, size_t count, int32_t se
     return NULL;
 }
 
-/* Those that have echoes. */
+/* Sensors that have echoes. */
 static struct place *find_sensors(const struct clutter_echo *echoes, size_t count,
                                   const struct parameters *parameters, size_t *num_sensors)
 {
@@ -166,7 +166,7 @@ static void put_echoes(const struct map *map, const struct clutter_echo *echoes,
     fprintf(map->script, "EOD\n");
 }
 
-/* What the sizes mean: 10, 100, ... as far as there are so many hits. */
+/* The legend of sizes: 10, 100, ... up to the largest number of hits. */
 static void put_legend(const struct map *map, const struct clutter_echo *echoes, size_t count)
 {
     unsigned most = 0, hits = 10;

@@ -87,7 +87,7 @@ static int by_time(const void *a, const void *b)
     return (one->id > other->id) - (one->id < other->id);
 }
 
-/* Those of tracks count that are confirmed. */
+/* The points in the order of time, without those of tentative tracks. */
 static struct plot_points in_order_of_time(const struct plot_points *points)
 {
     struct plot_points sorted = {.list = must_calloc(points->count + 1, sizeof *sorted.list)};

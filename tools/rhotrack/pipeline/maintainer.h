@@ -30,7 +30,7 @@ struct maintainer_estimate {
     unsigned num_hypotheses; /* best; else 1 */
 };
 
-/* What the parameters say; the gate of velocities needs scans that measure them. */
+/* Opened as the parameters say; the gate of velocities needs scans that measure them. */
 struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_estimation,
                                   const struct parameters *parameters);
 void maintainer_free(struct maintainer *maintainer);

@@ -8,10 +8,10 @@
 
 #include "settings/parameters.h"
 
-/* Whose plots start tracks together: the parameter initiators. */
+/* Which sensors' plots start tracks together: the parameter initiators. */
 enum { INITIATORS_PAIRS, INITIATORS_SENSOR, INITIATORS_ONE };
 
-/* Who starts the tracks of a sensor, or of the two that share its window (pipeline_window_of). */
+/* The initiator of a sensor, or of the sensors that share its window (pipeline_window_of). */
 struct pipeline_initiator {
     int32_t sensor_id;
     struct rho_initiator *initiator;

@@ -8,8 +8,7 @@
 #define DIMENSIONS_MAX 7
 
 /*
- * What was measured less what was predicted; rows: its derivative by the state; noise: its
- * covariance.
+ * The measurement less its prediction; rows: the derivative by the state; noise: the covariance.
  */
 struct innovation {
     int num;

@@ -20,7 +20,7 @@ struct spread {
     double noise2[AXES], num_noise; /* variances of the plots, summed */
 };
 
-/* What one sensor's scans have told. */
+/* Counts from one sensor's scans. */
 struct seen {
     int32_t sensor_id;
     double scans, plots;

@@ -58,7 +58,7 @@ static double median(double *values, size_t count)
 
 /* ---- noise ---- */
 
-/* What an axis' residuals are of: metres, or radians. */
+/* The unit of an axis' residuals: metres, or radians. */
 static double value_of(const struct residual *residual, bool is_round)
 {
     return fabs(residual->axis == 1 && !is_round ? residual->off_m / residual->range_m

@@ -6,8 +6,10 @@
 
 #include "registration/register_data.h"
 
-/* What a plot lies beside its piece's path, along an axis, as if that plot had not been used; its
- * variance is that of the noise there. */
+/*
+ * The distance along an axis of a plot from its piece's path, fitted without that plot; its
+ * variance is that of the noise there.
+ */
 struct residual {
     size_t piece, track;
     int axis; /* 0: along the line of sight, 1: across */

@@ -75,7 +75,7 @@ bool register_match(struct register_data *data, double gate_m, double misfit);
 /* Targets that several radars have tracks of. */
 size_t register_num_common(const struct register_data *data);
 
-/* What the least squares found. register_solve.c */
+/* The result of the least squares. register_solve.c */
 struct solution {
     size_t pieces, pieces_left_out, plots;
     double misfit, speed_mps;

@@ -13,7 +13,7 @@
 void register_print(const struct register_result *result, FILE *out);
 void register_print_json(const struct register_result *result, uint64_t rows_skipped);
 
-/* Those that are known; path as of output_open. */
+/* Writes the biases that are known; path as of output_open. */
 void register_write_ini(const struct register_result *result, const char *path);
 
 /* Is any bias of any radar known? */

@@ -228,8 +228,8 @@ static double residual(const struct piece *piece, const struct opened *opened, i
 }
 
 /*
- * What a piece says: B'B - B'A (A'A)^-1 A'B of all biases, and -B'e. `mixed` is A'B, a column for
- * each bias.
+ * Adds a piece's normal equations: B'B - B'A (A'A)^-1 A'B of all biases, and -B'e. `mixed` is A'B,
+ * a column for each bias.
  */
 static void add_projected(const struct piece_plot *plots, const struct opened *opened,
                           const struct piece *piece, const double *factor, double *mixed,

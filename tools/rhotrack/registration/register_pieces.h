@@ -37,7 +37,7 @@ struct pieces {
 struct pieces pieces_cut(const struct register_data *data);
 void pieces_free(struct pieces *pieces);
 
-/* What is left of a piece's degrees of freedom. */
+/* The remaining degrees of freedom of a piece. */
 double piece_freedom(const struct piece *piece);
 
 /* Normal equations of all radars' biases: num = NUM_REGISTER_KINDS x radars, the matrix by rows. */

@@ -12,7 +12,7 @@
 /* Beyond these nobody believes a bias (types.h): what the plots say nothing of stays within. */
 static const double prior_sigma[NUM_REGISTER_KINDS] = {
     (double)RHO_LIMIT_BIAS_M, (double)RHO_LIMIT_BIAS_RAD, (double)RHO_LIMIT_BIAS_S};
-/* What biases are counted in, so that the equations have entries of a size. */
+/* Units of the biases, which give the equations entries of like size. */
 static const double unit[NUM_REGISTER_KINDS] = {10.0, 1e-3, 0.1};
 
 #define STEPS_MAX 30
@@ -35,7 +35,7 @@ static void free_normal(struct normal *normal)
     free(normal->right);
 }
 
-/* What is not to be changed: its equation says so. */
+/* Holds a bias at its value by an equation of its own. */
 static void hold(struct normal *normal, size_t index)
 {
     for (size_t i = 0; i < normal->num; i++) {

@@ -37,7 +37,7 @@ struct scene_coverage {
     double from_rad, to_rad;
 };
 
-/* What a tracker is told of a sensor, where that is not the truth. */
+/* The description of a sensor that a tracker is given, where it is not the truth. */
 struct scene_told {
     double x_m, y_m, pd;
     double sigma_m, sigma_mps, sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps, sigma_rad;

@@ -39,7 +39,7 @@ static bool arrives_late(const struct scene *scene)
     return false;
 }
 
-/* What all rows of a scan end with, but for the target. */
+/* The last cells of all rows of a scan, but for the target. */
 static void write_tail(const struct scene_run *run, const struct scene_scan *scan, FILE *file)
 {
     fprintf(file, ",%zu", scan->number + 1);

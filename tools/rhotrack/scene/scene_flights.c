@@ -277,7 +277,7 @@ static struct scene_path *next_slot(const struct sky *sky)
     return best;
 }
 
-/* Those that ended before the scene are not kept. */
+/* Flights that ended before the scene are not kept. */
 static void close_flight(struct scene_path *flight)
 {
     if (!(flight->until_s > 0.0)) {

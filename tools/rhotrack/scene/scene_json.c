@@ -280,7 +280,7 @@ static const char *member_name(size_t index)
     return member ? member->string : NULL;
 }
 
-/* What stands there instead of the first step that leads nowhere. */
+/* Refuses an assignment whose path does not exist, with a hint at the nearest name. */
 static _Noreturn void fail_step(const char *assignment, const cJSON *item, const char *key)
 {
     const char *hint = NULL;

@@ -90,7 +90,7 @@ bool json_numbers(struct json_object *object, const char *key, size_t count, dou
 size_t json_choice(struct json_object *object, const char *key, const char *const *words,
                    size_t count, size_t otherwise);
 
-/* What must be there: exit 2 where it is not. */
+/* A member that is required: exit 2 where it is missing. */
 void json_require(struct json_object *object, const char *key);
 
 /* Of two keys that exclude each other: exit 2 where both are there. */

@@ -35,7 +35,7 @@ struct scene_path {
     struct motion *shakes;
 };
 
-/* Those of a run, in memory that grows; a target's identity is its index. */
+/* The paths of a run, in memory that grows; a target's identity is its index. */
 struct scene_paths {
     size_t count, room;
     struct scene_path *paths;
@@ -126,7 +126,7 @@ struct scene_targets {
     struct target_item *items;
 };
 
-/* What paths are drawn of. */
+/* The distributions from which paths are drawn. */
 struct target_draft {
     const char *file;
     const struct target_item *item;

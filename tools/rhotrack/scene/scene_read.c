@@ -105,7 +105,7 @@ static struct scene_curve read_curve(struct json_object *object, const char *key
 
 /* ---- sensors ---- */
 
-/* What a tracker is told is the truth but for its biases, where nothing else is said. */
+/* By default a tracker is told the truth about a sensor, but for its biases. */
 static void read_told(struct json_object *object, struct scene_sensor *sensor)
 {
     struct scene_told *told = &sensor->told;

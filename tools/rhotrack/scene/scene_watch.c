@@ -123,7 +123,7 @@ static bool is_lost(const struct scene *scene, size_t sensor, double start_s, do
 
 /* ---- one sensor at work ---- */
 
-/* What the sensor meets when it passes a target. */
+/* The state of a target when the sensor's beam passes it. */
 struct sighting {
     double t_s;
     struct motion at;
@@ -712,7 +712,7 @@ static double mean_plots(const struct scene *scene, const struct scene_clutter *
            clutter->plots_per_km2 * (box_m[1] - box_m[0]) * (box_m[3] - box_m[2]) * 1e-6;
 }
 
-/* What is drawn anew each scan. */
+/* Values drawn anew each scan. */
 static void watch_clutter(struct watch *watch, size_t source)
 {
     const struct scene_clutter *clutter = &watch->scene->clutter[source];

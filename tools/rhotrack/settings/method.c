@@ -136,7 +136,7 @@ struct rho_classic_config method_classic(enum method method, const struct parame
     return config;
 }
 
-/* What both methods of bearings take. */
+/* Parameters of both methods for bearings. */
 static void check_bearings(const struct parameters *parameters, int rho_cells, int theta_cells)
 {
     const double *value = parameters->value;

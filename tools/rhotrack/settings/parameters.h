@@ -160,7 +160,7 @@ enum parameter_id {
     PARAMETERS(X)
 #undef X
         NUM_PARAMETERS,
-    /* What experiments in C draw scenarios with (scenario.h); no user sets it. */
+    /* Settings of the experiments' scenarios (scenario.h); no user sets them. */
     PARAMETER_CLUTTER_PER_KM2 = NUM_PARAMETERS,
     PARAMETER_CLUTTER_PER_SCAN,
     PARAMETER_TRUE_PD,
@@ -270,7 +270,7 @@ bool parameters_has_origin(const struct parameters *parameters);
 struct local_frame;
 struct local_frame *parameters_open_origin(const struct parameters *parameters);
 
-/* What is said where it is not: "origin_lat_deg and origin_lon_deg are not set ..." */
+/* The message for a missing origin: "origin_lat_deg and origin_lon_deg are not set ..." */
 extern const char parameters_no_origin[];
 
 /* The sensor's place on the earth (lat_deg, lon_deg, alt_m); false where it was not said so. */
@@ -294,7 +294,7 @@ void parameters_set_gate(struct parameters *parameters, const char *gate);
 bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
                        enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
 
-/* What the table says of a parameter, for the command `config`. */
+/* The table's entry of a parameter, for the command `config`. */
 struct parameter_text {
     const char *name, *unit, *text;
     double value, min, max;
@@ -346,7 +346,7 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
                               struct rho_sensor *sensor);
 
 /*
- * What several of the library's configs have in common; checked as parameters_check does, exit 2.
+ * The settings from which the library's configs follow; checked as parameters_check does, exit 2.
  */
 struct rho_settings parameters_settings(const struct parameters *parameters);
 
@@ -358,6 +358,7 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
  * The same for what takes the sensors' messages, with every sensor that anything was said of. Exit
  * 1 where it refuses.
  */
-void parameters_to_feed(const struct parameters *parameters, struct rho_scan_assembler *feed);
+void parameters_to_assembler(const struct parameters *parameters,
+                             struct rho_scan_assembler *assembler);
 
 #endif

@@ -35,7 +35,8 @@ static struct rho_scan_assembler_sensor describe(const struct parameters *parame
 /* A sensor that nobody described: one beyond those that can have messages. */
 #define NO_SENSOR INT32_MAX
 
-void parameters_to_feed(const struct parameters *parameters, struct rho_scan_assembler *feed)
+void parameters_to_assembler(const struct parameters *parameters,
+                             struct rho_scan_assembler *assembler)
 {
     const double *value = parameters->value;
     struct rho_sensor any;
@@ -53,13 +54,13 @@ void parameters_to_feed(const struct parameters *parameters, struct rho_scan_ass
     enum rho_status status;
 
     memcpy(config.allowed, parameters->allowed, sizeof config.allowed);
-    status = rho_scan_assembler_init(feed, sizeof *feed, &config);
+    status = rho_scan_assembler_init(assembler, sizeof *assembler, &config);
 
     for (size_t i = 0; i < parameters->num_sensors && status == RHO_OK; i++) {
         struct rho_scan_assembler_sensor known =
             describe(parameters, parameters->sensors[i].sensor_id);
 
-        status = rho_scan_assembler_set_sensor(feed, &known);
+        status = rho_scan_assembler_set_sensor(assembler, &known);
     }
-    must_succeed(status, "feed");
+    must_succeed(status, "assembler");
 }

@@ -98,7 +98,7 @@ static bool says_noise(const struct parameters *parameters)
     return says;
 }
 
-/* What nobody has said is a default that knows nothing of the radar: it may be far off. */
+/* A value that was not set is a default, which knows nothing of the radar: it may be far off. */
 static void set_bounds(const struct parameters *parameters, struct rho_tracker_config *config)
 {
     const double *value = parameters->value;

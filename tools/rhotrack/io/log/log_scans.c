@@ -9,7 +9,7 @@
 
 #include "base/common.h"
 #include "io/log/lcm_log.h"
-#include "io/scans/late_scans.h"
+#include "io/scans/sequence_counts.h"
 #include "rhotrack/message.h"
 
 /* of rho_scan_assembler_config */
@@ -47,15 +47,15 @@ struct log_scans {
     const char *path;
     const struct parameters *parameters;
     bool is_held; /* by the caller */
-    struct rho_scan_assembler *feed;
-    struct feed_order order;
+    struct rho_scan_assembler *assembler;
+    struct sequence_counts order;
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
     int64_t clock_us;   /* the latest event's */
     int64_t heard_us;   /* the last scan's last part's */
-    bool has_event;     /* the feed has not taken it yet */
+    bool has_event;     /* the assembler has not taken it yet */
     bool is_over;       /* there are no more events */
-    uint64_t num_given; /* by the feed */
+    uint64_t num_given; /* by the assembler */
     uint64_t first;     /* what it gives before this one is left out */
 };
 
@@ -73,8 +73,8 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
 }
 
 /*
- * What is held behind the feed, with all the room there is, need not take the feed's for hold_ms:
- * there late scans would be dropped for want of it. Nor are they late before that.
+ * The caller holds the scans, with all the room there is: the assembler, which has less and would
+ * drop out-of-sequence scans, holds none, and takes none for out of sequence too early.
  */
 static void wait_long(struct parameters *parameters, bool is_held)
 {
@@ -86,28 +86,29 @@ static void wait_long(struct parameters *parameters, bool is_held)
         fmin(parameters->value[PARAMETER_LATE_MAX_S] + hold_ms * 1e-3, LATE_MAX_S);
 }
 
-/* The feed as it was before the first event. */
+/* The assembler as it was before the first event. */
 static void start(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
     wait_long(&parameters, scans->is_held);
-    parameters_to_feed(&parameters, scans->feed);
-    scans->feed->config.is_record = 1;
-    scans->order = (struct feed_order){0};
+    parameters_to_assembler(&parameters, scans->assembler);
+    scans->assembler->config.is_record = 1;
+    scans->order = (struct sequence_counts){0};
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
     scans->clock_us = INT64_MIN;
     scans->num_given = 0;
 }
 
-/* Offers the event to the feed, which may have no room before something is taken from it. */
+/* Offers the event to the assembler, which may have no room before something is taken from it. */
 static void offer(struct log_scans *scans)
 {
     const struct lcm_log_event *event = &scans->event;
 
-    scans->has_event = feed_order_take(&scans->order, scans->feed, event->channel, event->data,
-                                       event->size, event->utime) == RHO_ERROR_CAPACITY;
+    scans->has_event =
+        sequence_counts_take(&scans->order, scans->assembler, event->channel, event->data,
+                             event->size, event->utime) == RHO_ERROR_CAPACITY;
 }
 
 static void next_event(struct log_scans *scans)
@@ -132,7 +133,7 @@ static bool take_next(struct log_scans *scans, struct rho_scan_assembler_item *i
         if (scans->has_event) {
             offer(scans);
         }
-        if (rho_scan_assembler_next(scans->feed, now_us(scans), item)) {
+        if (rho_scan_assembler_next(scans->assembler, now_us(scans), item)) {
             scans->num_given++;
             scans->heard_us = item->heard_us;
             return true;
@@ -191,7 +192,7 @@ static void look_through(struct log_scans *scans, uint64_t bytes, bool keep_goin
 /* ---- What was wrong ---- */
 
 static void say_counters(const char *path, const struct rho_scan_assembler_counters *counters,
-                         const struct feed_losses *losses)
+                         const struct scan_losses *losses)
 {
     const struct {
         uint32_t count;
@@ -237,14 +238,15 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     scans->path = path;
     scans->parameters = parameters;
     scans->is_held = is_held;
-    scans->feed = must_alloc(sizeof *scans->feed);
+    scans->assembler = must_alloc(sizeof *scans->assembler);
     start(scans);
     look_through(scans, file_bytes(path), keep_going);
     if (is_told) {
-        const struct feed_losses losses = feed_order_losses(&scans->order, &scans->feed->counters);
+        const struct scan_losses losses =
+            sequence_counts_losses(&scans->order, &scans->assembler->counters);
 
         lcm_log_report(scans->reader);
-        say_counters(path, &scans->feed->counters, &losses);
+        say_counters(path, &scans->assembler->counters, &losses);
     }
     if (scans->num_given == 0) {
         fail(EXIT_USAGE, "%s: not one scan of a sensor (channels %s<n>, %s<n>, %s<n>)", path,
@@ -289,6 +291,6 @@ uint64_t log_scans_position(const struct log_scans *scans)
 void log_scans_close(struct log_scans *scans)
 {
     lcm_log_close(scans->reader);
-    free(scans->feed);
+    free(scans->assembler);
     free(scans);
 }

@@ -23,7 +23,7 @@ unsigned log_scans_kinds(const char *path);
 /*
  * A log's scans one by one, in the order in which the tracker would step them, in memory that does
  * not grow with the log: opening looks at all of them once. With is_told, what was skipped goes to
- * standard error, and in one line every counter of the feed that tells of something wrong. Exit 2
+ * standard error, and in one line every counter of the assembler that tells of a fault. Exit 2
  * where there is no scan, or the sensors' common clock starts anew at a time before (two recordings
  * in one): with keep_going what came before is left out instead. Where it goes on at a later time
  * (a long pause) so do the scans, but for the follow_scans - 1 that it takes to be believed. With
@@ -48,7 +48,7 @@ int64_t log_scans_heard_us(const struct log_scans *scans);
 
 /*
  * hold_ms, and as long as sensors' clocks may be apart: so long scans wait for earlier ones. The
- * feed's room may not last for it.
+ * assembler's room may not last for it.
  */
 int64_t log_scans_hold_us(const struct parameters *parameters);
 

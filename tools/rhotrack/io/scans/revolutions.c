@@ -70,7 +70,7 @@ static bool goes_on(struct looker *looker, const struct rho_scan *scan,
         }
     }
     bare.num_plots = 0;
-    is_further = rho_window_goes_on(looker->window, &bare, sensor) != 0;
+    is_further = rho_window_continues(looker->window, &bare, sensor) != 0;
     if (rho_window_push(looker->window, &bare, sensor, NULL, &left_unused) != RHO_OK) {
         fail(EXIT_USAGE, "sensor %" PRId32 ": the sector %g .. %g rad is none", scan->sensor_id,
              (double)scan->sector_from_rad, (double)scan->sector_to_rad);

@@ -2,7 +2,7 @@
 /*
  * revolutions: the last scans of files as one batch, in which the sectors of a turn are one scan.
  *
- * Which sectors are one turn says the library's window (rho_window_goes_on), for each sensor by
+ * Which sectors are one turn says the library's window (rho_window_continues), for each sensor by
  * itself. The time of a turn is its first sector's, its plots' own times count from there. A scan
  * of the whole circle is a turn. What comes behind a later scan of its sensor (files in the order
  * of reception) is left out.

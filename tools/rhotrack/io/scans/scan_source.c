@@ -331,8 +331,8 @@ static bool take_of_log(struct scan_source *source, struct sensor_scan *scan)
 }
 
 /*
- * A feed has room for RHO_MAX_OPEN_SCANS, and does not wait for a sensor of which it has not heard:
- * what goes out of it too early is put in order here.
+ * An assembler has room for RHO_MAX_OPEN_SCANS, and does not wait for a sensor of which it has not
+ * heard: scans that leave it too early are put in order here.
  */
 static bool next_of_log(struct scan_source *source, struct sensor_scan *scan)
 {
