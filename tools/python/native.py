@@ -20,8 +20,7 @@ MACROS = ("RHO_MAX_PLOTS", "RHO_MAX_BEARINGS", "RHO_CLASSIC_VOTE", "RHO_PAPER_RH
 
 
 def declarations(compiler, include):
-    """What the headers declare, without those of the system, inline functions and sizes that cffi
-    cannot compute: the C compiler does."""
+    """What the headers declare, without those of the system and inline functions."""
     command = [compiler, "-E", *FLAGS, f"-I{include}", f"-I{HERE}", "-x", "c", "-"]
     text = subprocess.run(command, input=SOURCE, capture_output=True, text=True, check=True).stdout
     lines, is_own = [], False
@@ -32,7 +31,16 @@ def declarations(compiler, include):
             lines.append(line)
     text = re.sub(r"static inline [^{;]*\{.*?\n\}|__attribute__\(\(\w+\)\)", "",
                   "\n".join(lines), flags=re.DOTALL)
-    return re.sub(r"\[[^]]*\?[^]]*\]", "[...]", text)
+    return re.sub(r"\[([^]]*\?[^]]*)\]", lambda size: f"[{chosen(size[1])}]", text)
+
+
+def chosen(size):
+    """The size of an array whose conditional expressions cffi does not read."""
+    size, num = re.sub(r"\((\d+)u?\)", r"\1", f"({size})").replace("/", "//"), 1
+    while num:
+        size, num = re.subn(r"\(([^()?]+)\?([^()?:]+):([^()?]+)\)",
+                            r"((\2) if \1 else (\3))", size)
+    return eval(size)
 
 
 def main(output, compiler, include):
