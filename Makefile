@@ -160,6 +160,13 @@ experiments:
 
 # --- what packagers use ----------------------------------------------------------------------
 
+.PHONY: python-dist
+## Build the package for Python: wheel and source package, in build/python
+python-dist:
+	@tools/setup.sh
+	@tools/setup.sh python
+	@BUILD=$(BUILD) tools/python/dist.sh
+
 # The installed config.h says which capacities the library was built with, so that no application can have others by
 # mistake. RHO_CONFIG_FILE itself is installed as rhotrack/config_file.h; it must include nothing but system headers.
 installed_library := $(library)
@@ -257,6 +264,7 @@ test-all:
 test-rest:
 	@tools/setup.sh
 	@tools/setup.sh firmware
+	@tools/setup.sh python
 	@BUILD=$(BUILD) tools/python.sh
 	$(call run_tests,$(other_programs),$(other_scripts))
 

@@ -3,7 +3,7 @@
 # Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick
 # when none is. `setup.sh firmware`: the compilers and emulators for other processors instead;
 # `setup.sh spy`: what the viewer for lcm-spy (make spy) needs; `setup.sh lab`: what the experiments
-# in Python (make experiments) import.
+# in Python (make experiments) import; `setup.sh python`: what the package for Python is built with.
 set -eu
 
 packages='
@@ -60,13 +60,18 @@ python3-numpy       # ... arrays
 python3-scipy       # ... pairing of tracks and targets
 python3-matplotlib  # ... pictures
 '
+python_packages='
+python3-venv        # environments of their own: pip brings cffi, numpy and the build
+python3-dev         # headers of Debian Python
+'
 case ${1:-} in
 '') ;;
 firmware) packages=$firmware_packages ;;
 spy) packages=$spy_packages ;;
 lab) packages=$lab_packages ;;
+python) packages=$python_packages ;;
 *)
-    echo "setup: unknown: $1 (there is: firmware, spy, lab)" >&2
+    echo "setup: unknown: $1 (there is: firmware, spy, lab, python)" >&2
     exit 2
     ;;
 esac

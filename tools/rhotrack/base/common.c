@@ -58,6 +58,8 @@ bool is_told_to_end(void)
             sigismember(&pending, SIGHUP) == 1);
 }
 
+_Thread_local void (*fail_handler)(int exit_code, const char *message);
+
 void fail(int exit_code, const char *format, ...)
 {
     char message[8192];
@@ -70,6 +72,9 @@ void fail(int exit_code, const char *format, ...)
         if ((unsigned char)*c < ' ' || *c == 127) {
             *c = '?';
         }
+    }
+    if (fail_handler) {
+        fail_handler(exit_code, message);
     }
     fprintf(stderr, "%srhotrack: %s\n", progress_visible ? "\r\033[K" : "", message);
     remove_unfinished();

@@ -23,6 +23,9 @@
  */
 _Noreturn void fail(int exit_code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Called by fail() instead, with the message, where a thread has set it; it does not return. */
+extern _Thread_local void (*fail_handler)(int exit_code, const char *message);
+
 /* malloc, calloc, realloc that end the program with exit 1 when memory is out. */
 void *must_alloc(size_t bytes);
 void *must_calloc(size_t count, size_t size);

@@ -1,0 +1,346 @@
+# SPDX-License-Identifier: MIT
+"""The package by itself: arrays and frames in, errors that name what is wrong, files, parts."""
+import math
+import os
+import struct
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rhotrack
+
+PROGRAM = os.environ.get("RHOTRACK")
+SETTINGS = {"sigma_m": 20, "v_max_mps": 300}
+
+
+def scan(time_s, *places, **fields):
+    rows = np.zeros(len(places), [("t_s", "f8"), ("sensor_id", "i4"), ("x_m", "f4"), ("y_m", "f4"),
+                                  *[(name, "f4") for name in fields]])
+    rows["t_s"], rows["sensor_id"] = time_s, 1
+    rows["x_m"], rows["y_m"] = np.transpose(places)
+    for name, values in fields.items():
+        rows[name] = values
+    return rows
+
+
+def one_target(count=20):
+    clutter = np.random.default_rng(1).uniform(-2e4, 2e4, (count, 2))
+    return [scan(4 * i, (1000 + 400 * i, 2000), clutter[i]) for i in range(count)]
+
+
+@pytest.fixture
+def scene(tmp_path):
+    if not PROGRAM:
+        pytest.skip("RHOTRACK names no program")
+
+    def make(name, *options):
+        subprocess.run([PROGRAM, "simulate", name, "--seed", "3", *options, "-o", tmp_path / "in"],
+                       check=True, capture_output=True)
+        return tmp_path / "in"
+    return make
+
+
+# ---- Settings ----
+
+def test_settings_have_the_programs_names_and_ranges():
+    settings = rhotrack.Settings(sigma_m=5, gate="nearest", planes="xy+yz")
+    assert settings.sigma_m == 5 and settings["gate"] == "nearest" and settings.pd == 0.9
+    assert settings.area_x_min_m is None
+    assert repr(settings) == "Settings(sigma_m=5.0, gate='nearest', planes='xy+yz')"
+    assert rhotrack.parameters()["pd"]["max"] == 0.999
+    assert "sigma_m" in dir(settings)
+    other = settings.copy(sigma_m=6)
+    assert (settings.sigma_m, other.sigma_m) == (5, 6)
+
+
+@pytest.mark.parametrize("given, told", [
+    ({"sigma_m": -1}, "sigma_m"), ({"sigma": 1}, "sigma"), ({"gate": "best "}, "gate"),
+    ({"v_max_mps": math.nan}, "v_max_mps"), ({"v_min_mps": 400, "v_max_mps": 300}, "v_min_mps"),
+    ({"sensor.1.pd": 2}, "pd")])
+def test_a_wrong_parameter_is_named(given, told):
+    with pytest.raises(rhotrack.Error, match=told):
+        rhotrack.Settings(**given)
+
+
+def test_an_ini_file_is_read_and_its_line_named(tmp_path):
+    path = tmp_path / "radar.ini"
+    path.write_text("sigma_m = 7\n[sensor 2]\npd = 0.5\n")
+    assert rhotrack.Settings(path).sigma_m == 7
+    assert rhotrack.Settings(path, sigma_m=8).sigma_m == 8
+    path.write_text("sigma_m = 7\nnonsense = 1\n")
+    with pytest.raises(rhotrack.Error, match=r"radar.ini:2: .*nonsense"):
+        rhotrack.Settings(path)
+    with pytest.raises(rhotrack.Error, match="no such|No such"):
+        rhotrack.Settings(tmp_path / "none.ini")
+
+
+# ---- The tracker ----
+
+def test_step_and_run_are_the_same():
+    tracker, scans = rhotrack.Tracker(**SETTINGS), one_target()
+    stepped = np.concatenate([tracker.step(one) for one in scans])
+    run = rhotrack.Tracker(**SETTINGS).run(scans)
+    np.testing.assert_array_equal(stepped, run)
+    last = run[(run["t_s"] == 76) & (run["status"] == "confirmed")]
+    assert len(last) == 1 and abs(last["x_m"][0] - 8600) < 30 and abs(last["vx_mps"][0] - 100) < 5
+    assert tracker.fates[0] == "claimed" and tracker.counters["tracks_confirmed"] == 1
+    assert tracker.counters["fates"]["claimed"] > 10 and tracker.work["work"] > 0
+    assert rhotrack.Tracker(covariance=True, **SETTINGS).run(scans)["cov_x_x"].min() > 0
+
+
+def test_a_scan_that_saw_nothing_counts_as_a_miss():
+    run = rhotrack.Tracker(**SETTINGS).run([*one_target(), scan(80, (np.nan, np.nan))])
+    last = run[run["t_s"] == 80]
+    assert last["status"].tolist() == ["coasting"] and last["misses"].tolist() == [1]
+
+
+def test_polar_rows_are_the_same_track():
+    polar = [np.array([(one["t_s"][0], 1, math.hypot(*place), math.atan2(place[1], place[0]), 10)],
+                      [("t_s", "f8"), ("sensor_id", "i4"), ("range_m", "f4"),
+                       ("azimuth_rad", "f4"), ("sigma_range_m", "f4")])
+             for one in one_target() for place in [(one["x_m"][0], one["y_m"][0])]]
+    run = rhotrack.Tracker(**SETTINGS).run(polar)
+    assert run["status"][-1] == "confirmed" and abs(run["x_m"][-1] - 8600) < 40
+    compass = [np.array([(*one.item()[:3], 90 - math.degrees(one["azimuth_rad"][0]))],
+                        [("t_s", "f8"), ("sensor_id", "i4"), ("range_m", "f4"),
+                         ("azimuth_deg", "f8")]) for one in polar]
+    again = rhotrack.Tracker(**SETTINGS).run(compass)
+    np.testing.assert_allclose(again["x_m"], run["x_m"], atol=5)
+
+
+@pytest.mark.parametrize("make, told", [
+    (lambda: scan(0, (1, 2))[["t_s", "x_m", "y_m"]], "sensor_id"),
+    (lambda: scan(0, (1, 2))[["t_s", "sensor_id", "y_m"]], "x_m"),
+    (lambda: scan(np.nan, (1, 2)), "t_s"),
+    (lambda: scan(0, (1, 2), sigma_m=-1.0), "scan 0, row 0: .*sigma"),
+    (lambda: scan(0, (1, 2), (3, 4), z_m=[5, np.nan]), "row 1: z_m"),
+    (lambda: scan(0, (1, 2))[:0], "no row"),
+    (lambda: np.zeros(3), "named fields"),
+    (lambda: 7, "int")])
+def test_a_wrong_scan_is_named(make, told):
+    with pytest.raises(rhotrack.Error, match=told):
+        rhotrack.Tracker().step(make())
+
+
+def test_frames_of_pandas_and_polars_go_both_ways():
+    pandas, polars = pytest.importorskip("pandas"), pytest.importorskip("polars")
+    scans = one_target()
+    run = rhotrack.Tracker(**SETTINGS).run(scans)
+    flat = np.concatenate(scans)
+    for frame in (rhotrack.to_pandas(flat), rhotrack.to_polars(flat)):
+        np.testing.assert_array_equal(rhotrack.Tracker(**SETTINGS).run(frame), run)
+    assert isinstance(rhotrack.to_pandas(run), pandas.DataFrame)
+    assert rhotrack.to_polars(run).filter(polars.col("status") == "confirmed").height > 10
+
+
+# ---- Files ----
+
+def test_files_are_read_as_the_program_reads_them(scene, tmp_path):
+    folder = scene("popup")
+    settings = rhotrack.Settings(folder / "scenario.ini")
+    scans = rhotrack.read(folder / "plots.csv", settings=settings)
+    run = rhotrack.Tracker(settings).run(scans)
+    subprocess.run([PROGRAM, "track", folder / "plots.csv", "--config", folder / "scenario.ini",
+                    "-o", tmp_path / "tracks.csv"], check=True, capture_output=True)
+    read = rhotrack.read(tmp_path / "tracks.csv")
+    for name in read.dtype.names:
+        np.testing.assert_array_equal(read[name], run[name], err_msg=name)
+    truth = rhotrack.read(folder / "truth.csv")
+    assert {"t_s", "target_id", "x_m", "y_m"} <= set(truth.dtype.names)
+    subprocess.run([PROGRAM, "convert", folder / "truth.csv", tmp_path / "truth.lcm"], check=True)
+    logged = rhotrack.read(tmp_path / "truth.lcm", kind="truth")
+    np.testing.assert_array_equal(logged["x_m"], truth["x_m"])
+
+
+def test_a_bad_file_is_named_with_its_line_and_left_closed(tmp_path):
+    path = tmp_path / "bad.csv"
+    path.write_text("t_s,sensor_id,x_m,y_m\n0,1,2,3\n1,1,2,much\n")
+    before = len(os.listdir("/proc/self/fd"))
+    for _ in range(50):
+        with pytest.raises(rhotrack.Error, match=r"bad.csv:3: y_m .*much"):
+            rhotrack.read(path)
+    assert len(os.listdir("/proc/self/fd")) == before
+    assert len(rhotrack.read(path, keep_going=True)) == 1
+
+
+# ---- Initiation ----
+
+def test_an_accumulator_holds_the_votes_that_find_returns():
+    initiator = rhotrack.Initiator(method="iht", d_rho_m=200, d_theta_rad=0.05, eps_rho_m=400,
+                                   eps_theta_rad=0.1, v_min_mps=50, v_max_mps=300)
+    scans = one_target(7)
+    found, plane = initiator.find(scans), initiator.accumulator(scans)
+    assert plane.votes.shape == (len(plane.theta_rad), len(plane.rho_m))
+    assert plane.votes.max() == found["score"][0] >= 6
+    theta, rho = np.unravel_index(plane.votes.argmax(), plane.votes.shape)
+    assert plane.rho_m[rho] == pytest.approx(found["rho_m"][0])
+    assert plane.theta_rad[theta] == pytest.approx(found["theta_rad"][0])
+    with pytest.raises(rhotrack.Error, match="method"):
+        rhotrack.Initiator(method="hough")
+
+
+def test_two_sensors_and_two_targets_have_two_ghosts():
+    places, targets = [(0.0, 0.0), (20000.0, 0.0)], [(8000, 15000), (12000, 18000)]
+    bearings = [[math.atan2(y - b, x - a) for x, y in targets] for a, b in places]
+    matrix = rhotrack.ghosts(*bearings, *places, 60000.0, "none")
+    assert matrix.delta_rad.shape == (2, 2) and (matrix.delta_rad.diagonal() > 0).all()
+    rows = [(0.0, i + 1, *places[i], bearing) for i in range(2) for bearing in bearings[i]]
+    frame = np.array(rows, [("t_s", "f8"), ("sensor_id", "i4"), ("sensor_x_m", "f4"),
+                            ("sensor_y_m", "f4"), ("bearing_rad", "f4")])
+    of_frame = rhotrack.Passive(prune="none").ghosts(frame)[1, 2]
+    np.testing.assert_allclose(of_frame.delta_rad, matrix.delta_rad, atol=1e-6)
+    assert (of_frame.reason == matrix.reason).all()
+    crossings = np.stack([matrix.x_m.diagonal(), matrix.y_m.diagonal()], axis=1)
+    np.testing.assert_allclose(crossings, targets, atol=1)
+
+
+def test_the_papers_lines_are_where_all_pairs_of_sensors_vote(scene):
+    folder = scene("passive-three")
+    settings = rhotrack.Settings(folder / "scenario.ini")
+    frames = rhotrack.read(folder / "bearings.csv", settings=settings)
+    paper = rhotrack.Passive(settings, method="passive-paper")
+    planes = paper.accumulators(frames[-8:])
+    assert len(planes) == 3
+    middle = np.mean([[row["sensor_x_m"], row["sensor_y_m"]] for row in np.unique(
+        frames[0][["sensor_id", "sensor_x_m", "sensor_y_m"]])], axis=0)
+    for line in paper.find(frames):
+        votes = []
+        for plane in planes.values():
+            rho = line["rho_m"] - middle @ [np.cos(line["theta_rad"]), np.sin(line["theta_rad"])]
+            i = np.abs(plane.theta_rad - line["theta_rad"]).argmin()
+            j = np.abs(plane.rho_m - rho).argmin()
+            votes.append(plane.votes[i - 1:i + 2, j - 1:j + 2].max())
+        assert min(votes) == line["score"]
+
+
+def test_rows_of_many_frames_are_split_into_frames(scene):
+    folder = scene("passive-three")
+    settings = rhotrack.Settings(folder / "scenario.ini")
+    frames = rhotrack.read(folder / "bearings.csv", settings=settings)
+    np.testing.assert_array_equal(rhotrack.Tracker(settings).run(frames.rows),
+                                  rhotrack.Tracker(settings).run(frames))
+
+
+# ---- Filters ----
+
+def reference_filter(places, dt_s, density, variance, speed_variance):
+    """A plain Kalman filter of x, y, vx, vy in double precision."""
+    f, h = np.eye(4), np.eye(2, 4)
+    f[:2, 2:] = dt_s * np.eye(2)
+    one = density * np.array([[dt_s**3 / 3, dt_s**2 / 2], [dt_s**2 / 2, dt_s]])
+    q = np.kron(one, np.eye(2))
+    x, p = np.array([*places[0], 0, 0]), np.diag([variance] * 2 + [speed_variance] * 2)
+    for place in places[1:]:
+        x, p = f @ x, f @ p @ f.T + q
+        gain = p @ h.T @ np.linalg.inv(h @ p @ h.T + variance * np.eye(2))
+        x, p = x + gain @ (place - h @ x), p - gain @ h @ p
+    return x, p
+
+
+def test_kalman_is_the_textbooks():
+    places = np.array([(100 * i, 50 - 20 * i) for i in range(10)], float)
+    kalman = rhotrack.Kalman()
+    for axis in (0, 1):
+        kalman.open_axis(axis, places[0][axis], 400, 1e4)
+    for i, place in enumerate(places[1:], 1):
+        kalman.predict(2.0, 4.0)
+        kalman.update_plot(scan(2.0 * i, place, sigma_m=20.0), 1e4)
+    x, p = reference_filter(places, 2.0, 4.0, 400, 1e4)
+    kept = [0, 1, 3, 4]
+    np.testing.assert_allclose(kalman.state[kept], x, rtol=1e-4)
+    np.testing.assert_allclose(kalman.covariance[np.ix_(kept, kept)], p, rtol=1e-3, atol=1e-2)
+    with pytest.raises(rhotrack.Error, match="dt_s"):
+        kalman.predict(math.nan)
+
+
+def started(position=(0.0, 0.0)):
+    kalman = rhotrack.Kalman()
+    for axis in (0, 1):
+        kalman.open_axis(axis, position[axis], 100, 1e4)
+    return kalman
+
+
+def test_imm_sees_a_turn():
+    imm, probabilities = rhotrack.Imm(started(), 30, 300), []
+    for i in range(1, 25):
+        angle = max(0, i - 12) * 0.2
+        imm.predict(2.0)
+        place = (400 * min(i, 12) + 2000 * math.sin(angle), 2000 * (1 - math.cos(angle)))
+        assert imm.update(scan(2.0 * i, place, sigma_m=10.0)) is not None
+        probabilities.append(imm.maneuver_probability)
+    assert probabilities[11] < 0.3 and probabilities[-1] > 0.6
+    assert np.linalg.norm(imm.accel_mps2) > 10 and imm.estimate.state.shape == (6,)
+    assert imm.update(scan(48, (1e6, 1e6), sigma_m=10.0)) is None
+
+
+def test_input_estimation_finds_an_acceleration():
+    inputs = rhotrack.InputEstimation(started(), model="physical", noise_m=0.1, noise_mps=0.1)
+    for i in range(1, 30):
+        acceleration = 10.0 * (i > 10)
+        speed = 100 + acceleration * (i - 10)
+        inputs.predict(1.0)
+        inputs.update(0, 100 * i + acceleration * (i - 10)**2 / 2, 100)
+        inputs.update(1, 0.0, 100)
+        inputs.update(3, speed, 1)
+        inputs.decide()
+    assert inputs.is_present.tolist() == [True, False, False]
+    assert inputs.input_mps2[0] == pytest.approx(10, abs=1)
+    with pytest.raises(rhotrack.Error, match="forgetting"):
+        rhotrack.InputEstimation(started(), forgetting=1)
+
+
+def test_the_hough_gate_prefers_the_straight_line():
+    gate = rhotrack.HoughGate((100, 50, 0), (110, 60, 0), planes="xy")
+    residuals = gate.residuals_mps([(120, 70, 0), (120, 20, 0), (60, 70, 0)])
+    assert residuals.argmin() == 0 and residuals.shape == (3,)
+
+
+# ---- Node and pictures ----
+
+def events(log):
+    at = 0
+    while at < len(log):
+        _, _, time_us, channel, size = struct.unpack_from(">IqqII", log, at)
+        start = at + 28 + channel
+        yield log[at + 28:start].decode(), log[start:start + size], time_us / 1e6
+        at = start + size
+
+
+def test_a_node_tracks_messages(scene, tmp_path):
+    folder = scene("popup")
+    subprocess.run([PROGRAM, "convert", folder / "plots.csv", tmp_path / "in.lcm",
+                    "--config", folder / "scenario.ini"], check=True, capture_output=True)
+    node, sent = rhotrack.Node(rhotrack.Settings(folder / "scenario.ini")), []
+    for channel, data, now_s in events((tmp_path / "in.lcm").read_bytes()):
+        sent += node.take(channel, data, now_s)
+    sent += node.flush()
+    assert node.due_s == math.inf and node.tick(1e9) == []
+    scans = rhotrack.read(folder / "plots.csv", settings=node.settings)
+    assert sum(channel == "RHO_TRACKS" for channel, _ in sent) == len(scans)
+    run = rhotrack.Tracker(node.settings).run(scans)
+    last = run[run["t_s"] == run["t_s"].max()]
+    np.testing.assert_array_equal(node.tracks["x_m"], last["x_m"])
+    assert "RHO_STATUS" in dict(node.status())
+
+
+def test_a_picture_shows_plots_and_confirmed_tracks(scene):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    folder = scene("passive-three")
+    settings = rhotrack.Settings(folder / "scenario.ini")
+    frames = rhotrack.read(folder / "bearings.csv", settings=settings)
+    run = rhotrack.Tracker(settings).run(frames)
+    axes = rhotrack.plot(frames, run, rhotrack.read(folder / "truth.csv"))
+    _, labels = axes.get_legend_handles_labels()
+    assert {"bearings", "sensors", "truth", "track"} <= set(labels)
+    matplotlib.pyplot.close()
+    axes = rhotrack.plot(one_target(), rhotrack.Tracker(**SETTINGS).run(one_target()))
+    assert len(axes.lines) == 2 and len(axes.lines[0].get_xdata()) == 40
+
+
+def test_the_package_is_typed():
+    assert Path(rhotrack.__file__).with_name("py.typed").is_file()
+    undocumented = [name for name in rhotrack.__all__ if not getattr(rhotrack, name).__doc__]
+    assert not undocumented

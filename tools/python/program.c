@@ -1,0 +1,1049 @@
+/* SPDX-License-Identifier: MIT */
+#include "program.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/common.h"
+#include "io/asterix/asterix_file.h"
+#include "io/asterix/asterix_records.h"
+#include "io/log/lcm_log.h"
+#include "io/log/log_table.h"
+#include "io/rows/rows_read.h"
+#include "io/scans/frame_reader.h"
+#include "io/scans/inputs.h"
+#include "live/node_core.h"
+#include "pipeline/pipeline.h"
+#include "rhotrack/measurement.h"
+#include "settings/method.h"
+#include "settings/parameters.h"
+
+/* ---- Failures ---- */
+
+/*
+ * The program ends where a call fails; here the call returns. Files that it has open are closed
+ * (the linker's --wrap counts them); its memory, of a reader some kilobytes, is lost.
+ */
+#define FILES_MAX 16
+
+static _Thread_local struct {
+    jmp_buf back;
+    int exit_code;
+    char message[8192];
+    FILE *streams[FILES_MAX];
+    int files[FILES_MAX]; /* 0: none */
+} failure;
+
+static _Noreturn void on_failure(int exit_code, const char *message)
+{
+    failure.exit_code = exit_code;
+    snprintf(failure.message, sizeof failure.message, "%s", message);
+    for (int i = 0; i < FILES_MAX; i++) {
+        if (failure.streams[i]) {
+            fclose(failure.streams[i]);
+        }
+        if (failure.files[i]) {
+            close(failure.files[i]);
+        }
+    }
+    longjmp(failure.back, 1);
+}
+
+static jmp_buf *arm(void)
+{
+    memset(failure.streams, 0, sizeof failure.streams);
+    memset(failure.files, 0, sizeof failure.files);
+    fail_handler = on_failure;
+    return &failure.back;
+}
+
+/* The rest of the function: where a call in it fails, the function returns `value`. */
+#define RETURN_ON_FAILURE(value)                                                                   \
+    if (setjmp(*arm())) {                                                                          \
+        return value;                                                                              \
+    }
+
+const char *program_failure(bool *is_usage)
+{
+    *is_usage = failure.exit_code == EXIT_USAGE;
+    return failure.message;
+}
+
+int __real_open(const char *path, int flags, ...);
+int __wrap_open(const char *path, int flags, ...);
+int __wrap_open(const char *path, int flags, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, flags);
+    int file = __real_open(path, flags, flags & O_CREAT ? va_arg(arguments, int) : 0);
+    va_end(arguments);
+    for (int i = 0; i < FILES_MAX && file > 0; i++) {
+        if (!failure.files[i]) {
+            failure.files[i] = file;
+            break;
+        }
+    }
+    return file;
+}
+
+int __real_close(int file);
+int __wrap_close(int file);
+int __wrap_close(int file)
+{
+    for (int i = 0; i < FILES_MAX; i++) {
+        failure.files[i] = failure.files[i] == file ? 0 : failure.files[i];
+    }
+    return __real_close(file);
+}
+
+FILE *__real_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode)
+{
+    FILE *stream = __real_fopen(path, mode);
+
+    for (int i = 0; i < FILES_MAX; i++) {
+        if (!failure.streams[i]) {
+            failure.streams[i] = stream;
+            break;
+        }
+    }
+    return stream;
+}
+
+int __real_fclose(FILE *stream);
+int __wrap_fclose(FILE *stream);
+int __wrap_fclose(FILE *stream)
+{
+    for (int i = 0; i < FILES_MAX; i++) {
+        failure.streams[i] = failure.streams[i] == stream ? NULL : failure.streams[i];
+    }
+    return __real_fclose(stream);
+}
+
+/* ---- Settings ---- */
+
+struct parameters *program_settings(const struct parameters *from)
+{
+    RETURN_ON_FAILURE(NULL)
+    struct parameters *settings = must_alloc(sizeof *settings);
+
+    if (from) {
+        *settings = *from;
+    } else {
+        parameters_default(settings);
+    }
+    return settings;
+}
+
+void program_settings_free(struct parameters *settings)
+{
+    free(settings);
+}
+
+bool program_settings_set(struct parameters *settings, const char *key, const char *value)
+{
+    char reason[PARAMETER_REASON_BYTES];
+
+    RETURN_ON_FAILURE(false)
+    if (!parameters_assign(settings, key, value, SOURCE_SET, reason)) {
+        fail(EXIT_USAGE, "%s", reason);
+    }
+    return true;
+}
+
+bool program_settings_load(struct parameters *settings, const char *path)
+{
+    RETURN_ON_FAILURE(false)
+    parameters_load(settings, path);
+    return true;
+}
+
+bool program_settings_check(const struct parameters *settings)
+{
+    RETURN_ON_FAILURE(false)
+    parameters_check(settings);
+    return true;
+}
+
+bool program_settings_at(const struct parameters *settings, int index,
+                         struct program_parameter *parameter)
+{
+    if (index < 0 || index >= NUM_PARAMETERS) {
+        return false;
+    }
+    const enum parameter_id id = (enum parameter_id)index;
+    const struct parameter_text text = parameters_text(id);
+
+    *parameter = (struct program_parameter){.name = text.name,
+                                            .unit = text.unit,
+                                            .text = text.text,
+                                            .min = text.min,
+                                            .max = text.max,
+                                            .is_number = !text.choices};
+    if (text.has_default) {
+        parameters_value_text(&text, text.value, parameter->initial);
+    }
+    if (parameters_is_set(settings, id)) {
+        parameters_value_text(&text, settings->value[id], parameter->value);
+    }
+    snprintf(parameter->range, sizeof parameter->range, "%s", text.choices ? text.choices : "");
+    return true;
+}
+
+/* A copy with what is suggested, and with places of sensors in metres. */
+static struct parameters *ready(const struct parameters *settings, char *const *paths,
+                                int num_paths)
+{
+    struct parameters *copy = must_alloc(sizeof *copy);
+    struct asterix_place place = {.is_given = false};
+
+    *copy = *settings;
+    for (int i = 0;
+         i < num_paths && !place.is_given && !parameters_is_set(copy, PARAMETER_ORIGIN_LAT_DEG) &&
+         !parameters_is_set(copy, PARAMETER_ORIGIN_LON_DEG);
+         i++) {
+        place = asterix_file_place(paths[i]);
+        if (place.is_given) {
+            asterix_records_suggest_origin(paths[i], &place, copy);
+        }
+    }
+    parameters_locate(copy);
+    return copy;
+}
+
+/* ---- Scans from files ---- */
+
+static void *copied(const void *list, size_t count, size_t size)
+{
+    return count ? memcpy(must_calloc(count, size), list, count * size) : NULL;
+}
+
+static struct program_scan *add_scan(struct program_scans *scans)
+{
+    scans->list = must_grow(scans->list, scans->count, &scans->capacity, sizeof *scans->list);
+    scans->list[scans->count] = (struct program_scan){.is_frame = false};
+    return &scans->list[scans->count++];
+}
+
+static void copy_input(struct program_scans *scans, const struct input *input)
+{
+    struct program_scan *scan = add_scan(scans);
+
+    if (input->scan) {
+        scan->scan = *input->scan;
+        scan->scan.plots =
+            copied(input->scan->plots, input->scan->num_plots, sizeof *input->scan->plots);
+        scan->has_sensor = input->sensor;
+        scan->sensor = input->sensor ? *input->sensor : scan->sensor;
+        return;
+    }
+    struct rho_bearing_scan *looks =
+        copied(input->frame->scans, input->frame->num_scans, sizeof *looks);
+
+    for (uint32_t i = 0; i < input->frame->num_scans; i++) {
+        looks[i].bearings =
+            copied(looks[i].bearings, looks[i].num_bearings, sizeof *looks[i].bearings);
+    }
+    scan->is_frame = true;
+    scan->frame = *input->frame;
+    scan->frame.scans = looks;
+}
+
+struct program_scans *program_read(char *const *paths, int num_paths,
+                                   const struct parameters *settings, bool keep_going)
+{
+    RETURN_ON_FAILURE(NULL)
+    struct parameters *parameters = ready(settings, paths, num_paths);
+    struct inputs *inputs = inputs_open(paths, num_paths, parameters, keep_going);
+    struct program_scans *scans = must_calloc(1, sizeof *scans);
+
+    for (struct input input = inputs_next(inputs); input.scan || input.frame;
+         input = inputs_next(inputs)) {
+        copy_input(scans, &input);
+    }
+    inputs_close(inputs);
+    free(parameters);
+    return scans;
+}
+
+void program_scans_free(struct program_scans *scans)
+{
+    for (size_t i = 0; i < scans->count; i++) {
+        const struct program_scan *scan = &scans->list[i];
+
+        free((void *)scan->scan.plots);
+        for (uint32_t k = 0; k < scan->frame.num_scans; k++) {
+            free((void *)scan->frame.scans[k].bearings);
+        }
+        free((void *)scan->frame.scans);
+    }
+    free(scans->list);
+    free(scans);
+}
+
+/* ---- Rows of scans ---- */
+
+static double seconds(int64_t time_us)
+{
+    return (double)time_us / 1e6;
+}
+
+static int64_t microseconds(double time_s)
+{
+    return llround(time_s * 1e6);
+}
+
+/* A row that says nothing but whose it is. */
+static struct program_row row_of(int64_t time_us, int32_t sensor_id)
+{
+    return (struct program_row){.t_s = seconds(time_us),
+                                .sensor_id = sensor_id,
+                                .x_m = NAN,
+                                .y_m = NAN,
+                                .z_m = NAN,
+                                .vx_mps = NAN,
+                                .vy_mps = NAN,
+                                .vz_mps = NAN,
+                                .range_m = NAN,
+                                .azimuth_rad = NAN,
+                                .elevation_rad = NAN,
+                                .range_rate_mps = NAN,
+                                .bearing_rad = NAN,
+                                .sigma_m = NAN,
+                                .sigma_mps = NAN,
+                                .sigma_range_m = NAN,
+                                .sigma_cross_m = NAN,
+                                .sigma_up_m = NAN,
+                                .sigma_azimuth_rad = NAN,
+                                .sigma_elevation_rad = NAN,
+                                .sigma_range_rate_mps = NAN,
+                                .sigma_rad = NAN,
+                                .snr_db = NAN,
+                                .sector_from_rad = NAN,
+                                .sector_to_rad = NAN,
+                                .sensor_x_m = NAN,
+                                .sensor_y_m = NAN,
+                                .sensor_z_m = NAN};
+}
+
+/* Plots do not tell their scan's time where the first one has another; a row without one does. */
+static bool needs_own_row(const struct rho_scan *scan)
+{
+    return scan->num_plots == 0 || scan->plots[0].offset_us != 0;
+}
+
+static bool look_needs_own_row(const struct rho_bearing_scan *look)
+{
+    return look->num_bearings == 0 || look->bearings[0].offset_us != 0;
+}
+
+uint32_t program_scan_num_rows(const struct program_scan *scan)
+{
+    uint32_t count = 0;
+
+    if (!scan->is_frame) {
+        return scan->scan.num_plots + needs_own_row(&scan->scan);
+    }
+    for (uint32_t i = 0; i < scan->frame.num_scans; i++) {
+        count += scan->frame.scans[i].num_bearings + look_needs_own_row(&scan->frame.scans[i]);
+    }
+    return count;
+}
+
+static void set_sector(struct program_row *row, float from_rad, float to_rad)
+{
+    if (from_rad < to_rad || from_rad > to_rad) {
+        row->sector_from_rad = from_rad;
+        row->sector_to_rad = to_rad;
+    }
+}
+
+static void put_plot(struct program_row *row, const struct rho_plot *plot, uint32_t measures)
+{
+    row->x_m = plot->x_m;
+    row->y_m = plot->y_m;
+    row->sigma_range_m = plot->sigma_range_m;
+    row->sigma_cross_m = plot->sigma_cross_m;
+    row->snr_db = plot->snr_db != 0.0f ? plot->snr_db : NAN;
+    if (measures & RHO_MEASURES_Z) {
+        row->z_m = plot->z_m;
+        row->sigma_up_m = plot->sigma_up_m;
+    }
+    if (measures & RHO_MEASURES_VELOCITY) {
+        row->vx_mps = plot->vx_mps;
+        row->vy_mps = plot->vy_mps;
+        row->vz_mps = plot->vz_mps;
+        row->sigma_mps = plot->sigma_mps;
+    }
+    if (measures & RHO_MEASURES_RANGE_RATE) {
+        row->range_rate_mps = plot->range_rate_mps;
+        row->sigma_range_rate_mps = plot->sigma_range_rate_mps;
+    }
+}
+
+static void plot_rows(const struct program_scan *from, struct program_row *rows)
+{
+    const struct rho_scan *scan = &from->scan;
+    struct program_row common = row_of(scan->time_us, scan->sensor_id);
+
+    set_sector(&common, scan->sector_from_rad, scan->sector_to_rad);
+    if (from->has_sensor) {
+        common.sensor_x_m = from->sensor.x_m;
+        common.sensor_y_m = from->sensor.y_m;
+        common.sensor_z_m = from->sensor.z_m;
+    }
+    for (uint32_t i = 0; i < scan->num_plots; i++) {
+        rows[i] = common;
+        rows[i].t_s = seconds(scan->time_us + scan->plots[i].offset_us);
+        put_plot(&rows[i], &scan->plots[i], scan->measures);
+    }
+    if (needs_own_row(scan)) {
+        rows[scan->num_plots] = common;
+    }
+}
+
+static struct program_row *look_rows(const struct rho_bearing_scan *look, struct program_row *rows)
+{
+    struct program_row common = row_of(look->time_us, look->sensor_id);
+
+    set_sector(&common, look->sector_from_rad, look->sector_to_rad);
+    common.sensor_x_m = look->x_m;
+    common.sensor_y_m = look->y_m;
+    for (uint32_t i = 0; i < look->num_bearings; i++) {
+        const struct rho_bearing *bearing = &look->bearings[i];
+
+        *rows = common;
+        rows->t_s = seconds(look->time_us + bearing->offset_us);
+        rows->bearing_rad = bearing->bearing_rad;
+        rows->sigma_rad = bearing->sigma_rad;
+        rows++->snr_db = bearing->snr_db != 0.0f ? bearing->snr_db : NAN;
+    }
+    if (look_needs_own_row(look)) {
+        *rows++ = common;
+    }
+    return rows;
+}
+
+void program_scan_rows(const struct program_scan *scan, struct program_row *rows)
+{
+    if (!scan->is_frame) {
+        plot_rows(scan, rows);
+        return;
+    }
+    for (uint32_t i = 0; i < scan->frame.num_scans; i++) {
+        rows = look_rows(&scan->frame.scans[i], rows);
+    }
+}
+
+/* ---- Scans from rows ---- */
+
+/* Rows on their way to a scan; messages name the scan and the row, from 0. */
+struct making {
+    const struct parameters *settings;
+    size_t scan;
+    const struct program_row *first; /* of the scan */
+};
+
+static _Noreturn void refuse(const struct making *making, const struct program_row *row,
+                             const char *why)
+{
+    fail(EXIT_USAGE, "scan %zu, row %td: %s", making->scan, row - making->first, why);
+}
+
+static bool is_polar(const struct program_row *row)
+{
+    return !isnan(row->range_m);
+}
+
+static bool has_plot(const struct program_row *row)
+{
+    return is_polar(row) || !isnan(row->x_m) || !isnan(row->y_m);
+}
+
+static float said(float value, double otherwise)
+{
+    return isnan(value) ? (float)otherwise : value;
+}
+
+static double of_sensor(const struct making *making, int32_t sensor_id, enum sensor_parameter_id id,
+                        enum parameter_id otherwise)
+{
+    return parameters_of_sensor(making->settings, sensor_id, id,
+                                making->settings->value[otherwise]);
+}
+
+static int64_t time_of(const struct making *making, const struct program_row *row)
+{
+    if (!(fabs(row->t_s) <= 1e-6 * (double)RHO_LIMIT_TIME_US)) {
+        refuse(making, row, "t_s is not a time");
+    }
+    return microseconds(row->t_s);
+}
+
+static int32_t offset_of(const struct making *making, const struct program_row *row,
+                         int64_t time_us)
+{
+    const int64_t offset_us = time_of(making, row) - time_us;
+
+    if (offset_us < -RHO_LIMIT_OFFSET_US || offset_us > RHO_LIMIT_OFFSET_US) {
+        refuse(making, row, "t_s is more than a minute from the scan's");
+    }
+    return (int32_t)offset_us;
+}
+
+static uint32_t measures_of(const struct program_row *row)
+{
+    return (isnan(is_polar(row) ? row->elevation_rad : row->z_m) ? 0 : RHO_MEASURES_Z) |
+           (isnan(row->vx_mps) || is_polar(row) ? 0 : RHO_MEASURES_VELOCITY) |
+           (isnan(row->range_rate_mps) ? 0 : RHO_MEASURES_RANGE_RATE);
+}
+
+static void check_row(const struct making *making, const struct program_row *row,
+                      const struct rho_scan *scan)
+{
+    const uint32_t differing = measures_of(row) ^ scan->measures;
+
+    if (row->sensor_id != scan->sensor_id) {
+        refuse(making, row, "sensor_id is not that of the scan's first row");
+    }
+    if (differing) {
+        refuse(making, row,
+               differing & RHO_MEASURES_Z ? "z_m or elevation_rad is in some rows of the scan alone"
+               : differing & RHO_MEASURES_VELOCITY
+                   ? "vx_mps is in some rows of the scan alone"
+                   : "range_rate_mps is in some rows of the scan alone");
+    }
+}
+
+static void polar_plot(const struct making *making, const struct program_row *row,
+                       const struct rho_scan *scan, const struct rho_sensor *sensor,
+                       struct rho_plot *plot)
+{
+    const int32_t id = row->sensor_id;
+    struct rho_sensor seen_from = *sensor;
+    const struct rho_polar_plot polar = {
+        .range_m = row->range_m,
+        .azimuth_rad = row->azimuth_rad,
+        .elevation_rad = row->elevation_rad,
+        .range_rate_mps = row->range_rate_mps,
+        .sigma_range_m = said(row->sigma_range_m,
+                              of_sensor(making, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)),
+        .sigma_azimuth_rad =
+            said(row->sigma_azimuth_rad,
+                 of_sensor(making, id, SENSOR_SIGMA_AZIMUTH_RAD, PARAMETER_SIGMA_AZIMUTH_RAD)),
+        .sigma_elevation_rad =
+            said(row->sigma_elevation_rad,
+                 of_sensor(making, id, SENSOR_SIGMA_ELEVATION_RAD, PARAMETER_SIGMA_ELEVATION_RAD)),
+        .sigma_range_rate_mps =
+            said(row->sigma_range_rate_mps, of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
+                                                      PARAMETER_SIGMA_RANGE_RATE_MPS)),
+        .snr_db = said(row->snr_db, 0.0)};
+
+    seen_from.time_bias_s = 0.0f;
+    if (rho_measurement_from_polar(&polar, scan->measures, &seen_from, plot) != RHO_OK) {
+        refuse(making, row, "range_m, azimuth_rad, elevation_rad or a sigma is out of range");
+    }
+}
+
+static void cartesian_plot(const struct making *making, const struct program_row *row,
+                           struct rho_plot *plot)
+{
+    const int32_t id = row->sensor_id;
+    const float sigma_m =
+        said(row->sigma_m, of_sensor(making, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M));
+
+    *plot = (struct rho_plot){
+        .x_m = row->x_m,
+        .y_m = row->y_m,
+        .z_m = said(row->z_m, 0.0),
+        .vx_mps = said(row->vx_mps, 0.0),
+        .vy_mps = said(row->vy_mps, 0.0),
+        .vz_mps = said(row->vz_mps, 0.0),
+        .range_rate_mps = said(row->range_rate_mps, 0.0),
+        .sigma_range_m = said(row->sigma_range_m, (double)sigma_m),
+        .sigma_cross_m = said(row->sigma_cross_m, (double)sigma_m),
+        .sigma_up_m = said(row->sigma_up_m, (double)sigma_m),
+        .sigma_mps =
+            said(row->sigma_mps, of_sensor(making, id, SENSOR_SIGMA_MPS, PARAMETER_SIGMA_MPS)),
+        .sigma_range_rate_mps =
+            said(row->sigma_range_rate_mps, of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
+                                                      PARAMETER_SIGMA_RANGE_RATE_MPS)),
+        .snr_db = said(row->snr_db, 0.0)};
+    if (!rho_measurement_is_valid(plot, measures_of(row))) {
+        refuse(making, row, "x_m, y_m, z_m, a velocity or a sigma is out of range");
+    }
+}
+
+/* Counts of scans and of rows are the same; a NULL list has none. */
+static void make_scan(const struct making *making, const struct program_row *rows, uint32_t count,
+                      struct program_scan *made)
+{
+    struct rho_scan *scan = &made->scan;
+    struct rho_plot *plots;
+    const struct program_row *measured = NULL, *own = NULL;
+
+    for (uint32_t i = 0; i < count; i++) {
+        measured = !measured && has_plot(&rows[i]) ? &rows[i] : measured;
+        own = !own && !has_plot(&rows[i]) ? &rows[i] : own;
+    }
+    scan->time_us = time_of(making, own ? own : rows);
+    scan->sensor_id = rows->sensor_id;
+    scan->sector_from_rad = said(rows->sector_from_rad, 0.0);
+    scan->sector_to_rad = said(rows->sector_to_rad, 0.0);
+    scan->measures = measured ? measures_of(measured) : 0;
+    made->has_sensor = parameters_to_sensor(making->settings, rows->sensor_id, &made->sensor) ||
+                       !isnan(rows->sensor_x_m) || !isnan(rows->sensor_z_m);
+    parameters_to_any_sensor(making->settings, rows->sensor_id, &made->sensor);
+    made->sensor.x_m = said(rows->sensor_x_m, (double)made->sensor.x_m);
+    made->sensor.y_m = said(rows->sensor_y_m, (double)made->sensor.y_m);
+    made->sensor.z_m = said(rows->sensor_z_m, (double)made->sensor.z_m);
+    scan->plots = plots = must_calloc(count, sizeof *plots);
+    for (uint32_t i = 0; i < count; i++) {
+        if (has_plot(&rows[i])) {
+            struct rho_plot *plot = &plots[scan->num_plots++];
+
+            check_row(making, &rows[i], scan);
+            if (is_polar(&rows[i])) {
+                polar_plot(making, &rows[i], scan, &made->sensor, plot);
+            } else {
+                cartesian_plot(making, &rows[i], plot);
+            }
+            plot->offset_us = offset_of(making, &rows[i], scan->time_us);
+        }
+    }
+}
+
+static void make_look(const struct making *making, const struct program_row *rows, uint32_t count,
+                      struct rho_bearing_scan *look)
+{
+    struct rho_bearing *bearings = must_calloc(count, sizeof *bearings);
+    const struct program_row *own = rows;
+
+    for (uint32_t i = count; i-- > 0;) {
+        own = isnan(rows[i].bearing_rad) ? &rows[i] : own;
+    }
+    *look = (struct rho_bearing_scan){.time_us = time_of(making, own),
+                                      .sensor_id = rows->sensor_id,
+                                      .x_m = rows->sensor_x_m,
+                                      .y_m = rows->sensor_y_m,
+                                      .sector_from_rad = said(rows->sector_from_rad, 0.0),
+                                      .sector_to_rad = said(rows->sector_to_rad, 0.0),
+                                      .bearings = bearings};
+    if (!rho_is_coordinate(look->x_m) || !rho_is_coordinate(look->y_m)) {
+        refuse(making, rows, "sensor_x_m and sensor_y_m are not a place");
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!isnan(rows[i].bearing_rad)) {
+            const double sigma_rad =
+                of_sensor(making, rows->sensor_id, SENSOR_SIGMA_RAD, PARAMETER_SIGMA_RAD);
+            struct rho_bearing *bearing = &bearings[look->num_bearings++];
+
+            *bearing = (struct rho_bearing){.offset_us = offset_of(making, &rows[i], look->time_us),
+                                            .bearing_rad = rows[i].bearing_rad,
+                                            .sigma_rad = said(rows[i].sigma_rad, sigma_rad),
+                                            .snr_db = said(rows[i].snr_db, 0.0)};
+            if (!rho_measurement_is_bearing(bearing)) {
+                refuse(making, &rows[i], "bearing_rad or sigma_rad is out of range");
+            }
+        }
+    }
+}
+
+/* Rows of one sensor stand together. */
+static void make_frame(const struct making *making, const struct program_row *rows, uint32_t count,
+                       struct program_scan *made)
+{
+    struct rho_bearing_scan *looks = must_calloc(count, sizeof *looks);
+    struct rho_frame *frame = &made->frame;
+
+    made->is_frame = true;
+    *frame = (struct rho_frame){.time_us = INT64_MAX, .scans = looks};
+    for (uint32_t first = 0, i = 1; i <= count; i++) {
+        if (i == count || rows[i].sensor_id != rows[first].sensor_id) {
+            struct rho_bearing_scan *look = &looks[frame->num_scans++];
+
+            make_look(making, &rows[first], i - first, look);
+            frame->time_us = look->time_us < frame->time_us ? look->time_us : frame->time_us;
+            first = i;
+        }
+    }
+}
+
+struct program_scans *program_scans(const struct program_row *rows, const uint32_t *counts,
+                                    const bool *are_frames, size_t count,
+                                    const struct parameters *settings)
+{
+    struct program_scans *volatile scans = NULL;
+
+    if (setjmp(*arm())) {
+        if (scans) {
+            program_scans_free(scans);
+        }
+        return NULL;
+    }
+    struct parameters *parameters = ready(settings, NULL, 0);
+
+    scans = must_calloc(1, sizeof *scans);
+    for (size_t i = 0; i < count; i++) {
+        const struct making making = {.settings = parameters, .scan = i, .first = rows};
+
+        if (counts[i] == 0) {
+            fail(EXIT_USAGE, "scan %zu has no row: a scan that saw nothing is a row without a plot",
+                 i);
+        }
+        (are_frames[i] ? make_frame : make_scan)(&making, rows, counts[i], add_scan(scans));
+        rows += counts[i];
+    }
+    free(parameters);
+    return scans;
+}
+
+/* ---- Tables ---- */
+
+const char *program_kind(const char *path)
+{
+    RETURN_ON_FAILURE(NULL)
+    if (lcm_log_is_log(path) || asterix_file_is_asterix(path)) {
+        return "scans";
+    }
+    struct table *header = table_read_header(path);
+    const char *kind =
+        table_find(header, "status") >= 0 && table_find(header, "track_id") >= 0      ? "tracks"
+        : table_find(header, "target_id") >= 0 && table_find(header, "sensor_id") < 0 ? "truth"
+                                                                                      : "scans";
+
+    table_free(header);
+    return kind;
+}
+
+struct program_table *program_table(const char *path, const char *kind_name,
+                                    const struct parameters *settings, bool keep_going)
+{
+    RETURN_ON_FAILURE(NULL)
+    struct parameters *parameters = ready(settings, NULL, 0);
+    const struct rows_kind *kind =
+        strcmp(kind_name, "truth") == 0 ? &rows_kind_truth : &rows_kind_tracks;
+    struct table *table = log_table_or_csv(path, kind, keep_going);
+    struct program_table *made = must_calloc(1, sizeof *made);
+    const char **names = must_calloc((size_t)kind->num_columns, sizeof *names);
+    struct rows_file file;
+
+    (void)rows_read_table(&file, path, table, parameters, keep_going);
+    for (int i = 0; i < kind->num_columns; i++) {
+        names[i] = kind->columns[i].name;
+    }
+    *made = (struct program_table){
+        .num_columns = kind->num_columns,
+        .num_rows = file.rows.count,
+        .names = names,
+        .t_s = must_calloc(file.rows.count, sizeof(double)),
+        .cells = must_calloc(file.rows.count * (size_t)kind->num_columns, sizeof(double))};
+    for (size_t i = 0; i < made->num_rows; i++) {
+        const struct row *row = &file.rows.list[i];
+
+        made->t_s[i] = seconds(row->time_us);
+        memcpy(&made->cells[i * (size_t)kind->num_columns], rows_cells(&file.rows, row),
+               (size_t)kind->num_columns * sizeof(double));
+    }
+    rows_read_end(&file);
+    table_free(table);
+    free(parameters);
+    return made;
+}
+
+void program_table_free(struct program_table *table)
+{
+    free((void *)table->names);
+    free(table->t_s);
+    free(table->cells);
+    free(table);
+}
+
+/* ---- The tracker ---- */
+
+static void add_tracks(struct program_tracks *tracks, const struct rho_report *report)
+{
+    while (tracks->capacity < tracks->count + report->num_tracks) {
+        tracks->capacity = 2 * tracks->capacity + 64;
+        tracks->list = must_realloc(tracks->list, tracks->capacity * sizeof *tracks->list);
+        if (tracks->has_covariances) {
+            tracks->covariances =
+                must_realloc(tracks->covariances, tracks->capacity * sizeof *tracks->covariances);
+        }
+    }
+    for (unsigned i = 0; i < report->num_tracks; i++) {
+        const struct rho_track_report *track = &report->tracks[i];
+        const char *status = rho_track_status_name(track->status);
+        struct program_track *row = &tracks->list[tracks->count];
+
+        *row = (struct program_track){.t_s = seconds(report->time_us),
+                                      .track_id = track->track_id,
+                                      .x_m = track->state[RHO_X],
+                                      .y_m = track->state[RHO_Y],
+                                      .z_m = track->state[RHO_Z],
+                                      .vx_mps = track->state[RHO_VX],
+                                      .vy_mps = track->state[RHO_VY],
+                                      .vz_mps = track->state[RHO_VZ],
+                                      .ax_mps2 = track->accel_mps2[0],
+                                      .ay_mps2 = track->accel_mps2[1],
+                                      .az_mps2 = track->accel_mps2[2],
+                                      .sigma_m = track->sigma_m,
+                                      .sigma_mps = track->sigma_mps,
+                                      .hits = track->hits,
+                                      .misses = track->misses,
+                                      .sensor_id = track->sensor_id,
+                                      .plot = track->plot,
+                                      .update_age_us = track->update_age_us,
+                                      .score_nat = track->score_nat,
+                                      .maneuver_probability = track->maneuver_probability};
+        for (size_t k = 0; status[k] && k < sizeof row->status / sizeof *row->status; k++) {
+            row->status[k] = (unsigned char)status[k];
+        }
+        if (tracks->has_covariances) {
+            memcpy(tracks->covariances[tracks->count], track->covariance, sizeof track->covariance);
+        }
+        tracks->count++;
+    }
+}
+
+void program_tracks_free(struct program_tracks *tracks)
+{
+    free(tracks->list);
+    free(tracks->covariances);
+}
+
+struct program_pipeline *program_pipeline(const struct parameters *settings, bool has_covariances)
+{
+    RETURN_ON_FAILURE(NULL)
+    parameters_check(settings);
+    pipeline_set_gate((struct parameters *)settings, NULL);
+    struct program_pipeline *made = must_calloc(1, sizeof *made);
+
+    made->settings = ready(settings, NULL, 0);
+    made->pipeline = must_alloc(sizeof *made->pipeline);
+    *made->pipeline = pipeline_start();
+    made->tracker = made->pipeline->tracker;
+    made->report = made->pipeline->report;
+    made->tracks.has_covariances = has_covariances;
+    pipeline_open(made->pipeline, made->settings);
+    return made;
+}
+
+void program_pipeline_free(struct program_pipeline *made)
+{
+    pipeline_free(made->pipeline);
+    free(made->pipeline);
+    free(made->settings);
+    program_tracks_free(&made->tracks);
+    free(made);
+}
+
+static void describe(const struct program_pipeline *made, const struct rho_sensor *sensor)
+{
+    must_succeed(rho_tracker_set_sensor(made->tracker, sensor), "sensor");
+}
+
+static int compare_looks(const void *a, const void *b)
+{
+    const struct rho_bearing_scan *const *one = a, *const *other = b;
+
+    return ((*one)->sensor_id > (*other)->sensor_id) - ((*one)->sensor_id < (*other)->sensor_id);
+}
+
+/* Passive sensors stand still, and are known before the first step. */
+static void describe_passive(const struct program_pipeline *made, const struct program_scans *scans)
+{
+    const struct rho_bearing_scan *known[RHO_MAX_SENSORS];
+    size_t num_known = 0;
+
+    for (size_t i = 0; i < scans->count; i++) {
+        for (uint32_t k = 0; k < scans->list[i].frame.num_scans; k++) {
+            const struct rho_bearing_scan *look = &scans->list[i].frame.scans[k];
+            size_t place = 0;
+
+            while (place < num_known && known[place]->sensor_id != look->sensor_id) {
+                place++;
+            }
+            if (place == num_known && num_known < RHO_MAX_SENSORS) {
+                known[num_known++] = look;
+            }
+        }
+    }
+    qsort(known, num_known, sizeof *known, compare_looks);
+    for (size_t i = 0; i < num_known; i++) {
+        const int32_t id = known[i]->sensor_id;
+        struct rho_sensor sensor;
+
+        if (parameters_to_sensor(made->settings, id, &sensor)) {
+            sensor.x_m = known[i]->x_m;
+            sensor.y_m = known[i]->y_m;
+            sensor.range_max_m = (float)parameters_range_max_m(made->settings, id);
+            describe(made, &sensor);
+        }
+    }
+}
+
+/* What the first scans hold decides what is customary, as it does for the files of `track`. */
+static void open_for(struct program_pipeline *made, const struct program_scans *scans)
+{
+    bool has_plots = false, has_bearings = false;
+
+    for (size_t i = 0; i < scans->count; i++) {
+        has_plots |= !scans->list[i].is_frame;
+        has_bearings |= scans->list[i].is_frame;
+    }
+    if (!made->is_open && scans->count > 0) {
+        made->is_open = true;
+        if (!has_plots) {
+            method_suggest(METHOD_PASSIVE, made->settings);
+            pipeline_open(made->pipeline, made->settings);
+        }
+    }
+    if (has_bearings && !made->pipeline->passive) {
+        pipeline_open_passive(made->pipeline, made->settings);
+    }
+    if (has_bearings) {
+        describe_passive(made, scans);
+    }
+}
+
+bool program_pipeline_run(struct program_pipeline *made, const struct program_scans *scans,
+                          bool is_told)
+{
+    RETURN_ON_FAILURE(false)
+    made->tracks.count = 0;
+    open_for(made, scans);
+    for (size_t i = 0; i < scans->count; i++) {
+        const struct program_scan *scan = &scans->list[i];
+
+        if (scan->is_frame) {
+            pipeline_step_frame(made->pipeline, &scan->frame);
+        } else {
+            if (scan->has_sensor) {
+                describe(made, &scan->sensor);
+            }
+            pipeline_step(made->pipeline, &scan->scan);
+        }
+        if (is_told) {
+            add_tracks(&made->tracks, made->report);
+        }
+    }
+    return true;
+}
+
+/* ---- Initiation ---- */
+
+static struct parameters customary(const struct parameters *settings, enum method method)
+{
+    struct parameters copy = *settings;
+
+    method_suggest(method, &copy);
+    return copy;
+}
+
+bool program_initiator_config(const struct parameters *settings,
+                              struct rho_initiator_config *config)
+{
+    RETURN_ON_FAILURE(false)
+    parameters_to_initiator(settings, config);
+    return true;
+}
+
+bool program_classic_config(const struct parameters *settings, const char *method, double range_m,
+                            struct rho_classic_config *config)
+{
+    RETURN_ON_FAILURE(false)
+    const struct parameters copy = customary(settings, method_find(method));
+
+    *config = method_classic(method_find(method), &copy, range_m);
+    return true;
+}
+
+bool program_passive_config(const struct parameters *settings, struct rho_passive_config *config)
+{
+    RETURN_ON_FAILURE(false)
+    const struct parameters copy = customary(settings, METHOD_PASSIVE);
+
+    *config = method_passive(&copy);
+    return true;
+}
+
+bool program_passive_paper_config(const struct parameters *settings,
+                                  struct rho_passive_paper_config *config)
+{
+    RETURN_ON_FAILURE(false)
+    const struct parameters copy = customary(settings, METHOD_PASSIVE_PAPER);
+
+    *config = method_passive_paper(&copy);
+    return true;
+}
+
+/* ---- The node ---- */
+
+struct program_node {
+    struct parameters *settings;
+    struct node_core *core;
+};
+
+struct program_node *program_node(const struct parameters *settings, int32_t epoch,
+                                  program_send *send, void *context)
+{
+    RETURN_ON_FAILURE(NULL)
+    const struct node_core_events events = {.context = context, .send = send};
+    struct program_node *node = must_calloc(1, sizeof *node);
+
+    node->settings = ready(settings, NULL, 0);
+    node->core = node_core_open(node->settings, epoch, &events);
+    return node;
+}
+
+void program_node_free(struct program_node *node)
+{
+    node_core_close(node->core);
+    free(node->settings);
+    free(node);
+}
+
+bool program_node_take(struct program_node *node, const char *channel, const uint8_t *data,
+                       size_t size, int64_t now_us)
+{
+    RETURN_ON_FAILURE(false)
+    if (channel) {
+        node_core_take(node->core, channel, data, size, now_us);
+    } else if (now_us == INT64_MAX) {
+        node_core_flush(node->core);
+    } else {
+        node_core_tick(node->core, now_us);
+    }
+    return true;
+}
+
+bool program_node_status(struct program_node *node)
+{
+    static const struct node_core_losses none;
+
+    RETURN_ON_FAILURE(false)
+    node_core_status(node->core, &none);
+    return true;
+}
+
+int64_t program_node_due_us(const struct program_node *node)
+{
+    return node_core_due_us(node->core);
+}
+
+bool program_node_tracks(struct program_node *node, struct program_tracks *tracks)
+{
+    RETURN_ON_FAILURE(false)
+    tracks->count = 0;
+    add_tracks(tracks, node_core_report(node->core));
+    return true;
+}

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: MIT
+"""The tracker, and the node that is fed with messages."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._core import FATES, array_of, ffi, lib, must, plain
+from .scans import COVARIANCE, TRACK, as_scans
+from .settings import Settings, settings_of
+
+
+def _array(tracks: Any) -> np.ndarray:
+    rows = array_of(tracks.list, tracks.count, TRACK)
+    if not tracks.has_covariances:
+        return rows
+    size = len(COVARIANCE)
+    covariances = array_of(tracks.covariances, tracks.count * size, "f4").reshape(-1, size)
+    wide = np.empty(len(rows), [(name, TRACK[name]) for name in TRACK.names]
+                    + [(name, "f4") for name in COVARIANCE])
+    for name in TRACK.names:
+        wide[name] = rows[name]
+    for i, name in enumerate(COVARIANCE):
+        wide[name] = covariances[:, i]
+    return wide
+
+
+class Tracker:
+    """Scans in, tracks out, as `rhotrack track` does it.
+
+    Tracks are structured arrays, a row each track and scan, with the columns of the program's
+    tracks file: t_s (float64 s), track_id, status ("tentative", "confirmed", "coasting"), x_m ..
+    vz_mps, ax_mps2 .. az_mps2, sigma_m, sigma_mps (float32; metres, m/s, m/s^2), hits, misses,
+    sensor_id, plot (row of the plot in its scan, -1: none), update_age_us, score_nat,
+    maneuver_probability; with covariance=True also cov_x_x .. cov_vz_vz.
+    """
+
+    def __init__(self, settings: Settings | None = None, covariance: bool = False,
+                 **parameters: Any) -> None:
+        self.settings = settings_of(settings, parameters)
+        self._pipeline = ffi.gc(must(lib.program_pipeline(self.settings.handle, covariance)),
+                                lib.program_pipeline_free)
+
+    def step(self, scan: np.ndarray) -> np.ndarray:
+        """Takes one scan, or one frame of bearings (see Scans); returns the tracks at its time."""
+        return self.run([scan])
+
+    def run(self, scans: Any) -> np.ndarray:
+        """Takes many scans in one call of C; returns the tracks of all steps, one after the other.
+
+        What the first scans hold decides, as the program's inputs do: bearings alone bring the
+        customary parameters of passive tracking.
+        """
+        scans = as_scans(scans, self.settings)
+        must(lib.program_pipeline_run(self._pipeline, scans.handle, True))
+        return _array(self._pipeline.tracks)
+
+    @property
+    def fates(self) -> np.ndarray:
+        """What the last step did with each plot, in the order of the scan: "claimed", "held", ..."""
+        report = self._pipeline.report
+        count = min(report.num_plots, lib.RHO_MAX_PLOTS)
+        return FATES[array_of(report.fates, count, "u1")]
+
+    @property
+    def ended(self) -> np.ndarray:
+        """track_id of the confirmed tracks that ended in the last step."""
+        report = self._pipeline.report
+        return array_of(report.ended, report.num_ended, "u4")
+
+    @property
+    def counters(self) -> dict[str, Any]:
+        """Counts since the start; fates by their names."""
+        counters = plain(self._pipeline.tracker.counters)
+        counters["fates"] = dict(zip(FATES.tolist(), counters["fates"].tolist()))
+        return counters
+
+    @property
+    def work(self) -> dict[str, int]:
+        """Units of work of the last step and the worst one, and what work_max cut."""
+        return plain(self._pipeline.tracker.work)
+
+    @property
+    def sensors(self) -> dict[int, dict[str, Any]]:
+        """By sensor_id: factors on stated sigmas and the pd by ring of range, as learned."""
+        tracker, found = self._pipeline.tracker, {}
+        known = ffi.new("struct rho_tracker_known *")
+        for i in range(tracker.num_sensors):
+            sensor_id = tracker.sensors[i].sensor_id
+            if lib.rho_tracker_known_of(tracker, sensor_id, known) == lib.RHO_OK:
+                found[sensor_id] = plain(known[0])
+        return found
+
+
+@ffi.def_extern()
+def node_sent(context: Any, channel: Any, data: Any, size: int) -> None:
+    ffi.from_handle(context).append((ffi.string(channel).decode(), bytes(ffi.buffer(data, size))))
+
+
+class Node:
+    """The live tracker without a network: messages of sensors in, messages of tracks out.
+
+    Messages are (channel, bytes), encoded as lcm_types/ has them: LCM's own generator makes their
+    Python classes. epoch is the boot number in what is published.
+    """
+
+    def __init__(self, settings: Settings | None = None, epoch: int = 1, **parameters: Any) -> None:
+        self.settings = settings_of(settings, parameters)
+        self._sent: list[tuple[str, bytes]] = []
+        self._context = ffi.new_handle(self._sent)
+        self._node = ffi.gc(must(lib.program_node(self.settings.handle, epoch, lib.node_sent,
+                                                  self._context)), lib.program_node_free)
+        self._tracks = ffi.gc(ffi.new("struct program_tracks *"), lib.program_tracks_free)
+
+    def take(self, channel: str, data: bytes, now_s: float) -> list[tuple[str, bytes]]:
+        """Takes a message received at now_s (s); returns what is published."""
+        return self._do(channel.encode(), data, round(now_s * 1e6))
+
+    def tick(self, now_s: float) -> list[tuple[str, bytes]]:
+        """Steps what is due at now_s (s) though nothing has come; due_s says when that is."""
+        return self._do(ffi.NULL, b"", round(now_s * 1e6))
+
+    def flush(self) -> list[tuple[str, bytes]]:
+        """Steps all that waits."""
+        return self._do(ffi.NULL, b"", 2**63 - 1)
+
+    def status(self) -> list[tuple[str, bytes]]:
+        """The messages RHO_STATUS, RHO_WORK and RHO_SENSORS of now."""
+        self._sent.clear()
+        must(lib.program_node_status(self._node))
+        return list(self._sent)
+
+    def _do(self, channel: Any, data: bytes, now_us: int) -> list[tuple[str, bytes]]:
+        self._sent.clear()
+        must(lib.program_node_take(self._node, channel, data, len(data), now_us))
+        return list(self._sent)
+
+    @property
+    def due_s(self) -> float:
+        """When tick has something to do, seconds of the clock of now_s; infinity: never."""
+        due_us = lib.program_node_due_us(self._node)
+        return float("inf") if due_us == 2**63 - 1 else due_us / 1e6
+
+    @property
+    def tracks(self) -> np.ndarray:
+        """The tracks of the last step, as Tracker gives them."""
+        must(lib.program_node_tracks(self._node, self._tracks))
+        return _array(self._tracks)
