@@ -9,7 +9,8 @@
 #include "base/common.h"
 #include "base/identities.h"
 #include "evaluation/time_alignment.h"
-#include "io/csv/geodetic.h"
+#include "io/rows/path_row.h"
+#include "rhotrack/message.h"
 
 struct timed_point {
     int64_t time_us;
@@ -26,103 +27,24 @@ struct points {
 
 /* ---- reading ---- */
 
-/* Where a table has what. */
-struct columns {
-    int time, id, status, x, y, z, vx, vy, vz;
-    int covariance[6]; /* of place and velocity, each xx, yx, yy */
-    const char *id_name;
-    struct geodetic *geodetic; /* of the truth; NULL of tracks */
-};
-
-static struct columns find_columns(const struct table *table, const char *id_name,
-                                   const struct parameters *parameters)
+static struct evaluation_point point_of(const struct path_row *path)
 {
-    struct geodetic *geodetic = parameters ? geodetic_open(table, parameters) : NULL;
-    bool has_places = geodetic_has_places(geodetic);
-    return (struct columns){
-        .time = table_need(table, "t_s"),
-        .id = table_need(table, id_name),
-        .status = table_find(table, "status"),
-        .x = has_places ? -1 : table_need(table, "x_m"),
-        .y = has_places ? -1 : table_need(table, "y_m"),
-        .z = table_find(table, has_places ? "alt_m" : "z_m"),
-        .vx = table_find(table, "vx_mps"),
-        .vy = table_find(table, "vy_mps"),
-        .vz = table_find(table, "vz_mps"),
-        .covariance = {table_find(table, "cov_x_x"), table_find(table, "cov_y_x"),
-                       table_find(table, "cov_y_y"), table_find(table, "cov_vx_vx"),
-                       table_find(table, "cov_vy_vx"), table_find(table, "cov_vy_vy")},
-        .id_name = id_name,
-        .geodetic = geodetic,
+    return (struct evaluation_point){
+        .id = path->id,
+        .x_m = path->x_m,
+        .y_m = path->y_m,
+        .z_m = path->z_m,
+        .vx_mps = path->vx_mps,
+        .vy_mps = path->vy_mps,
+        .vz_mps = path->vz_mps,
+        .cov_xx_m2 = path->covariance[0],
+        .cov_yx_m2 = path->covariance[1],
+        .cov_yy_m2 = path->covariance[2],
+        .cov_vxx_m2ps2 = path->covariance[3],
+        .cov_vyx_m2ps2 = path->covariance[4],
+        .cov_vyy_m2ps2 = path->covariance[5],
+        .is_coasting = path->status == RHO_MESSAGE_TRACK_COASTING,
     };
-}
-
-static void read_place(const struct table *table, size_t row, const struct columns *at,
-                       struct evaluation_point *point)
-{
-    char reason[ROW_REASON_BYTES];
-    const struct row_check check = {.table = table, .row = row, .reason = reason};
-    double place_m[3];
-    bool has_alt;
-    if (!geodetic_has_places(at->geodetic)) {
-        point->x_m = table_number_at(table, row, at->x);
-        point->y_m = table_number_at(table, row, at->y);
-        point->z_m = table_number_or(table, row, at->z, 0.0);
-        return;
-    }
-    if (!geodetic_place(at->geodetic, &check, place_m, &has_alt)) {
-        table_fail(table, row, "%s", reason);
-    }
-    point->x_m = place_m[0];
-    point->y_m = place_m[1];
-    point->z_m = place_m[2];
-}
-
-static void read_covariance(const struct table *table, size_t row, const struct columns *at,
-                            struct evaluation_point *point)
-{
-    double *const to[] = {&point->cov_xx_m2,     &point->cov_yx_m2,     &point->cov_yy_m2,
-                          &point->cov_vxx_m2ps2, &point->cov_vyx_m2ps2, &point->cov_vyy_m2ps2};
-    for (size_t i = 0; i < sizeof to / sizeof *to; i++) {
-        *to[i] = table_number_or(table, row, at->covariance[i], NAN);
-    }
-}
-
-static struct timed_point read_point(const struct table *table, size_t row,
-                                     const struct columns *at)
-{
-    struct timed_point timed = {.row = row};
-    char buffer[TABLE_TEXT_BYTES];
-    const char *reason = table_time_us(table, row, at->time, &timed.time_us);
-    if (reason != NULL) {
-        table_fail(table, row, "t_s: '%s' %s", table_text(table, row, at->time, buffer), reason);
-    }
-    reason = table_int32(table, row, at->id, &timed.point.id);
-    if (reason != NULL) {
-        table_fail(table, row, "%s: '%s' %s", at->id_name, table_text(table, row, at->id, buffer),
-                   reason);
-    }
-    read_place(table, row, at, &timed.point);
-    timed.point.vx_mps = table_number_or(table, row, at->vx, NAN);
-    timed.point.vy_mps = table_number_or(table, row, at->vy, NAN);
-    timed.point.vz_mps = table_number_or(table, row, at->vz, 0.0);
-    read_covariance(table, row, at, &timed.point);
-    timed.point.is_coasting = at->status >= 0 && table_is_word(table, row, at->status, "coasting");
-    return timed;
-}
-
-static bool counts(const struct table *table, size_t row, int column)
-{
-    char buffer[TABLE_TEXT_BYTES];
-    const char *status = column < 0 ? "confirmed" : table_text(table, row, column, buffer);
-    if (strcmp(status, "confirmed") == 0 || strcmp(status, "coasting") == 0) {
-        return true;
-    }
-    if (strcmp(status, "tentative") != 0 && strcmp(status, "deleted") != 0) {
-        table_fail(table, row, "status: '%s' is none of tentative, confirmed, coasting, deleted",
-                   status);
-    }
-    return false;
 }
 
 static int by_time(const void *a, const void *b)
@@ -134,21 +56,23 @@ static int by_time(const void *a, const void *b)
     return one->row < other->row ? -1 : one->row > other->row;
 }
 
-static struct points read_points(const struct table *table, const char *id_name,
-                                 const struct parameters *parameters)
+/* Confirmed and coasting rows. */
+static struct points read_points(const struct table *table, const struct parameters *parameters)
 {
-    struct columns at = find_columns(table, id_name, parameters);
+    struct path_columns columns = path_columns_find(table, parameters);
     struct points points = {.table = table,
                             .list = must_calloc(table->num_rows, sizeof *points.list),
-                            .has_z = at.z >= 0,
-                            .has_vz = at.vz >= 0};
+                            .has_z = columns.z >= 0,
+                            .has_vz = columns.vz >= 0};
     for (size_t row = 0; row < table->num_rows; row++) {
-        struct timed_point timed = read_point(table, row, &at);
-        if (counts(table, row, at.status)) {
-            points.list[points.count++] = timed;
+        const struct path_row path = path_row_read(&columns, row);
+        if (path.status == RHO_MESSAGE_TRACK_CONFIRMED ||
+            path.status == RHO_MESSAGE_TRACK_COASTING) {
+            points.list[points.count++] =
+                (struct timed_point){.time_us = path.time_us, .row = row, .point = point_of(&path)};
         }
     }
-    geodetic_close(at.geodetic);
+    path_columns_end(&columns);
     qsort(points.list, points.count, sizeof points.list[0], by_time);
     return points;
 }
@@ -298,8 +222,8 @@ struct evaluation *evaluation_read(const struct table *truth_table,
 {
     struct evaluation *e = evaluation_start(cutoff_m);
     evaluation_set_turning(e, parameters->value[PARAMETER_TURNING_MPS2]);
-    struct points truth = read_points(truth_table, "target_id", parameters);
-    struct points tracks = read_points(tracks_table, "track_id", NULL);
+    struct points truth = read_points(truth_table, parameters);
+    struct points tracks = read_points(tracks_table, parameters);
     level(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     level(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     int64_t tolerance_us = alignment_tolerance_us(parameters);

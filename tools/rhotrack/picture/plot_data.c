@@ -6,142 +6,77 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/csv/geodetic.h"
 #include "io/csv/record.h"
 #include "io/csv/table.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
 #include "io/log/log_table.h"
+#include "io/rows/path_row.h"
 #include "io/scans/frame_reader.h"
+#include "rhotrack/message.h"
 
-/* A table that is read; columns are indices, -1 where it has none. */
-struct reading {
-    const struct table *table;
-    const struct parameters *parameters;
-    int time, id, status, x, y, vx, vy;
-    bool is_polar;
-    struct record_columns polar;
-    struct geodetic *
-        /* where latitude and longitude stand for x and y, which they are then; else NULL */
-        geodetic;
-};
-
-static void find_place(struct reading *reading)
+/* As the tracks have them: the same checks, the same conversion. */
+static void add_plots(struct plot_points *points, const struct table *table,
+                      const struct parameters *parameters)
 {
-    bool on_earth =
-        table_find(reading->table, "track_id") < 0 && table_find(reading->table, "lat_deg") >= 0;
-    if (on_earth) {
-        reading->geodetic = geodetic_open(reading->table, reading->parameters);
-    }
-    reading->x = table_need(reading->table, on_earth ? "lat_deg" : "x_m");
-    reading->y = table_need(reading->table, on_earth ? "lon_deg" : "y_m");
-}
-
-static struct reading start_reading(const struct table *table, int id_column,
-                                    const struct parameters *parameters)
-{
-    struct reading reading = {.table = table,
-                              .parameters = parameters,
-                              .time = table_need(table, "t_s"),
-                              .id = id_column,
-                              .status = table_find(table, "status"),
-                              .vx = table_find(table, "vx_mps"),
-                              .vy = table_find(table, "vy_mps"),
-                              .is_polar = table_find(table, "range_m") >= 0};
-    if (reading.is_polar) {
-        reading.polar = record_columns_find(table, parameters, RECORD_PLOTS, true);
-    } else {
-        find_place(&reading);
-    }
-    return reading;
-}
-
-static void end_reading(struct reading *reading)
-{
-    record_columns_free(&reading->polar);
-    geodetic_close(reading->geodetic);
-}
-
-/* As the tracks have them: the same checks, the same conversion. False: a scan that saw nothing. */
-static bool read_polar(const struct reading *reading, size_t row, struct plot_point *point)
-{
+    struct record_columns columns = record_columns_find(table, parameters, RECORD_PLOTS, false);
     char reason[ROW_REASON_BYTES];
-    struct record record;
-    if (!record_read(reading->table, &reading->polar, row, reading->parameters, &record, reason)) {
-        table_fail(reading->table, row, "%s", reason);
+    for (size_t row = 0; row < table->num_rows; row++) {
+        struct record record;
+        if (!record_read(table, &columns, row, parameters, &record, reason)) {
+            table_fail(table, row, "%s", reason);
+        }
+        if (record.has_measurement) {
+            points->list[points->count++] =
+                (struct plot_point){.time_us = record.time_us - record.bias_us,
+                                    .x_m = (double)record.plot.x_m,
+                                    .y_m = (double)record.plot.y_m};
+        }
     }
-    *point = (struct plot_point){.time_us = record.time_us - record.bias_us,
-                                 .x_m = (double)record.plot.x_m,
-                                 .y_m = (double)record.plot.y_m};
-    return record.has_measurement;
+    record_columns_free(&columns);
 }
 
-static void read_place(const struct reading *reading, size_t row, struct plot_point *point)
+static double number_or_0(double number)
 {
-    char reason[ROW_REASON_BYTES];
-    const struct row_check check = {.table = reading->table, .row = row, .reason = reason};
-    double place_m[3];
-    bool has_alt;
-    if (!reading->geodetic) {
-        point->x_m = table_number_at(reading->table, row, reading->x);
-        point->y_m = table_number_at(reading->table, row, reading->y);
-        return;
-    }
-    if (!geodetic_place(reading->geodetic, &check, place_m, &has_alt)) {
-        table_fail(reading->table, row, "%s", reason);
-    }
-    point->x_m = place_m[0];
-    point->y_m = place_m[1];
+    return isnan(number) ? 0.0 : number;
 }
 
-static struct plot_point read_cartesian(const struct reading *reading, size_t row)
+/* Truth or tracks, but for rows without a place, and of tracks that are no more. */
+static void add_paths(struct plot_points *points, const struct table *table,
+                      const struct parameters *parameters)
 {
-    const struct table *table = reading->table;
-    struct plot_point point = {.table = table, .row = row};
-    const char *reason = table_time_us(table, row, reading->time, &point.time_us);
-    if (!reason && reading->id >= 0) {
-        reason = table_int32(table, row, reading->id, &point.id);
+    struct path_columns columns = path_columns_find(table, parameters);
+    for (size_t row = 0; row < table->num_rows; row++) {
+        if (!path_row_has_place(&columns, row)) {
+            continue;
+        }
+        const struct path_row path = path_row_read(&columns, row);
+        if (path.status != RHO_MESSAGE_TRACK_DELETED) {
+            points->list[points->count++] =
+                (struct plot_point){.time_us = path.time_us,
+                                    .id = path.id,
+                                    .x_m = path.x_m,
+                                    .y_m = path.y_m,
+                                    .vx_mps = number_or_0(path.vx_mps),
+                                    .vy_mps = number_or_0(path.vy_mps),
+                                    .is_tentative = path.status == RHO_MESSAGE_TRACK_TENTATIVE,
+                                    .table = table,
+                                    .row = row};
+        }
     }
-    if (reason) {
-        table_fail(table, row, "time or identity: %s", reason);
-    }
-    read_place(reading, row, &point);
-    point.vx_mps = table_number_or(table, row, reading->vx, 0.0);
-    point.vy_mps = table_number_or(table, row, reading->vy, 0.0);
-    point.is_tentative =
-        reading->status >= 0 && table_is_word(table, row, reading->status, "tentative");
-    return point;
+    path_columns_end(&columns);
 }
 
-static bool is_deleted(const struct table *table, size_t row)
+static void add_points(struct plot_points *points, const struct table *table,
+                       const struct parameters *parameters, bool are_plots)
 {
-    int status = table_find(table, "status");
-    return status >= 0 && table_is_word(table, row, status, "deleted");
-}
-
-/* False: a scan that saw nothing, or a track that is no more. */
-static bool read_point(const struct reading *reading, size_t row, struct plot_point *point)
-{
-    if (reading->is_polar) {
-        return read_polar(reading, row, point);
-    }
-    if (table_is_empty(reading->table, row, reading->x) || is_deleted(reading->table, row)) {
-        return false;
-    }
-    *point = read_cartesian(reading, row);
-    return true;
-}
-
-static void add_points(struct plot_points *points, const struct table *table, int id_column,
-                       const struct parameters *parameters)
-{
-    struct reading reading = start_reading(table, id_column, parameters);
     points->list =
         must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
-    for (size_t row = 0; row < table->num_rows; row++) {
-        points->count += read_point(&reading, row, &points->list[points->count]);
+    if (are_plots) {
+        add_plots(points, table, parameters);
+    } else {
+        add_paths(points, table, parameters);
     }
-    end_reading(&reading);
 }
 
 /* Tables of tracks stay: what is wrong with a row may be seen only beside the truth. */
@@ -155,17 +90,14 @@ static void keep_table(struct plot_data *data, struct table *table)
 static void add_table(struct plot_data *data, struct table *table,
                       const struct parameters *parameters)
 {
-    int track = table_find(table, "track_id"), target = table_find(table, "target_id");
-    if (track >= 0) {
-        add_points(&data->tracks, table, track, parameters);
+    if (table_find(table, "track_id") >= 0) {
+        add_points(&data->tracks, table, parameters, false);
         keep_table(data, table);
         return;
     }
-    if (target >= 0 && table_find(table, "sensor_id") < 0) { /* plots of a scene have it, too */
-        add_points(&data->truth, table, target, parameters);
-    } else {
-        add_points(&data->plots, table, -1, parameters);
-    }
+    /* plots of a scene have a target, too */
+    bool are_plots = table_find(table, "target_id") < 0 || table_find(table, "sensor_id") >= 0;
+    add_points(are_plots ? &data->plots : &data->truth, table, parameters, are_plots);
     table_free(table);
 }
 
