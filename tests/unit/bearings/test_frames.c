@@ -815,6 +815,20 @@ static void times_at_their_ends_are_taken(void **state)
     assert_int_equal(view.is_restart, 1);
 }
 
+/* Bearings of sensors less than a metre apart do not cross. */
+static void sensors_are_a_metre_apart(void **state)
+{
+    struct sent first, near, other;
+
+    (void)state;
+    start();
+    assert_int_equal(rho_frames_push(&frames, make(&first, 0, 0, 1, 0)), RHO_OK);
+    make(&near, 1, 0, 1, 0)->x_m = first.scan.x_m + 0.95f;
+    assert_int_equal(rho_frames_push(&frames, &near.scan), RHO_ERROR_VALUE);
+    make(&other, 1, 0, 1, 0)->x_m = first.scan.x_m + 1.05f;
+    assert_int_equal(rho_frames_push(&frames, &other.scan), RHO_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -843,6 +857,7 @@ int main(void)
         cmocka_unit_test(one_sensor_too_many_is_refused),
         cmocka_unit_test(what_was_never_initialised_is_refused),
         cmocka_unit_test(times_at_their_ends_are_taken),
+        cmocka_unit_test(sensors_are_a_metre_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

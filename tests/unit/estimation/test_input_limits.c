@@ -125,6 +125,14 @@ static void configurations_are_checked(void **state)
     config.gamma = 0.0f;
     assert_false(rho_input_is_usable(&config));
     assert_false(rho_input_is_usable(NULL));
+    const float sigmas_mps2[][2] = {{0.0011f, 0.0009f}, {1.0e5f, 1.01e5f}}; /* usable, not */
+    for (size_t n = 0; n < NUM(sigmas_mps2); ++n) {
+        config = paper();
+        config.sigma_mps2 = sigmas_mps2[n][0];
+        assert_true(rho_input_is_usable(&config));
+        config.sigma_mps2 = sigmas_mps2[n][1];
+        assert_false(rho_input_is_usable(&config));
+    }
     config = paper();
     assert_int_equal(rho_input_start(NULL, &config, &kalman), RHO_ERROR_NULL);
     assert_int_equal(rho_input_start(&input, NULL, &kalman), RHO_ERROR_NULL);

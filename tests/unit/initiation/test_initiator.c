@@ -141,6 +141,11 @@ static void init_refuses_every_bad_parameter(void **state)
     REFUSE_WITH(v_min_mps, NAN);
     REFUSE_WITH(v_max_mps, INFINITY);
     REFUSE_WITH(v_max_mps, 1e-30f);
+    config.v_min_mps = 0.0f;
+    config.v_max_mps = 0.0099f;
+    refuse(&config);
+    config.v_max_mps = 0.0101f;
+    assert_int_equal(rho_initiator_init(&other, sizeof other, &config), RHO_OK);
     REFUSE_WITH(false_tracks_per_hour, -5.0f);
     REFUSE_WITH(false_tracks_per_hour, NAN);
     REFUSE_WITH(false_tracks_per_hour, 1e-7f);
