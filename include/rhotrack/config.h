@@ -135,20 +135,20 @@
  * Cells with votes that the papers' methods hold at a time. RAM: 8 bytes a cell. A power of two,
  * 256 .. 4194304.
  */
-#ifndef RHO_MAX_CLASSIC_CELLS
-#define RHO_MAX_CLASSIC_CELLS RHO_CONFIG_PICK(4096, 131072)
+#ifndef RHO_MAX_HOUGH_CELLS
+#define RHO_MAX_HOUGH_CELLS RHO_CONFIG_PICK(4096, 131072)
 #endif
 
 /*
  * Pairs of plots of one scan and the next that the papers' methods hold at a time. RAM: 32 bytes a
  * pair. 16 .. 65534.
  */
-#ifndef RHO_MAX_CLASSIC_KERNELS
-#define RHO_MAX_CLASSIC_KERNELS RHO_CONFIG_PICK(256, 16384)
+#ifndef RHO_MAX_HOUGH_KERNELS
+#define RHO_MAX_HOUGH_KERNELS RHO_CONFIG_PICK(256, 16384)
 #endif
 
 /* Chains in which these pairs are found by their line. RAM: 2 bytes each. */
-#define RHO_CLASSIC_CHAINS RHO_CONFIG_PICK(256, 16384)
+#define RHO_HOUGH_CHAINS RHO_CONFIG_PICK(256, 16384)
 
 /* Bearings of one scan of a passive sensor; the rest get the fate NO_ROOM. 1 .. 64. */
 #ifndef RHO_MAX_BEARINGS
@@ -367,12 +367,12 @@
     (RHO_ACCUMULATOR_BINS & (RHO_ACCUMULATOR_BINS - 1)) != 0
 #error "RHO_ACCUMULATOR_BINS must be a power of two, 64 .. 16384"
 #endif
-#if RHO_MAX_CLASSIC_CELLS < 256 || RHO_MAX_CLASSIC_CELLS > 4194304 ||                              \
-    (RHO_MAX_CLASSIC_CELLS & (RHO_MAX_CLASSIC_CELLS - 1))
-#error "RHO_MAX_CLASSIC_CELLS must be a power of two, 256 .. 4194304"
+#if RHO_MAX_HOUGH_CELLS < 256 || RHO_MAX_HOUGH_CELLS > 4194304 ||                                  \
+    (RHO_MAX_HOUGH_CELLS & (RHO_MAX_HOUGH_CELLS - 1))
+#error "RHO_MAX_HOUGH_CELLS must be a power of two, 256 .. 4194304"
 #endif
-#if RHO_MAX_CLASSIC_KERNELS < 16 || RHO_MAX_CLASSIC_KERNELS > 65534
-#error "RHO_MAX_CLASSIC_KERNELS must be 16 .. 65534"
+#if RHO_MAX_HOUGH_KERNELS < 16 || RHO_MAX_HOUGH_KERNELS > 65534
+#error "RHO_MAX_HOUGH_KERNELS must be 16 .. 65534"
 #endif
 #if RHO_MAX_BEARINGS < 1 || RHO_MAX_BEARINGS > 64
 #error "RHO_MAX_BEARINGS must be 1 .. 64"
@@ -464,7 +464,7 @@
 
 /*
  * RAM formula, in bytes: upper bounds of the objects' sizes that the build asserts (accumulator.c,
- * classic.c, initiator.c, tracker.c). Embedded: initiator 66 KiB at most. A node also holds the
+ * hough.c, initiator.c, tracker.c). Embedded: initiator 66 KiB at most. A node also holds the
  * caller's scan (56 bytes a plot) and report.
  */
 #define RHO_RAM_WINDOW_BYTES                                                                       \
@@ -479,11 +479,11 @@
      RHO_RAM_LARGER(2 * RHO_MAX_RHO_CELLS,                                                         \
                     14 * RHO_ACCUMULATOR_SPARSE_MAX + 4 * RHO_ACCUMULATOR_BINS))
 /* the larger of the accumulator, and cells with pairs or a row */
-#define RHO_RAM_CLASSIC_BYTES                                                                      \
+#define RHO_RAM_HOUGH_BYTES                                                                        \
     (RHO_RAM_LARGER(RHO_RAM_ACCUMULATOR_BYTES,                                                     \
-                    8 * RHO_MAX_CLASSIC_CELLS +                                                    \
+                    8 * RHO_MAX_HOUGH_CELLS +                                                      \
                         RHO_RAM_LARGER(4 * RHO_MAX_RHO_CELLS,                                      \
-                                       32 * RHO_MAX_CLASSIC_KERNELS + 2 * RHO_CLASSIC_CHAINS)) +   \
+                                       32 * RHO_MAX_HOUGH_KERNELS + 2 * RHO_HOUGH_CHAINS)) +       \
      128)
 #define RHO_RAM_HYPOTHESES_BYTES (410 * RHO_MAX_HYPOTHESES + 17 * (RHO_MAX_TRACKS + 1) + 2048)
 #define RHO_RAM_STRIPS_BYTES                                                                       \

@@ -38,7 +38,7 @@
 #include "rhotrack/track.h"
 
 /* the methods of the papers, to compare with */
-#include "rhotrack/classic.h"
+#include "rhotrack/hough.h"
 #include "rhotrack/passive_paper.h"
 
 #endif

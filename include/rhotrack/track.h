@@ -292,7 +292,8 @@ enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
                                                  const struct rho_track_limits *limits);
 
 /*
- * Root of the mean position (velocity) variance over the open axes, metres (metres a second).
+ * Root of the mean position (velocity) variance over the axes that were measured so far, metres
+ * (metres a second).
  * Constant cost.
  */
 float rho_track_sigma_m(const struct rho_track *track);

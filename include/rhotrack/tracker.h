@@ -400,10 +400,10 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
 
 /*
  * Starts a track from plots that another initiator has found: the papers' Hough transforms
- * (classic.h), or the caller's own. The tracker is stepped without an initiator (NULL); after a
+ * (hough.h), or the caller's own. The tracker is stepped without an initiator (NULL); after a
  * step the caller's initiator takes the plots with the fate NO_ROOM, which no track has claimed.
- *   plots      num_plots >= 1 of any scans so far, as rho_track_start takes them; row is that in the
- *              last step's scan, or -1
+ *   plots      num_plots >= 1 of any scans so far, as rho_track_start takes them; row is that in
+ *              the last step's scan, or -1
  *   score_mnat evidence for a target, above the caller's threshold: the track is confirmed at 0 and
  *              more, tentative below until plots have raised it to 0, and ends below -4605. A
  *              tracker that was also stepped with an initiator compares with that one's thresholds

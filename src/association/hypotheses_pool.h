@@ -17,8 +17,8 @@ uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool);
 void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node);
 
 /*
- * Frees nodes of slots that have more, so that a slot could have `wanted`. Returns how many it can
- * have.
+ * Frees nodes of the slots with the most hypotheses, so that this slot can have `wanted`. Returns
+ * how many it can have.
  */
 unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted);
 

@@ -107,7 +107,8 @@ void rho_passive_prepare(struct rho_passive_search *search)
 /*
  * Two crossings determine a state, and its four bearings always fit. The likelihood ratio of the
  * other bearings has the mean 1 if all bearings are false, so that it reaches e^s in at most one of
- * e^s pairs of crossings. Pairs with a crossing of the newest frame are new at each search.
+ * e^s pairs of crossings. So the start score is that of the four bearings, and ln of the number of
+ * pairs over the wanted number of false tracks in an interval.
  */
 void rho_passive_set_start_score(const struct rho_passive_search *search)
 {

@@ -20,8 +20,8 @@
 #define SENSITIVITY2_MAX 1.0e24f
 
 /*
- * Terms added to a covariance have rounding errors of some units; the variances are raised by
- * sixteen.
+ * Terms added to a covariance have rounding errors of some units in the last place; what is added
+ * to a variance is raised by sixteen such units, so that the covariance stays positive definite.
  */
 #define ROUNDING_SHARE (1.0f / 1048576.0f)
 

@@ -68,9 +68,9 @@ static int are_usable(const struct rho_tracker *tracker, const struct rho_report
                       const struct rho_track_plot *plots, unsigned num_plots)
 {
     for (unsigned i = 0; i < num_plots; i++) {
-        const int64_t age_us = tracker->time_us - plots[i].time_us;
-        if (!rho_is_stored_time(plots[i].time_us) || age_us < -RHO_LIMIT_OFFSET_US ||
-            plots[i].row < -1 || plots[i].row >= (int32_t)report->num_plots ||
+        if (!rho_is_stored_time(plots[i].time_us) ||
+            plots[i].time_us - tracker->time_us > RHO_LIMIT_OFFSET_US || plots[i].row < -1 ||
+            plots[i].row >= (int32_t)report->num_plots ||
             !rho_measurement_is_valid(&plots[i].plot, plots[i].measures) ||
             (plots[i].sensor && !rho_measurement_is_sensor(plots[i].sensor))) {
             return 0;

@@ -12,7 +12,7 @@
 /* Weight of the newest scan in the smoothed counts: a memory of ten scans. */
 #define CLUTTER_SMOOTHING 0.1f
 
-/* The least density of clutter that is believed at a plot without clutter near it, 1/m^2. */
+/* Lower bound of the clutter density at a plot, 1/m^2. */
 #define DENSITY_MIN 1e-12f
 
 /* Standard deviations of a gate, where it is as large as the track's place is uncertain. */

@@ -44,8 +44,8 @@ static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
 #define TWIN_STEP_NAT 3.0f
 
 /*
- * Evidence of a scan in which both have taken one plot (merged_plots), and of one in which the
- * younger has none, though the elder's is not in its gate.
+ * Evidence for one target: of a scan in which both tracks took one plot (merged_plots); and of one
+ * in which the younger has no plot, and the elder's lies outside the younger's gate.
  */
 #define SHARED_NAT 0.3f
 #define MISS_NAT 1.0f

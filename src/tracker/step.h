@@ -200,8 +200,9 @@ static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct step *
 }
 
 /*
- * sensor_learning.c: the sensor's noise and pd as tracks show them. The noise is set before plots
- * are gated, and learned between assignment and update. suspicion: factor of sensor_health
+ * sensor_learning.c: the sensor's noise and pd, estimated from the tracks' innovations and misses.
+ * The noise is set before plots are gated, and learned between assignment and update. suspicion:
+ * the factor by which sensor_health widens the noise of a suspect sensor
  */
 void rho_tracker_set_noise(struct step *step, float suspicion);
 /* Writes the learned noise, times the factor, into a copy of the sensor. */

@@ -500,7 +500,7 @@ static int has_majority(const struct rho_scan_assembler *assembler,
                               !is_near(assembler->clock_us, now_us, offset_max_us));
 }
 
-/* Sensors that tell the new time are on the common clock from now on, all others are off it. */
+/* Sensors whose scans have the new time are on the common clock from now on, all others off it. */
 static void set_common_clock(struct rho_scan_assembler *assembler, int64_t time_us, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {

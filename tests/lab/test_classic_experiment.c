@@ -75,7 +75,7 @@ static void without_noise_and_clutter_all_methods_find_all_targets(void **state)
 {
     (void)state;
     for (size_t method = 0; method < CLASSIC_METHODS; method++) {
-        bool is_nht = method == RHO_CLASSIC_NHT_A || method == RHO_CLASSIC_NHT_C;
+        bool is_nht = method == RHO_HOUGH_NHT_A || method == RHO_HOUGH_NHT_C;
         /* 1.00; NHT 0.97, where a plot is missed */
         assert_true(mean(SITUATION_I, method, CLASSIC_DETECTED) >= (is_nht ? 0.85 : 0.94));
         near(mean(SITUATION_I, method, CLASSIC_FALSE), 0.0, 0.0);
@@ -105,10 +105,10 @@ static void votes_are_as_many_as_known(void **state)
 {
     double runs = sqrt(RUNS);
     (void)state;
-    near(mean(SITUATION_IV, RHO_CLASSIC_HT, CLASSIC_VOTES), 2.25e6, 0.16 * 2.25e6 / runs);
-    near(mean(SITUATION_IV, RHO_CLASSIC_MHT, CLASSIC_VOTES), 62.8e3, 0.32 * 62.8e3 / runs);
-    near(mean(SITUATION_IV, RHO_CLASSIC_IHT, CLASSIC_VOTES), 9.35e3, 0.32 * 9.35e3 / runs);
-    near(mean(SITUATION_IV, RHO_CLASSIC_NHT_C, CLASSIC_VOTES), 529e3, 0.6 * 529e3 / runs);
+    near(mean(SITUATION_IV, RHO_HOUGH_HT, CLASSIC_VOTES), 2.25e6, 0.16 * 2.25e6 / runs);
+    near(mean(SITUATION_IV, RHO_HOUGH_MHT, CLASSIC_VOTES), 62.8e3, 0.32 * 62.8e3 / runs);
+    near(mean(SITUATION_IV, RHO_HOUGH_IHT, CLASSIC_VOTES), 9.35e3, 0.32 * 9.35e3 / runs);
+    near(mean(SITUATION_IV, RHO_HOUGH_NHT_C, CLASSIC_VOTES), 529e3, 0.6 * 529e3 / runs);
 }
 
 /* ---- what was found -------------------------------------------------------------------------- */
@@ -116,14 +116,14 @@ static void votes_are_as_many_as_known(void **state)
 /* 1.30, 0.76, 0.75, 0.3, 0.4 */
 static void noise_harms_nht_most(void **state)
 {
-    double ht = mean(SITUATION_II, RHO_CLASSIC_HT, CLASSIC_DISCRIMINATION);
+    double ht = mean(SITUATION_II, RHO_HOUGH_HT, CLASSIC_DISCRIMINATION);
     (void)state;
     assert_true(ht > 1.0);
-    for (size_t method = RHO_CLASSIC_MHT; method < CLASSIC_KERNEL; method++) {
+    for (size_t method = RHO_HOUGH_MHT; method < CLASSIC_KERNEL; method++) {
         assert_true(mean(SITUATION_II, method, CLASSIC_DISCRIMINATION) < 1.0);
         assert_true(mean(SITUATION_IV, method, CLASSIC_DISCRIMINATION) < 0.6);
     }
-    for (size_t method = RHO_CLASSIC_NHT_A; method <= RHO_CLASSIC_NHT_C; method++) {
+    for (size_t method = RHO_HOUGH_NHT_A; method <= RHO_HOUGH_NHT_C; method++) {
         assert_true(mean(SITUATION_II, method, CLASSIC_DETECTED) <= 0.4); /* 0.14 */
         assert_true(mean(SITUATION_IV, method, CLASSIC_DETECTED) <= 0.3); /* 0.08 */
     }
@@ -132,15 +132,15 @@ static void noise_harms_nht_most(void **state)
 /* 0.87 < 1.03 < 1.50 < 1.9 */
 static void clutter_alone_harms_ht_most(void **state)
 {
-    double ht = mean(SITUATION_III, RHO_CLASSIC_HT, CLASSIC_DISCRIMINATION);
-    double mht = mean(SITUATION_III, RHO_CLASSIC_MHT, CLASSIC_DISCRIMINATION);
-    double c = mean(SITUATION_III, RHO_CLASSIC_NHT_C, CLASSIC_DISCRIMINATION);
+    double ht = mean(SITUATION_III, RHO_HOUGH_HT, CLASSIC_DISCRIMINATION);
+    double mht = mean(SITUATION_III, RHO_HOUGH_MHT, CLASSIC_DISCRIMINATION);
+    double c = mean(SITUATION_III, RHO_HOUGH_NHT_C, CLASSIC_DISCRIMINATION);
     (void)state;
     assert_true(ht < mht && mht < c &&
-                c < mean(SITUATION_III, RHO_CLASSIC_IHT, CLASSIC_DISCRIMINATION));
+                c < mean(SITUATION_III, RHO_HOUGH_IHT, CLASSIC_DISCRIMINATION));
     assert_true(ht < 1.0 && c > 1.0);
-    assert_true(mean(SITUATION_III, RHO_CLASSIC_HT, CLASSIC_FALSE) > 1000.0);
-    assert_true(mean(SITUATION_III, RHO_CLASSIC_NHT_C, CLASSIC_FALSE) < 10.0);
+    assert_true(mean(SITUATION_III, RHO_HOUGH_HT, CLASSIC_FALSE) > 1000.0);
+    assert_true(mean(SITUATION_III, RHO_HOUGH_NHT_C, CLASSIC_FALSE) < 10.0);
 }
 
 static void the_default_finds_the_targets_everywhere(void **state)
@@ -163,12 +163,12 @@ static void the_claims_hold_up_to_a_noise_of_half_a_metre(void **state)
 {
     (void)state;
     for (size_t i = 1; i < 3; i++) {
-        const struct classic_summary *c = &report->sweep[i][RHO_CLASSIC_NHT_C];
+        const struct classic_summary *c = &report->sweep[i][RHO_HOUGH_NHT_C];
         assert_true(c->mean[CLASSIC_DETECTED] >= 0.7); /* 0.97, 0.93 */
-        assert_true(c->mean[CLASSIC_FALSE] < report->sweep[i][RHO_CLASSIC_IHT].mean[CLASSIC_FALSE]);
+        assert_true(c->mean[CLASSIC_FALSE] < report->sweep[i][RHO_HOUGH_IHT].mean[CLASSIC_FALSE]);
     }
-    assert_true(report->sweep[CLASSIC_NOISES - 1][RHO_CLASSIC_NHT_C].mean[CLASSIC_DETECTED] <= 0.4);
-    assert_null(report->sweep[0][RHO_CLASSIC_MHT].situation); /* not swept */
+    assert_true(report->sweep[CLASSIC_NOISES - 1][RHO_HOUGH_NHT_C].mean[CLASSIC_DETECTED] <= 0.4);
+    assert_null(report->sweep[0][RHO_HOUGH_MHT].situation); /* not swept */
 }
 
 /* ---- the parts ------------------------------------------------------------------------------- */
@@ -176,28 +176,27 @@ static void the_claims_hold_up_to_a_noise_of_half_a_metre(void **state)
 static void references_are_read_with_their_rounding(void **state)
 {
     (void)state;
-    struct classic_expected votes = classic_expected(SITUATION_IV, RHO_CLASSIC_HT, CLASSIC_VOTES);
+    struct classic_expected votes = classic_expected(SITUATION_IV, RHO_HOUGH_HT, CLASSIC_VOTES);
     near(votes.value, 2.26e6, 1e-3);
     near(votes.rounding, 5e3, 1e-6);
     struct classic_expected range =
-        classic_expected(SITUATION_II, RHO_CLASSIC_NHT_C, CLASSIC_DISCRIMINATION);
+        classic_expected(SITUATION_II, RHO_HOUGH_NHT_C, CLASSIC_DISCRIMINATION);
     near(range.value, 0.35, 1e-12);
     near(range.rounding, 0.1, 1e-12);
-    assert_false(classic_expected(SITUATION_THIN, RHO_CLASSIC_MHT, CLASSIC_FALSE).is_given);
+    assert_false(classic_expected(SITUATION_THIN, RHO_HOUGH_MHT, CLASSIC_FALSE).is_given);
     assert_false(classic_expected(SITUATION_I, CLASSIC_KERNEL, CLASSIC_DETECTED).is_given);
-    assert_false(classic_expected(SITUATION_I, RHO_CLASSIC_HT, CLASSIC_DECLINE).is_given);
+    assert_false(classic_expected(SITUATION_I, RHO_HOUGH_HT, CLASSIC_DECLINE).is_given);
 }
 
 static void methods_have_their_names(void **state)
 {
     (void)state;
     assert_int_equal(classic_methods_named(NULL), ALL);
-    assert_int_equal(classic_methods_named("nht"),
-                     1u << RHO_CLASSIC_NHT_A | 1u << RHO_CLASSIC_NHT_C);
+    assert_int_equal(classic_methods_named("nht"), 1u << RHO_HOUGH_NHT_A | 1u << RHO_HOUGH_NHT_C);
     assert_int_equal(classic_methods_named("kernel"), 1u << CLASSIC_KERNEL);
     assert_int_equal(classic_methods_named("NHT"), 0);
-    assert_string_equal(classic_word(SITUATION_II, RHO_CLASSIC_NHT_C, 0), "high");
-    assert_null(classic_word(SITUATION_REAL, RHO_CLASSIC_HT, 0));
+    assert_string_equal(classic_word(SITUATION_II, RHO_HOUGH_NHT_C, 0), "high");
+    assert_null(classic_word(SITUATION_REAL, RHO_HOUGH_HT, 0));
     assert_null(classic_word(SITUATION_I, CLASSIC_KERNEL, 0));
 }
 
@@ -216,7 +215,7 @@ static void true_lines_go_through_the_targets(void **state)
     classic_data_free(&data);
 }
 
-/* The heights come from a search with fewer plots; rho_classic_track asks every plot. */
+/* The heights come from a search with fewer plots; rho_hough_track asks every plot. */
 static void heights_are_those_of_all_plots(void **state)
 {
     struct classic_tools tools = classic_tools_start(1000000);
@@ -225,20 +224,18 @@ static void heights_are_those_of_all_plots(void **state)
     (void)state;
     classic_load(&tools, &data);
     for (size_t method = 0; method < CLASSIC_KERNEL; method++) {
-        struct rho_classic_config config =
-            classic_config(&classic_situations[SITUATION_IV], method);
+        struct rho_hough_config config = classic_config(&classic_situations[SITUATION_IV], method);
         (void)classic_find(&tools, &config, &tools.points);
         double height = classic_near_votes(&tools, &config, line), most = 0.0;
         unsigned theta = (unsigned)(line.theta_rad / 0.001),
                  rho = (unsigned)((line.rho_m + 5000.0) / 5.0);
         for (unsigned i = 0; i < 17 * 17; i++) {
-            struct rho_classic_track track;
-            assert_int_equal(rho_classic_init(tools.classic, sizeof *tools.classic, &config),
+            struct rho_hough_track track;
+            assert_int_equal(rho_hough_init(tools.classic, sizeof *tools.classic, &config), RHO_OK);
+            assert_int_equal(rho_hough_track(tools.classic, &tools.points, theta - 8 + i / 17,
+                                             rho - 8 + i % 17, 0.0f, &track),
                              RHO_OK);
-            assert_int_equal(rho_classic_track(tools.classic, &tools.points, theta - 8 + i / 17,
-                                               rho - 8 + i % 17, 0.0f, &track),
-                             RHO_OK);
-            most = fmax(most, (double)track.votes / RHO_CLASSIC_VOTE);
+            most = fmax(most, (double)track.votes / RHO_HOUGH_VOTE);
         }
         near(height, most, 1e-9);
     }
@@ -254,11 +251,11 @@ static void a_whole_plane_has_as_many_peaks(void **state)
     for (size_t i = 0; i < 4; i++) {
         const struct classic_situation *situation = &classic_situations[i];
         struct classic_data data = classic_simulate(situation, SEED, 0, 2);
-        struct rho_classic_config config = classic_config(situation, RHO_CLASSIC_HT);
+        struct rho_hough_config config = classic_config(situation, RHO_HOUGH_HT);
         uint32_t num_peaks = 0;
         classic_load(&tools, &data);
         (void)classic_dense_us(&tools, &config, &num_peaks);
-        struct rho_classic_result result = classic_find(&tools, &config, &tools.points);
+        struct rho_hough_result result = classic_find(&tools, &config, &tools.points);
         /* cosines are rounded differently: a vote in a thousand may be in the next cell */
         near(num_peaks, result.num_peaks, 2.0 + 0.02 * result.num_peaks);
         classic_data_free(&data);

@@ -16,7 +16,7 @@
 #include "evaluation/gospa.h"
 #include "rhotrack/tracker.h"
 #include "scenario.h"
-#include "scene/scene_watch.h"
+#include "scene/scene_observe.h"
 
 #define CUTOFF_M 500.0
 #define TARGETS_MAX 64
@@ -171,7 +171,7 @@ static struct outcome follow_scene(const char *name, const char *duration,
                                    const struct parameters *parameters, uint64_t seed, size_t from)
 {
     struct scene *scene = scene_find(name, &duration, 1);
-    struct scene_run *run = scene_watch(scene, seed, 0);
+    struct scene_run *run = scene_observe(scene, seed, 0);
     struct following following = {.outcome.targets = run->num_paths};
 
     assert_true(run->num_paths <= 1);

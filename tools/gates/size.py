@@ -44,7 +44,7 @@ ROWS = [
      "measurement/crossing bearings/* tracker/bearing_* -*_validate -bearings/frames", "passive"),
     ("frames of bearing scans as they arrive, likewise", "bearings/frames", "frames"),
     ("papers: accumulator, likewise", "papers/accumulator*", "accumulator"),
-    ("papers: HT, MHT, IHT, NHT, likewise", "papers/classic*", "classic"),
+    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough*", "hough"),
     ("papers: passive Hough transform, likewise", "papers/passive_paper*", "passive_paper"),
     ("papers: Hough gate, likewise", "papers/gate_hough", ""),
     ("snapshot, and the validation of images, likewise", IMAGES, ""),
@@ -86,7 +86,7 @@ BARS = [
 OBJECTS = {
     "ghost": "ghost_matrix", **{
         name: name
-        for name in ("accumulator window classic initiator frames batch passive passive_paper kalman input gate imm hypotheses track "
+        for name in ("accumulator window hough initiator frames batch passive passive_paper kalman input gate imm hypotheses track "
                      "assignment tracker scan_assembler node").split()
     }
 }
@@ -94,7 +94,7 @@ OTHERS = {
     "rho_hypothesis": "sizeof(struct rho_hypothesis)",
     "rho_report": "sizeof(struct rho_report)",
     "rho_plot": "sizeof(struct rho_plot)",
-    "rho_classic, a window of plots with their times, 128 peaks": "sizeof(struct rho_classic) + 12 * RHO_MAX_SCANS * RHO_MAX_PLOTS + 128 * sizeof(struct rho_accumulator_peak)",
+    "rho_hough, a window of plots with their times, 128 peaks": "sizeof(struct rho_hough) + 12 * RHO_MAX_SCANS * RHO_MAX_PLOTS + 128 * sizeof(struct rho_accumulator_peak)",
 }
 
 PART_TARGETS = ["m4f", "m0plus", "m7", "rv32"]

@@ -15,7 +15,7 @@ from cffi import FFI
 HERE = Path(__file__).resolve().parent
 FLAGS = ["-std=c11", "-DRHO_PROFILE_WORKSTATION"]
 SOURCE = '#include "program.h"\n#include "rhotrack/detail/angle.h"\n'
-MACROS = ("RHO_MAX_PLOTS", "RHO_MAX_BEARINGS", "RHO_CLASSIC_VOTE", "RHO_PAPER_RHO_CELLS",
+MACROS = ("RHO_MAX_PLOTS", "RHO_MAX_BEARINGS", "RHO_HOUGH_VOTE", "RHO_PAPER_RHO_CELLS",
           "RHO_MEASURES_RANGE_RATE")
 
 

@@ -957,13 +957,13 @@ bool program_initiator_config(const struct parameters *settings,
     return true;
 }
 
-bool program_classic_config(const struct parameters *settings, const char *method, double range_m,
-                            struct rho_classic_config *config)
+bool program_hough_config(const struct parameters *settings, const char *method, double range_m,
+                          struct rho_hough_config *config)
 {
     RETURN_ON_FAILURE(false)
     const struct parameters copy = customary(settings, method_find(method));
 
-    *config = method_classic(method_find(method), &copy, range_m);
+    *config = method_hough(method_find(method), &copy, range_m);
     return true;
 }
 

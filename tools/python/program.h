@@ -138,8 +138,8 @@ bool program_pipeline_run(struct program_pipeline *pipeline, const struct progra
 
 bool program_initiator_config(const struct parameters *settings,
                               struct rho_initiator_config *config);
-bool program_classic_config(const struct parameters *settings, const char *method, double range_m,
-                            struct rho_classic_config *config);
+bool program_hough_config(const struct parameters *settings, const char *method, double range_m,
+                          struct rho_hough_config *config);
 bool program_passive_config(const struct parameters *settings, struct rho_passive_config *config);
 bool program_passive_paper_config(const struct parameters *settings,
                                   struct rho_passive_paper_config *config);

@@ -11,7 +11,7 @@
 #include "io/scans/frame_reader.h"
 #include "io/scans/revolutions.h"
 #include "io/scans/scan_reader.h"
-#include "pipeline/initiate_classic.h"
+#include "pipeline/initiate_hough.h"
 #include "pipeline/initiate_passive.h"
 #include "pipeline/initiate_passive_paper.h"
 #include "rhotrack/tracker.h"
@@ -193,7 +193,7 @@ int command_initiate(struct command_line *line)
     } else if (method == METHOD_PASSIVE_PAPER) {
         initiate_passive_paper(line);
     } else {
-        initiate_classic(line, method);
+        initiate_hough(line, method);
     }
     return 0;
 }

@@ -50,7 +50,7 @@ static struct heard hear(uint64_t run, const char *const *sets, size_t num_sets)
 {
     struct heard heard = {.scene = scene_find("two-radars", sets, num_sets)};
 
-    heard.run = scene_watch(heard.scene, SEED, run);
+    heard.run = scene_observe(heard.scene, SEED, run);
     heard.parameters = scene_parameters(heard.scene);
     return heard;
 }

@@ -21,7 +21,7 @@
 
 #include "base/portable_math.h"
 #include "scene/scene_mover.h"
-#include "scene/scene_watch.h"
+#include "scene/scene_observe.h"
 
 /*
  * A radar of 80 km in the origin, 30 m, 3 mrad, 4 s a turn from north on, clockwise; and these

@@ -19,7 +19,7 @@ static struct seen look_at(const char *text)
 {
     struct seen seen = {.scene = scene_of(text)};
 
-    seen.run = scene_watch(seen.scene, 5, 0);
+    seen.run = scene_observe(seen.scene, 5, 0);
     for (size_t i = 0; i < seen.run->num_scans; i++) {
         const struct scene_scan *scan = &seen.run->scans[i];
         double count = 0;
@@ -249,7 +249,7 @@ static void clutter_stays_about_a_target(void **state)
         ", \"targets\": [{\"at_m\": [30000, 40000, 100], \"velocity_mps\": [100, 20, 5]}]" CLUTTER(
             "{\"kind\": \"about-targets\", \"count\": 4, \"width_rad\": 0.02, "
             "\"from_s\": 10}")));
-    struct scene_run *run = scene_watch(scene, 5, 0);
+    struct scene_run *run = scene_observe(scene, 5, 0);
     struct moments share = {0}, x = {0}, z = {0}, noise = {0}, velocity = {0};
 
     assert_int_equal(run->num_scans, 500);

@@ -13,7 +13,7 @@ static struct scene_run *watch_scene(const char *name, const char *const *sets, 
                                      uint64_t run, struct scene **scene)
 {
     *scene = scene_find(name, sets, num_sets);
-    return scene_watch(*scene, SEED, run);
+    return scene_observe(*scene, SEED, run);
 }
 
 static void end_watch(struct scene_run *run, struct scene *scene)
@@ -205,7 +205,7 @@ static void a_share_arrives_late(void **state)
     (void)state;
     struct scene *scene;
     struct scene_run *run = watch_scene("two-radars", NULL, 0, 2, &scene);
-    struct scene_run *other = scene_watch(scene, SEED, 3);
+    struct scene_run *other = scene_observe(scene, SEED, 3);
     double first_s = INFINITY, others_s = INFINITY;
     size_t late = 0;
 

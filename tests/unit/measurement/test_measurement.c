@@ -448,7 +448,7 @@ static void a_scan_looks_within_its_sector_and_range(void **state)
     assert_false(rho_measurement_covers(NULL, 0.0f, 0.5f, 1e6f, 1e6f));
 }
 
-/* ---- bearings, and what a sensor's description says -------------------------------------------- */
+/* ---- bearings, and the description of a sensor ----------------------------------------------- */
 
 /* Against differences of the innovation in double precision. */
 static void a_bearing_is_linear_in_metres_across(void **state)

@@ -3,7 +3,7 @@
  * Tracks that the caller's own initiator finds: the improved Hough transform serves a tracker that
  * has no initiator; and what is refused.
  */
-#include "rhotrack/classic.h"
+#include "rhotrack/hough.h"
 #include "tracker_setup.h"
 
 #define SCAN_S 2.0
@@ -22,7 +22,7 @@ static struct {
     double t_s[WINDOW];
 } window;
 
-static struct rho_classic classic;
+static struct rho_hough hough;
 static struct rho_accumulator_peak peaks[PEAKS];
 
 static void keep_unclaimed(double t_s)
@@ -49,7 +49,7 @@ static void keep_unclaimed(double t_s)
 }
 
 /* The plot of each scan that is nearest to the line's target, where it is within 10 m. */
-static unsigned plots_near(const struct rho_classic_track *line, struct rho_track_plot *found)
+static unsigned plots_near(const struct rho_hough_track *line, struct rho_track_plot *found)
 {
     unsigned num = 0;
 
@@ -82,7 +82,7 @@ static void start_tracks_of_lines(void)
     static float x_m[WINDOW * RHO_MAX_PLOTS], y_m[WINDOW * RHO_MAX_PLOTS];
     uint32_t scan_end[WINDOW], num = 0;
     float t_s[WINDOW * RHO_MAX_PLOTS];
-    struct rho_classic_result result;
+    struct rho_hough_result result;
 
     for (int m = 0; m < WINDOW; m++) {
         for (uint32_t i = 0; i < window.count[m]; i++, num++) {
@@ -92,14 +92,14 @@ static void start_tracks_of_lines(void)
         }
         scan_end[m] = num;
     }
-    const struct rho_classic_points points = {{x_m, y_m, WINDOW, scan_end}, t_s};
-    assert_int_equal(rho_classic_find(&classic, &points, peaks, PEAKS, &result), RHO_OK);
+    const struct rho_hough_points points = {{x_m, y_m, WINDOW, scan_end}, t_s};
+    assert_int_equal(rho_hough_find(&hough, &points, peaks, PEAKS, &result), RHO_OK);
     for (uint32_t i = 0; i < result.num_peaks; i++) {
         struct rho_track_plot found[WINDOW];
-        struct rho_classic_track line;
+        struct rho_hough_track line;
 
-        assert_int_equal(rho_classic_track(&classic, &points, peaks[i].theta_cell,
-                                           peaks[i].rho_cell, (float)window.t_s[WINDOW - 1], &line),
+        assert_int_equal(rho_hough_track(&hough, &points, peaks[i].theta_cell, peaks[i].rho_cell,
+                                         (float)window.t_s[WINDOW - 1], &line),
                          RHO_OK);
         if (line.has_velocity && plots_near(&line, found) == WINDOW) {
             assert_int_equal(rho_tracker_start_track(&tracker, found, WINDOW, 0, &report), RHO_OK);
@@ -137,16 +137,16 @@ static void look(int k)
 /* One track, confirmed by the first full window, which keeps the target and its identity. */
 static void a_hough_transform_serves_a_tracker(void **state)
 {
-    struct rho_classic_config lines;
+    struct rho_hough_config lines;
     uint32_t track_id = 0;
 
     (void)state;
-    rho_classic_config_default(&lines, RHO_CLASSIC_IHT);
+    rho_hough_config_default(&lines, RHO_HOUGH_IHT);
     lines.rho_max_m = 5000.0f;
     lines.rho_cell_m = 25.0f; /* half a metre of noise turns a pair by a milliradian */
     lines.theta_cell_rad = 0.02f;
     lines.votes_min = 3.0f;
-    assert_int_equal(rho_classic_init(&classic, sizeof classic, &lines), RHO_OK);
+    assert_int_equal(rho_hough_init(&hough, sizeof hough, &lines), RHO_OK);
     memset(&window, 0, sizeof window);
     draw(3);
     begin();

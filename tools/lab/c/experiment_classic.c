@@ -13,8 +13,7 @@
 #define SWEEP_STREAM 2000
 #define TIMES_STREAM 3000
 #define SWEEP_METHODS                                                                              \
-    (1u << RHO_CLASSIC_IHT | 1u << RHO_CLASSIC_NHT_A | 1u << RHO_CLASSIC_NHT_C |                   \
-     1u << CLASSIC_KERNEL)
+    (1u << RHO_HOUGH_IHT | 1u << RHO_HOUGH_NHT_A | 1u << RHO_HOUGH_NHT_C | 1u << CLASSIC_KERNEL)
 #define DENSEST_RUNS_MIN 50 /* from so many runs on, the densest clutter is timed, too */
 
 static const double noises_m[CLASSIC_NOISES] = {0.0, 0.3, 0.6, 1.0, 2.0, 5.0, 10.0};
@@ -155,7 +154,7 @@ static void time_density(struct classic_report *report, struct classic_tools *to
         struct classic_data data =
             classic_simulate(&situation, report->seed, TIMES_STREAM + number, run);
         uint32_t num_peaks;
-        struct rho_classic_config config = classic_config(&situation, RHO_CLASSIC_HT);
+        struct rho_hough_config config = classic_config(&situation, RHO_HOUGH_HT);
         classic_load(tools, &data);
         values_us[CLASSIC_DENSE][run] = classic_dense_us(tools, &config, &num_peaks);
         for (size_t method = 0; method < CLASSIC_METHODS; method++) {
@@ -190,15 +189,15 @@ static void make_times(struct classic_report *report, struct classic_tools *tool
 static double votes_of_table3(const struct classic_report *report, struct classic_tools *tools)
 {
     struct classic_situation alone = classic_situations[SITUATION_REAL];
-    if (!classic_has(report, RHO_CLASSIC_NHT_A)) {
+    if (!classic_has(report, RHO_HOUGH_NHT_A)) {
         return NAN;
     }
     alone.of.clutter_per_scan = 0.0;
     alone.of.true_pd = 1.0;
     struct classic_data data = classic_simulate(&alone, report->seed, 0, 0);
-    struct rho_classic_config config = classic_config(&alone, RHO_CLASSIC_NHT_A);
+    struct rho_hough_config config = classic_config(&alone, RHO_HOUGH_NHT_A);
     classic_load(tools, &data);
-    struct rho_classic_result result = classic_find(tools, &config, &tools->points);
+    struct rho_hough_result result = classic_find(tools, &config, &tools->points);
     classic_data_free(&data);
     return result.votes;
 }

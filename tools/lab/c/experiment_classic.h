@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * experiment_classic: the experiments of Fan et al., "Neutrosophic Hough Transform-Based Track
- * Initiation Method for Multiple Target Tracking", section V, with its methods (rhotrack/classic.h)
+ * Initiation Method for Multiple Target Tracking", section V, with its methods (rhotrack/hough.h)
  * and the default.
  *
  * A target is detected when a peak is within 40 m and 8 mrad (2 eps) of the line through its true
@@ -15,10 +15,10 @@
 
 #include "base/grid.h"
 #include "experiment_initiation.h"
-#include "rhotrack/classic.h"
+#include "rhotrack/hough.h"
 
-/* The paper's methods, numbered as in enum rho_classic_method, then the default. */
-enum { CLASSIC_KERNEL = RHO_CLASSIC_NHT_C + 1, CLASSIC_METHODS };
+/* The paper's methods, numbered as in enum rho_hough_method, then the default. */
+enum { CLASSIC_KERNEL = RHO_HOUGH_NHT_C + 1, CLASSIC_METHODS };
 
 extern const char *const classic_method_names[CLASSIC_METHODS];
 
@@ -104,13 +104,13 @@ struct classic_plots {
 
 /* Memory that a thread needs for all methods. */
 struct classic_tools {
-    struct rho_classic *classic;
+    struct rho_hough *classic;
     struct rho_accumulator *rows;
     struct rho_accumulator_peak *peaks;
     uint32_t max_peaks;
     struct rho_initiator *initiator;
     struct classic_plots plots, chosen; /* of one run; those near a line */
-    struct rho_classic_points points;
+    struct rho_hough_points points;
 };
 struct classic_tools classic_tools_start(uint32_t max_peaks);
 void classic_tools_free(struct classic_tools *tools);
@@ -134,12 +134,12 @@ struct classic_line {
 };
 struct classic_line classic_true_line(const struct scenario_plan *plan, size_t target);
 
-struct rho_classic_config classic_config(const struct classic_situation *situation, size_t method);
+struct rho_hough_config classic_config(const struct classic_situation *situation, size_t method);
 
 /* Votes and peaks. */
-struct rho_classic_result classic_find(struct classic_tools *tools,
-                                       const struct rho_classic_config *config,
-                                       const struct rho_classic_points *points);
+struct rho_hough_result classic_find(struct classic_tools *tools,
+                                     const struct rho_hough_config *config,
+                                     const struct rho_hough_points *points);
 
 struct classic_run {
     double value[CLASSIC_FIGURES]; /* NAN where there is none; RHO, THETA: sums over the matched */
@@ -154,7 +154,7 @@ struct classic_run classic_run(struct classic_tools *tools, const struct classic
                                size_t method, double ideal_votes);
 
 /* The most votes of a cell within 40 m and 8 mrad of a line. The tools' peaks are overwritten. */
-double classic_near_votes(struct classic_tools *tools, const struct rho_classic_config *config,
+double classic_near_votes(struct classic_tools *tools, const struct rho_hough_config *config,
                           struct classic_line line);
 
 /*
@@ -169,7 +169,7 @@ void classic_ideal_votes(struct classic_tools *tools, double ideal_votes[CLASSIC
  * Clears, votes, takes what is above the threshold and suppresses; microseconds, and the number of
  * peaks.
  */
-double classic_dense_us(struct classic_tools *tools, const struct rho_classic_config *config,
+double classic_dense_us(struct classic_tools *tools, const struct rho_hough_config *config,
                         uint32_t *num_peaks);
 
 /* ---- all runs -------------------------------------------------------------------------------- */

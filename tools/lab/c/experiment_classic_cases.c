@@ -13,10 +13,10 @@ unsigned classic_methods_named(const char *name)
 {
     static const unsigned methods[NUM_METHODS] = {
         [METHOD_KERNEL] = 1u << CLASSIC_KERNEL,
-        [METHOD_HT] = 1u << RHO_CLASSIC_HT,
-        [METHOD_MHT] = 1u << RHO_CLASSIC_MHT,
-        [METHOD_IHT] = 1u << RHO_CLASSIC_IHT,
-        [METHOD_NHT] = 1u << RHO_CLASSIC_NHT_A | 1u << RHO_CLASSIC_NHT_C,
+        [METHOD_HT] = 1u << RHO_HOUGH_HT,
+        [METHOD_MHT] = 1u << RHO_HOUGH_MHT,
+        [METHOD_IHT] = 1u << RHO_HOUGH_IHT,
+        [METHOD_NHT] = 1u << RHO_HOUGH_NHT_A | 1u << RHO_HOUGH_NHT_C,
     };
     if (name == NULL) {
         return (1u << CLASSIC_METHODS) - 1u;
@@ -173,5 +173,5 @@ const char *classic_word(size_t situation, size_t method, size_t row)
     if (situation > SITUATION_IV || method == CLASSIC_KERNEL) {
         return NULL;
     }
-    return words[situation][row][method < RHO_CLASSIC_NHT_A ? method : 3];
+    return words[situation][row][method < RHO_HOUGH_NHT_A ? method : 3];
 }

@@ -16,7 +16,7 @@ struct plane {
 };
 
 static void vote(const struct plane *plane, const struct classic_tools *tools,
-                 const struct rho_classic_config *config)
+                 const struct rho_hough_config *config)
 {
     float per_m = 1.0f / config->rho_cell_m, first = config->rho_max_m * per_m,
           end = (float)plane->width;
@@ -44,7 +44,7 @@ static uint32_t threshold(const struct plane *plane, float tau)
     return votes > 1.0 ? (uint32_t)votes : 1u;
 }
 
-static uint32_t take_peaks(const struct plane *plane, const struct rho_classic_config *config,
+static uint32_t take_peaks(const struct plane *plane, const struct rho_hough_config *config,
                            struct classic_tools *tools, uint32_t *scratch, uint32_t num_scratch)
 {
     const struct rho_peak_distance distance = {
@@ -66,10 +66,10 @@ static uint32_t take_peaks(const struct plane *plane, const struct rho_classic_c
     return rho_peak_list_suppress(tools->peaks, list.num_peaks, &distance, scratch, num_scratch);
 }
 
-double classic_dense_us(struct classic_tools *tools, const struct rho_classic_config *config,
+double classic_dense_us(struct classic_tools *tools, const struct rho_hough_config *config,
                         uint32_t *num_peaks)
 {
-    const uint32_t num_scratch = RHO_MAX_CLASSIC_CELLS;
+    const uint32_t num_scratch = RHO_MAX_HOUGH_CELLS;
     struct plane plane = {
         .width = (size_t)lrintf(2.0f * config->rho_max_m / config->rho_cell_m),
         .height = (size_t)ceil(3.14159265358979323846 / (double)config->theta_cell_rad)};

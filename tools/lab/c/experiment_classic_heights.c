@@ -27,7 +27,7 @@ static double highest_in_row(const struct classic_tools *tools, unsigned theta_c
 }
 
 /* The plane that HT's cells are counted on. */
-static void set_rows(struct classic_tools *tools, const struct rho_classic_config *config)
+static void set_rows(struct classic_tools *tools, const struct rho_hough_config *config)
 {
     const struct rho_accumulator_config plane = {.rho_max_m = config->rho_max_m,
                                                  .rho_cell_m = config->rho_cell_m,
@@ -45,9 +45,9 @@ struct cell {
     int theta, rho, theta_cells, rho_cells;
 };
 
-static struct cell cell_of(const struct rho_classic *classic, struct classic_line line)
+static struct cell cell_of(const struct rho_hough *classic, struct classic_line line)
 {
-    const struct rho_classic_config *config = &classic->config;
+    const struct rho_hough_config *config = &classic->config;
     return (struct cell){
         (int)(line.theta_rad / (double)config->theta_cell_rad),
         (int)floor((line.rho_m + (double)config->rho_max_m) / (double)config->rho_cell_m),
@@ -80,13 +80,13 @@ static double near_votes_of_points(struct classic_tools *tools, struct cell cell
  * away, a reach farther pairs that vote there, and another one their kernels; and a cell for what
  * is cut off.
  */
-static void choose_points(struct classic_tools *tools, const struct rho_classic_config *config,
+static void choose_points(struct classic_tools *tools, const struct rho_hough_config *config,
                           struct classic_line line)
 {
     double cells = 3.0 * NEAR_CELLS + 2.0, cosine = cos(line.theta_rad), sine = sin(line.theta_rad);
     double rho_m = cells * (double)config->rho_cell_m;
     double theta_rad = cells * (double)config->theta_cell_rad;
-    const struct rho_classic_points *points = &tools->points;
+    const struct rho_hough_points *points = &tools->points;
     struct classic_plots *chosen = &tools->chosen;
     uint32_t count = 0, i = 0;
     for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
@@ -104,29 +104,29 @@ static void choose_points(struct classic_tools *tools, const struct rho_classic_
 }
 
 /* All cells near the line, from the search itself with the plots that matter. */
-static double near_votes_of_pairs(struct classic_tools *tools, struct rho_classic_config config,
+static double near_votes_of_pairs(struct classic_tools *tools, struct rho_hough_config config,
                                   struct classic_line line)
 {
     const struct classic_plots *chosen = &tools->chosen;
-    const struct rho_classic_points points = {
+    const struct rho_hough_points points = {
         {chosen->x_m, chosen->y_m, tools->points.at.num_scans, chosen->scan_end}, chosen->t_s};
     struct cell cell = cell_of(tools->classic, line);
     choose_points(tools, &config, line);
     config.tau = config.votes_min = 0.0f;
     config.keeps_all_cells = 1;
-    struct rho_classic_result result = classic_find(tools, &config, &points);
+    struct rho_hough_result result = classic_find(tools, &config, &points);
     for (uint32_t i = 0; i < result.num_peaks; i++) {
         if (is_near(&cell, &tools->peaks[i])) {
-            return (double)tools->peaks[i].votes / RHO_CLASSIC_VOTE;
+            return (double)tools->peaks[i].votes / RHO_HOUGH_VOTE;
         }
     }
     return 0.0;
 }
 
-double classic_near_votes(struct classic_tools *tools, const struct rho_classic_config *config,
+double classic_near_votes(struct classic_tools *tools, const struct rho_hough_config *config,
                           struct classic_line line)
 {
-    if (config->method == RHO_CLASSIC_HT) {
+    if (config->method == RHO_HOUGH_HT) {
         set_rows(tools, config);
         return near_votes_of_points(tools, cell_of(tools->classic, line));
     }

@@ -113,7 +113,7 @@ static void plot_times(FILE *file, const struct classic_report *report, bool is_
         if (classic_has(report, method) && (!is_votes || method < CLASSIC_KERNEL)) {
             fprintf(file, "%s$times using 1:%zu with linespoints lt %zu title '%s%s'", separator,
                     first + method, STYLE(method), classic_method_names[method],
-                    method == RHO_CLASSIC_HT ? ", streamed" : "");
+                    method == RHO_HOUGH_HT ? ", streamed" : "");
             separator = ", \\\n ";
         }
     }
@@ -162,7 +162,7 @@ static void put_first_situations(const struct classic_report *report, struct pag
               "Situation I, Fig. 7: all methods do well. This holds: HT, MHT and IHT detect all "
               "targets, NHT %.2f of them (a missed plot takes two pairs from it, and a third "
               "one's kernel), and the targets' peaks are twice as high as what tau leaves out.",
-              DETECTED(SITUATION_I, RHO_CLASSIC_NHT_C));
+              DETECTED(SITUATION_I, RHO_HOUGH_NHT_C));
     page_text(page,
               "Situation II, Fig. 8: noise harms MHT and IHT, not HT and NHT. For HT this holds "
               "(%.2f detected, discrimination %.2f, though with %.0f false peaks), and for MHT and "
@@ -170,41 +170,39 @@ static void put_first_situations(const struct classic_report *report, struct pag
               "detected. The lines of one pair of plots and the next differ by sigma sqrt(6) / (v "
               "T): 43 to 61 mrad at 10 m, but kernels are sought within 8 mrad. Six of seven pairs "
               "find none, and do not vote.",
-              DETECTED(SITUATION_II, RHO_CLASSIC_HT), DISCRIMINATION(SITUATION_II, RHO_CLASSIC_HT),
-              FALSE_PEAKS(SITUATION_II, RHO_CLASSIC_HT),
-              DISCRIMINATION(SITUATION_II, RHO_CLASSIC_MHT),
-              DISCRIMINATION(SITUATION_II, RHO_CLASSIC_IHT),
-              DETECTED(SITUATION_II, RHO_CLASSIC_NHT_A), DETECTED(SITUATION_II, RHO_CLASSIC_NHT_C));
+              DETECTED(SITUATION_II, RHO_HOUGH_HT), DISCRIMINATION(SITUATION_II, RHO_HOUGH_HT),
+              FALSE_PEAKS(SITUATION_II, RHO_HOUGH_HT), DISCRIMINATION(SITUATION_II, RHO_HOUGH_MHT),
+              DISCRIMINATION(SITUATION_II, RHO_HOUGH_IHT), DETECTED(SITUATION_II, RHO_HOUGH_NHT_A),
+              DETECTED(SITUATION_II, RHO_HOUGH_NHT_C));
 }
 
 static void put_last_situations(const struct classic_report *report, struct page *page)
 {
-    page_text(
-        page,
-        "Situation III, Fig. 9: clutter harms HT, not the others. This holds: HT's highest "
-        "false peak is above the targets' (discrimination %.2f, %.0f false peaks); MHT is at "
-        "the edge (%.2f, %.0f); IHT (%.2f) and NHT (%.2f and %.2f) tell them apart. IHT "
-        "needs %.0f votes for it; MHT casts %.0f, NHT C %.0f and HT %.0f.",
-        DISCRIMINATION(SITUATION_III, RHO_CLASSIC_HT), FALSE_PEAKS(SITUATION_III, RHO_CLASSIC_HT),
-        DISCRIMINATION(SITUATION_III, RHO_CLASSIC_MHT), FALSE_PEAKS(SITUATION_III, RHO_CLASSIC_MHT),
-        DISCRIMINATION(SITUATION_III, RHO_CLASSIC_IHT),
-        DISCRIMINATION(SITUATION_III, RHO_CLASSIC_NHT_A),
-        DISCRIMINATION(SITUATION_III, RHO_CLASSIC_NHT_C), VOTES(SITUATION_III, RHO_CLASSIC_IHT),
-        VOTES(SITUATION_III, RHO_CLASSIC_MHT), VOTES(SITUATION_III, RHO_CLASSIC_NHT_C),
-        VOTES(SITUATION_III, RHO_CLASSIC_HT));
+    page_text(page,
+              "Situation III, Fig. 9: clutter harms HT, not the others. This holds: HT's highest "
+              "false peak is above the targets' (discrimination %.2f, %.0f false peaks); MHT is at "
+              "the edge (%.2f, %.0f); IHT (%.2f) and NHT (%.2f and %.2f) tell them apart. IHT "
+              "needs %.0f votes for it; MHT casts %.0f, NHT C %.0f and HT %.0f.",
+              DISCRIMINATION(SITUATION_III, RHO_HOUGH_HT), FALSE_PEAKS(SITUATION_III, RHO_HOUGH_HT),
+              DISCRIMINATION(SITUATION_III, RHO_HOUGH_MHT),
+              FALSE_PEAKS(SITUATION_III, RHO_HOUGH_MHT),
+              DISCRIMINATION(SITUATION_III, RHO_HOUGH_IHT),
+              DISCRIMINATION(SITUATION_III, RHO_HOUGH_NHT_A),
+              DISCRIMINATION(SITUATION_III, RHO_HOUGH_NHT_C), VOTES(SITUATION_III, RHO_HOUGH_IHT),
+              VOTES(SITUATION_III, RHO_HOUGH_MHT), VOTES(SITUATION_III, RHO_HOUGH_NHT_C),
+              VOTES(SITUATION_III, RHO_HOUGH_HT));
     page_text(
         page,
         "Situation IV, Fig. 10: only NHT still tells targets from clutter. This does not "
         "hold: no method does (discrimination HT %.2f, MHT %.2f, IHT %.2f, NHT %.2f and "
         "%.2f). HT's %.2f detected are chance: its %.0f false peaks cover the plane. NHT has "
         "the fewest false peaks (%.0f and %.0f), and detects %.2f and %.2f.",
-        DISCRIMINATION(SITUATION_IV, RHO_CLASSIC_HT), DISCRIMINATION(SITUATION_IV, RHO_CLASSIC_MHT),
-        DISCRIMINATION(SITUATION_IV, RHO_CLASSIC_IHT),
-        DISCRIMINATION(SITUATION_IV, RHO_CLASSIC_NHT_A),
-        DISCRIMINATION(SITUATION_IV, RHO_CLASSIC_NHT_C), DETECTED(SITUATION_IV, RHO_CLASSIC_HT),
-        FALSE_PEAKS(SITUATION_IV, RHO_CLASSIC_HT), FALSE_PEAKS(SITUATION_IV, RHO_CLASSIC_NHT_A),
-        FALSE_PEAKS(SITUATION_IV, RHO_CLASSIC_NHT_C), DETECTED(SITUATION_IV, RHO_CLASSIC_NHT_A),
-        DETECTED(SITUATION_IV, RHO_CLASSIC_NHT_C));
+        DISCRIMINATION(SITUATION_IV, RHO_HOUGH_HT), DISCRIMINATION(SITUATION_IV, RHO_HOUGH_MHT),
+        DISCRIMINATION(SITUATION_IV, RHO_HOUGH_IHT), DISCRIMINATION(SITUATION_IV, RHO_HOUGH_NHT_A),
+        DISCRIMINATION(SITUATION_IV, RHO_HOUGH_NHT_C), DETECTED(SITUATION_IV, RHO_HOUGH_HT),
+        FALSE_PEAKS(SITUATION_IV, RHO_HOUGH_HT), FALSE_PEAKS(SITUATION_IV, RHO_HOUGH_NHT_A),
+        FALSE_PEAKS(SITUATION_IV, RHO_HOUGH_NHT_C), DETECTED(SITUATION_IV, RHO_HOUGH_NHT_A),
+        DETECTED(SITUATION_IV, RHO_HOUGH_NHT_C));
 }
 
 static void put_run_times(const struct classic_report *report, struct page *page)
@@ -220,11 +218,10 @@ static void put_run_times(const struct classic_report *report, struct page *page
               "grows like the number of plots, MHT's and IHT's like its square, NHT's faster, as "
               "each pair meets those before. At %g a square kilometre NHT C takes %.2f times as "
               "long as HT on a whole plane.",
-              time->per_km2, time->time_us[CLASSIC_DENSE] / 1e3,
-              time->time_us[RHO_CLASSIC_HT] / 1e3, time->time_us[RHO_CLASSIC_MHT] / 1e3,
-              time->time_us[RHO_CLASSIC_NHT_C] / 1e3, time->time_us[RHO_CLASSIC_NHT_A] / 1e3,
-              time->time_us[RHO_CLASSIC_IHT] / 1e3, last->per_km2,
-              last->time_us[RHO_CLASSIC_NHT_C] / last->time_us[CLASSIC_DENSE]);
+              time->per_km2, time->time_us[CLASSIC_DENSE] / 1e3, time->time_us[RHO_HOUGH_HT] / 1e3,
+              time->time_us[RHO_HOUGH_MHT] / 1e3, time->time_us[RHO_HOUGH_NHT_C] / 1e3,
+              time->time_us[RHO_HOUGH_NHT_A] / 1e3, time->time_us[RHO_HOUGH_IHT] / 1e3,
+              last->per_km2, last->time_us[RHO_HOUGH_NHT_C] / last->time_us[CLASSIC_DENSE]);
 }
 
 static void put_real_data(const struct classic_report *report, struct page *page)
@@ -236,9 +233,9 @@ static void put_real_data(const struct classic_report *report, struct page *page
               "plots by up to 850 m and 40 mrad. With 10 clutter plots a scan NHT detects %.3f and "
               "%.3f; HT detects %.2f among %.0f false peaks. The paper's density of 10 a square "
               "kilometre would be 3840 plots a scan; its run times (HT 63 times MHT) fit 58.",
-              report->table3_votes, DETECTED(SITUATION_REAL, RHO_CLASSIC_NHT_A),
-              DETECTED(SITUATION_REAL, RHO_CLASSIC_NHT_C), DETECTED(SITUATION_REAL, RHO_CLASSIC_HT),
-              FALSE_PEAKS(SITUATION_REAL, RHO_CLASSIC_HT));
+              report->table3_votes, DETECTED(SITUATION_REAL, RHO_HOUGH_NHT_A),
+              DETECTED(SITUATION_REAL, RHO_HOUGH_NHT_C), DETECTED(SITUATION_REAL, RHO_HOUGH_HT),
+              FALSE_PEAKS(SITUATION_REAL, RHO_HOUGH_HT));
 }
 
 static void put_default(const struct classic_report *report, struct page *page)
@@ -305,9 +302,9 @@ static void put_tables(const struct classic_report *report, struct page *page)
               "detect. Decline: what the targets' cells lack of their height without noise, "
               "clutter and misses; negative where clutter adds to it. The heights are %.1f (HT), "
               "%.1f (MHT), %.1f (IHT), %.1f (NHT A) and %.1f (NHT C) votes.",
-              report->ideal_votes[RHO_CLASSIC_HT], report->ideal_votes[RHO_CLASSIC_MHT],
-              report->ideal_votes[RHO_CLASSIC_IHT], report->ideal_votes[RHO_CLASSIC_NHT_A],
-              report->ideal_votes[RHO_CLASSIC_NHT_C]);
+              report->ideal_votes[RHO_HOUGH_HT], report->ideal_votes[RHO_HOUGH_MHT],
+              report->ideal_votes[RHO_HOUGH_IHT], report->ideal_votes[RHO_HOUGH_NHT_A],
+              report->ideal_votes[RHO_HOUGH_NHT_C]);
     page_table(page, &words);
     grid_free(&situations);
     grid_free(&words);

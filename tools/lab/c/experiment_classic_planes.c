@@ -23,10 +23,10 @@ struct blocks {
 };
 
 static void fill_blocks(struct blocks *blocks, const struct classic_tools *tools,
-                        const struct rho_classic_result *result)
+                        const struct rho_hough_result *result)
 {
-    const struct rho_classic *classic = tools->classic;
-    *blocks = (struct blocks){.most = (double)result->votes_max / RHO_CLASSIC_VOTE};
+    const struct rho_hough *classic = tools->classic;
+    *blocks = (struct blocks){.most = (double)result->votes_max / RHO_HOUGH_VOTE};
     for (uint32_t i = 0; i < result->num_peaks; i++) {
         const struct rho_accumulator_peak *cell = &tools->peaks[i];
         double *share = &blocks->share[cell->theta_cell * ROWS / classic->theta_cells]
@@ -116,10 +116,10 @@ static void draw_plane(const struct classic_report *report, struct classic_tools
     put_lines(picture.script, data);
     for (size_t method = 0; method < CLASSIC_KERNEL; method++) {
         if (classic_has(report, method)) {
-            struct rho_classic_config config = classic_config(data->situation, method);
+            struct rho_hough_config config = classic_config(data->situation, method);
             config.tau = 0.0f;
             config.keeps_all_cells = 1;
-            struct rho_classic_result result = classic_find(tools, &config, &tools->points);
+            struct rho_hough_result result = classic_find(tools, &config, &tools->points);
             fill_blocks(blocks, tools, &result);
             put_blocks(picture.script, blocks, method);
             most[method] = blocks->most;

@@ -17,7 +17,7 @@
 
 struct classic_tools classic_tools_start(uint32_t max_peaks)
 {
-    return (struct classic_tools){.classic = must_alloc(sizeof(struct rho_classic)),
+    return (struct classic_tools){.classic = must_alloc(sizeof(struct rho_hough)),
                                   .rows = must_alloc(sizeof(struct rho_accumulator)),
                                   .peaks =
                                       must_calloc(max_peaks, sizeof(struct rho_accumulator_peak)),
@@ -91,27 +91,26 @@ void classic_load(struct classic_tools *tools, const struct classic_data *data)
         }
         plots->scan_end[scan] = (uint32_t)count;
     }
-    tools->points = (struct rho_classic_points){
+    tools->points = (struct rho_hough_points){
         {plots->x_m, plots->y_m, (unsigned)simulation->num_scans, plots->scan_end}, plots->t_s};
 }
 
-struct rho_classic_config classic_config(const struct classic_situation *situation, size_t method)
+struct rho_hough_config classic_config(const struct classic_situation *situation, size_t method)
 {
-    struct rho_classic_config config;
-    rho_classic_config_default(&config, (enum rho_classic_method)method);
+    struct rho_hough_config config;
+    rho_hough_config_default(&config, (enum rho_hough_method)method);
     config.rho_max_m = situation->rho_max_m;
     return config;
 }
 
-struct rho_classic_result classic_find(struct classic_tools *tools,
-                                       const struct rho_classic_config *config,
-                                       const struct rho_classic_points *points)
+struct rho_hough_result classic_find(struct classic_tools *tools,
+                                     const struct rho_hough_config *config,
+                                     const struct rho_hough_points *points)
 {
-    struct rho_classic_result result;
-    must_succeed(rho_classic_init(tools->classic, sizeof *tools->classic, config),
-                 "rho_classic_init");
-    must_succeed(rho_classic_find(tools->classic, points, tools->peaks, tools->max_peaks, &result),
-                 "rho_classic_find");
+    struct rho_hough_result result;
+    must_succeed(rho_hough_init(tools->classic, sizeof *tools->classic, config), "rho_hough_init");
+    must_succeed(rho_hough_find(tools->classic, points, tools->peaks, tools->max_peaks, &result),
+                 "rho_hough_find");
     return result;
 }
 
@@ -261,9 +260,9 @@ static struct peaks peaks_of(const struct classic_tools *tools, uint32_t num_pea
     for (uint32_t i = 0; i < count; i++) {
         const struct rho_accumulator_peak *peak = &tools->peaks[i];
         peaks.lines[i] =
-            (struct classic_line){(double)rho_classic_rho_m(tools->classic, peak->rho_cell),
-                                  (double)rho_classic_theta_rad(tools->classic, peak->theta_cell)};
-        peaks.votes[i] = (double)peak->votes / RHO_CLASSIC_VOTE;
+            (struct classic_line){(double)rho_hough_rho_m(tools->classic, peak->rho_cell),
+                                  (double)rho_hough_theta_rad(tools->classic, peak->theta_cell)};
+        peaks.votes[i] = (double)peak->votes / RHO_HOUGH_VOTE;
     }
     return peaks;
 }
@@ -271,7 +270,7 @@ static struct peaks peaks_of(const struct classic_tools *tools, uint32_t num_pea
 static void set_heights(struct classic_run *run, struct classic_tools *tools,
                         const struct classic_data *data, double highest_false, double ideal_votes)
 {
-    struct rho_classic_config config = tools->classic->config;
+    struct rho_hough_config config = tools->classic->config;
     double n = (double)data->plan.num_targets, sum = 0.0;
     for (size_t target = 0; target < data->plan.num_targets; target++) {
         struct classic_line line = classic_true_line(&data->plan, target);
@@ -284,15 +283,15 @@ static void set_heights(struct classic_run *run, struct classic_tools *tools,
 static struct classic_run run_paper(struct classic_tools *tools, const struct classic_data *data,
                                     size_t method, double ideal_votes)
 {
-    struct rho_classic_config config = classic_config(data->situation, method);
+    struct rho_hough_config config = classic_config(data->situation, method);
     struct classic_run run = {.matched = 0};
     int64_t start_us = clock_us();
-    struct rho_classic_result result = classic_find(tools, &config, &tools->points);
+    struct rho_hough_result result = classic_find(tools, &config, &tools->points);
     run.time_us = (double)(clock_us() - start_us);
     struct peaks peaks = peaks_of(tools, result.num_peaks);
     struct match match;
     match_peaks(data, &peaks, &match);
-    double listed = (double)config.tau * result.votes_max / RHO_CLASSIC_VOTE;
+    double listed = (double)config.tau * result.votes_max / RHO_HOUGH_VOTE;
     set_figures(&run, data, &match);
     set_heights(&run, tools, data, fmax(match.false_votes, listed), ideal_votes);
     run.value[CLASSIC_VOTES] = result.votes;

@@ -144,7 +144,7 @@ struct grid classic_words_grid(const struct classic_report *report)
 
 struct grid classic_sweep_grid(const struct classic_report *report)
 {
-    static const size_t methods[] = {RHO_CLASSIC_IHT, RHO_CLASSIC_NHT_A, RHO_CLASSIC_NHT_C,
+    static const size_t methods[] = {RHO_HOUGH_IHT, RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C,
                                      CLASSIC_KERNEL};
     struct grid grid = grid_start(2, "noise m|method|detected|met|false|discrim.|top 3");
     for (size_t i = 0; i < CLASSIC_NOISES; i++) {
@@ -179,14 +179,13 @@ struct grid classic_times_grid(const struct classic_report *report)
             }
         }
         snprintf(c, sizeof c, "%.3f",
-                 time->time_us[RHO_CLASSIC_NHT_C] / time->time_us[CLASSIC_DENSE]);
-        snprintf(ht, sizeof ht, "%.3f",
-                 time->time_us[RHO_CLASSIC_HT] / time->time_us[CLASSIC_DENSE]);
+                 time->time_us[RHO_HOUGH_NHT_C] / time->time_us[CLASSIC_DENSE]);
+        snprintf(ht, sizeof ht, "%.3f", time->time_us[RHO_HOUGH_HT] / time->time_us[CLASSIC_DENSE]);
         grid_row(&grid, "%g|%s|%s|%s|%s|%s|%s|%s|%s|%s", time->per_km2, text[CLASSIC_DENSE],
-                 text[RHO_CLASSIC_HT], text[RHO_CLASSIC_MHT], text[RHO_CLASSIC_IHT],
-                 text[RHO_CLASSIC_NHT_A], text[RHO_CLASSIC_NHT_C], text[CLASSIC_KERNEL],
-                 classic_has(report, RHO_CLASSIC_NHT_C) ? c : "-",
-                 classic_has(report, RHO_CLASSIC_HT) ? ht : "-");
+                 text[RHO_HOUGH_HT], text[RHO_HOUGH_MHT], text[RHO_HOUGH_IHT],
+                 text[RHO_HOUGH_NHT_A], text[RHO_HOUGH_NHT_C], text[CLASSIC_KERNEL],
+                 classic_has(report, RHO_HOUGH_NHT_C) ? c : "-",
+                 classic_has(report, RHO_HOUGH_HT) ? ht : "-");
     }
     return grid;
 }

@@ -137,10 +137,10 @@ static void judge_work(struct classic_report *report)
     static const struct {
         size_t method;
         double votes;
-    } expected[] = {{RHO_CLASSIC_HT, 2.26e6},
-                    {RHO_CLASSIC_MHT, 63e3},
-                    {RHO_CLASSIC_IHT, 9.4e3},
-                    {RHO_CLASSIC_NHT_C, 535e3}};
+    } expected[] = {{RHO_HOUGH_HT, 2.26e6},
+                    {RHO_HOUGH_MHT, 63e3},
+                    {RHO_HOUGH_IHT, 9.4e3},
+                    {RHO_HOUGH_NHT_C, 535e3}};
     for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
         size_t method = expected[i].method;
         if (classic_has(report, method)) {
@@ -152,11 +152,11 @@ static void judge_work(struct classic_report *report)
                             ERRORS * summary->error[CLASSIC_VOTES]);
         }
     }
-    for (size_t i = 0; i < report->num_times && classic_has(report, RHO_CLASSIC_NHT_C); i++) {
+    for (size_t i = 0; i < report->num_times && classic_has(report, RHO_HOUGH_NHT_C); i++) {
         const struct classic_time *time = &report->times[i];
         if (time->per_km2 == classic_situations[SITUATION_IV].of.clutter_per_km2) {
             expect_at_most(add(report, "work, IV NHT C: time / dense HT's"),
-                           time->time_us[RHO_CLASSIC_NHT_C] / time->time_us[CLASSIC_DENSE],
+                           time->time_us[RHO_HOUGH_NHT_C] / time->time_us[CLASSIC_DENSE],
                            DENSE_SHARE);
         }
     }
@@ -167,17 +167,17 @@ static void judge_work(struct classic_report *report)
 static void judge_sweep(struct classic_report *report)
 {
     for (size_t i = 0; i < CLASSIC_NOISES; i++) {
-        const struct classic_summary *c = &report->sweep[i][RHO_CLASSIC_NHT_C],
-                                     *iht = &report->sweep[i][RHO_CLASSIC_IHT];
+        const struct classic_summary *c = &report->sweep[i][RHO_HOUGH_NHT_C],
+                                     *iht = &report->sweep[i][RHO_HOUGH_IHT];
         double noise_m = report->sweep_situations[i].noise_m;
-        if (!classic_has(report, RHO_CLASSIC_NHT_C)) {
+        if (!classic_has(report, RHO_HOUGH_NHT_C)) {
             return;
         }
         if (noise_m <= 0.6) {
             expect_at_least(add(report, "IV at %g m, NHT C: detected", noise_m),
                             c->mean[CLASSIC_DETECTED], 0.8);
         }
-        if (noise_m > 0.0 && noise_m <= 0.6 && classic_has(report, RHO_CLASSIC_IHT)) {
+        if (noise_m > 0.0 && noise_m <= 0.6 && classic_has(report, RHO_HOUGH_IHT)) {
             expect_at_most(add(report, "IV at %g m, NHT C: false / IHT's", noise_m),
                            c->mean[CLASSIC_FALSE] / iht->mean[CLASSIC_FALSE], 0.5);
         }
@@ -190,7 +190,7 @@ static void judge_sweep(struct classic_report *report)
 
 static void judge_table3(struct classic_report *report)
 {
-    if (classic_has(report, RHO_CLASSIC_NHT_A)) {
+    if (classic_has(report, RHO_HOUGH_NHT_A)) {
         expect_near(add(report, "Table 3 alone, NHT A: votes"), report->table3_votes, 1.0, 0.0);
     }
 }

@@ -8,7 +8,7 @@
 
 #include "base/grid.h"
 #include "pipeline/pipeline.h"
-#include "scene/scene_watch.h"
+#include "scene/scene_observe.h"
 #include "verdicts.h"
 
 enum rotating_case {

@@ -244,7 +244,7 @@ static double *no_times(size_t count)
 static void run_one(void *context, size_t worker, size_t run)
 {
     struct measuring *measuring = context;
-    struct scene_run *seen = scene_watch(measuring->scene, measuring->seed, run);
+    struct scene_run *seen = scene_observe(measuring->scene, measuring->seed, run);
 
     if (measuring->chains[worker].tracker == NULL) {
         measuring->chains[worker] = pipeline_start();
@@ -264,7 +264,7 @@ static void run_one(void *context, size_t worker, size_t run)
 static void time_steps(struct measuring *measuring, struct rotating_figures *figures)
 {
     for (uint64_t run = 0; run < TIMED_RUNS; run++) {
-        struct scene_run *seen = scene_watch(measuring->scene, measuring->seed, run);
+        struct scene_run *seen = scene_observe(measuring->scene, measuring->seed, run);
 
         for (size_t i = 0; i < ROTATING_CASES; i++) {
             double *step_us = no_times(seen->num_scans);

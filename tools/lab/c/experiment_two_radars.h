@@ -13,7 +13,7 @@
 #include "base/grid.h"
 #include "pipeline/pipeline.h"
 #include "registration/register.h"
-#include "scene/scene_watch.h"
+#include "scene/scene_observe.h"
 #include "verdicts.h"
 
 #define RADARS 2

@@ -220,7 +220,7 @@ void radars_page(const struct radars_summary *summary, const struct verdicts *ve
     static const char *const names[] = {"map.svg",   "raw.svg",     "right.svg",
                                         "range.svg", "azimuth.svg", "index.html"};
     struct scene *scene = radars_scene();
-    struct scene_run *run = scene_watch(scene, summary->seed, 0);
+    struct scene_run *run = scene_observe(scene, summary->seed, 0);
     char *paths[sizeof names / sizeof names[0]];
 
     make_folder(folder);

@@ -347,7 +347,7 @@ struct radars_run radars_run_all(const struct scene *scene, uint64_t seed, uint6
                                  struct pipeline *chain)
 {
     struct parameters parameters = scene_parameters(scene);
-    struct scene_run *seen = scene_watch(scene, seed, run);
+    struct scene_run *seen = scene_observe(scene, seed, run);
     struct register_result result = radars_register(seen, &parameters, chain);
     struct radars_run out = {.found = found_of(scene, &result)};
 

@@ -123,7 +123,7 @@ static struct scenario_radar radar_of(const struct scene_sensor *sensor)
 struct simulation *scene_simulation(const struct scene *scene, uint64_t seed, uint64_t run_number)
 {
     const struct scene_sensor *sensor = &scene->sensors[0];
-    struct scene_run *run = scene_watch(scene, seed, run_number);
+    struct scene_run *run = scene_observe(scene, seed, run_number);
     struct simulation *simulation = must_calloc(1, sizeof *simulation);
     size_t room = 0;
 

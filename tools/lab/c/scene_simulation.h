@@ -9,7 +9,7 @@
 #include "rhotrack/tracker.h"
 #include "scenario.h"
 #include "scene/scene.h"
-#include "scene/scene_watch.h"
+#include "scene/scene_observe.h"
 
 /*
  * The defaults, and what scenario.ini would tell a tracker; of the sensor where there is one radar

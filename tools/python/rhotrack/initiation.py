@@ -48,24 +48,24 @@ class Initiator:
         held = self._held(scans)
         if not held:
             return np.empty(0, FOUND)
-        return self._find_kernel(held) if self.method == "kernel" else self._find_classic(held)
+        return self._find_kernel(held) if self.method == "kernel" else self._find_hough(held)
 
     def accumulator(self, scans: Any) -> Accumulator:
         """The votes of every cell of the papers' plane; cells are d_rho_m by d_theta_rad."""
         if self.method == "kernel":
             raise Error("method 'kernel' has no accumulator")
         points = _Points(self._held(scans))
-        classic = self._classic(points, tau=0.0, votes_min=0.0, keeps_all_cells=1)
-        shape = classic.theta_cells, classic.rho_cells
+        hough = self._hough(points, tau=0.0, votes_min=0.0, keeps_all_cells=1)
+        shape = hough.theta_cells, hough.rho_cells
         if shape[0] * shape[1] > CELLS_MAX:
             raise Error(f"d_rho_m, d_theta_rad: {shape[0]} x {shape[1]} cells are too many for one "
                         f"array, {CELLS_MAX}")
-        peaks = _peaks(classic, points, shape[0] * shape[1])
+        peaks = _peaks(hough, points, shape[0] * shape[1])
         votes = np.zeros(shape, "f4")
-        votes[peaks["theta_cell"], peaks["rho_cell"]] = peaks["votes"] / lib.RHO_CLASSIC_VOTE
+        votes[peaks["theta_cell"], peaks["rho_cell"]] = peaks["votes"] / lib.RHO_HOUGH_VOTE
         return Accumulator(
-            votes, np.array([lib.rho_classic_theta_rad(classic, i) for i in range(shape[0])], "f4"),
-            np.array([lib.rho_classic_rho_m(classic, i) for i in range(shape[1])], "f4"))
+            votes, np.array([lib.rho_hough_theta_rad(hough, i) for i in range(shape[0])], "f4"),
+            np.array([lib.rho_hough_rho_m(hough, i) for i in range(shape[1])], "f4"))
 
     def _held(self, scans: Any) -> list[Any]:
         self._scans = as_scans(scans, self.settings)  # owns what the list points to
@@ -96,35 +96,35 @@ class Initiator:
                         np.float32(one.score_mnat) / np.float32(1000))
         return found
 
-    def _classic(self, points: _Points, **changes: Any) -> Any:
-        config = ffi.new("struct rho_classic_config *")
-        must(lib.program_classic_config(self.settings.handle, self.method.encode(), points.range_m,
+    def _hough(self, points: _Points, **changes: Any) -> Any:
+        config = ffi.new("struct rho_hough_config *")
+        must(lib.program_hough_config(self.settings.handle, self.method.encode(), points.range_m,
                                         config))
         for name, value in changes.items():
             setattr(config, name, value)
-        classic = ffi.new("struct rho_classic *")
-        must_succeed(lib.rho_classic_init(classic, ffi.sizeof(classic[0]), config), "init")
-        return classic
+        hough = ffi.new("struct rho_hough *")
+        must_succeed(lib.rho_hough_init(hough, ffi.sizeof(hough[0]), config), "init")
+        return hough
 
-    def _find_classic(self, held: list[Any]) -> np.ndarray:
+    def _find_hough(self, held: list[Any]) -> np.ndarray:
         points = _Points(held)
-        classic = self._classic(points)
-        peaks = _peaks(classic, points, PEAKS_MAX)
-        track = ffi.new("struct rho_classic_track *")
+        hough = self._hough(points)
+        peaks = _peaks(hough, points, PEAKS_MAX)
+        track = ffi.new("struct rho_hough_track *")
         found = np.full(len(peaks), np.array(
             (0, points.time_us / 1e6, *[np.nan] * 6, 0, 0), FOUND))
         for i, peak in enumerate(peaks):
             theta, rho = int(peak["theta_cell"]), int(peak["rho_cell"])
-            must_succeed(lib.rho_classic_track(classic, points.struct, theta, rho, 0.0, track),
+            must_succeed(lib.rho_hough_track(hough, points.struct, theta, rho, 0.0, track),
                          "track")
             if track.has_velocity:
                 for name in ("x_m", "y_m", "vx_mps", "vy_mps"):
                     found[name][i] = getattr(track, name)
-            found["rho_m"][i] = lib.rho_classic_rho_m(classic, rho)
-            found["theta_rad"][i] = lib.rho_classic_theta_rad(classic, theta)
+            found["rho_m"][i] = lib.rho_hough_rho_m(hough, rho)
+            found["theta_rad"][i] = lib.rho_hough_theta_rad(hough, theta)
             found["scans"][i] = track.scans
         found["track_id"] = np.arange(1, len(found) + 1)
-        found["score"] = np.round(1e6 * peaks["votes"].astype("f8") / lib.RHO_CLASSIC_VOTE) / 1e6
+        found["score"] = np.round(1e6 * peaks["votes"].astype("f8") / lib.RHO_HOUGH_VOTE) / 1e6
         return found
 
 
@@ -142,15 +142,15 @@ class _Points:
                               for name in ("x_m", "y_m"))
         self.end = np.cumsum([len(plots) for plots in scans], dtype="u4")
         self.range_m = float(np.hypot(self.x_m.astype("f8"), self.y_m.astype("f8")).max(initial=0))
-        self.struct = ffi.new("struct rho_classic_points *", {
+        self.struct = ffi.new("struct rho_hough_points *", {
             "at": {"x_m": pointer_to(self.x_m, "float *"), "y_m": pointer_to(self.y_m, "float *"),
                    "num_scans": len(scans), "scan_end": pointer_to(self.end, "uint32_t *")},
             "t_s": pointer_to(self.t_s, "float *")})
 
 
-def _peaks(classic: Any, points: _Points, room: int) -> np.ndarray:
-    peaks, result = np.empty(room, PEAK), ffi.new("struct rho_classic_result *")
-    must_succeed(lib.rho_classic_find(classic, points.struct, pointer_to(
+def _peaks(hough: Any, points: _Points, room: int) -> np.ndarray:
+    peaks, result = np.empty(room, PEAK), ffi.new("struct rho_hough_result *")
+    must_succeed(lib.rho_hough_find(hough, points.struct, pointer_to(
         peaks, "struct rho_accumulator_peak *"), room, result), "x_m, y_m or t_s of a plot")
     return peaks[:result.num_peaks]
 

@@ -5,14 +5,14 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "registration/calibrate_pieces.h"
+#include "registration/calibrate_segments.h"
 
 #define ROUNDS_MAX 8
 #define SETTLED 0.02 /* noise that changes by less between rounds stays */
 #define TRY_BETTER 1.5
 
 #define PARTS 10 /* of the data, each left out once: what the figures differ by */
-#define PIECES_MIN 4
+#define SEGMENTS_MIN 4
 #define LOOKS_MIN 100
 #define TURNS_MIN 6
 #define SETTLING_PLOTS 6 /* of a track: it is there because these were seen */
@@ -67,12 +67,12 @@ static double value_of(const struct residual *residual, bool is_round)
 
 static bool counts(const struct residual *residual, int axis, bool is_round, int part)
 {
-    return (is_round || residual->axis == axis) && (int)(residual->piece % PARTS) != part;
+    return (is_round || residual->axis == axis) && (int)(residual->segment % PARTS) != part;
 }
 
 /* The sigma for which the cut squares have the mean that they should have; without a part, -1: of
  * all. */
-static double noise_without(const struct calibrate_pieces *pieces, int axis, bool is_round,
+static double noise_without(const struct calibrate_segments *segments, int axis, bool is_round,
                             int part)
 {
     double least = 1e-9, most = 1e7;
@@ -81,9 +81,9 @@ static double noise_without(const struct calibrate_pieces *pieces, int axis, boo
         const double sigma = sqrt(least * most);
         double sum = 0.0, count = 0.0;
 
-        for (size_t k = 0; k < pieces->num_residuals; k++) {
-            if (counts(&pieces->residuals[k], axis, is_round, part)) {
-                const double sigmas = value_of(&pieces->residuals[k], is_round) / sigma;
+        for (size_t k = 0; k < segments->num_residuals; k++) {
+            if (counts(&segments->residuals[k], axis, is_round, part)) {
+                const double sigmas = value_of(&segments->residuals[k], is_round) / sigma;
 
                 sum += sigmas < CUT ? sigmas * sigmas : CUT * CUT;
                 count += 1.0;
@@ -98,17 +98,17 @@ static double noise_without(const struct calibrate_pieces *pieces, int axis, boo
     return sqrt(least * most);
 }
 
-static struct calibrate_figure noise_of(const struct calibrate_pieces *pieces, int axis,
+static struct calibrate_figure noise_of(const struct calibrate_segments *segments, int axis,
                                         bool is_round)
 {
-    struct calibrate_figure figure = {.is_known = pieces->num_pieces >= PIECES_MIN};
+    struct calibrate_figure figure = {.is_known = segments->num_segments >= SEGMENTS_MIN};
     struct parts parts;
 
     if (figure.is_known) {
         for (int i = 0; i < PARTS; i++) {
-            parts.without[i] = noise_without(pieces, axis, is_round, i);
+            parts.without[i] = noise_without(segments, axis, is_round, i);
         }
-        figure.value = noise_without(pieces, axis, is_round, -1);
+        figure.value = noise_without(segments, axis, is_round, -1);
         figure.sigma = sigma_of(&parts);
     }
     return figure;
@@ -151,45 +151,45 @@ static void forget_tracks(struct register_data *data)
     data->num_tracks = 0;
 }
 
-static struct calibrate_pieces track_and_cut(struct register_data *data, size_t radar,
-                                             bool is_round, struct pipeline *pipeline)
+static struct calibrate_segments track_and_cut(struct register_data *data, size_t radar,
+                                               bool is_round, struct pipeline *pipeline)
 {
     forget_tracks(data);
     register_track_one(data, radar, pipeline);
     return calibrate_cut(data, radar, is_round);
 }
 
-static double worth_of(const struct calibrate_pieces *pieces)
+static double worth_of(const struct calibrate_segments *segments)
 {
-    return (double)pieces->num_pieces - (double)pieces->num_left_out;
+    return (double)segments->num_segments - (double)segments->num_left_out;
 }
 
 /* Noise that is far from what was stated lets no tracks be found: with which of these factors
- * there are most pieces. */
-static struct calibrate_pieces begin(struct register_data *data, size_t number, bool is_round,
-                                     struct pipeline *pipeline)
+ * there are most segments. */
+static struct calibrate_segments begin(struct register_data *data, size_t number, bool is_round,
+                                       struct pipeline *pipeline)
 {
     static const double factors[] = {4.0, 16.0, 0.25};
     struct radar_data *radar = &data->radars[number];
-    struct calibrate_pieces best = track_and_cut(data, number, is_round, pipeline);
+    struct calibrate_segments best = track_and_cut(data, number, is_round, pipeline);
     double factor = 1.0;
 
     for (size_t i = 0; i < sizeof factors / sizeof *factors; i++) {
         const double tried = factors[i];
-        struct calibrate_pieces pieces;
+        struct calibrate_segments segments;
 
         scale_noise(radar, tried / factor);
-        pieces = track_and_cut(data, number, is_round, pipeline);
-        if (worth_of(&pieces) > TRY_BETTER * fmax(worth_of(&best), 1.0)) {
-            calibrate_pieces_free(&best);
-            best = pieces;
+        segments = track_and_cut(data, number, is_round, pipeline);
+        if (worth_of(&segments) > TRY_BETTER * fmax(worth_of(&best), 1.0)) {
+            calibrate_segments_free(&best);
+            best = segments;
             factor = tried;
         } else {
-            calibrate_pieces_free(&pieces);
+            calibrate_segments_free(&segments);
             scale_noise(radar, factor / tried);
         }
     }
-    calibrate_pieces_free(&best);
+    calibrate_segments_free(&best);
     return track_and_cut(data, number, is_round, pipeline);
 }
 
@@ -198,37 +198,38 @@ static bool has_settled(const struct calibrate_figure *before, const struct cali
     return before->is_known && fabs(now->value / before->value - 1.0) < SETTLED;
 }
 
-/* Where most pieces are no parabolas, those that look so are by chance. */
-static bool are_enough(const struct calibrate_pieces *pieces)
+/* Where most segments are no parabolas, those that look so are by chance. */
+static bool are_enough(const struct calibrate_segments *segments)
 {
-    return pieces->num_pieces >= PIECES_MIN && pieces->num_pieces > pieces->num_left_out;
+    return segments->num_segments >= SEGMENTS_MIN &&
+           segments->num_segments > segments->num_left_out;
 }
 
 /* Noise along and across, with the tracks that it makes. */
-static struct calibrate_pieces find_noise(struct register_data *data, size_t number,
-                                          struct calibrate_radar *out, struct pipeline *pipeline)
+static struct calibrate_segments find_noise(struct register_data *data, size_t number,
+                                            struct calibrate_radar *out, struct pipeline *pipeline)
 {
     struct calibrate_figure *noise = out->figures;
-    struct calibrate_pieces pieces = begin(data, number, out->is_round, pipeline);
+    struct calibrate_segments segments = begin(data, number, out->is_round, pipeline);
 
-    for (int round = 0; round < ROUNDS_MAX && pieces.num_pieces >= PIECES_MIN; round++) {
+    for (int round = 0; round < ROUNDS_MAX && segments.num_segments >= SEGMENTS_MIN; round++) {
         const struct calibrate_figure before[2] = {noise[0], noise[1]};
 
-        noise[0] = noise_of(&pieces, 0, out->is_round);
-        noise[1] = noise_of(&pieces, 1, false);
+        noise[0] = noise_of(&segments, 0, out->is_round);
+        noise[1] = noise_of(&segments, 1, false);
         noise[1].is_known = noise[1].is_known && !out->is_round;
         if (has_settled(&before[0], &noise[0]) &&
             (out->is_round || has_settled(&before[1], &noise[1]))) {
             break;
         }
         set_noise(&data->radars[number], out->is_round, noise[0].value, noise[1].value);
-        calibrate_pieces_free(&pieces);
-        pieces = track_and_cut(data, number, out->is_round, pipeline);
+        calibrate_segments_free(&segments);
+        segments = track_and_cut(data, number, out->is_round, pipeline);
     }
-    if (!are_enough(&pieces)) {
+    if (!are_enough(&segments)) {
         noise[0].is_known = noise[1].is_known = false;
     }
-    return pieces;
+    return segments;
 }
 
 /* ---- turns, clutter ---- */
@@ -372,25 +373,25 @@ static struct calibrate_figure pd_of(const struct register_data *data, size_t nu
 
 /* ---- speeds ---- */
 
-/* Of a track: the median of its pieces', and how well it is known. False: fewer than two pieces. */
-static bool speed_of(const struct calibrate_pieces *pieces, size_t *next,
+/* A track's speed: the median of its segments, and its error. False: fewer than two segments. */
+static bool speed_of(const struct calibrate_segments *segments, size_t *next,
                      struct calibrate_figure *speed)
 {
     const size_t first = *next;
     double *speeds, square = 0.0;
     size_t count = 0;
 
-    while (*next < pieces->num_pieces &&
-           pieces->pieces[*next].track == pieces->pieces[first].track) {
+    while (*next < segments->num_segments &&
+           segments->segments[*next].track == segments->segments[first].track) {
         ++*next;
     }
     count = *next - first;
     speeds = must_calloc(count, sizeof *speeds);
     for (size_t i = 0; i < count; i++) {
-        const struct calibrate_piece *piece = &pieces->pieces[first + i];
+        const struct calibrate_segment *segment = &segments->segments[first + i];
 
-        speeds[i] = piece->speed_mps;
-        square += piece->speed_sigma_mps * piece->speed_sigma_mps / (double)count;
+        speeds[i] = segment->speed_mps;
+        square += segment->speed_sigma_mps * segment->speed_sigma_mps / (double)count;
     }
     *speed =
         (struct calibrate_figure){true, median(speeds, count), 1.25 * sqrt(square / (double)count)};
@@ -398,13 +399,13 @@ static bool speed_of(const struct calibrate_pieces *pieces, size_t *next,
     return count >= 2;
 }
 
-static void find_speeds(const struct calibrate_pieces *pieces, struct calibrate_figure *fastest,
+static void find_speeds(const struct calibrate_segments *segments, struct calibrate_figure *fastest,
                         struct calibrate_figure *slowest)
 {
     struct calibrate_figure speed;
 
-    for (size_t next = 0; next < pieces->num_pieces;) {
-        if (!speed_of(pieces, &next, &speed) || speed.value < MOVES_SIGMAS * speed.sigma) {
+    for (size_t next = 0; next < segments->num_segments;) {
+        if (!speed_of(segments, &next, &speed) || speed.value < MOVES_SIGMAS * speed.sigma) {
             continue;
         }
         *fastest = !fastest->is_known || speed.value > fastest->value ? speed : *fastest;
@@ -443,7 +444,7 @@ static void calibrate_one(struct register_data *data, size_t number, struct pipe
 {
     struct radar_data *radar = &data->radars[number];
     double *stated = must_calloc(2 * radar->num_plots + 1, sizeof *stated);
-    struct calibrate_pieces pieces;
+    struct calibrate_segments segments;
     struct turns turns;
 
     for (size_t i = 0; i < radar->num_plots; i++) {
@@ -454,21 +455,21 @@ static void calibrate_one(struct register_data *data, size_t number, struct pipe
                                     .is_round = has_round_plots(radar),
                                     .scans = radar->num_scans,
                                     .plots = radar->num_plots};
-    pieces = find_noise(data, number, out, pipeline);
+    segments = find_noise(data, number, out, pipeline);
     turns = turns_of(data, radar);
     out->turns = turns.count;
     out->tracks = data->num_tracks;
-    out->pieces = pieces.num_pieces;
-    out->pieces_left_out = pieces.num_left_out;
+    out->segments = segments.num_segments;
+    out->segments_left_out = segments.num_left_out;
     out->area_km2 = area_km2(radar, out->is_round);
     out->figures[CALIBRATE_TURN] = turn_time(&turns);
     out->figures[CALIBRATE_CLUTTER] = clutter_of(data, number, &turns);
     if (out->figures[CALIBRATE_TURN].is_known) {
         out->figures[CALIBRATE_PD] = pd_of(data, number, out->figures[CALIBRATE_TURN].value);
     }
-    find_speeds(&pieces, &out->figures[CALIBRATE_FASTEST], &out->figures[CALIBRATE_SLOWEST]);
+    find_speeds(&segments, &out->figures[CALIBRATE_FASTEST], &out->figures[CALIBRATE_SLOWEST]);
     find_innovations(data, number, out, stated);
-    calibrate_pieces_free(&pieces);
+    calibrate_segments_free(&segments);
     free(turns.end_s);
     free(turns.plots);
     free(stated);

@@ -3,7 +3,7 @@
  * calibrate: what radars are like, from a recording of theirs.
  *
  * Each radar's plots become tracks by the library's tracker, alone (register_tracks). Their paths
- * are cut into pieces of ten plots, each a parabola; what the plots lie beside these, along the
+ * are cut into segments of ten plots, each a parabola; what the plots lie beside these, along the
  * line of sight and across, is the radar's noise: the tracks are found again with it, until it
  * stays. Then the tracks tell the rest.
  */
@@ -37,7 +37,7 @@ struct calibrate_radar {
     int32_t sensor_id;
     bool is_round; /* plots have places, and no range */
     size_t scans, turns, plots, tracks;
-    size_t pieces, pieces_left_out; /* left out: no parabolas */
+    size_t segments, segments_left_out; /* left out: no parabolas */
     struct calibrate_figure figures[NUM_CALIBRATE_KINDS];
     /* of the next plots of tracks beside where the last ones lead: squares over what is expected
      * by the noise that was stated, cut at 4, 1 on average where that is right */

@@ -74,8 +74,8 @@ void calibrate_print(const struct calibrate_result *result, FILE *out)
         fprintf(out,
                 "radar %d: %zu plots in %zu turns, %zu tracks, %zu pieces of them (%zu more left "
                 "out as no parabolas)",
-                (int)of->sensor_id, of->plots, of->turns, of->tracks, of->pieces,
-                of->pieces_left_out);
+                (int)of->sensor_id, of->plots, of->turns, of->tracks, of->segments,
+                of->segments_left_out);
         if (of->num_innovations > 0) {
             fprintf(out, "; squared innovations by the noise as stated: %.2f of 1",
                     of->innovations);
@@ -104,8 +104,8 @@ void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_s
         cJSON_AddNumberToObject(radar, "turns", (double)of->turns);
         cJSON_AddNumberToObject(radar, "plots", (double)of->plots);
         cJSON_AddNumberToObject(radar, "tracks", (double)of->tracks);
-        cJSON_AddNumberToObject(radar, "pieces", (double)of->pieces);
-        cJSON_AddNumberToObject(radar, "pieces_left_out", (double)of->pieces_left_out);
+        cJSON_AddNumberToObject(radar, "pieces", (double)of->segments);
+        cJSON_AddNumberToObject(radar, "pieces_left_out", (double)of->segments_left_out);
         for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
             const struct calibrate_figure *figure = &of->figures[kind];
             const char *name =

@@ -193,8 +193,8 @@ static struct register_result result_of(const struct register_data *data, size_t
     struct register_result result = {.num_radars = data->num_radars,
                                      .reference = reference,
                                      .targets = register_num_common(data),
-                                     .pieces = solution->pieces,
-                                     .pieces_left_out = solution->pieces_left_out,
+                                     .segments = solution->segments,
+                                     .segments_left_out = solution->segments_left_out,
                                      .plots = solution->plots,
                                      .misfit = solution->misfit,
                                      .rounds = rounds};

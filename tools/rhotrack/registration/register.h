@@ -3,9 +3,9 @@
  * register: the biases of radars from the targets that several of them see.
  *
  * Each radar's plots become tracks by the library's tracker, alone. Tracks of different radars that
- * stay together are one target (register_match). Pieces of a target's path, each a parabola that
+ * stay together are one target (register_match). Segments of a target's path, each a parabola that
  * all radars' plots are measured against, give the biases by least squares: range, azimuth and time
- * of every radar at once, the pieces' own parameters eliminated, plots far off with less weight
+ * of every radar at once, the segments' own parameters eliminated, plots far off with less weight
  * (register_solve). The biases bring other tracks together, and so on until nothing changes.
  *
  * Plots come with the biases that are configured taken off; what is found is what is left. Only
@@ -35,17 +35,17 @@ struct register_bias {
 struct register_radar {
     int32_t sensor_id;
     size_t scans, plots, tracks; /* tracks: confirmed ones */
-    size_t common_plots;         /* of the pieces of path that were used */
+    size_t common_plots;         /* of the segments of path that were used */
     struct register_bias biases[NUM_REGISTER_KINDS];
 };
 
 struct register_result {
     size_t num_radars;
-    struct register_radar *radars;  /* by sensor_id */
-    size_t reference;               /* whose time counts as right */
-    size_t targets;                 /* seen by several radars */
-    size_t pieces, pieces_left_out; /* of their paths; left out: no parabola */
-    size_t plots;                   /* of the pieces */
+    struct register_radar *radars;      /* by sensor_id */
+    size_t reference;                   /* whose time counts as right */
+    size_t targets;                     /* seen by several radars */
+    size_t segments, segments_left_out; /* of their paths; left out: no parabola */
+    size_t plots;                       /* of the segments */
     double misfit; /* the plots' noise over what their sigmas say; the biases' sigmas have it in */
     size_t rounds;
 };

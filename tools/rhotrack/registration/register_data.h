@@ -77,7 +77,7 @@ size_t register_num_common(const struct register_data *data);
 
 /* The result of the least squares. register_solve.c */
 struct solution {
-    size_t pieces, pieces_left_out, plots;
+    size_t segments, segments_left_out, plots;
     double misfit, speed_mps;
     size_t *radar_plots; /* of each radar */
     double *sigma;       /* of each radar's NUM_REGISTER_KINDS biases */

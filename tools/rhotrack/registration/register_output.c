@@ -94,7 +94,8 @@ void register_print(const struct register_result *result, FILE *out)
         out,
         "\n%zu targets in common, %zu plots in %zu pieces of their paths (%zu more left out as no "
         "parabolas); the plots' noise is %.2f of what their sigmas say\n",
-        result->targets, result->plots, result->pieces, result->pieces_left_out, result->misfit);
+        result->targets, result->plots, result->segments, result->segments_left_out,
+        result->misfit);
     fprintf(out,
             "the time of radar %d counts as right: plots tell differences of time alone; azimuths "
             "counter-clockwise\n",
@@ -135,8 +136,8 @@ void register_print_json(const struct register_result *result, uint64_t rows_ski
     cJSON_AddNumberToObject(object, "reference_sensor",
                             result->radars[result->reference].sensor_id);
     cJSON_AddNumberToObject(object, "targets", (double)result->targets);
-    cJSON_AddNumberToObject(object, "pieces", (double)result->pieces);
-    cJSON_AddNumberToObject(object, "pieces_left_out", (double)result->pieces_left_out);
+    cJSON_AddNumberToObject(object, "pieces", (double)result->segments);
+    cJSON_AddNumberToObject(object, "pieces_left_out", (double)result->segments_left_out);
     cJSON_AddNumberToObject(object, "plots", (double)result->plots);
     cJSON_AddNumberToObject(object, "misfit", result->misfit);
     cJSON_AddNumberToObject(object, "rounds", (double)result->rounds);

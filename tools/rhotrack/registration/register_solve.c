@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* register_solve: the biases by least squares over all pieces of paths that several radars saw. */
+/* register_solve: the biases by least squares over all segments that several radars saw. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "base/common.h"
 #include "registration/cholesky.h"
 #include "registration/register_data.h"
-#include "registration/register_pieces.h"
+#include "registration/register_segments.h"
 
 /* Beyond these nobody believes a bias (types.h): what the plots say nothing of stays within. */
 static const double prior_sigma[NUM_REGISTER_KINDS] = {
@@ -17,8 +17,8 @@ static const double unit[NUM_REGISTER_KINDS] = {10.0, 1e-3, 0.1};
 
 #define STEPS_MAX 30
 #define STEP_LEAST 1e-6   /* in those units */
-#define PASSES_MAX 4      /* in which pieces are left out */
-#define MISFIT_SIGMAS 4.0 /* a piece whose chi-square is off by more is no parabola */
+#define PASSES_MAX 4      /* in which segments are left out */
+#define MISFIT_SIGMAS 4.0 /* a segment whose chi-square is off by more is no parabola */
 
 static struct normal start_normal(const struct register_data *data)
 {
@@ -70,28 +70,28 @@ static void finish_normal(const struct register_data *data, size_t reference, st
     }
 }
 
-static void add_pieces(const struct register_data *data, struct pieces *pieces,
-                       struct normal *normal)
+static void add_segments(const struct register_data *data, struct segments *segments,
+                         struct normal *normal)
 {
     memset(normal->matrix, 0, normal->num * normal->num * sizeof *normal->matrix);
     memset(normal->right, 0, normal->num * sizeof *normal->right);
-    for (size_t i = 0; i < pieces->num_pieces; i++) {
-        struct piece *piece = &pieces->pieces[i];
+    for (size_t i = 0; i < segments->num_segments; i++) {
+        struct segment *segment = &segments->segments[i];
 
-        if (!piece->is_left_out && !piece_fit(data, pieces, piece, normal)) {
-            piece->is_left_out = true;
+        if (!segment->is_left_out && !segment_fit(data, segments, segment, normal)) {
+            segment->is_left_out = true;
         }
     }
 }
 
 /* Gauss-Newton, with the weights going along. The normal equations of the last step stay. */
-static void iterate(struct register_data *data, struct pieces *pieces, size_t reference,
+static void iterate(struct register_data *data, struct segments *segments, size_t reference,
                     struct normal *normal)
 {
     for (int i = 0; i < STEPS_MAX; i++) {
         double largest = 0.0;
 
-        add_pieces(data, pieces, normal);
+        add_segments(data, segments, normal);
         finish_normal(data, reference, normal);
         cholesky_solve(normal->matrix, normal->num, normal->right);
         for (size_t j = 0; j < normal->num; j++) {
@@ -106,7 +106,7 @@ static void iterate(struct register_data *data, struct pieces *pieces, size_t re
     }
 }
 
-/* ---- pieces that are no parabolas ---- */
+/* ---- segments that are no parabolas ---- */
 
 static int by_size(const void *a, const void *b)
 {
@@ -116,14 +116,14 @@ static int by_size(const void *a, const void *b)
 }
 
 /* The median of chi-square over its degrees of freedom: what leaves out does not decide it. */
-static double usual_misfit(const struct pieces *pieces)
+static double usual_misfit(const struct segments *segments)
 {
-    double *ratios = must_calloc(pieces->num_pieces + 1, sizeof *ratios), median = 1.0;
+    double *ratios = must_calloc(segments->num_segments + 1, sizeof *ratios), median = 1.0;
     size_t count = 0;
 
-    for (size_t i = 0; i < pieces->num_pieces; i++) {
-        if (!pieces->pieces[i].is_left_out) {
-            ratios[count++] = pieces->pieces[i].chi2 / piece_freedom(&pieces->pieces[i]);
+    for (size_t i = 0; i < segments->num_segments; i++) {
+        if (!segments->segments[i].is_left_out) {
+            ratios[count++] = segments->segments[i].chi2 / segment_freedom(&segments->segments[i]);
         }
     }
     if (count > 0) {
@@ -134,19 +134,19 @@ static double usual_misfit(const struct pieces *pieces)
     return median;
 }
 
-/* True where any piece was left out that was not before. */
-static bool leave_out(struct pieces *pieces)
+/* True where any segment was left out that was not before. */
+static bool leave_out(struct segments *segments)
 {
-    double usual = usual_misfit(pieces);
+    double usual = usual_misfit(segments);
     bool is_changed = false;
 
-    for (size_t i = 0; i < pieces->num_pieces; i++) {
-        struct piece *piece = &pieces->pieces[i];
-        double freedom = piece_freedom(piece);
+    for (size_t i = 0; i < segments->num_segments; i++) {
+        struct segment *segment = &segments->segments[i];
+        double freedom = segment_freedom(segment);
 
-        if (!piece->is_left_out &&
-            piece->chi2 > usual * (freedom + MISFIT_SIGMAS * sqrt(2.0 * freedom))) {
-            piece->is_left_out = is_changed = true;
+        if (!segment->is_left_out &&
+            segment->chi2 > usual * (freedom + MISFIT_SIGMAS * sqrt(2.0 * freedom))) {
+            segment->is_left_out = is_changed = true;
         }
     }
     return is_changed;
@@ -154,46 +154,46 @@ static bool leave_out(struct pieces *pieces)
 
 /* ---- what was found ---- */
 
-static void count_pieces(const struct pieces *pieces, struct solution *solution)
+static void count_segments(const struct segments *segments, struct solution *solution)
 {
     double chi2 = 0.0, freedom = 0.0;
 
-    for (size_t i = 0; i < pieces->num_pieces; i++) {
-        const struct piece *piece = &pieces->pieces[i];
+    for (size_t i = 0; i < segments->num_segments; i++) {
+        const struct segment *segment = &segments->segments[i];
 
-        if (piece->is_left_out) {
-            solution->pieces_left_out++;
+        if (segment->is_left_out) {
+            solution->segments_left_out++;
             continue;
         }
-        solution->pieces++;
-        solution->plots += piece->count;
-        solution->speed_mps += piece->speed_mps;
-        chi2 += piece->chi2;
-        freedom += piece_freedom(piece);
-        for (size_t j = 0; j < piece->count; j++) {
-            solution->radar_plots[pieces->plots[piece->first + j].radar]++;
+        solution->segments++;
+        solution->plots += segment->count;
+        solution->speed_mps += segment->speed_mps;
+        chi2 += segment->chi2;
+        freedom += segment_freedom(segment);
+        for (size_t j = 0; j < segment->count; j++) {
+            solution->radar_plots[segments->plots[segment->first + j].radar]++;
         }
     }
-    solution->speed_mps /= solution->pieces > 0 ? (double)solution->pieces : 1.0;
+    solution->speed_mps /= solution->segments > 0 ? (double)solution->segments : 1.0;
     solution->misfit = freedom > 0.0 ? sqrt(chi2 / freedom) : 1.0;
 }
 
 struct solution register_solve(struct register_data *data, size_t reference)
 {
-    struct pieces pieces = pieces_cut(data);
+    struct segments segments = segments_cut(data);
     struct normal normal = start_normal(data);
     struct solution solution = {0};
     double *work = must_calloc(normal.num, sizeof *work);
 
     for (int pass = 0; pass < PASSES_MAX; pass++) {
-        iterate(data, &pieces, reference, &normal);
-        if (!leave_out(&pieces)) {
+        iterate(data, &segments, reference, &normal);
+        if (!leave_out(&segments)) {
             break;
         }
     }
     solution.radar_plots = must_calloc(data->num_radars + 1, sizeof *solution.radar_plots);
     solution.sigma = must_calloc(normal.num + 1, sizeof *solution.sigma);
-    count_pieces(&pieces, &solution);
+    count_segments(&segments, &solution);
     for (size_t i = 0; i < normal.num; i++) {
         solution.sigma[i] = solution.misfit * unit[i % NUM_REGISTER_KINDS] *
                             sqrt(cholesky_inverse_diagonal(normal.matrix, normal.num, i, work));
@@ -201,7 +201,7 @@ struct solution register_solve(struct register_data *data, size_t reference)
     solution.sigma[reference * NUM_REGISTER_KINDS + REGISTER_TIME] = 0.0;
     free(work);
     free_normal(&normal);
-    pieces_free(&pieces);
+    segments_free(&segments);
     return solution;
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/common.h"
 #include "scene/scene.h"
-#include "scene/scene_watch.h"
+#include "scene/scene_observe.h"
 
 /* ---- plots and bearings ---- */
 
@@ -332,7 +332,7 @@ static void write_settings(const struct scene *scene, const char *name, const ch
 void scene_simulate(const struct scene *scene, const char *name, const char *folder, uint64_t seed,
                     uint64_t run_number)
 {
-    struct scene_run *run = scene_watch(scene, seed, run_number);
+    struct scene_run *run = scene_observe(scene, seed, run_number);
 
     make_folder(folder);
     if (scene->num_radars > 0) {

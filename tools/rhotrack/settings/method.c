@@ -54,17 +54,17 @@ void method_suggest(enum method method, struct parameters *parameters)
     }
 }
 
-static enum rho_classic_method classic_of(enum method method, const struct parameters *parameters)
+static enum rho_hough_method hough_of(enum method method, const struct parameters *parameters)
 {
     switch (method) {
     case METHOD_HT:
-        return RHO_CLASSIC_HT;
+        return RHO_HOUGH_HT;
     case METHOD_MHT:
-        return RHO_CLASSIC_MHT;
+        return RHO_HOUGH_MHT;
     case METHOD_IHT:
-        return RHO_CLASSIC_IHT;
+        return RHO_HOUGH_IHT;
     default:
-        return parameters->value[PARAMETER_NHT_READING] > 0 ? RHO_CLASSIC_NHT_C : RHO_CLASSIC_NHT_A;
+        return parameters->value[PARAMETER_NHT_READING] > 0 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A;
     }
 }
 
@@ -104,22 +104,22 @@ static double cells_for(double range_m, double cell_m)
 static void check_reach(const struct parameters *parameters, enum parameter_id eps,
                         enum parameter_id cell)
 {
-    if (2.0 * parameters->value[eps] > RHO_CLASSIC_REACH_MAX * parameters->value[cell]) {
+    if (2.0 * parameters->value[eps] > RHO_HOUGH_REACH_MAX * parameters->value[cell]) {
         fail(EXIT_USAGE, "2 %s is more than %u cells of %s %.9g", parameters_name(eps),
-             RHO_CLASSIC_REACH_MAX, parameters_name(cell), parameters->value[cell]);
+             RHO_HOUGH_REACH_MAX, parameters_name(cell), parameters->value[cell]);
     }
 }
 
-struct rho_classic_config method_classic(enum method method, const struct parameters *parameters,
-                                         double range_m)
+struct rho_hough_config method_hough(enum method method, const struct parameters *parameters,
+                                     double range_m)
 {
     const double *value = parameters->value;
-    struct rho_classic_config config;
+    struct rho_hough_config config;
 
     parameters_check(parameters);
     check_reach(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
     check_reach(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
-    rho_classic_config_default(&config, classic_of(method, parameters));
+    rho_hough_config_default(&config, hough_of(method, parameters));
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.rho_max_m = (float)cells_for(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];

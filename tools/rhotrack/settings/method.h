@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "rhotrack/classic.h"
+#include "rhotrack/hough.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/passive_paper.h"
 #include "settings/parameters.h"
@@ -39,8 +39,8 @@ void method_suggest(enum method method, struct parameters *parameters);
  * The config of ht, mht, iht and nht, for plots at most so far from the origin. Exit 2 where that
  * takes more cells of rho than there are.
  */
-struct rho_classic_config method_classic(enum method method, const struct parameters *parameters,
-                                         double range_m);
+struct rho_hough_config method_hough(enum method method, const struct parameters *parameters,
+                                     double range_m);
 
 /*
  * The config of passive, and of passive-paper. Exit 2 where their cells do not hold range_max_m or

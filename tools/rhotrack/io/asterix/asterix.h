@@ -37,7 +37,7 @@ struct asterix_block {
     size_t size;            /* of the records */
 };
 
-/* What is wrong, and where. */
+/* The place of an error, and the reason. */
 #define ASTERIX_REASON_BYTES 120
 struct asterix_error {
     size_t at; /* after the bytes that were given */

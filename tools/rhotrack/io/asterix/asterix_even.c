@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What all plots of a scan measure, or none of them. */
+/* asterix_even: heights and range rates stay where all plots of a scan have them. */
 #include <math.h>
 
 #include "io/asterix/asterix_sensor.h"

@@ -136,7 +136,7 @@ static void find_block(struct asterix_file *file)
 }
 
 /*
- * What is at the position is bad, `error` says where and why: the end, or skipped. A block's own
+ * The block at the position is bad, as `error` says: the reading ends, or skips it. A block's own
  * length is believed where another good one, or the end, is behind it.
  */
 static void skip_bad(struct asterix_file *file, const struct asterix_error *error)

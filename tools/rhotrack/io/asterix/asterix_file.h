@@ -47,7 +47,7 @@ uint64_t asterix_file_records(const struct asterix_file *file);
 /* How many blocks of a category that is not read were left out so far. */
 uint64_t asterix_file_others(const struct asterix_file *file, uint8_t category);
 
-/* What was skipped, if anything, on standard error. */
+/* Tells on standard error what was skipped, if anything. */
 void asterix_file_report(const struct asterix_file *file);
 void asterix_file_close(struct asterix_file *file);
 

@@ -244,8 +244,8 @@ void asterix_records_report(const char *path, const struct asterix_counts *count
 
 /* ---- Looking at the file ---- */
 
-/* What a record tells of the whole file. */
-static bool note(struct asterix_records *records, const struct asterix_record *record)
+/* Notes which columns the file fills. True where the record tells a time or a place. */
+static bool note_contents(struct asterix_records *records, const struct asterix_record *record)
 {
     struct asterix_service service;
     struct asterix_plot plot;
@@ -269,7 +269,7 @@ static void look_through(struct asterix_records *records, bool keep_going)
     bool has_any = false;
 
     while (asterix_file_next(file, &record)) {
-        has_any |= note(records, &record);
+        has_any |= note_contents(records, &record);
     }
     if (!has_any && asterix_file_others(file, ASTERIX_TRACKS) > 0) {
         fail(EXIT_USAGE, "%s: %s", records->path, asterix_records_no_tracks);
@@ -359,7 +359,7 @@ static int by_time(const void *a, const void *b)
     return order ? order : (one->order > other->order) - (one->order < other->order);
 }
 
-/* What is given out goes; what is new comes to its place. */
+/* Replaces the records that were given out by those of the next scans. */
 static void add_scans(struct asterix_records *records)
 {
     struct asterix_scan scan;

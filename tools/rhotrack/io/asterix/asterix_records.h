@@ -28,7 +28,7 @@ struct asterix_records;
 struct asterix_records *asterix_records_open(const char *path, const struct parameters *parameters,
                                              bool keep_going);
 
-/* What is said of tracks that are given as input. */
+/* The refusal of tracks that are given as input. */
 extern const char asterix_records_no_tracks[];
 
 /* The columns of the recording's table. */

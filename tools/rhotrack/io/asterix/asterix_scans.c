@@ -113,7 +113,7 @@ static int by_time(const void *a, const void *b)
     return order ? order : (one->azimuth > other->azimuth) - (one->azimuth < other->azimuth);
 }
 
-/* What is complete is a scan. */
+/* A complete revolution or sector becomes a scan. */
 static void make_ready(struct asterix_scans *scans, struct asterix_sensor *sensor,
                        struct asterix_open *open)
 {
@@ -214,7 +214,7 @@ int64_t asterix_scans_settled_128(const struct asterix_scans *scans)
     return settled_128;
 }
 
-/* Those that are not heard any more. */
+/* Ends the scans of sensors that are silent. */
 static void flush_silent(struct asterix_scans *scans)
 {
     for (size_t i = 0; i < scans->num_sensors; i++) {

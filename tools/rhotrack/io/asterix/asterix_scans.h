@@ -42,7 +42,7 @@ struct asterix_scan {
     size_t count;
 };
 
-/* What became of records; the plots' fates add up to `plots`. */
+/* Counts of the records' fates; those of plots add up to `plots`. */
 struct asterix_counts {
     uint64_t plots, services; /* records of CAT048 and CAT034 */
     uint64_t placed;          /* plots: in a scan */

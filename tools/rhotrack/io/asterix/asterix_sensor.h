@@ -66,7 +66,7 @@ void asterix_sensor_add_free(struct asterix_sensor *sensor, const struct asterix
 /* Plots that waited for a look in vain, if it is over, are given up. */
 void asterix_sensor_drop(struct asterix_sensor *sensor, bool all, struct asterix_counts *counts);
 
-/* What was seen since the newest crossing becomes a scan. */
+/* Plots since the newest north crossing become a scan. */
 void asterix_sensor_rest(struct asterix_sensor *sensor, int64_t hold_128);
 
 /* The first open scan, which is taken out: its marks are the caller's. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What items of records say. Lengths are checked: an item that is there has the bytes of its form.
+ * asterix_values: the values of items. Lengths are checked: an item that is there has the bytes of
+ * its form.
  */
 #include "io/asterix/asterix.h"
 #include "io/asterix/asterix_items.h"
@@ -125,8 +126,8 @@ void asterix_plot_read(const struct asterix_record *record, struct asterix_plot 
 #define QUARTER_TURN 4194304 /* 90 degrees */
 
 /*
- * 120: a latitude beyond the poles is none; height in metres, latitude and longitude in 180/2^23
- * degrees.
+ * Item 120, the radar's place: height in metres, latitude and longitude in 180/2^23 degrees. A
+ * latitude beyond the poles counts as missing.
  */
 static void read_place(const uint8_t *item, struct asterix_service *service)
 {

@@ -34,7 +34,7 @@ void local_frame_to_geodetic(const struct local_frame *frame, const double place
 void local_frame_at_height(const struct local_frame *frame, double x_m, double y_m, double alt_m,
                            double geodetic[3]);
 
-/* What a radar says of a target whose height is known otherwise, by its own transponder for one. */
+/* A radar's view of a target whose height is known otherwise, as by its transponder. */
 struct local_frame_plot {
     double range_m;     /* slant range, from the radar to the target */
     double azimuth_rad; /* counter-clockwise from the radar's own east, in its own tangent plane */

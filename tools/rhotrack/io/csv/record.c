@@ -343,8 +343,8 @@ static bool read_polar_sigmas(const struct checking *checking, const struct para
 }
 
 /*
- * What the radar says in its own level frame, and a height that is known otherwise, as angles of
- * the local frame.
+ * Turns the radar's angles from its own level frame into the local frame; a height that is known
+ * otherwise gives the elevation.
  */
 static bool to_local(const struct checking *checking, const struct record *row, uint32_t *measures,
                      struct rho_polar_plot *polar)
@@ -446,7 +446,7 @@ static bool read_sensor(const struct checking *checking, const struct parameters
 
 #define BEARING_MAX 3.1415927f /* the nearest float, a little more than pi: as files have it */
 
-/* What the sensor is said to measure too much of; its time comes off the scan's. */
+/* Takes the sensor's azimuth bias off; the time bias comes off the scan's time. */
 static void take_off_bias(const struct parameters *parameters, struct record *row)
 {
     double bias_rad =

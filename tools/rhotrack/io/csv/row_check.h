@@ -39,7 +39,7 @@ bool row_double(const struct row_check *check, int column, double min, double ma
 bool row_position(const struct row_check *check, int column, float *value);
 bool row_sigma_rad(const struct row_check *check, int column, double otherwise, float *value);
 
-/* What may be missing: then unchanged. */
+/* Cells that may be missing: then unchanged. */
 bool row_sector(const struct row_check *check, int from, int to, float *from_rad, float *to_rad);
 bool row_snr(const struct row_check *check, int column, float *snr_db);
 

@@ -53,7 +53,7 @@ _Noreturn static void parse_fail(const struct table_stream *stream, uint32_t lin
 
 /* ---- The file ---- */
 
-/* What is no longer wanted goes. */
+/* Drops the bytes of rows that were parsed. */
 static void drop_parsed(struct table_stream *stream)
 {
     size_t keep = stream->row_is_open ? stream->row_next : stream->position;
@@ -375,7 +375,7 @@ static void check_line(const struct table_stream *stream, size_t length)
     }
 }
 
-/* What is read ahead has no line end: it, or the row under way with it, may be too long. */
+/* The bytes that were read ahead have no line end: the row may be too long. */
 static void check_length(struct table_stream *stream)
 {
     size_t from = stream->row_is_open ? stream->row_next : stream->position;

@@ -53,9 +53,9 @@ static bool may_be_sync(const uint8_t *data, size_t size)
 }
 
 /*
- * What the header at the beginning, and of the channel what is there, say: 0 where that is no
- * event, else how many bytes it takes to know more, or where they are there already the event's own
- * length.
+ * The length of the event that the bytes begin with; while its header is cut off, the number of
+ * bytes after which more is known; 0 where the header, or as much of the channel as is there, is
+ * that of no event.
  */
 static size_t event_bytes(const uint8_t *data, size_t size)
 {
@@ -328,7 +328,7 @@ uint64_t lcm_log_position(const struct lcm_log_reader *reader)
     return reader->offset;
 }
 
-/* What was skipped last goes up to the end, and begins as an event does. */
+/* The last skipped bytes begin as an event does and reach the end: it was cut off. */
 static bool is_cut_off(const struct lcm_log_reader *reader)
 {
     return reader->is_end && reader->first == reader->end && reader->last_has_sync &&

@@ -41,7 +41,7 @@ enum lcm_log_found {
 };
 
 /*
- * What do these bytes begin with? is_end: nothing comes behind them. *count is never 0, but where
+ * Tells what the bytes begin with. is_end: nothing comes behind them. *count is never 0, but where
  * size is 0 and it is the end; of an event or a skip it is at most size, of MORE it is beyond. Any
  * bytes will do. Cost: proportional to *count.
  */
@@ -79,7 +79,7 @@ struct lcm_log_counts lcm_log_counts(const struct lcm_log_reader *reader);
 /* How many bytes of the file are parsed. */
 uint64_t lcm_log_position(const struct lcm_log_reader *reader);
 
-/* What was skipped, if anything, on standard error: the first few places, then a sum. */
+/* Tells on standard error what was skipped: the first few places, then a sum. */
 void lcm_log_report(const struct lcm_log_reader *reader);
 void lcm_log_close(struct lcm_log_reader *reader);
 

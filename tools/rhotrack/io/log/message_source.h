@@ -43,7 +43,7 @@ bool message_source_next(struct message_source *source, struct message_event *ev
 /* One of the files numbers its scans (column scan). */
 bool message_source_has_numbers(const struct message_source *source);
 
-/* What was skipped so far, if anything, on standard error. */
+/* Tells on standard error what was skipped so far, if anything. */
 void message_source_report(const struct message_source *source);
 void message_source_close(struct message_source *source);
 

@@ -63,7 +63,7 @@ bool clutter_file_is_due(const struct clutter_file *file);
 /* Saves it where it is due. */
 bool clutter_file_keep(struct clutter_file *file, const struct rho_clutter_map *map);
 
-/* What an empty map takes over from another one, as through a file. */
+/* Copies the known echoes of a map into an empty one, as a file would. */
 void clutter_file_carry(struct rho_clutter_map *to, const struct rho_clutter_map *from);
 
 #endif

@@ -103,7 +103,7 @@ struct rows_kind {
     /* Why a row cannot be, or NULL. No function: all can. */
     const char *(*why_not)(const double *cells);
 
-    /* What a row measures, the same in all of a scan. No function: all measure the same. */
+    /* The quantities that a row measures, equal in all of a scan. No function: always equal. */
     int (*pattern)(const double *cells);
 
     /* How many of the scan's rows from this one on go into one message: at least one. */
@@ -125,7 +125,7 @@ extern const struct rows_kind *const rows_kinds[NUM_ROWS_KINDS];
 extern const struct rows_kind rows_kind_plots, rows_kind_polar, rows_kind_bearings, rows_kind_truth,
     rows_kind_tracks;
 
-/* Whose channel it is, or NULL. */
+/* The kind whose messages have this channel, or NULL. */
 const struct rows_kind *rows_kind_of_channel(const char *channel);
 
 /* "confirmed" and so on of RHO_MESSAGE_TRACK_CONFIRMED ..., which are 1 .. ROWS_STATUS_MAX. */

@@ -109,7 +109,10 @@ static struct geodetic_polar polar_of(const struct rows_geodetic *geodetic, int3
         .sigma_range_m = number_or(*cell_of(geodetic, cells, "sigma_range_m"), sigma_range_m)};
 }
 
-/* What is empty or outside its range is refused afterwards, as in any file. */
+/*
+ * The look can be turned into the local frame. Empty cells, and cells outside their range, are
+ * refused afterwards, as in any file.
+ */
 static bool can_turn(const struct geodetic_polar *polar)
 {
     const double half_turn = (double)3.1415927f; /* the nearest float, as files may say it */

@@ -35,7 +35,7 @@ static const struct rows_column columns[NUM_COLUMNS] = {
     [RANGE_RATE_MPS] = {"range_rate_mps", COLUMN_NO_ROOM, NO_GROUP, NULL, NULL},
 };
 
-/* Who measures a velocity and a height measures the velocity's height too. */
+/* A plot with a velocity and a height has a vertical velocity, too. */
 static const char *why_not(const double *cells)
 {
     if (rows_is_empty(cells[X_M]) || rows_is_empty(cells[Y_M])) {

@@ -153,8 +153,8 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
 }
 
 /*
- * What all rows of the message have. A place is always said, an empty one means another than the
- * origin.
+ * Fills the cells that all rows of the message share. A place is always written: an empty one would
+ * mean another place than the origin.
  */
 static void put_scan(double *cells, const struct rho_message_polar_scan *message)
 {

@@ -268,7 +268,7 @@ static bool is_within(const struct reading *reading, const struct row *row)
            row_joins(&number, row->time_us, &number, reading->file->rows.list[first].time_us, 0);
 }
 
-/* What must not go back. */
+/* The time that must not go back: of reception where the file has it, else of the scan. */
 static int64_t clock_of(const struct reading *reading, const struct row *row)
 {
     return reading->received_s >= 0 ? row->received_us : row->time_us;

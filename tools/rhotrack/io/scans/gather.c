@@ -17,7 +17,7 @@ void gather_set_clock(struct gather *gather, int64_t clock_us)
     gather->clock_us = clock_us;
 }
 
-/* What must not go back. */
+/* The time that must not go back: of reception where the file has it, else of the scan. */
 static int64_t clock_of(const struct gather *gather, int64_t time_us)
 {
     return gather->has_clock ? gather->clock_us : time_us;

@@ -21,7 +21,7 @@ struct inputs {
     uint64_t bytes; /* of all files; 0: not known */
 };
 
-/* What a file holds: a table has one kind, a log may have both. */
+/* The kinds of scans in a file: a table has one, a log may have both. */
 static unsigned kinds_of(const char *path)
 {
     unsigned kinds;

@@ -16,7 +16,7 @@ static const struct known_sensor *find_sensor(const struct known_sensors *known,
     return NULL;
 }
 
-/* Where a sensor was named, as seen from a row of the table: the file only where it is another. */
+/* The line that first named a sensor; and its file, where that is not `path`. */
 #define WHERE_BYTES 120
 static const char *where(const struct known_sensor *known, const char *path, char text[WHERE_BYTES])
 {

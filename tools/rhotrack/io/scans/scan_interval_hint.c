@@ -17,7 +17,7 @@ struct lone_sensor {
     int64_t last_us; /* of its last scan */
 };
 
-/* What counts of a message. */
+/* The members of a message that show whether it is a scan of its own. */
 struct look {
     int16_t sensor_id, num_parts, num_plots;
     bool has_sector;

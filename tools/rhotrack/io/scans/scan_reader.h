@@ -68,15 +68,15 @@ void scan_reader_end(struct scan_reader *reader);
 const char *scan_reader_why_over(const struct scan_reader *reader);
 
 /*
- * Who saw the last scan that was handed out; NULL where nothing was said of the sensor. Valid as
- * the scan is.
+ * The sensor of the last scan that was handed out; NULL where it was not described. Valid as long
+ * as the scan is.
  */
 const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader);
 
 /* Bytes that were taken of all files (for progress bars). */
 uint64_t scan_reader_position(const struct scan_reader *reader);
 
-/* What was read so far. */
+/* Counts of what was read so far. */
 struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader);
 
 /* Bad rows that were skipped, if any, on standard error. */

@@ -12,7 +12,7 @@
 #include "io/scans/gather.h"
 #include "io/scans/reorder_buffer.h"
 
-#define FOLLOW_BEGUN_MAX 2 /* who waits for a numbered scan's last plots for a minute is late */
+#define FOLLOW_BEGUN_MAX 2 /* a numbered scan's last plots may come a minute later */
 
 struct scan_source {
     const char *path;
@@ -23,15 +23,14 @@ struct scan_source {
     bool has_columns, has_good, is_over, waits, is_complete;
     struct record_columns columns;
     struct gather gather;
-    struct reorder_buffer
-        reorder;           /* of a file that says when its rows were received, or of a log */
-    uint32_t item;         /* of a log: the newest scan of bearings, 1-based */
-    uint64_t rows_skipped; /* but those of the stream */
+    struct reorder_buffer reorder; /* of a file with times of reception, or of a log */
+    uint32_t item;                 /* of a log: the newest scan of bearings, 1-based */
+    uint64_t rows_skipped;         /* but those of the stream */
 };
 
 /* ---- Rows to scans ---- */
 
-/* What a row must have in common with the scan that it would join. */
+/* Checks the values that a row must have in common with the scan that it would join. */
 static bool check_scan(const struct scan_source *source, const struct gathered *scan,
                        const struct record *row, const struct row_check *check)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "scene/scene_watch.h"
+#include "scene/scene_observe.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -144,7 +144,7 @@ struct target_fades {
     struct fade *fades;
 };
 
-struct watch {
+struct observer {
     const struct scene *scene;
     const struct scene_sensor *sensor;
     size_t index; /* of the sensor */
@@ -172,11 +172,11 @@ static double pd_at(const struct scene_curve *curve, double range_m)
                                      (curve->range_m[i] - curve->range_m[i - 1]);
 }
 
-static void keep_plot(struct watch *watch, struct scene_plot plot)
+static void keep_plot(struct observer *observer, struct scene_plot plot)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double scans = (plot.t_s - sensor->start_s) / sensor->turn_s * (double)sensor->sectors;
-    size_t last = watch->turns * sensor->sectors - 1;
+    size_t last = observer->turns * sensor->sectors - 1;
 
     plot.scan = sensor->turns ? (size_t)fmax(0.0, floor(scans)) : (size_t)floor(scans + 0.5);
     plot.scan = plot.scan > last ? last : plot.scan;
@@ -185,8 +185,9 @@ static void keep_plot(struct watch *watch, struct scene_plot plot)
     if (sensor->range_rate_span_mps > 0.0) {
         plot.range_rate_mps = remainder(plot.range_rate_mps, sensor->range_rate_span_mps);
     }
-    watch->plots = must_grow(watch->plots, watch->num_plots, &watch->room, sizeof *watch->plots);
-    watch->plots[watch->num_plots++] = plot;
+    observer->plots =
+        must_grow(observer->plots, observer->num_plots, &observer->room, sizeof *observer->plots);
+    observer->plots[observer->num_plots++] = plot;
 }
 
 static double rate_of(const struct scene_sensor *sensor, const struct motion *at, double range_m)
@@ -225,10 +226,10 @@ static struct scene_plot measure(const struct scene_sensor *sensor, const struct
 /* ---- things that are seen again and again ---- */
 
 /* When the antenna next points to it, after after_s. False: it is not there then. */
-static bool meet(const struct watch *watch, const struct scene_mover *mover, double after_s,
+static bool meet(const struct observer *observer, const struct scene_mover *mover, double after_s,
                  struct sighting *sighting)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double at_s = after_s;
     bool is_there = mover_at(mover, sensor, at_s, &sighting->at);
 
@@ -249,13 +250,13 @@ static bool meet(const struct watch *watch, const struct scene_mover *mover, dou
 }
 
 /* All passes: called with each at which the sensor could see it. */
-static void watch_mover(struct watch *watch, const struct scene_mover *mover,
-                        void (*take)(struct watch *, const struct scene_mover *, struct sighting *,
-                                     uint64_t item),
-                        uint64_t item)
+static void observe_mover(struct observer *observer, const struct scene_mover *mover,
+                          void (*take)(struct observer *, const struct scene_mover *,
+                                       struct sighting *, uint64_t item),
+                          uint64_t item)
 {
-    const struct scene_sensor *sensor = watch->sensor;
-    double end_s = fmin(watch->end_s, mover->until_s);
+    const struct scene_sensor *sensor = observer->sensor;
+    double end_s = fmin(observer->end_s, mover->until_s);
     double first_s = fmax(sensor->start_s, mover->from_s), after_s = first_s;
     uint64_t pass = 0;
 
@@ -265,14 +266,14 @@ static void watch_mover(struct watch *watch, const struct scene_mover *mover,
     }
     while (after_s < end_s) {
         struct sighting sighting = {.target_id = mover->target_id, .pass = pass};
-        bool is_there = meet(watch, mover, after_s, &sighting);
+        bool is_there = meet(observer, mover, after_s, &sighting);
 
-        if (is_there && sighting.t_s >= sensor->start_s && sighting.t_s < watch->end_s &&
+        if (is_there && sighting.t_s >= sensor->start_s && sighting.t_s < observer->end_s &&
             (sensor->is_cartesian || sighting.range_m > 0.0) &&
-            sees_place(watch->scene, sensor, sighting.at.x_m, sighting.at.y_m) &&
-            can_see(watch->scene, watch->index, sighting.t_s, sighting.range_m,
+            sees_place(observer->scene, sensor, sighting.at.x_m, sighting.at.y_m) &&
+            can_see(observer->scene, observer->index, sighting.t_s, sighting.range_m,
                     sighting.azimuth_rad)) {
-            take(watch, mover, &sighting, item);
+            take(observer, mover, &sighting, item);
         }
         pass++;
         if (!sensor->turns) {
@@ -330,34 +331,34 @@ static double faded_pd(const struct target_fades *fades, size_t sensor, double t
     return pd;
 }
 
-static void take_target(struct watch *watch, const struct scene_mover *mover,
+static void take_target(struct observer *observer, const struct scene_mover *mover,
                         struct sighting *sighting, uint64_t item)
 {
     (void)mover;
     (void)item;
-    watch->sightings = must_grow(watch->sightings, watch->num_sightings, &watch->sightings_room,
-                                 sizeof *watch->sightings);
-    watch->sightings[watch->num_sightings++] = *sighting;
+    observer->sightings = must_grow(observer->sightings, observer->num_sightings,
+                                    &observer->sightings_room, sizeof *observer->sightings);
+    observer->sightings[observer->num_sightings++] = *sighting;
 }
 
-static struct random pass_stream(const struct watch *watch, const struct sighting *sighting)
+static struct random pass_stream(const struct observer *observer, const struct sighting *sighting)
 {
-    return scene_stream(watch->seed, watch->run, STREAM_TARGET, watch->index,
+    return scene_stream(observer->seed, observer->run, STREAM_TARGET, observer->index,
                         (uint64_t)sighting->target_id, sighting->pass);
 }
 
-static void split(struct watch *watch, const struct sighting *sighting)
+static void split(struct observer *observer, const struct sighting *sighting)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
 
-    for (size_t i = 0; i < watch->scene->num_events; i++) {
-        const struct scene_event *event = &watch->scene->events[i];
+    for (size_t i = 0; i < observer->scene->num_events; i++) {
+        const struct scene_event *event = &observer->scene->events[i];
         struct random random;
 
-        if (event->kind != EVENT_SPLIT || !happens(event, watch->index, sighting->t_s)) {
+        if (event->kind != EVENT_SPLIT || !happens(event, observer->index, sighting->t_s)) {
             continue;
         }
-        random = scene_stream(watch->seed, watch->run, STREAM_SPLIT, i * 64 + watch->index,
+        random = scene_stream(observer->seed, observer->run, STREAM_SPLIT, i * 64 + observer->index,
                               (uint64_t)sighting->target_id, sighting->pass);
         if (random_uniform(&random) < event->share) {
             struct scene_plot second = measure(sensor, sighting, &random);
@@ -369,7 +370,7 @@ static void split(struct watch *watch, const struct sighting *sighting)
                 draw_between(&random, event->azimuth_rad);
             second.x_m += sensor->sigma_m * draw_between(&random, event->range_sigmas);
             second.y_m += sensor->sigma_m * draw_between(&random, event->azimuth_sigmas);
-            keep_plot(watch, second);
+            keep_plot(observer, second);
         }
     }
 }
@@ -399,26 +400,27 @@ static bool is_unresolved(const struct scene_sensor *sensor, const struct sighti
 }
 
 /* Sightings in the order of time: those that are not resolved, one by one, get the same group. */
-static void find_groups(struct watch *watch)
+static void find_groups(struct observer *observer)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double window_s =
         sensor->turns ? sensor->resolution_rad / PORTABLE_TURN * sensor->turn_s * 1.01 : 0.0;
 
-    for (size_t i = 0; i < watch->num_sightings; i++) {
-        watch->sightings[i].group = i;
+    for (size_t i = 0; i < observer->num_sightings; i++) {
+        observer->sightings[i].group = i;
     }
-    for (size_t i = 0; sensor->resolution_m > 0.0 && i < watch->num_sightings; i++) {
-        for (size_t k = i + 1; k < watch->num_sightings &&
-                               watch->sightings[k].t_s - watch->sightings[i].t_s <= window_s;
+    for (size_t i = 0; sensor->resolution_m > 0.0 && i < observer->num_sightings; i++) {
+        for (size_t k = i + 1; k < observer->num_sightings &&
+                               observer->sightings[k].t_s - observer->sightings[i].t_s <= window_s;
              k++) {
-            if (is_unresolved(sensor, &watch->sightings[i], &watch->sightings[k])) {
-                size_t from = watch->sightings[k].group, to = watch->sightings[i].group;
+            if (is_unresolved(sensor, &observer->sightings[i], &observer->sightings[k])) {
+                size_t from = observer->sightings[k].group, to = observer->sightings[i].group;
                 size_t low = from < to ? from : to;
 
                 for (size_t m = low; m <= k; m++) {
-                    if (watch->sightings[m].group == from || watch->sightings[m].group == to) {
-                        watch->sightings[m].group = low;
+                    if (observer->sightings[m].group == from ||
+                        observer->sightings[m].group == to) {
+                        observer->sightings[m].group = low;
                     }
                 }
             }
@@ -427,17 +429,17 @@ static void find_groups(struct watch *watch)
 }
 
 /* The middle of all in the group that begins with this one; seen where one of them is. */
-static struct sighting middle_of(const struct watch *watch, size_t first)
+static struct sighting middle_of(const struct observer *observer, size_t first)
 {
-    struct sighting middle = watch->sightings[first];
+    struct sighting middle = observer->sightings[first];
     double dx_m = 0, dy_m = 0, vx_mps = 0, vy_mps = 0, range_m = 0, way_rad = 0, t_s = 0, n = 0;
     double z_m = 0, vz_mps = 0;
-    double window_s = 0.25 * watch->sensor->turn_s;
+    double window_s = 0.25 * observer->sensor->turn_s;
 
-    for (size_t i = first; i < watch->num_sightings &&
-                           watch->sightings[i].t_s - watch->sightings[first].t_s <= window_s;
+    for (size_t i = first; i < observer->num_sightings &&
+                           observer->sightings[i].t_s - observer->sightings[first].t_s <= window_s;
          i++) {
-        const struct sighting *one = &watch->sightings[i];
+        const struct sighting *one = &observer->sightings[i];
 
         if (one->group != first) {
             continue;
@@ -469,8 +471,8 @@ static struct sighting middle_of(const struct watch *watch, size_t first)
     return middle;
 }
 
-static void watch_targets(struct watch *watch, const struct scene_run *run,
-                          const struct target_fades *fades)
+static void observe_targets(struct observer *observer, const struct scene_run *run,
+                            const struct target_fades *fades)
 {
     for (size_t i = 0; i < run->num_paths; i++) {
         const struct scene_path *path = &run->paths[i];
@@ -480,29 +482,29 @@ static void watch_targets(struct watch *watch, const struct scene_run *run,
                                           .pd = -1.0,
                                           .target_id = (int)i};
 
-        watch_mover(watch, &mover, take_target, 0);
+        observe_mover(observer, &mover, take_target, 0);
     }
-    if (watch->num_sightings > 0) {
-        qsort(watch->sightings, watch->num_sightings, sizeof *watch->sightings, by_time);
+    if (observer->num_sightings > 0) {
+        qsort(observer->sightings, observer->num_sightings, sizeof *observer->sightings, by_time);
     }
-    for (size_t i = 0; i < watch->num_sightings; i++) {
-        struct sighting *one = &watch->sightings[i];
-        struct random random = pass_stream(watch, one);
-        double pd = pd_at(&watch->sensor->pd, one->range_m);
+    for (size_t i = 0; i < observer->num_sightings; i++) {
+        struct sighting *one = &observer->sightings[i];
+        struct random random = pass_stream(observer, one);
+        double pd = pd_at(&observer->sensor->pd, one->range_m);
 
-        one->is_seen =
-            random_uniform(&random) < faded_pd(&fades[one->target_id], watch->index, one->t_s, pd);
+        one->is_seen = random_uniform(&random) <
+                       faded_pd(&fades[one->target_id], observer->index, one->t_s, pd);
     }
-    find_groups(watch);
-    for (size_t i = 0; i < watch->num_sightings; i++) {
-        if (watch->sightings[i].group == i) {
-            struct sighting middle = middle_of(watch, i);
-            struct random random = pass_stream(watch, &watch->sightings[i]);
+    find_groups(observer);
+    for (size_t i = 0; i < observer->num_sightings; i++) {
+        if (observer->sightings[i].group == i) {
+            struct sighting middle = middle_of(observer, i);
+            struct random random = pass_stream(observer, &observer->sightings[i]);
 
             random_uniform(&random); /* which decided on its detection */
             if (middle.is_seen) {
-                keep_plot(watch, measure(watch->sensor, &middle, &random));
-                split(watch, &middle);
+                keep_plot(observer, measure(observer->sensor, &middle, &random));
+                split(observer, &middle);
             }
         }
     }
@@ -510,19 +512,19 @@ static void watch_targets(struct watch *watch, const struct scene_run *run,
 
 /* ---- clutter ---- */
 
-static void take_echo(struct watch *watch, const struct scene_mover *mover,
+static void take_echo(struct observer *observer, const struct scene_mover *mover,
                       struct sighting *sighting, uint64_t item)
 {
     struct random random =
-        scene_stream(watch->seed, watch->run, STREAM_CLUTTER, (item >> 32) * 64 + watch->index,
-                     item & UINT32_MAX, sighting->pass);
+        scene_stream(observer->seed, observer->run, STREAM_CLUTTER,
+                     (item >> 32) * 64 + observer->index, item & UINT32_MAX, sighting->pass);
 
     if (random_uniform(&random) < mover->pd) {
-        keep_plot(watch, measure(watch->sensor, sighting, &random));
+        keep_plot(observer, measure(observer->sensor, sighting, &random));
     }
 }
 
-static void watch_movers(struct watch *watch, const struct scene_run *run, size_t source)
+static void observe_movers(struct observer *observer, const struct scene_run *run, size_t source)
 {
     struct scene_path *paths;
     size_t count, num_paths;
@@ -530,7 +532,7 @@ static void watch_movers(struct watch *watch, const struct scene_run *run, size_
         clutter_movers(run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
 
     for (size_t i = 0; i < count; i++) {
-        watch_mover(watch, &movers[i], take_echo, (uint64_t)source << 32 | i);
+        observe_mover(observer, &movers[i], take_echo, (uint64_t)source << 32 | i);
     }
     for (size_t i = 0; i < num_paths; i++) {
         path_free(&paths[i]);
@@ -540,34 +542,35 @@ static void watch_movers(struct watch *watch, const struct scene_run *run, size_
 }
 
 /* The plot at a place, when the antenna passes it in this turn. */
-static void keep_clutter(struct watch *watch, size_t turn, double range_m, double azimuth_rad,
+static void keep_clutter(struct observer *observer, size_t turn, double range_m, double azimuth_rad,
                          double x_m, double y_m, double rate_mps)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double turn_s = sensor->start_s + (double)turn * sensor->turn_s, t_s = turn_s;
 
     if (sensor->turns) {
         t_s += turns_until(sensor, azimuth_rad + sensor->azimuth_bias_rad, sensor->start_s) *
                sensor->turn_s;
     }
-    if (range_m > 0.0 && can_see(watch->scene, watch->index, t_s, range_m, azimuth_rad) &&
+    if (range_m > 0.0 && can_see(observer->scene, observer->index, t_s, range_m, azimuth_rad) &&
         (sensor->is_cartesian || is_within(&sensor->coverage, range_m, azimuth_rad))) {
-        keep_plot(watch, (struct scene_plot){.t_s = t_s,
-                                             .target_id = -1,
-                                             .range_m = range_m + sensor->range_bias_m,
-                                             .azimuth_rad = azimuth_rad + sensor->azimuth_bias_rad,
-                                             .range_rate_mps = rate_mps,
-                                             .x_m = x_m,
-                                             .y_m = y_m});
+        keep_plot(observer,
+                  (struct scene_plot){.t_s = t_s,
+                                      .target_id = -1,
+                                      .range_m = range_m + sensor->range_bias_m,
+                                      .azimuth_rad = azimuth_rad + sensor->azimuth_bias_rad,
+                                      .range_rate_mps = rate_mps,
+                                      .x_m = x_m,
+                                      .y_m = y_m});
     }
 }
 
-static void keep_clutter_at(struct watch *watch, size_t turn, double x_m, double y_m,
+static void keep_clutter_at(struct observer *observer, size_t turn, double x_m, double y_m,
                             double rate_mps)
 {
-    double dx_m = x_m - watch->sensor->x_m, dy_m = y_m - watch->sensor->y_m;
+    double dx_m = x_m - observer->sensor->x_m, dy_m = y_m - observer->sensor->y_m;
 
-    keep_clutter(watch, turn, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m), x_m, y_m,
+    keep_clutter(observer, turn, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m), x_m, y_m,
                  rate_mps);
 }
 
@@ -578,37 +581,37 @@ static void draw_azimuths(const struct scene_coverage *coverage, double *from_ra
     *to_rad += *to_rad <= *from_rad ? PORTABLE_TURN : 0.0;
 }
 
-static void draw_uniform(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
-                         struct random *random)
+static void draw_uniform(struct observer *observer, const struct scene_clutter *clutter,
+                         size_t turn, struct random *random)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     const struct scene_coverage *coverage = &sensor->coverage;
     double rate_max_mps =
-        clutter->rate_max_mps > 0.0 ? clutter->rate_max_mps : watch->scene->v_max_mps;
+        clutter->rate_max_mps > 0.0 ? clutter->rate_max_mps : observer->scene->v_max_mps;
     double rate_mps = clutter->rate_sigma_mps > 0.0
                           ? clutter->rate_sigma_mps * random_normal(random)
                           : random_between(random, -rate_max_mps, rate_max_mps);
 
     if (clutter->has_box || sensor->is_cartesian) {
-        const double *box_m = clutter->has_box ? clutter->box_m : watch->scene->area_m;
+        const double *box_m = clutter->has_box ? clutter->box_m : observer->scene->area_m;
         double x_m = random_between(random, box_m[0], box_m[1]);
 
-        keep_clutter_at(watch, turn, x_m, random_between(random, box_m[2], box_m[3]), rate_mps);
+        keep_clutter_at(observer, turn, x_m, random_between(random, box_m[2], box_m[3]), rate_mps);
     } else {
         struct json_span range =
             clutter->within.range_m.lo < 0.0 ? coverage->range_m : clutter->within.range_m;
         double from_rad, to_rad, range_m = draw_between(random, range);
 
         draw_azimuths(clutter->within.has_sector ? &clutter->within : coverage, &from_rad, &to_rad);
-        keep_clutter(watch, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
+        keep_clutter(observer, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
                      rate_mps);
     }
 }
 
-static void draw_cell(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
+static void draw_cell(struct observer *observer, const struct scene_clutter *clutter, size_t turn,
                       struct random *random)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + ((double)turn + (sensor->turns ? 0.5 : 0.0)) * sensor->turn_s;
     double x_m = clutter->x_m + clutter->vx_mps * t_s, y_m = clutter->y_m + clutter->vy_mps * t_s;
     double rate_mps = clutter->rate_sigma_mps * random_normal(random);
@@ -627,23 +630,24 @@ static void draw_cell(struct watch *watch, const struct scene_clutter *clutter, 
     at = (struct motion){
         .x_m = x_m, .y_m = y_m, .vx_mps = clutter->vx_mps, .vy_mps = clutter->vy_mps};
     rate_mps += rate_of(sensor, &at, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m));
-    keep_clutter_at(watch, turn, x_m, y_m, rate_mps);
+    keep_clutter_at(observer, turn, x_m, y_m, rate_mps);
 }
 
-static void draw_strobe(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
+static void draw_strobe(struct observer *observer, const struct scene_clutter *clutter, size_t turn,
                         struct random *random)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + (double)turn * sensor->turn_s;
     struct json_span range =
         clutter->within.range_m.lo < 0.0 ? sensor->coverage.range_m : clutter->within.range_m;
     double azimuth_rad = clutter->azimuth_rad + clutter->azimuth_radps * t_s +
                          clutter->width_rad * (random_uniform(random) - 0.5);
     double range_m = draw_between(random, range);
-    double rate_mps = random_between(random, -watch->scene->v_max_mps, watch->scene->v_max_mps);
+    double rate_mps =
+        random_between(random, -observer->scene->v_max_mps, observer->scene->v_max_mps);
 
     azimuth_rad = portable_wrap(azimuth_rad);
-    keep_clutter(watch, turn, range_m, azimuth_rad,
+    keep_clutter(observer, turn, range_m, azimuth_rad,
                  sensor->x_m + range_m * portable_cos(azimuth_rad),
                  sensor->y_m + range_m * portable_sin(azimuth_rad), rate_mps);
 }
@@ -651,31 +655,31 @@ static void draw_strobe(struct watch *watch, const struct scene_clutter *clutter
 /*
  * Even in the ball (without heights, the disc) about the target that fills the beam's width there.
  */
-static void draw_about(struct watch *watch, const struct scene_clutter *clutter, size_t turn,
+static void draw_about(struct observer *observer, const struct scene_clutter *clutter, size_t turn,
                        const struct scene_path *path, struct random *random)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + ((double)turn + (sensor->turns ? 0.5 : 0.0)) * sensor->turn_s;
     struct motion at = path_at(path, t_s), last = path_at(path, t_s - sensor->turn_s);
     double ground_m = portable_hypot(at.x_m - sensor->x_m, at.y_m - sensor->y_m);
     double radius_m = portable_hypot(ground_m, at.z_m) * portable_sin(0.5 * clutter->width_rad);
     double x, y, z;
 
-    if (!sees_place(watch->scene, sensor, at.x_m, at.y_m)) {
+    if (!sees_place(observer->scene, sensor, at.x_m, at.y_m)) {
         return;
     }
     for (uint64_t i = 0; i < clutter->count; i++) {
-        size_t before = watch->num_plots;
+        size_t before = observer->num_plots;
 
         do {
             x = random_between(random, -1.0, 1.0);
             y = random_between(random, -1.0, 1.0);
-            z = watch->scene->has_heights ? random_between(random, -1.0, 1.0) : 0.0;
+            z = observer->scene->has_heights ? random_between(random, -1.0, 1.0) : 0.0;
         } while (x * x + y * y + z * z > 1.0);
-        keep_clutter_at(watch, turn, at.x_m + radius_m * x, at.y_m + radius_m * y,
+        keep_clutter_at(observer, turn, at.x_m + radius_m * x, at.y_m + radius_m * y,
                         rate_of(sensor, &at, ground_m));
-        if (watch->num_plots > before) {
-            struct scene_plot *plot = &watch->plots[before];
+        if (observer->num_plots > before) {
+            struct scene_plot *plot = &observer->plots[before];
 
             plot->z_m = at.z_m + radius_m * z;
             plot->vx_mps = (plot->x_m - last.x_m) / sensor->turn_s;
@@ -685,20 +689,20 @@ static void draw_about(struct watch *watch, const struct scene_clutter *clutter,
     }
 }
 
-static void watch_about(struct watch *watch, const struct scene_run *run, size_t source)
+static void observe_about(struct observer *observer, const struct scene_run *run, size_t source)
 {
-    const struct scene_clutter *clutter = &watch->scene->clutter[source];
+    const struct scene_clutter *clutter = &observer->scene->clutter[source];
 
-    for (size_t turn = 0; turn < watch->turns; turn++) {
-        double t_s = watch->sensor->start_s + (double)turn * watch->sensor->turn_s;
+    for (size_t turn = 0; turn < observer->turns; turn++) {
+        double t_s = observer->sensor->start_s + (double)turn * observer->sensor->turn_s;
 
         for (size_t i = 0; i < run->num_paths && t_s >= clutter->from_s && t_s < clutter->until_s;
              i++) {
-            struct random random = scene_stream(watch->seed, watch->run, STREAM_CLUTTER,
-                                                source * 64 + watch->index, turn, i);
+            struct random random = scene_stream(observer->seed, observer->run, STREAM_CLUTTER,
+                                                source * 64 + observer->index, turn, i);
 
             if (t_s >= run->paths[i].from_s && t_s < run->paths[i].until_s) {
-                draw_about(watch, clutter, turn, &run->paths[i], &random);
+                draw_about(observer, clutter, turn, &run->paths[i], &random);
             }
         }
     }
@@ -713,15 +717,15 @@ static double mean_plots(const struct scene *scene, const struct scene_clutter *
 }
 
 /* Values drawn anew each scan. */
-static void watch_clutter(struct watch *watch, size_t source)
+static void observe_clutter(struct observer *observer, size_t source)
 {
-    const struct scene_clutter *clutter = &watch->scene->clutter[source];
-    double mean = mean_plots(watch->scene, clutter);
+    const struct scene_clutter *clutter = &observer->scene->clutter[source];
+    double mean = mean_plots(observer->scene, clutter);
 
-    for (size_t turn = 0; turn < watch->turns; turn++) {
-        double t_s = watch->sensor->start_s + (double)turn * watch->sensor->turn_s;
-        struct random random = scene_stream(watch->seed, watch->run, STREAM_CLUTTER,
-                                            source * 64 + watch->index, turn, 0);
+    for (size_t turn = 0; turn < observer->turns; turn++) {
+        double t_s = observer->sensor->start_s + (double)turn * observer->sensor->turn_s;
+        struct random random = scene_stream(observer->seed, observer->run, STREAM_CLUTTER,
+                                            source * 64 + observer->index, turn, 0);
         uint64_t count = random_poisson(&random, mean);
 
         if (t_s < clutter->from_s || t_s >= clutter->until_s) {
@@ -729,28 +733,28 @@ static void watch_clutter(struct watch *watch, size_t source)
         }
         for (uint64_t i = 0; i < count; i++) {
             if (clutter->kind == CLUTTER_UNIFORM) {
-                draw_uniform(watch, clutter, turn, &random);
+                draw_uniform(observer, clutter, turn, &random);
             } else if (clutter->kind == CLUTTER_CELL) {
-                draw_cell(watch, clutter, turn, &random);
+                draw_cell(observer, clutter, turn, &random);
             } else {
-                draw_strobe(watch, clutter, turn, &random);
+                draw_strobe(observer, clutter, turn, &random);
             }
         }
     }
 }
 
-static void watch_false_bearings(struct watch *watch)
+static void observe_false_bearings(struct observer *observer)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
 
-    for (size_t turn = 0; turn < watch->turns; turn++) {
+    for (size_t turn = 0; turn < observer->turns; turn++) {
         struct random random =
-            scene_stream(watch->seed, watch->run, STREAM_BEARINGS, watch->index, turn, 0);
+            scene_stream(observer->seed, observer->run, STREAM_BEARINGS, observer->index, turn, 0);
         uint64_t count = random_poisson(&random, sensor->false_bearings);
 
         for (uint64_t i = 0; i < count; i++) {
             keep_clutter(
-                watch, turn, 0.5 * (sensor->coverage.range_m.lo + sensor->coverage.range_m.hi),
+                observer, turn, 0.5 * (sensor->coverage.range_m.lo + sensor->coverage.range_m.hi),
                 random_between(&random, sensor->false_from_rad, sensor->false_to_rad), 0, 0, 0);
         }
     }
@@ -785,11 +789,11 @@ static double border_rad(const struct scene_sensor *sensor, size_t index)
     return portable_wrap(sensor->start_rad + direction(sensor) * PORTABLE_TURN * share);
 }
 
-static struct scene_scan scan_of(const struct watch *watch, size_t number)
+static struct scene_scan scan_of(const struct observer *observer, size_t number)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double scan_s = sensor->turn_s / (double)sensor->sectors;
-    struct scene_scan scan = {.sensor = watch->index,
+    struct scene_scan scan = {.sensor = observer->index,
                               .number = number,
                               .end_s = sensor->start_s +
                                        (double)(number + (sensor->turns ? 1 : 0)) * scan_s};
@@ -806,19 +810,19 @@ static struct scene_scan scan_of(const struct watch *watch, size_t number)
     return scan;
 }
 
-static void keep_scans(struct scene_run *run, const struct watch *watch, size_t *room)
+static void keep_scans(struct scene_run *run, const struct observer *observer, size_t *room)
 {
-    const struct scene_sensor *sensor = watch->sensor;
+    const struct scene_sensor *sensor = observer->sensor;
     double scan_s = sensor->turns ? sensor->turn_s / (double)sensor->sectors : 0.0;
     size_t taken = 0;
 
-    for (size_t i = 0; i < watch->turns * sensor->sectors; i++) {
-        struct scene_scan scan = scan_of(watch, i);
+    for (size_t i = 0; i < observer->turns * sensor->sectors; i++) {
+        struct scene_scan scan = scan_of(observer, i);
         struct random random =
-            scene_stream(watch->seed, watch->run, STREAM_ARRIVAL, watch->index, i, 0);
+            scene_stream(observer->seed, observer->run, STREAM_ARRIVAL, observer->index, i, 0);
 
-        scan.plots = watch->plots ? watch->plots + taken : NULL;
-        while (taken < watch->num_plots && watch->plots[taken].scan == i) {
+        scan.plots = observer->plots ? observer->plots + taken : NULL;
+        while (taken < observer->num_plots && observer->plots[taken].scan == i) {
             taken++;
             scan.num_plots++;
         }
@@ -826,7 +830,7 @@ static void keep_scans(struct scene_run *run, const struct watch *watch, size_t 
         if (random_uniform(&random) < sensor->late_share) {
             scan.received_s += sensor->late_s;
         }
-        if (!is_lost(run->scene, watch->index, scan.end_s - scan_s, scan.end_s)) {
+        if (!is_lost(run->scene, observer->index, scan.end_s - scan_s, scan.end_s)) {
             run->scans = must_grow(run->scans, run->num_scans, room, sizeof *run->scans);
             run->scans[run->num_scans++] = scan;
         }
@@ -846,33 +850,33 @@ static int by_arrival(const void *a, const void *b)
     return (one->number > other->number) - (one->number < other->number);
 }
 
-static void watch_all(struct watch *watch, const struct scene_run *run,
-                      const struct target_fades *fades)
+static void observe_all(struct observer *observer, const struct scene_run *run,
+                        const struct target_fades *fades)
 {
-    watch_targets(watch, run, fades);
-    for (size_t i = 0; !watch->sensor->is_passive && i < run->scene->num_clutter; i++) {
+    observe_targets(observer, run, fades);
+    for (size_t i = 0; !observer->sensor->is_passive && i < run->scene->num_clutter; i++) {
         enum clutter_kind kind = run->scene->clutter[i].kind;
 
-        if (!(run->scene->clutter[i].sensors >> watch->index & 1)) {
+        if (!(run->scene->clutter[i].sensors >> observer->index & 1)) {
             continue;
         }
         if (kind == CLUTTER_UNIFORM || kind == CLUTTER_CELL || kind == CLUTTER_STROBE) {
-            watch_clutter(watch, i);
+            observe_clutter(observer, i);
         } else if (kind == CLUTTER_ABOUT_TARGETS) {
-            watch_about(watch, run, i);
+            observe_about(observer, run, i);
         } else {
-            watch_movers(watch, run, i);
+            observe_movers(observer, run, i);
         }
     }
-    if (watch->sensor->is_passive) {
-        watch_false_bearings(watch);
+    if (observer->sensor->is_passive) {
+        observe_false_bearings(observer);
     }
-    if (watch->num_plots > 0) {
-        qsort(watch->plots, watch->num_plots, sizeof *watch->plots, by_scan);
+    if (observer->num_plots > 0) {
+        qsort(observer->plots, observer->num_plots, sizeof *observer->plots, by_scan);
     }
 }
 
-struct scene_run *scene_watch(const struct scene *scene, uint64_t seed, uint64_t run_number)
+struct scene_run *scene_observe(const struct scene *scene, uint64_t seed, uint64_t run_number)
 {
     struct scene_run *run = must_calloc(1, sizeof *run);
     struct target_fades *fades;
@@ -890,19 +894,19 @@ struct scene_run *scene_watch(const struct scene *scene, uint64_t seed, uint64_t
     for (size_t i = 0; i < scene->num_sensors; i++) {
         struct scene_sensor sensor = scene->sensors[i];
         struct random random = scene_stream(seed, run_number, STREAM_START, i, 0, 0);
-        struct watch watch = {
+        struct observer observer = {
             .scene = scene, .sensor = &sensor, .index = i, .seed = seed, .run = run_number};
 
         sensor.start_s = draw_between(&random, sensor.starts_s);
         sensor.start_rad = draw_between(&random, sensor.starts_rad);
-        watch.turns = num_turns(scene, &sensor);
-        watch.end_s = sensor.start_s + (double)watch.turns * sensor.turn_s;
-        if (watch.turns > 0) {
-            watch_all(&watch, run, fades);
-            keep_scans(run, &watch, &room);
+        observer.turns = num_turns(scene, &sensor);
+        observer.end_s = sensor.start_s + (double)observer.turns * sensor.turn_s;
+        if (observer.turns > 0) {
+            observe_all(&observer, run, fades);
+            keep_scans(run, &observer, &room);
         }
-        run->plots[i] = watch.plots;
-        free(watch.sightings);
+        run->plots[i] = observer.plots;
+        free(observer.sightings);
     }
     if (run->num_scans > 0) {
         qsort(run->scans, run->num_scans, sizeof *run->scans, by_arrival);

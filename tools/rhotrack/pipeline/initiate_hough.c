@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/initiate_classic.h"
+#include "pipeline/initiate_hough.h"
 
 #include <cjson/cJSON.h>
 #include <inttypes.h>
@@ -28,9 +28,9 @@ struct batch {
 
 struct search {
     struct batch batch;
-    struct rho_classic *classic;
+    struct rho_hough *hough;
     struct rho_accumulator_peak *peaks;
-    struct rho_classic_result result;
+    struct rho_hough_result result;
     int64_t wall_us;
 };
 
@@ -100,15 +100,15 @@ static void read_batch(struct batch *batch, const struct command_line *line)
     scan_reader_close(reader);
 }
 
-static struct rho_classic_points points_of(const struct batch *batch)
+static struct rho_hough_points points_of(const struct batch *batch)
 {
-    return (struct rho_classic_points){
+    return (struct rho_hough_points){
         .at = {batch->x_m, batch->y_m, batch->num_scans, batch->scan_end}, .t_s = batch->t_s};
 }
 
 /* ---- The search ---- */
 
-static void warn_of_lost(const struct rho_classic_result *result)
+static void warn_of_lost(const struct rho_hough_result *result)
 {
     if (result->cells_dropped) {
         fprintf(stderr,
@@ -124,7 +124,7 @@ static void warn_of_lost(const struct rho_classic_result *result)
 }
 
 /* Where every pair votes, so many passes are needed that seconds become minutes. */
-static void warn_of_time(const struct rho_classic *classic, const struct rho_classic_points *points)
+static void warn_of_time(const struct rho_hough *hough, const struct rho_hough_points *points)
 {
     double pairs = 0;
 
@@ -134,30 +134,28 @@ static void warn_of_time(const struct rho_classic *classic, const struct rho_cla
         pairs += (double)(points->at.scan_end[scan - 1] - before) *
                  (points->at.scan_end[scan] - points->at.scan_end[scan - 1]);
     }
-    if (classic->config.method == RHO_CLASSIC_MHT && pairs > PAIRS_MANY) {
+    if (hough->config.method == RHO_HOUGH_MHT && pairs > PAIRS_MANY) {
         fprintf(stderr,
                 "rhotrack: %.3g pairs vote, which takes some %.0f passes over all of them; iht "
                 "leaves out those that no target can fly\n",
-                pairs, ceil(2.0 * pairs / RHO_MAX_CLASSIC_CELLS));
+                pairs, ceil(2.0 * pairs / RHO_MAX_HOUGH_CELLS));
     }
 }
 
 static void find(struct search *search, const struct command_line *line, enum method method)
 {
-    struct rho_classic_config config =
-        method_classic(method, &line->parameters, search->batch.range_m);
-    struct rho_classic_points points = points_of(&search->batch);
+    struct rho_hough_config config = method_hough(method, &line->parameters, search->batch.range_m);
+    struct rho_hough_points points = points_of(&search->batch);
 
-    must_succeed(rho_classic_init(search->classic, sizeof *search->classic, &config), "classic");
-    warn_of_time(search->classic, &points);
+    must_succeed(rho_hough_init(search->hough, sizeof *search->hough, &config), "hough");
+    warn_of_time(search->hough, &points);
     int64_t start_us = clock_us();
-    must_succeed(
-        rho_classic_find(search->classic, &points, search->peaks, CELLS_MAX, &search->result),
-        "classic");
+    must_succeed(rho_hough_find(search->hough, &points, search->peaks, CELLS_MAX, &search->result),
+                 "hough");
     search->wall_us = clock_us() - start_us;
     if (method == METHOD_HT) {
-        rho_classic_count_pairs(search->classic, &points, &search->result.pairs,
-                                &search->result.candidates);
+        rho_hough_count_pairs(search->hough, &points, &search->result.pairs,
+                              &search->result.candidates);
     }
     warn_of_lost(&search->result);
 }
@@ -166,18 +164,18 @@ static void find(struct search *search, const struct command_line *line, enum me
 
 static double votes_of(const struct rho_accumulator_peak *peak)
 {
-    return round(1e6 * peak->votes / RHO_CLASSIC_VOTE) / 1e6;
+    return round(1e6 * peak->votes / RHO_HOUGH_VOTE) / 1e6;
 }
 
 static struct initiated row_of(const struct search *search, uint32_t number)
 {
     const struct rho_accumulator_peak *peak = &search->peaks[number];
-    struct rho_classic_points points = points_of(&search->batch);
-    struct rho_classic_track track;
+    struct rho_hough_points points = points_of(&search->batch);
+    struct rho_hough_track track;
 
     must_succeed(
-        rho_classic_track(search->classic, &points, peak->theta_cell, peak->rho_cell, 0, &track),
-        "classic");
+        rho_hough_track(search->hough, &points, peak->theta_cell, peak->rho_cell, 0, &track),
+        "hough");
     return (struct initiated){.track_id = number + 1,
                               .time_us = search->batch.time_us,
                               .has_state = track.has_velocity,
@@ -185,8 +183,8 @@ static struct initiated row_of(const struct search *search, uint32_t number)
                               .y_m = track.y_m,
                               .vx_mps = track.vx_mps,
                               .vy_mps = track.vy_mps,
-                              .rho_m = rho_classic_rho_m(search->classic, peak->rho_cell),
-                              .theta_rad = rho_classic_theta_rad(search->classic, peak->theta_cell),
+                              .rho_m = rho_hough_rho_m(search->hough, peak->rho_cell),
+                              .theta_rad = rho_hough_theta_rad(search->hough, peak->theta_cell),
                               .scans = track.scans,
                               .score = votes_of(peak)};
 }
@@ -217,12 +215,12 @@ static void add_peaks(cJSON *object, const struct search *search)
 
 static void print_json(const struct search *search, enum method method)
 {
-    const struct rho_classic_result *result = &search->result;
+    const struct rho_hough_result *result = &search->result;
     cJSON *object = cJSON_CreateObject();
 
     cJSON_AddStringToObject(object, "method", method_name(method));
     if (method == METHOD_NHT) {
-        int is_c = search->classic->config.method == RHO_CLASSIC_NHT_C;
+        int is_c = search->hough->config.method == RHO_HOUGH_NHT_C;
         cJSON_AddStringToObject(object, "nht_reading", is_c ? "c" : "a");
     }
     cJSON_AddNumberToObject(object, "scans", search->batch.num_scans);
@@ -232,7 +230,7 @@ static void print_json(const struct search *search, enum method method)
     cJSON_AddNumberToObject(object, "votes", result->votes);
     add_peaks(object, search);
     cJSON_AddNumberToObject(object, "tracks", result->num_peaks);
-    cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *search->classic);
+    cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *search->hough);
     cJSON_AddNumberToObject(object, "wall_us", (double)search->wall_us);
     cJSON_AddNumberToObject(object, "cells", result->cells);
     cJSON_AddNumberToObject(object, "passes", result->passes);
@@ -243,9 +241,9 @@ static void print_json(const struct search *search, enum method method)
     json_print(object);
 }
 
-void initiate_classic(const struct command_line *line, enum method method)
+void initiate_hough(const struct command_line *line, enum method method)
 {
-    struct search search = {.classic = must_alloc(sizeof *search.classic),
+    struct search search = {.hough = must_alloc(sizeof *search.hough),
                             .peaks = must_calloc(CELLS_MAX, sizeof *search.peaks)};
 
     read_batch(&search.batch, line);
@@ -260,5 +258,5 @@ void initiate_classic(const struct command_line *line, enum method method)
     free(search.batch.y_m);
     free(search.batch.t_s);
     free(search.peaks);
-    free(search.classic);
+    free(search.hough);
 }

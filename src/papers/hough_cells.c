@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* classic_cells: the hash of cells with votes, and the spread of NHT_C over their neighbours. */
-#include "classic_votes.h"
+/* hough_cells: the hash of cells with votes, and the spread of NHT_C over their neighbours. */
+#include "hough_votes.h"
 
 #include <string.h>
 
@@ -24,17 +24,17 @@ static int32_t column_of(uint32_t key)
     return (int32_t)(key & 0xffffu);
 }
 
-void rho_classic_clear_cells(struct rho_classic_pass *pass)
+void rho_hough_clear_cells(struct rho_hough_pass *pass)
 {
-    struct rho_classic_cell *cells = pass->classic->work.sparse.cells;
+    struct rho_hough_cell *cells = pass->hough->work.sparse.cells;
     pass->num_cells = 0;
     memset(cells, 0, pass->table_size * sizeof *cells);
 }
 
 /* The cell of a key, or the free slot where it is inserted. */
-static struct rho_classic_cell *cell_at(struct rho_classic_pass *pass, uint32_t key)
+static struct rho_hough_cell *cell_at(struct rho_hough_pass *pass, uint32_t key)
 {
-    struct rho_classic_cell *cells = pass->classic->work.sparse.cells;
+    struct rho_hough_cell *cells = pass->hough->work.sparse.cells;
     uint32_t hash = key * 0x9e3779b1u, at = (hash ^ hash >> 15) & (pass->table_size - 1u);
     while (cells[at].votes > 0 && cells[at].key != key) {
         at = (at + 1u) & (pass->table_size - 1u);
@@ -43,35 +43,35 @@ static struct rho_classic_cell *cell_at(struct rho_classic_pass *pass, uint32_t 
 }
 
 /* Number of cells of the wanted rows that a vote is spread over. */
-static uint32_t count_spread(const struct rho_classic_pass *pass, int32_t row, int32_t column)
+static uint32_t count_spread(const struct rho_hough_pass *pass, int32_t row, int32_t column)
 {
-    const struct rho_classic *classic = pass->classic;
-    int32_t reach = classic->rho_reach, last = classic->rho_cells - 1;
+    const struct rho_hough *hough = pass->hough;
+    int32_t reach = hough->rho_reach, last = hough->rho_cells - 1;
     int32_t from = column > reach ? column - reach : 0;
     int32_t to = column + reach < last ? column + reach : last;
     uint32_t rows = 0;
-    for (int32_t i = -(int32_t)classic->theta_reach; i <= classic->theta_reach; i++) {
-        rows += rho_classic_has_row(classic, pass->wanted, row + i) != 0;
+    for (int32_t i = -(int32_t)hough->theta_reach; i <= hough->theta_reach; i++) {
+        rows += rho_hough_has_row(hough, pass->wanted, row + i) != 0;
     }
     return rows * (uint32_t)(to - from + 1);
 }
 
-void rho_classic_add_votes(struct rho_classic_pass *pass, struct rho_line line, uint32_t votes)
+void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint32_t votes)
 {
-    const struct rho_classic *classic = pass->classic;
-    int32_t row = rho_classic_row(classic, line.theta_rad);
-    int32_t column = rho_classic_column(classic, line.rho_m);
+    const struct rho_hough *hough = pass->hough;
+    int32_t row = rho_hough_row(hough, line.theta_rad);
+    int32_t column = rho_hough_column(hough, line.rho_m);
     if (column < 0) {
         return;
     }
-    struct rho_classic_cell *cell = cell_at(pass, key_of(row, column));
+    struct rho_hough_cell *cell = cell_at(pass, key_of(row, column));
     int is_new = cell->votes == 0;
     if (is_new && pass->num_cells >= pass->table_size - pass->table_size / 8u) {
         pass->found.votes_dropped = rho_count(pass->found.votes_dropped, 1);
         pass->is_full = 1;
         return;
     }
-    int is_spread = classic->config.method == RHO_CLASSIC_NHT_C;
+    int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     pass->num_cells += (uint32_t)is_new;
     cell->key = key_of(row, column);
     cell->votes = rho_count(cell->votes, votes);
@@ -82,7 +82,7 @@ void rho_classic_add_votes(struct rho_classic_pass *pass, struct rho_line line, 
 /* ---- order ----------------------------------------------------------------------------------- */
 
 /* Moves the cells with votes to the front of the table. Returns how many. */
-static uint32_t gather(struct rho_classic_cell *cells, uint32_t size)
+static uint32_t gather(struct rho_hough_cell *cells, uint32_t size)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < size; i++) {
@@ -93,9 +93,9 @@ static uint32_t gather(struct rho_classic_cell *cells, uint32_t size)
     return n;
 }
 
-static void sink(struct rho_classic_cell *heap, uint32_t n, uint32_t place)
+static void sink(struct rho_hough_cell *heap, uint32_t n, uint32_t place)
 {
-    struct rho_classic_cell cell = heap[place];
+    struct rho_hough_cell cell = heap[place];
     for (uint32_t child = 2u * place + 1u; child < n; child = 2u * place + 1u) {
         child += child + 1u < n && heap[child].key < heap[child + 1u].key;
         if (heap[child].key < cell.key) {
@@ -108,13 +108,13 @@ static void sink(struct rho_classic_cell *heap, uint32_t n, uint32_t place)
 }
 
 /* Heap sort by theta, then rho: it needs no memory. */
-static void sort(struct rho_classic_cell *cells, uint32_t n)
+static void sort(struct rho_hough_cell *cells, uint32_t n)
 {
     for (uint32_t i = n / 2u; i > 0; i--) {
         sink(cells, n, i - 1u);
     }
     while (n > 1) {
-        struct rho_classic_cell last = cells[0];
+        struct rho_hough_cell last = cells[0];
         cells[0] = cells[--n];
         cells[n] = last;
         sink(cells, n, 0);
@@ -129,9 +129,9 @@ static void sort(struct rho_classic_cell *cells, uint32_t n)
  * reach of the row.
  */
 struct band {
-    struct rho_classic_pass *pass;
-    const struct rho_classic_cell *cells;
-    uint32_t theta_shares[RHO_CLASSIC_REACH_MAX + 1], rho_shares[RHO_CLASSIC_REACH_MAX + 1];
+    struct rho_hough_pass *pass;
+    const struct rho_hough_cell *cells;
+    uint32_t theta_shares[RHO_HOUGH_REACH_MAX + 1], rho_shares[RHO_HOUGH_REACH_MAX + 1];
     int32_t length;
     /* window of cells within reach; indices below 0 and from length on: laps before and after */
     int32_t first, end;
@@ -145,34 +145,33 @@ struct passing {
 
 static struct passing passing_at(const struct band *band, int32_t place)
 {
-    const struct rho_classic *classic = band->pass->classic;
+    const struct rho_hough *hough = band->pass->hough;
     int32_t lap = place < 0 ? -1 : place >= band->length ? 1 : 0;
-    const struct rho_classic_cell *cell = &band->cells[place - lap * band->length];
+    const struct rho_hough_cell *cell = &band->cells[place - lap * band->length];
     int32_t column = column_of(cell->key);
-    return (struct passing){.row = row_of(cell->key) + lap * classic->theta_cells,
-                            .column = lap == 0 ? column : classic->rho_cells - 1 - column,
+    return (struct passing){.row = row_of(cell->key) + lap * hough->theta_cells,
+                            .column = lap == 0 ? column : hough->rho_cells - 1 - column,
                             .votes = cell->votes};
 }
 
-void rho_classic_spread_weights(uint32_t shares[RHO_CLASSIC_REACH_MAX + 1], unsigned reach,
-                                float cell, float eps)
+void rho_hough_spread_weights(uint32_t shares[RHO_HOUGH_REACH_MAX + 1], unsigned reach, float cell,
+                              float eps)
 {
     for (unsigned i = 0; i <= reach; i++) {
         float distance = (float)i * cell / eps;
-        shares[i] =
-            (uint32_t)(rho_exp(-0.5f * distance * distance) * (float)RHO_CLASSIC_VOTE + 0.5f);
+        shares[i] = (uint32_t)(rho_exp(-0.5f * distance * distance) * (float)RHO_HOUGH_VOTE + 0.5f);
     }
 }
 
-uint32_t rho_classic_scale(uint32_t votes, uint32_t share)
+uint32_t rho_hough_scale(uint32_t votes, uint32_t share)
 {
-    return (uint32_t)(((uint64_t)votes * share + RHO_CLASSIC_VOTE / 2u) / RHO_CLASSIC_VOTE);
+    return (uint32_t)(((uint64_t)votes * share + RHO_HOUGH_VOTE / 2u) / RHO_HOUGH_VOTE);
 }
 
 /* Moves the window to the next row. */
 static void move_to(struct band *band, int32_t row)
 {
-    int32_t reach = band->pass->classic->theta_reach;
+    int32_t reach = band->pass->hough->theta_reach;
     while (band->end < 2 * band->length && passing_at(band, band->end).row <= row + reach) {
         band->end++;
     }
@@ -187,7 +186,7 @@ struct columns {
 
 static struct columns columns_of(const struct band *band, struct passing cell)
 {
-    int32_t reach = band->pass->classic->rho_reach, last = band->pass->classic->rho_cells - 1;
+    int32_t reach = band->pass->hough->rho_reach, last = band->pass->hough->rho_cells - 1;
     return (struct columns){cell.column > reach ? cell.column - reach : 0,
                             cell.column + reach < last ? cell.column + reach : last};
 }
@@ -196,10 +195,10 @@ static void spread(const struct band *band, int32_t row, struct passing cell, ui
 {
     struct columns columns = columns_of(band, cell);
     int32_t away = row < cell.row ? cell.row - row : row - cell.row;
-    uint32_t votes = rho_classic_scale(cell.votes, band->theta_shares[away]);
+    uint32_t votes = rho_hough_scale(cell.votes, band->theta_shares[away]);
     for (int32_t i = columns.from; i <= columns.to; i++) {
         uint32_t share = band->rho_shares[i < cell.column ? cell.column - i : i - cell.column];
-        uint32_t sum = sums[i] + rho_classic_scale(votes, share);
+        uint32_t sum = sums[i] + rho_hough_scale(votes, share);
         sums[i] = sum < sums[i] ? UINT32_MAX : sum;
     }
 }
@@ -229,7 +228,7 @@ static void collect_spread(const struct band *band, int32_t row, struct passing 
 
 static void collect_row(struct band *band, int32_t row, struct rho_peak_list *list)
 {
-    uint32_t *sums = band->pass->classic->work.sparse.step.row;
+    uint32_t *sums = band->pass->hough->work.sparse.step.row;
     move_to(band, row);
     for (int32_t place = band->first; place < band->end; place++) {
         spread(band, row, passing_at(band, place), sums);
@@ -239,22 +238,22 @@ static void collect_row(struct band *band, int32_t row, struct rho_peak_list *li
     }
 }
 
-static void collect_rows(struct rho_classic_pass *pass, uint32_t num_cells,
+static void collect_rows(struct rho_hough_pass *pass, uint32_t num_cells,
                          struct rho_peak_list *list)
 {
-    struct rho_classic *classic = pass->classic;
-    const struct rho_classic_config *config = &classic->config;
+    struct rho_hough *hough = pass->hough;
+    const struct rho_hough_config *config = &hough->config;
     int32_t length = (int32_t)num_cells;
     struct band band = {.pass = pass,
-                        .cells = classic->work.sparse.cells,
+                        .cells = hough->work.sparse.cells,
                         .length = length,
                         .first = -length,
                         .end = -length};
-    rho_classic_spread_weights(band.theta_shares, classic->theta_reach, config->theta_cell_rad,
-                               config->eps_theta_rad);
-    rho_classic_spread_weights(band.rho_shares, classic->rho_reach, config->rho_cell_m,
-                               config->eps_rho_m);
-    memset(classic->work.sparse.step.row, 0, sizeof classic->work.sparse.step.row);
+    rho_hough_spread_weights(band.theta_shares, hough->theta_reach, config->theta_cell_rad,
+                             config->eps_theta_rad);
+    rho_hough_spread_weights(band.rho_shares, hough->rho_reach, config->rho_cell_m,
+                             config->eps_rho_m);
+    memset(hough->work.sparse.step.row, 0, sizeof hough->work.sparse.step.row);
     for (int32_t i = 0; i < pass->wanted.count; i++) {
         collect_row(&band, pass->wanted.first + i, list);
     }
@@ -262,11 +261,11 @@ static void collect_rows(struct rho_classic_pass *pass, uint32_t num_cells,
 
 /* ---- collecting ------------------------------------------------------------------------------ */
 
-void rho_classic_collect(struct rho_classic_pass *pass, struct rho_peak_list *list)
+void rho_hough_collect(struct rho_hough_pass *pass, struct rho_peak_list *list)
 {
-    struct rho_classic_cell *cells = pass->classic->work.sparse.cells;
+    struct rho_hough_cell *cells = pass->hough->work.sparse.cells;
     uint32_t num_cells = gather(cells, pass->table_size);
-    if (pass->classic->config.method == RHO_CLASSIC_NHT_C) {
+    if (pass->hough->config.method == RHO_HOUGH_NHT_C) {
         sort(cells, num_cells);
         collect_rows(pass, num_cells, list);
         return;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * classic: track initiation as the literature does it, for comparison and teaching: the Hough
+ * hough: track initiation as the literature does it, for comparison and teaching: the Hough
  * transform (HT), with pairs of plots (MHT), with pairs that a target can fly (IHT), and the
  * neutrosophic one (NHT). For work use the initiator.
  *
@@ -28,8 +28,8 @@
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
-#ifndef RHOTRACK_CLASSIC_H
-#define RHOTRACK_CLASSIC_H
+#ifndef RHOTRACK_HOUGH_H
+#define RHOTRACK_HOUGH_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -43,29 +43,29 @@ extern "C" {
 #endif
 
 /* One vote in the units of all counts, of 1/65536 vote; sums saturate. */
-#define RHO_CLASSIC_VOTE 65536u
+#define RHO_HOUGH_VOTE 65536u
 
 /* Largest number of cells within 2 eps, in each direction. */
-#define RHO_CLASSIC_REACH_MAX 255u
+#define RHO_HOUGH_REACH_MAX 255u
 
-enum rho_classic_method {
-    RHO_CLASSIC_HT,
-    RHO_CLASSIC_MHT,
-    RHO_CLASSIC_IHT,
+enum rho_hough_method {
+    RHO_HOUGH_HT,
+    RHO_HOUGH_MHT,
+    RHO_HOUGH_IHT,
     /*
      * Where an NHT vote goes, the paper does not say clearly. Reading A: to the pair's own cell,
      * literally (23).
      */
-    RHO_CLASSIC_NHT_A,
+    RHO_HOUGH_NHT_A,
     /*
      * Reading C: to all cells within 2 eps of the pair's, weighted by (15), the "list of all the
      * parameter points".
      */
-    RHO_CLASSIC_NHT_C
+    RHO_HOUGH_NHT_C
 };
 
-struct rho_classic_config {
-    enum rho_classic_method method;
+struct rho_hough_config {
+    enum rho_hough_method method;
     /*
      * The plane: as in struct rho_accumulator_config. rho is signed: (10) as printed takes |rho|,
      * which makes one line of two mirror ones, and n_rho in (25) is for either sign. theta is in
@@ -75,7 +75,7 @@ struct rho_classic_config {
     /*
      * epsilon of (15), (27), (28): kernels lie within 2 eps, ends included, in rho and in theta,
      * also round the end of theta; so do peaks that a better one suppresses. At least 1 mm and 0.1
-     * mrad, at most RHO_CLASSIC_REACH_MAX / 2 cells and 0.5 rad.
+     * mrad, at most RHO_HOUGH_REACH_MAX / 2 cells and 0.5 rad.
      */
     float eps_rho_m, eps_theta_rad;
     float v_min_mps, v_max_mps; /* 0 <= v_min < v_max <= RHO_LIMIT_SPEED_MPS; IHT and NHT */
@@ -103,12 +103,12 @@ struct rho_classic_config {
  * Plots in the order of their scans, and the time of each, seconds from any origin. The arrays stay
  * the caller's. A scan has at most 65535.
  */
-struct rho_classic_points {
+struct rho_hough_points {
     struct rho_accumulator_points at;
     const float *t_s;
 };
 
-struct rho_classic_result {
+struct rho_hough_result {
     uint32_t num_peaks;
     /*
      * cells above the thresholds beyond the caller's capacity, at most so many; peaks are right
@@ -122,14 +122,14 @@ struct rho_classic_result {
     uint32_t votes_max;  /* parts of a vote */
     uint32_t passes;     /* over parts of theta */
     /*
-     * what a single row of theta had too much of, for RHO_MAX_CLASSIC_CELLS and
-     * RHO_MAX_CLASSIC_KERNELS
+     * what a single row of theta had too much of, for RHO_MAX_HOUGH_CELLS and
+     * RHO_MAX_HOUGH_KERNELS
      */
     uint32_t votes_dropped, kernels_dropped;
 };
 
 /* The voters of a cell, and the position and velocity fitted through them. */
-struct rho_classic_track {
+struct rho_hough_track {
     uint32_t votes;     /* parts of a vote; with reading C, to 2 of them a pair */
     uint32_t num_plots; /* each counted once */
     uint16_t mask;      /* bit m: a plot of scan m */
@@ -138,36 +138,36 @@ struct rho_classic_track {
     float x_m, y_m, vx_mps, vy_mps;
 };
 
-struct rho_classic_cell {
+struct rho_hough_cell {
     uint32_t key; /* theta_cell << 16 | rho_cell */
     uint32_t votes;
 };
 
 /* A pair of plots of the scans before: indices within them. */
-struct rho_classic_kernel {
+struct rho_hough_kernel {
     float rho_m, theta_rad;
     uint16_t first, second;
     uint16_t next; /* of the same chain, from 1; 0: none */
 };
 
-struct rho_classic {
+struct rho_hough {
     uint32_t magic;
     uint16_t theta_cells, rho_cells;
     uint16_t theta_reach, rho_reach; /* cells within 2 eps */
-    struct rho_classic_config config;
+    struct rho_hough_config config;
     union {
         struct rho_accumulator accumulator; /* HT */
         struct {
-            struct rho_classic_cell cells[RHO_MAX_CLASSIC_CELLS];
+            struct rho_hough_cell cells[RHO_MAX_HOUGH_CELLS];
             union {
                 struct {
-                    uint16_t heads[RHO_CLASSIC_CHAINS];
-                    struct rho_classic_kernel list[2][RHO_MAX_CLASSIC_KERNELS];
+                    uint16_t heads[RHO_HOUGH_CHAINS];
+                    struct rho_hough_kernel list[2][RHO_MAX_HOUGH_KERNELS];
                 } kernels;
                 uint32_t row[RHO_MAX_RHO_CELLS]; /* NHT_C: of cells, when all pairs have voted */
             } step;
         } sparse;
-        uint32_t kept[RHO_MAX_CLASSIC_CELLS]; /* when peaks are suppressed */
+        uint32_t kept[RHO_MAX_HOUGH_CELLS]; /* when peaks are suppressed */
     } work;
 };
 
@@ -176,15 +176,15 @@ struct rho_classic {
  * 0.5, points count, no I; votes_min 0, cells near a better one suppressed, and rho_max the largest
  * that RHO_MAX_RHO_CELLS allows. Constant cost.
  */
-void rho_classic_config_default(struct rho_classic_config *config, enum rho_classic_method method);
+void rho_hough_config_default(struct rho_hough_config *config, enum rho_hough_method method);
 
 /*
  * Prepares a search; the config is copied.
- *   size   sizeof(struct rho_classic) of the caller
+ *   size   sizeof(struct rho_hough) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range). Constant cost.
  */
-RHO_MUST_CHECK enum rho_status rho_classic_init(struct rho_classic *classic, size_t size,
-                                                const struct rho_classic_config *config);
+RHO_MUST_CHECK enum rho_status rho_hough_init(struct rho_hough *hough, size_t size,
+                                              const struct rho_hough_config *config);
 
 /*
  * Votes, and finds the peaks.
@@ -194,15 +194,14 @@ RHO_MUST_CHECK enum rho_status rho_classic_init(struct rho_classic *classic, siz
  * Two plots in one place have no line and do not vote as a pair; nor do lines beyond rho_max_m.
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, more than 65535 plots in a
  * scan, a place not finite or beyond RHO_LIMIT_POSITION_M, a time not finite or beyond 1e9 s);
- * nothing but *classic's scratch is changed.
+ * nothing but *hough's scratch is changed.
  * Cost: HT as rho_accumulator_find. Others: the pairs, once a pass; NHT_C (2 reach + 1)^2 additions
  * a vote. Then the cells above the thresholds, n log n. Stack: 1 KB, HT 1.9 KB, NHT_C 2.8 KB.
  */
-RHO_MUST_CHECK enum rho_status rho_classic_find(struct rho_classic *classic,
-                                                const struct rho_classic_points *points,
-                                                struct rho_accumulator_peak *peaks,
-                                                uint32_t max_peaks,
-                                                struct rho_classic_result *result);
+RHO_MUST_CHECK enum rho_status rho_hough_find(struct rho_hough *hough,
+                                              const struct rho_hough_points *points,
+                                              struct rho_accumulator_peak *peaks,
+                                              uint32_t max_peaks, struct rho_hough_result *result);
 
 /*
  * The votes of any cell of the plane, and the plots that cast them.
@@ -211,22 +210,21 @@ RHO_MUST_CHECK enum rho_status rho_classic_find(struct rho_classic *classic,
  * checked anew, and the pairs (NHT: pairs of pairs) of those
  * near the line. Stack: 2.8 KB.
  */
-RHO_MUST_CHECK enum rho_status rho_classic_track(struct rho_classic *classic,
-                                                 const struct rho_classic_points *points,
-                                                 unsigned theta_cell, unsigned rho_cell, float at_s,
-                                                 struct rho_classic_track *track);
+RHO_MUST_CHECK enum rho_status rho_hough_track(struct rho_hough *hough,
+                                               const struct rho_hough_points *points,
+                                               unsigned theta_cell, unsigned rho_cell, float at_s,
+                                               struct rho_hough_track *track);
 
 /*
  * Pairs of plots of successive scans, and the number within the limits of speed; both saturate.
  * Cost: the pairs.
  */
-void rho_classic_count_pairs(const struct rho_classic *classic,
-                             const struct rho_classic_points *points, uint32_t *pairs,
-                             uint32_t *candidates);
+void rho_hough_count_pairs(const struct rho_hough *hough, const struct rho_hough_points *points,
+                           uint32_t *pairs, uint32_t *candidates);
 
 /* The line through the centre of a cell. Constant cost. */
-float rho_classic_theta_rad(const struct rho_classic *classic, unsigned theta_cell);
-float rho_classic_rho_m(const struct rho_classic *classic, unsigned rho_cell);
+float rho_hough_theta_rad(const struct rho_hough *hough, unsigned theta_cell);
+float rho_hough_rho_m(const struct rho_hough *hough, unsigned rho_cell);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* classic_track: the plots that voted for a cell, and the track fitted through them. */
-#include "classic_votes.h"
+/* hough_track: the plots that voted for a cell, and the track fitted through them. */
+#include "hough_votes.h"
 
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
@@ -10,19 +10,19 @@
 
 /* A cell with votes, and the range of lines that vote for it. */
 struct target {
-    struct rho_classic *classic;
-    const struct rho_classic_points *points;
+    struct rho_hough *hough;
+    const struct rho_hough_points *points;
     int32_t row, column;
     struct rho_line line;   /* through the centre of the cell */
     float rho_m, theta_rad; /* largest differences of a line that votes for it */
-    uint32_t theta_shares[RHO_CLASSIC_REACH_MAX + 1], rho_shares[RHO_CLASSIC_REACH_MAX + 1];
+    uint32_t theta_shares[RHO_HOUGH_REACH_MAX + 1], rho_shares[RHO_HOUGH_REACH_MAX + 1];
 };
 
 /*
  * Whether a line within rho_m and theta_rad of the given one can go through a plot: the plot is at
  * most rho_m off, plus the effect of the angle at its range.
  */
-static int is_on(const struct rho_classic_points *points, uint32_t i, struct rho_line line,
+static int is_on(const struct rho_hough_points *points, uint32_t i, struct rho_line line,
                  float rho_m, float theta_rad)
 {
     float x_m = points->at.x_m[i], y_m = points->at.y_m[i];
@@ -40,23 +40,20 @@ static int is_on_target(const struct target *target, uint32_t i)
 /* ---- votes of a pair for the cell ------------------------------------------------------------ */
 
 /* The nearest kernels of a line between a scan and the scan before. */
-static struct rho_classic_nearest kernels_of(const struct target *target, unsigned scan,
-                                             struct rho_line line)
+static struct rho_hough_nearest kernels_of(const struct target *target, unsigned scan,
+                                           struct rho_line line)
 {
-    const struct rho_classic *classic = target->classic;
-    const struct rho_classic_points *points = target->points;
-    float rho_m = 2.0f * classic->config.eps_rho_m,
-          theta_rad = 2.0f * classic->config.eps_theta_rad;
-    struct rho_classic_nearest nearest = {.count = 0};
-    uint32_t middle = rho_classic_scan_start(points, scan - 1u),
-             end = points->at.scan_end[scan - 1u];
-    for (uint32_t i = rho_classic_scan_start(points, scan - 2u); i < middle; i++) {
+    const struct rho_hough *hough = target->hough;
+    const struct rho_hough_points *points = target->points;
+    float rho_m = 2.0f * hough->config.eps_rho_m, theta_rad = 2.0f * hough->config.eps_theta_rad;
+    struct rho_hough_nearest nearest = {.count = 0};
+    uint32_t middle = rho_hough_scan_start(points, scan - 1u), end = points->at.scan_end[scan - 1u];
+    for (uint32_t i = rho_hough_scan_start(points, scan - 2u); i < middle; i++) {
         for (uint32_t j = middle; j < end && is_on(points, i, line, rho_m, theta_rad); j++) {
-            struct rho_classic_pair pair = {i, j};
+            struct rho_hough_pair pair = {i, j};
             if (is_on(points, j, line, rho_m, theta_rad) &&
-                rho_classic_speed(classic, points, pair) == RHO_SPEED_WITHIN) {
-                rho_classic_compare_kernel(classic, line, rho_classic_line(points, pair), pair,
-                                           &nearest);
+                rho_hough_speed(hough, points, pair) == RHO_SPEED_WITHIN) {
+                rho_hough_compare_kernel(hough, line, rho_hough_line(points, pair), pair, &nearest);
             }
         }
     }
@@ -65,14 +62,14 @@ static struct rho_classic_nearest kernels_of(const struct target *target, unsign
 
 static uint32_t own_votes(const struct target *target, unsigned scan, struct rho_line line)
 {
-    if (!rho_classic_uses_kernels(target->classic)) {
-        return RHO_CLASSIC_VOTE;
+    if (!rho_hough_uses_kernels(target->hough)) {
+        return RHO_HOUGH_VOTE;
     }
     if (scan < 2) {
         return 0;
     }
-    struct rho_classic_nearest nearest = kernels_of(target, scan, line);
-    return rho_classic_vote_weight(target->classic, target->points, line, &nearest);
+    struct rho_hough_nearest nearest = kernels_of(target, scan, line);
+    return rho_hough_vote_weight(target->hough, target->points, line, &nearest);
 }
 
 /*
@@ -81,49 +78,49 @@ static uint32_t own_votes(const struct target *target, unsigned scan, struct rho
  */
 static int32_t rows_away(const struct target *target, int32_t row, int32_t *column)
 {
-    int32_t away = row - target->row, all = target->classic->theta_cells;
+    int32_t away = row - target->row, all = target->hough->theta_cells;
     if (2 * away > all || 2 * away < -all) {
         away += away > 0 ? -all : all;
-        *column = target->classic->rho_cells - 1 - *column;
+        *column = target->hough->rho_cells - 1 - *column;
     }
     return away < 0 ? -away : away;
 }
 
-static uint32_t pair_votes(const struct target *target, unsigned scan, struct rho_classic_pair pair)
+static uint32_t pair_votes(const struct target *target, unsigned scan, struct rho_hough_pair pair)
 {
-    const struct rho_classic *classic = target->classic;
-    enum rho_classic_speed speed = rho_classic_speed(classic, target->points, pair);
-    int takes_all = classic->config.method == RHO_CLASSIC_MHT;
+    const struct rho_hough *hough = target->hough;
+    enum rho_hough_speed speed = rho_hough_speed(hough, target->points, pair);
+    int takes_all = hough->config.method == RHO_HOUGH_MHT;
     if (speed == RHO_SPEED_NO_LINE || (speed == RHO_SPEED_OUTSIDE && !takes_all)) {
         return 0;
     }
-    struct rho_line line = rho_classic_line(target->points, pair);
-    int32_t column = rho_classic_column(classic, line.rho_m);
-    int is_spread = classic->config.method == RHO_CLASSIC_NHT_C;
+    struct rho_line line = rho_hough_line(target->points, pair);
+    int32_t column = rho_hough_column(hough, line.rho_m);
+    int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     if (column < 0) {
         return 0;
     }
-    int32_t rows = rows_away(target, rho_classic_row(classic, line.theta_rad), &column);
+    int32_t rows = rows_away(target, rho_hough_row(hough, line.theta_rad), &column);
     int32_t columns = column < target->column ? target->column - column : column - target->column;
-    if (rows > (is_spread ? classic->theta_reach : 0) ||
-        columns > (is_spread ? classic->rho_reach : 0)) {
+    if (rows > (is_spread ? hough->theta_reach : 0) ||
+        columns > (is_spread ? hough->rho_reach : 0)) {
         return 0;
     }
     uint32_t votes = own_votes(target, scan, line);
-    return is_spread ? rho_classic_scale(rho_classic_scale(votes, target->theta_shares[rows]),
-                                         target->rho_shares[columns])
+    return is_spread ? rho_hough_scale(rho_hough_scale(votes, target->theta_shares[rows]),
+                                       target->rho_shares[columns])
                      : votes;
 }
 
 /* Votes of the pairs of a plot with the plots of the next scan (is_behind) or the previous one. */
 static uint32_t votes_with(const struct target *target, unsigned scan, uint32_t i, int is_behind)
 {
-    const struct rho_classic_points *points = target->points;
+    const struct rho_hough_points *points = target->points;
     unsigned other = is_behind ? scan + 1u : scan - 1u;
     uint32_t votes = 0;
-    for (uint32_t j = rho_classic_scan_start(points, other); j < points->at.scan_end[other]; j++) {
+    for (uint32_t j = rho_hough_scan_start(points, other); j < points->at.scan_end[other]; j++) {
         if (is_on_target(target, j)) {
-            struct rho_classic_pair pair = {is_behind ? i : j, is_behind ? j : i};
+            struct rho_hough_pair pair = {is_behind ? i : j, is_behind ? j : i};
             votes = rho_count(votes, pair_votes(target, is_behind ? other : scan, pair));
         }
     }
@@ -138,7 +135,7 @@ struct sums {
 };
 
 static void add_plot(const struct target *target, unsigned scan, uint32_t i, struct sums *sums,
-                     struct rho_classic_track *track)
+                     struct rho_hough_track *track)
 {
     const struct rho_accumulator_points *at = &target->points->at;
     if (track->num_plots == 0) {
@@ -160,7 +157,7 @@ static void add_plot(const struct target *target, unsigned scan, uint32_t i, str
     track->mask = (uint16_t)(track->mask | 1u << scan);
 }
 
-static void fit(const struct sums *sums, float at_s, struct rho_classic_track *track)
+static void fit(const struct sums *sums, float at_s, struct rho_hough_track *track)
 {
     float divisor = sums->n * sums->tt - sums->t * sums->t;
     float n = sums->n > 0.0f ? sums->n : 1.0f, ahead_s = at_s - sums->t0_s - sums->t / n;
@@ -177,23 +174,23 @@ static void fit(const struct sums *sums, float at_s, struct rho_classic_track *t
 
 /* HT: the plots whose line in the target's row is in its column. */
 static int votes_alone(const struct target *target, unsigned scan, uint32_t i,
-                       struct rho_classic_track *track)
+                       struct rho_hough_track *track)
 {
-    const struct rho_classic *classic = target->classic;
+    const struct rho_hough *hough = target->hough;
     const struct rho_accumulator_points *at = &target->points->at;
-    int column = rho_accumulator_cell(&classic->work.accumulator, (unsigned)target->row, at->x_m[i],
+    int column = rho_accumulator_cell(&hough->work.accumulator, (unsigned)target->row, at->x_m[i],
                                       at->y_m[i]);
-    int is_again = classic->config.votes == RHO_VOTES_SCANS && (track->mask >> scan & 1u);
+    int is_again = hough->config.votes == RHO_VOTES_SCANS && (track->mask >> scan & 1u);
     if (column != target->column) {
         return 0;
     }
-    track->votes = rho_count(track->votes, is_again ? 0u : RHO_CLASSIC_VOTE);
+    track->votes = rho_count(track->votes, is_again ? 0u : RHO_HOUGH_VOTE);
     return 1;
 }
 
 /* Pair methods: the plots of pairs that voted; a pair counts with its second plot. */
 static int votes_in_pair(const struct target *target, unsigned scan, uint32_t i,
-                         struct rho_classic_track *track)
+                         struct rho_hough_track *track)
 {
     if (!is_on_target(target, i)) {
         return 0;
@@ -204,14 +201,14 @@ static int votes_in_pair(const struct target *target, unsigned scan, uint32_t i,
            (scan + 1u < target->points->at.num_scans && votes_with(target, scan, i, 1) > 0);
 }
 
-static void look_at_plots(const struct target *target, float at_s, struct rho_classic_track *track)
+static void look_at_plots(const struct target *target, float at_s, struct rho_hough_track *track)
 {
-    const struct rho_classic_points *points = target->points;
-    int is_alone = target->classic->config.method == RHO_CLASSIC_HT;
+    const struct rho_hough_points *points = target->points;
+    int is_alone = target->hough->config.method == RHO_HOUGH_HT;
     struct sums sums = {.n = 0.0f};
     for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
         uint32_t end = points->at.scan_end[scan];
-        for (uint32_t i = rho_classic_scan_start(points, scan); i < end; i++) {
+        for (uint32_t i = rho_hough_scan_start(points, scan); i < end; i++) {
             if (is_alone ? votes_alone(target, scan, i, track)
                          : votes_in_pair(target, scan, i, track)) {
                 add_plot(target, scan, i, &sums, track);
@@ -221,28 +218,28 @@ static void look_at_plots(const struct target *target, float at_s, struct rho_cl
     fit(&sums, at_s, track);
 }
 
-void rho_classic_find_voters(struct rho_classic *classic, const struct rho_classic_points *points,
-                             unsigned theta_cell, unsigned rho_cell, float at_s,
-                             struct rho_classic_track *track)
+void rho_hough_find_voters(struct rho_hough *hough, const struct rho_hough_points *points,
+                           unsigned theta_cell, unsigned rho_cell, float at_s,
+                           struct rho_hough_track *track)
 {
-    const struct rho_classic_config *config = &classic->config;
-    int is_spread = config->method == RHO_CLASSIC_NHT_C;
-    float rows = is_spread ? classic->theta_reach : 0.0f;
-    float columns = is_spread ? classic->rho_reach : 0.0f;
+    const struct rho_hough_config *config = &hough->config;
+    int is_spread = config->method == RHO_HOUGH_NHT_C;
+    float rows = is_spread ? hough->theta_reach : 0.0f;
+    float columns = is_spread ? hough->rho_reach : 0.0f;
     struct target target = {
-        .classic = classic,
+        .hough = hough,
         .points = points,
         .row = (int32_t)theta_cell,
         .column = (int32_t)rho_cell,
-        .line = {rho_classic_rho_m(classic, rho_cell), rho_classic_theta_rad(classic, theta_cell)},
+        .line = {rho_hough_rho_m(hough, rho_cell), rho_hough_theta_rad(hough, theta_cell)},
         .rho_m = (columns + 0.5f) * config->rho_cell_m,
         .theta_rad = (rows + 1.0f) * config->theta_cell_rad};
-    *track = (struct rho_classic_track){.votes = 0};
+    *track = (struct rho_hough_track){.votes = 0};
     if (is_spread) {
-        rho_classic_spread_weights(target.theta_shares, classic->theta_reach,
-                                   config->theta_cell_rad, config->eps_theta_rad);
-        rho_classic_spread_weights(target.rho_shares, classic->rho_reach, config->rho_cell_m,
-                                   config->eps_rho_m);
+        rho_hough_spread_weights(target.theta_shares, hough->theta_reach, config->theta_cell_rad,
+                                 config->eps_theta_rad);
+        rho_hough_spread_weights(target.rho_shares, hough->rho_reach, config->rho_cell_m,
+                                 config->eps_rho_m);
     }
     look_at_plots(&target, at_s, track);
 }

@@ -4,12 +4,12 @@
  * 3; the Hough transform against the same in double precision; whose votes a cell has, and the fit
  * through them.
  */
-#include "classic_cells.h"
+#include "hough_cells.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
-static const enum rho_classic_method methods[] = {RHO_CLASSIC_HT, RHO_CLASSIC_MHT, RHO_CLASSIC_IHT,
-                                                  RHO_CLASSIC_NHT_A, RHO_CLASSIC_NHT_C};
+static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO_HOUGH_IHT,
+                                                RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C};
 
 /* ---- the paper's scenes ---------------------------------------------------------------------- */
 
@@ -22,8 +22,8 @@ static struct line line_of_target(int target)
 static struct rho_accumulator_peak peak_near(struct line line)
 {
     for (uint32_t i = 0; i < result.num_peaks; i++) {
-        struct line at = {rho_classic_rho_m(&classic, peaks[i].rho_cell),
-                          rho_classic_theta_rad(&classic, peaks[i].theta_cell)};
+        struct line at = {rho_hough_rho_m(&hough, peaks[i].rho_cell),
+                          rho_hough_theta_rad(&hough, peaks[i].theta_cell)};
         struct line away = offset(line, at);
         if (fabs(away.rho) < 10.0 && fabs(away.theta) < 0.003) {
             return peaks[i];
@@ -40,13 +40,13 @@ static void the_three_targets_of_table_1_stand_out(void **state)
     for (size_t i = 0; i < NUM(highest); i++) {
         paper(methods[i]);
         find();
-        assert_in_range(result.votes_max, highest[i] * RHO_CLASSIC_VOTE - 20,
-                        highest[i] * RHO_CLASSIC_VOTE);
+        assert_in_range(result.votes_max, highest[i] * RHO_HOUGH_VOTE - 20,
+                        highest[i] * RHO_HOUGH_VOTE);
         for (int target = 0; target < 3; target++) {
-            assert_true(peak_near(line_of_target(target)).votes + RHO_CLASSIC_VOTE >=
+            assert_true(peak_near(line_of_target(target)).votes + RHO_HOUGH_VOTE >=
                         result.votes_max);
         }
-        assert_int_equal(result.pairs, methods[i] == RHO_CLASSIC_HT ? 0 : 54);
+        assert_int_equal(result.pairs, methods[i] == RHO_HOUGH_HT ? 0 : 54);
     }
 }
 
@@ -55,10 +55,10 @@ static void kernels_leave_only_the_targets_of_table_1(void **state)
 {
     (void)state;
     lay_table_1(7, 0.0, 0);
-    paper(RHO_CLASSIC_NHT_A);
+    paper(RHO_HOUGH_NHT_A);
     find();
     assert_int_equal(result.num_peaks, 3);
-    paper(RHO_CLASSIC_NHT_C);
+    paper(RHO_HOUGH_NHT_C);
     find();
     assert_int_equal(result.num_peaks, 3);
     assert_int_equal(result.votes, 3 * 5 * 289);
@@ -95,7 +95,7 @@ static void the_plots_of_table_3_do_not_stand_out(void **state)
         config.rho_max_m = 36000.0f;
         find();
         expect();
-        expect_cells(methods[i] == RHO_CLASSIC_NHT_A ? 8.0 : 0.0);
+        expect_cells(methods[i] == RHO_HOUGH_NHT_A ? 8.0 : 0.0);
         assert_float_equal(result.votes_max / 65536.0, highest[i], 6e-5);
         assert_int_equal(result.pairs, i ? 54 : 0);
         assert_int_equal(result.candidates, i ? 21 : 0);
@@ -141,7 +141,7 @@ static void hough_votes_as_in_double_precision(void **state)
     for (int run = 0; run < 6; run++) {
         lay_table_1(7 + (unsigned)run, 20.0, 0);
         add_plot(run % 2 ? 6000.0 : 4000.0, 100.0, 12.0); /* partly beyond rho_max */
-        paper_all(RHO_CLASSIC_HT);
+        paper_all(RHO_HOUGH_HT);
         config.votes = run % 3 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
         find();
         expect();
@@ -152,7 +152,7 @@ static void hough_votes_as_in_double_precision(void **state)
             for (; mask; mask &= mask - 1) {
                 bits++;
             }
-            assert_int_equal(bits * RHO_CLASSIC_VOTE, run % 3 ? 0 : peaks[i].votes);
+            assert_int_equal(bits * RHO_HOUGH_VOTE, run % 3 ? 0 : peaks[i].votes);
         }
         config.tau = 0.5f;
         config.votes_min = (float)(run % 4);
@@ -174,14 +174,14 @@ static void points_or_scans_are_counted(void **state)
             add_plot(300.0 * scan + 100.0 * i, 1002.5, 2.0 * scan);
         }
     }
-    paper(RHO_CLASSIC_HT);
+    paper(RHO_HOUGH_HT);
     find();
-    assert_int_equal(peaks[0].votes, 12 * RHO_CLASSIC_VOTE);
+    assert_int_equal(peaks[0].votes, 12 * RHO_HOUGH_VOTE);
     assert_int_equal(peaks[0].mask, 0);
     assert_int_equal(result.votes, 12 * 3142);
     config.votes = RHO_VOTES_SCANS;
     find();
-    assert_int_equal(peaks[0].votes, 4 * RHO_CLASSIC_VOTE);
+    assert_int_equal(peaks[0].votes, 4 * RHO_HOUGH_VOTE);
     assert_int_equal(peaks[0].mask, 0xf);
 }
 
@@ -204,7 +204,7 @@ static void add_voter(unsigned plot, int is_sure)
 /* Of a vote for a pair's own cell, does this one get some? */
 static int gets_some(struct place cell, struct place own)
 {
-    if (config.method == RHO_CLASSIC_NHT_C) {
+    if (config.method == RHO_HOUGH_NHT_C) {
         return suppresses(&(struct peak){0.0, own}, &(struct peak){0.0, cell});
     }
     return own.theta == cell.theta && own.rho == cell.rho;
@@ -255,7 +255,7 @@ static void look_up(struct rho_accumulator_peak peak)
 {
     memset(&voters, 0, sizeof voters);
     voters.is_sure = 1;
-    if (config.method == RHO_CLASSIC_HT) {
+    if (config.method == RHO_HOUGH_HT) {
         look_up_plots(peak);
     } else {
         look_up_pairs((struct place){peak.theta_cell, peak.rho_cell});
@@ -310,12 +310,12 @@ static void expect_axis(const struct fit *fit, int has_velocity, float at, float
 
 static void expect_track(struct rho_accumulator_peak peak, float at_s)
 {
-    struct rho_classic_track track;
+    struct rho_hough_track track;
     memset(&track, 0x5a, sizeof track);
-    assert_int_equal(
-        rho_classic_track(&classic, &points, peak.theta_cell, peak.rho_cell, at_s, &track), RHO_OK);
+    assert_int_equal(rho_hough_track(&hough, &points, peak.theta_cell, peak.rho_cell, at_s, &track),
+                     RHO_OK);
     struct fit x = fit_through(x_m), y = fit_through(y_m);
-    uint32_t slack = config.method == RHO_CLASSIC_NHT_C ? 2 * x.num : 0;
+    uint32_t slack = config.method == RHO_HOUGH_NHT_C ? 2 * x.num : 0;
     assert_true(track.votes <= peak.votes + slack && peak.votes <= track.votes + slack);
     assert_int_equal(track.num_plots, x.num);
     assert_int_equal(track.mask, x.mask);
@@ -406,7 +406,7 @@ static void a_velocity_holds_for_any_time(void **state)
     (void)state;
     const float at_s[] = {0.0f, 100.0f, -600.0f, 3600.0f, 100000.0f};
     lay_table_1(7, 0.0, 0);
-    paper(RHO_CLASSIC_IHT);
+    paper(RHO_HOUGH_IHT);
     find();
     for (size_t i = 0; i < NUM(at_s); i++) {
         look_up(peaks[0]);
@@ -420,11 +420,11 @@ static void a_cell_without_votes_has_no_track(void **state)
     (void)state;
     lay_table_1(7, 0.0, 0);
     for (size_t i = 0; i < NUM(methods); i++) {
-        struct rho_classic_track track;
+        struct rho_hough_track track;
         memset(&track, 0x5a, sizeof track);
         paper(methods[i]);
         prepare();
-        assert_int_equal(rho_classic_track(&classic, &points, 3141, 1999, 5.0f, &track), RHO_OK);
+        assert_int_equal(rho_hough_track(&hough, &points, 3141, 1999, 5.0f, &track), RHO_OK);
         assert_int_equal(track.votes + track.num_plots + track.mask + track.scans, 0);
         assert_int_equal(track.has_velocity, 0);
         assert_true(isfinite(track.x_m) && isfinite(track.y_m));
@@ -440,7 +440,7 @@ static void a_single_scan_has_a_place_and_no_velocity(void **state)
     start_scan();
     start_scan();
     add_plot(1000.0, 500.0, 3.0);
-    paper(RHO_CLASSIC_HT);
+    paper(RHO_HOUGH_HT);
     find_some(1);
     look_up(peaks[0]);
     expect_track(peaks[0], 9.0f);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "registration/calibrate_pieces.h"
+#include "registration/calibrate_segments.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,10 +8,10 @@
 #include "base/common.h"
 #include "registration/cholesky.h"
 
-#define PIECE_PLOTS 10
-#define PIECE_S 300.0 /* no longer: a path is no parabola for ever */
-#define LEAD_PLOTS 4  /* that lead on to the next one */
-#define POWERS_MAX 3  /* coefficients of an axis */
+#define SEGMENT_PLOTS 10
+#define SEGMENT_S 300.0 /* no longer: a path is no parabola for ever */
+#define LEAD_PLOTS 4    /* that lead on to the next one */
+#define POWERS_MAX 3    /* coefficients of an axis */
 #define MAX_UNKNOWN ((size_t)2 * POWERS_MAX)
 #define CUT2 4.0
 #define LEVERAGE_MAX 0.9
@@ -116,7 +116,7 @@ static bool fit(const struct register_data *data, const struct radar_track *trac
 
 static void add_residuals(const struct register_data *data, const struct radar_track *track,
                           size_t first, size_t count, bool is_round, const struct path *path,
-                          struct calibrate_pieces *pieces)
+                          struct calibrate_segments *segments)
 {
     const struct radar_plot *plots = data->radars[track->radar].plots;
 
@@ -131,10 +131,10 @@ static void add_residuals(const struct register_data *data, const struct radar_t
         if (leverage > LEVERAGE_MAX) {
             continue; /* the path goes through it, whatever its noise */
         }
-        pieces->residuals = must_grow(pieces->residuals, pieces->num_residuals,
-                                      &pieces->residuals_room, sizeof *pieces->residuals);
-        pieces->residuals[pieces->num_residuals++] = (struct residual){
-            .piece = pieces->num_pieces,
+        segments->residuals = must_grow(segments->residuals, segments->num_residuals,
+                                        &segments->residuals_room, sizeof *segments->residuals);
+        segments->residuals[segments->num_residuals++] = (struct residual){
+            .segment = segments->num_segments,
             .track = (size_t)(track - data->tracks),
             .axis = axis,
             .off_m = (place_along(plot, &axes, axis) - dot(row, path->solution, 2 * path->powers)) /
@@ -159,7 +159,7 @@ static bool looks_white(const struct residual *residuals, size_t count)
     return product[0] <= CORRELATION_MAX * square[0] && product[1] <= CORRELATION_MAX * square[1];
 }
 
-static struct calibrate_piece piece_of(const struct path *path, size_t track)
+static struct calibrate_segment segment_of(const struct path *path, size_t track)
 {
     double vx = path->solution[1], vy = path->solution[path->powers + 1];
     double speed_mps = hypot(vx, vy), row[MAX_UNKNOWN] = {0.0};
@@ -168,70 +168,71 @@ static struct calibrate_piece piece_of(const struct path *path, size_t track)
         row[1] = vx / speed_mps;
         row[path->powers + 1] = vy / speed_mps;
     }
-    return (struct calibrate_piece){track, speed_mps, sqrt(variance_of(path, row))};
+    return (struct calibrate_segment){track, speed_mps, sqrt(variance_of(path, row))};
 }
 
 /* A line where that will do, else a parabola: residuals are added, and it is true, where they look
  * like noise. */
-static bool fit_piece(const struct register_data *data, const struct radar_track *track,
-                      size_t first, bool is_round, struct path *path,
-                      struct calibrate_pieces *pieces)
+static bool fit_segment(const struct register_data *data, const struct radar_track *track,
+                        size_t first, bool is_round, struct path *path,
+                        struct calibrate_segments *segments)
 {
-    const size_t before = pieces->num_residuals;
+    const size_t before = segments->num_residuals;
 
     for (path->powers = 2; path->powers <= POWERS_MAX; path->powers++) {
-        if (!fit(data, track, first, PIECE_PLOTS, is_round, path)) {
+        if (!fit(data, track, first, SEGMENT_PLOTS, is_round, path)) {
             return false;
         }
-        add_residuals(data, track, first, PIECE_PLOTS, is_round, path, pieces);
-        if (looks_white(&pieces->residuals[before], pieces->num_residuals - before)) {
+        add_residuals(data, track, first, SEGMENT_PLOTS, is_round, path, segments);
+        if (looks_white(&segments->residuals[before], segments->num_residuals - before)) {
             return true;
         }
-        pieces->num_residuals = before;
+        segments->num_residuals = before;
     }
     return false;
 }
 
 static void cut_track(const struct register_data *data, size_t number, bool is_round,
-                      struct calibrate_pieces *pieces)
+                      struct calibrate_segments *segments)
 {
     const struct radar_track *track = &data->tracks[number];
     const struct radar_plot *plots = data->radars[track->radar].plots;
 
-    for (size_t first = 0; first + PIECE_PLOTS <= track->count; first += PIECE_PLOTS) {
-        const double took_s = seconds_of(data, &plots[track->plots[first + PIECE_PLOTS - 1]]) -
+    for (size_t first = 0; first + SEGMENT_PLOTS <= track->count; first += SEGMENT_PLOTS) {
+        const double took_s = seconds_of(data, &plots[track->plots[first + SEGMENT_PLOTS - 1]]) -
                               seconds_of(data, &plots[track->plots[first]]);
         struct path path;
 
-        if (took_s > PIECE_S) {
+        if (took_s > SEGMENT_S) {
             continue;
         }
-        if (!fit_piece(data, track, first, is_round, &path, pieces)) {
-            pieces->num_left_out++;
+        if (!fit_segment(data, track, first, is_round, &path, segments)) {
+            segments->num_left_out++;
             continue;
         }
-        pieces->pieces = must_grow(pieces->pieces, pieces->num_pieces, &pieces->pieces_room,
-                                   sizeof *pieces->pieces);
-        pieces->pieces[pieces->num_pieces++] = piece_of(&path, number);
+        segments->segments = must_grow(segments->segments, segments->num_segments,
+                                       &segments->segments_room, sizeof *segments->segments);
+        segments->segments[segments->num_segments++] = segment_of(&path, number);
     }
 }
 
-struct calibrate_pieces calibrate_cut(const struct register_data *data, size_t radar, bool is_round)
+struct calibrate_segments calibrate_cut(const struct register_data *data, size_t radar,
+                                        bool is_round)
 {
-    struct calibrate_pieces pieces = {.num_pieces = 0};
+    struct calibrate_segments segments = {.num_segments = 0};
 
     for (size_t i = 0; i < data->num_tracks; i++) {
         if (data->tracks[i].radar == radar) {
-            cut_track(data, i, is_round, &pieces);
+            cut_track(data, i, is_round, &segments);
         }
     }
-    return pieces;
+    return segments;
 }
 
-void calibrate_pieces_free(struct calibrate_pieces *pieces)
+void calibrate_segments_free(struct calibrate_segments *segments)
 {
-    free(pieces->pieces);
-    free(pieces->residuals);
+    free(segments->segments);
+    free(segments->residuals);
 }
 
 double calibrate_innovations(const struct register_data *data, size_t radar, bool is_round,

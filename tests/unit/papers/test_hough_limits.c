@@ -6,33 +6,33 @@
  */
 #include <float.h>
 
-#include "classic_cells.h"
+#include "hough_cells.h"
 #include "rhotrack/types.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
-static const enum rho_classic_method methods[] = {RHO_CLASSIC_HT, RHO_CLASSIC_MHT, RHO_CLASSIC_IHT,
-                                                  RHO_CLASSIC_NHT_A, RHO_CLASSIC_NHT_C};
+static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO_HOUGH_IHT,
+                                                RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C};
 
-static struct rho_classic was;
+static struct rho_hough was;
 
 /* ---- configs --------------------------------------------------------------------------------- */
 
 static void refuse_config(void)
 {
-    memset(&classic, 0x5a, sizeof classic);
-    was = classic;
-    assert_int_equal(rho_classic_init(&classic, sizeof classic, &config), RHO_ERROR_CONFIG);
-    assert_memory_equal(&classic, &was, sizeof was);
+    memset(&hough, 0x5a, sizeof hough);
+    was = hough;
+    assert_int_equal(rho_hough_init(&hough, sizeof hough, &config), RHO_ERROR_CONFIG);
+    assert_memory_equal(&hough, &was, sizeof was);
 }
 
 static void accept_config(void)
 {
-    assert_int_equal(rho_classic_init(&classic, sizeof classic, &config), RHO_OK);
+    assert_int_equal(rho_hough_init(&hough, sizeof hough, &config), RHO_OK);
 }
 
-#define REFUSED(field, value) (paper(RHO_CLASSIC_NHT_C), config.field = (value), refuse_config())
-#define ACCEPTED(field, value) (paper(RHO_CLASSIC_NHT_C), config.field = (value), accept_config())
+#define REFUSED(field, value) (paper(RHO_HOUGH_NHT_C), config.field = (value), refuse_config())
+#define ACCEPTED(field, value) (paper(RHO_HOUGH_NHT_C), config.field = (value), accept_config())
 
 static void bad_planes_are_refused(void **state)
 {
@@ -55,7 +55,7 @@ static void bad_planes_are_refused(void **state)
     ACCEPTED(eps_rho_m, 5.0f * 127.0f);
     REFUSED(eps_theta_rad, 0.128f);
     ACCEPTED(eps_theta_rad, 0.127f);
-    paper(RHO_CLASSIC_MHT);
+    paper(RHO_HOUGH_MHT);
     config.theta_cell_rad = 0.1f;
     config.eps_theta_rad = 0.5f;
     accept_config();
@@ -86,9 +86,9 @@ static void bad_thresholds_are_refused(void **state)
     ACCEPTED(lambda_k, 0.0f);
     ACCEPTED(tau, 1.0f);
     ACCEPTED(votes_min, 60000.0f);
-    REFUSED(method, (enum rho_classic_method)5);
-    REFUSED(method, (enum rho_classic_method)77);
-    paper(RHO_CLASSIC_HT);
+    REFUSED(method, (enum rho_hough_method)5);
+    REFUSED(method, (enum rho_hough_method)77);
+    paper(RHO_HOUGH_HT);
     config.votes = (enum rho_accumulator_votes)2;
     refuse_config();
 }
@@ -96,14 +96,14 @@ static void bad_thresholds_are_refused(void **state)
 static void other_sizes_and_null_are_refused(void **state)
 {
     (void)state;
-    paper(RHO_CLASSIC_IHT);
-    memset(&classic, 0x5a, sizeof classic);
-    was = classic;
-    assert_int_equal(rho_classic_init(NULL, sizeof classic, &config), RHO_ERROR_NULL);
-    assert_int_equal(rho_classic_init(&classic, sizeof classic, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_classic_init(&classic, sizeof classic - 1, &config), RHO_ERROR_SIZE);
-    assert_int_equal(rho_classic_init(&classic, 0, &config), RHO_ERROR_SIZE);
-    assert_memory_equal(&classic, &was, sizeof was);
+    paper(RHO_HOUGH_IHT);
+    memset(&hough, 0x5a, sizeof hough);
+    was = hough;
+    assert_int_equal(rho_hough_init(NULL, sizeof hough, &config), RHO_ERROR_NULL);
+    assert_int_equal(rho_hough_init(&hough, sizeof hough, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_hough_init(&hough, sizeof hough - 1, &config), RHO_ERROR_SIZE);
+    assert_int_equal(rho_hough_init(&hough, 0, &config), RHO_ERROR_SIZE);
+    assert_memory_equal(&hough, &was, sizeof was);
 }
 
 static void defaults_are_the_papers(void **state)
@@ -111,7 +111,7 @@ static void defaults_are_the_papers(void **state)
     (void)state;
     for (size_t i = 0; i < NUM(methods); i++) {
         memset(&config, 0x5a, sizeof config);
-        rho_classic_config_default(&config, methods[i]);
+        rho_hough_config_default(&config, methods[i]);
         accept_config();
         assert_int_equal(config.method, methods[i]);
         assert_true(config.rho_cell_m == 5.0f && config.theta_cell_rad == 0.001f);
@@ -127,31 +127,31 @@ static void defaults_are_the_papers(void **state)
 static void a_cell_is_where_it_says(void **state)
 {
     (void)state;
-    paper(RHO_CLASSIC_MHT);
+    paper(RHO_HOUGH_MHT);
     prepare();
-    assert_float_equal(rho_classic_theta_rad(&classic, 0), 0.0005, 1e-9);
-    assert_float_equal(rho_classic_theta_rad(&classic, 3141), 3.1415, 1e-6);
-    assert_float_equal(rho_classic_rho_m(&classic, 0), -4997.5, 1e-3);
-    assert_float_equal(rho_classic_rho_m(&classic, 1999), 4997.5, 1e-3);
-    assert_true(sizeof classic <= RHO_RAM_CLASSIC_BYTES);
+    assert_float_equal(rho_hough_theta_rad(&hough, 0), 0.0005, 1e-9);
+    assert_float_equal(rho_hough_theta_rad(&hough, 3141), 3.1415, 1e-6);
+    assert_float_equal(rho_hough_rho_m(&hough, 0), -4997.5, 1e-3);
+    assert_float_equal(rho_hough_rho_m(&hough, 1999), 4997.5, 1e-3);
+    assert_true(sizeof hough <= RHO_RAM_HOUGH_BYTES);
 }
 
 /* ---- inputs ---------------------------------------------------------------------------------- */
 
 /* Neither peaks nor result are touched. */
-static void refuse(enum rho_status expected, const struct rho_classic_points *input)
+static void refuse(enum rho_status expected, const struct rho_hough_points *input)
 {
     static struct rho_accumulator_peak some[4], some_were[4];
-    struct rho_classic_result results, results_were;
-    struct rho_classic_track track, track_was;
+    struct rho_hough_result results, results_were;
+    struct rho_hough_track track, track_was;
     memset(some, 0x3c, sizeof some);
     memset(&results, 0x3c, sizeof results);
     memset(&track, 0x3c, sizeof track);
     memcpy(some_were, some, sizeof some);
     results_were = results;
     track_was = track;
-    assert_int_equal(rho_classic_find(&classic, input, some, 4, &results), expected);
-    assert_int_equal(rho_classic_track(&classic, input, 0, 0, 0.0f, &track), expected);
+    assert_int_equal(rho_hough_find(&hough, input, some, 4, &results), expected);
+    assert_int_equal(rho_hough_track(&hough, input, 0, 0, 0.0f, &track), expected);
     assert_memory_equal(some, some_were, sizeof some);
     assert_memory_equal(&results, &results_were, sizeof results);
     assert_memory_equal(&track, &track_was, sizeof track);
@@ -160,10 +160,10 @@ static void refuse(enum rho_status expected, const struct rho_classic_points *in
 static void null_is_refused(void **state)
 {
     (void)state;
-    struct rho_classic_track track;
+    struct rho_hough_track track;
     lay_table_1(3, 0.0, 0);
     for (size_t i = 0; i < NUM(methods); i++) {
-        struct rho_classic_points without[4] = {points, points, points, points};
+        struct rho_hough_points without[4] = {points, points, points, points};
         without[0].at.x_m = NULL;
         without[1].at.y_m = NULL;
         without[2].at.scan_end = NULL;
@@ -174,11 +174,11 @@ static void null_is_refused(void **state)
             refuse(RHO_ERROR_NULL, &without[k]);
         }
         refuse(RHO_ERROR_NULL, NULL);
-        assert_int_equal(rho_classic_find(NULL, &points, peaks, 4, &result), RHO_ERROR_NULL);
-        assert_int_equal(rho_classic_find(&classic, &points, NULL, 4, &result), RHO_ERROR_NULL);
-        assert_int_equal(rho_classic_find(&classic, &points, peaks, 4, NULL), RHO_ERROR_NULL);
-        assert_int_equal(rho_classic_track(NULL, &points, 0, 0, 0.0f, &track), RHO_ERROR_NULL);
-        assert_int_equal(rho_classic_track(&classic, &points, 0, 0, 0.0f, NULL), RHO_ERROR_NULL);
+        assert_int_equal(rho_hough_find(NULL, &points, peaks, 4, &result), RHO_ERROR_NULL);
+        assert_int_equal(rho_hough_find(&hough, &points, NULL, 4, &result), RHO_ERROR_NULL);
+        assert_int_equal(rho_hough_find(&hough, &points, peaks, 4, NULL), RHO_ERROR_NULL);
+        assert_int_equal(rho_hough_track(NULL, &points, 0, 0, 0.0f, &track), RHO_ERROR_NULL);
+        assert_int_equal(rho_hough_track(&hough, &points, 0, 0, 0.0f, NULL), RHO_ERROR_NULL);
     }
 }
 
@@ -203,7 +203,7 @@ static void cells_outside_the_plane_and_bad_times_are_refused(void **state)
     (void)state;
     const unsigned outside[][2] = {
         {3142, 0}, {0, 2000}, {65536, 0}, {0, 65536}, {UINT32_MAX, UINT32_MAX}};
-    struct rho_classic_track track, track_was;
+    struct rho_hough_track track, track_was;
     memset(&track, 0x3c, sizeof track);
     track_was = track;
     lay_table_1(3, 0.0, 0);
@@ -212,10 +212,10 @@ static void cells_outside_the_plane_and_bad_times_are_refused(void **state)
         prepare();
         for (size_t k = 0; k < NUM(outside); k++) {
             assert_int_equal(
-                rho_classic_track(&classic, &points, outside[k][0], outside[k][1], 0.0f, &track),
+                rho_hough_track(&hough, &points, outside[k][0], outside[k][1], 0.0f, &track),
                 RHO_ERROR_VALUE);
         }
-        assert_int_equal(rho_classic_track(&classic, &points, 5, 5, NAN, &track), RHO_ERROR_VALUE);
+        assert_int_equal(rho_hough_track(&hough, &points, 5, 5, NAN, &track), RHO_ERROR_VALUE);
         assert_memory_equal(&track, &track_was, sizeof track);
     }
 }
@@ -253,7 +253,7 @@ static void a_scan_has_65535_plots_at_most(void **state)
             prepare();
             if (extra) {
                 refuse(RHO_ERROR_VALUE, &points);
-            } else if (methods[i] == RHO_CLASSIC_NHT_A || methods[i] == RHO_CLASSIC_NHT_C) {
+            } else if (methods[i] == RHO_HOUGH_NHT_A || methods[i] == RHO_HOUGH_NHT_C) {
                 find();
                 assert_int_equal(result.pairs, 65535);
                 assert_int_equal(result.votes, 0);
@@ -266,9 +266,9 @@ static void an_object_never_initialised_is_refused(void **state)
 {
     (void)state;
     lay_table_1(3, 0.0, 0);
-    memset(&classic, 0, sizeof classic);
+    memset(&hough, 0, sizeof hough);
     refuse(RHO_ERROR_STATE, &points);
-    memset(&classic, 0x5a, sizeof classic);
+    memset(&hough, 0x5a, sizeof hough);
     refuse(RHO_ERROR_STATE, &points);
 }
 
@@ -279,7 +279,7 @@ static void limits_are_those_of_the_header(void **state)
     ACCEPTED(eps_rho_m, 0.001f);
     lay_table_1(3, 0.0, 0);
     t_s[4] = 1.001e9f;
-    paper(RHO_CLASSIC_MHT);
+    paper(RHO_HOUGH_MHT);
     prepare();
     refuse(RHO_ERROR_VALUE, &points);
 }
@@ -289,7 +289,7 @@ static void a_threshold_between_two_numbers_is_not_rounded_down(void **state)
 {
     (void)state;
     lay_table_1(2, 0.0, 0);
-    paper_all(RHO_CLASSIC_IHT);
+    paper_all(RHO_HOUGH_IHT);
     config.votes_min = 1.0f;
     find();
     assert_int_equal(result.num_peaks, 3);
@@ -368,15 +368,15 @@ static void lay_abreast(unsigned num)
 static void more_pairs_of_one_direction_than_there_is_room_for_are_counted(void **state)
 {
     (void)state;
-    lay_abreast(RHO_MAX_CLASSIC_KERNELS);
-    paper_all(RHO_CLASSIC_NHT_A);
+    lay_abreast(RHO_MAX_HOUGH_KERNELS);
+    paper_all(RHO_HOUGH_NHT_A);
     config.v_min_mps = 150.0f;
     config.v_max_mps = 162.0f;
     find(); /* as many as there is room for */
     expect();
     expect_cells(4.0);
     uint32_t cells_with_room = result.num_peaks;
-    lay_abreast(RHO_MAX_CLASSIC_KERNELS + 44);
+    lay_abreast(RHO_MAX_HOUGH_KERNELS + 44);
     find_some(CELLS_MAX);
     assert_true(result.kernels_dropped >= 44);
     assert_true(result.num_peaks >= cells_with_room / 2);
@@ -385,7 +385,7 @@ static void more_pairs_of_one_direction_than_there_is_room_for_are_counted(void 
         const struct cell *cell =
             cell_of(peaks[i].theta_cell * (uint32_t)num_rho() + peaks[i].rho_cell);
         assert_non_null(cell);
-        assert_true(peaks[i].votes <= cell->worth.most * RHO_CLASSIC_VOTE + 4.0 * cell->sources);
+        assert_true(peaks[i].votes <= cell->worth.most * RHO_HOUGH_VOTE + 4.0 * cell->sources);
     }
 }
 
@@ -403,18 +403,18 @@ static void expect_nothing(void)
 static void nothing_gives_nothing(void **state)
 {
     (void)state;
-    const struct rho_classic_points none = {.at = {.num_scans = 0}};
+    const struct rho_hough_points none = {.at = {.num_scans = 0}};
     for (size_t i = 0; i < NUM(methods); i++) {
         paper_all(methods[i]);
         points.at.num_scans = 0;
         expect_nothing();
-        assert_int_equal(rho_classic_find(&classic, &none, peaks, 4, &result), RHO_OK);
+        assert_int_equal(rho_hough_find(&hough, &none, peaks, 4, &result), RHO_OK);
         assert_int_equal(result.num_peaks, 0);
         for (unsigned scan = 0; scan < 16; scan++) {
             start_scan();
         }
         expect_nothing();
-        if (methods[i] != RHO_CLASSIC_HT) {
+        if (methods[i] != RHO_HOUGH_HT) {
             lay_table_1(1, 0.0, 0);
             expect_nothing();
         }
@@ -437,7 +437,7 @@ static void a_scan_without_plots_parts_pairs(void **state)
         find();
         assert_int_equal(result.pairs, 4);
         assert_int_equal(result.candidates, 4);
-        assert_int_equal(peaks[0].votes, RHO_CLASSIC_VOTE * (i < 3 ? 4u : 2u));
+        assert_int_equal(peaks[0].votes, RHO_HOUGH_VOTE * (i < 3 ? 4u : 2u));
     }
 }
 
@@ -459,7 +459,7 @@ static void plots_in_one_place_do_not_vote_as_a_pair(void **state)
         expect_cells(4.0);
         assert_int_equal(result.pairs, 12);
         assert_true(result.candidates >= 6);
-        assert_int_equal(peaks[0].votes, RHO_CLASSIC_VOTE * (i < 3 ? 6u : 4u));
+        assert_int_equal(peaks[0].votes, RHO_HOUGH_VOTE * (i < 3 ? 6u : 4u));
     }
 }
 
@@ -477,8 +477,7 @@ static void pairs_of_no_time_are_no_candidates(void **state)
             config.v_min_mps = 0.0f;
             find();
             assert_int_equal(result.candidates, 0);
-            assert_int_equal(result.votes_max,
-                             i > 1 ? 0 : RHO_CLASSIC_VOTE * (methods[i] ? 4u : 5u));
+            assert_int_equal(result.votes_max, i > 1 ? 0 : RHO_HOUGH_VOTE * (methods[i] ? 4u : 5u));
         }
     }
 }
@@ -493,13 +492,13 @@ static void sixteen_scans_vote(void **state)
     }
     const uint32_t highest[] = {16, 15, 15, 14, 14};
     for (size_t i = 0; i < NUM(methods); i++) {
-        struct rho_classic_track track;
+        struct rho_hough_track track;
         paper(methods[i]);
         find();
-        assert_int_equal(peaks[0].votes, highest[i] * RHO_CLASSIC_VOTE);
-        assert_int_equal(rho_classic_track(&classic, &points, peaks[0].theta_cell,
-                                           peaks[0].rho_cell, 15.0f, &track),
-                         RHO_OK);
+        assert_int_equal(peaks[0].votes, highest[i] * RHO_HOUGH_VOTE);
+        assert_int_equal(
+            rho_hough_track(&hough, &points, peaks[0].theta_cell, peaks[0].rho_cell, 15.0f, &track),
+            RHO_OK);
         assert_int_equal(track.mask, i < 3 ? 0xffff : 0xfffe);
         assert_int_equal(track.scans, i < 3 ? 16 : 15);
         assert_float_equal(track.x_m, 1750.0, 0.01);
@@ -513,9 +512,9 @@ static void pairs_are_counted_without_a_search(void **state)
     uint32_t pairs = 7, candidates = 7;
     random_state = 33;
     lay_table_1(7, 10.0, 1);
-    paper(RHO_CLASSIC_IHT);
+    paper(RHO_HOUGH_IHT);
     find();
-    rho_classic_count_pairs(&classic, &points, &pairs, &candidates);
+    rho_hough_count_pairs(&hough, &points, &pairs, &candidates);
     assert_int_equal(pairs, result.pairs);
     assert_int_equal(candidates, result.candidates);
     assert_true(pairs > 10 * candidates / 2 && candidates > 1000);
@@ -527,11 +526,11 @@ static void what_was_in_it_before_does_not_matter(void **state)
 {
     (void)state;
     static struct rho_accumulator_peak first[20000];
-    struct rho_classic_result first_result;
+    struct rho_hough_result first_result;
     random_state = 34;
     lay_table_1(7, 10.0, 1);
     for (size_t i = 0; i < 4 * NUM(methods); i++) {
-        memset(&classic, 0, sizeof classic);
+        memset(&hough, 0, sizeof hough);
         paper(methods[i / 4]);
         config.keeps_all_cells = i & 1;
         config.uses_indeterminacy = 1;
@@ -539,15 +538,15 @@ static void what_was_in_it_before_does_not_matter(void **state)
         first_result = result;
         memcpy(first, peaks, sizeof first);
         memset(peaks, 0x77, sizeof first);
-        memset(&classic, i & 2 ? 0xa5 : 0xff, sizeof classic);
+        memset(&hough, i & 2 ? 0xa5 : 0xff, sizeof hough);
         prepare();
-        memset(&classic.work, i & 2 ? 0x01 : 0xa5, sizeof classic.work);
+        memset(&hough.work, i & 2 ? 0x01 : 0xa5, sizeof hough.work);
         memset(&result, 0x13, sizeof result);
         for (int again = 0; again < 2; again++) {
-            if (methods[i / 4] == RHO_CLASSIC_HT && !again) {
+            if (methods[i / 4] == RHO_HOUGH_HT && !again) {
                 prepare(); /* its accumulator was set up by init */
             }
-            assert_int_equal(rho_classic_find(&classic, &points, peaks, 20000, &result), RHO_OK);
+            assert_int_equal(rho_hough_find(&hough, &points, peaks, 20000, &result), RHO_OK);
             assert_memory_equal(&result, &first_result, sizeof result);
             assert_memory_equal(peaks, first, result.num_peaks * sizeof *first);
         }
@@ -559,7 +558,7 @@ static void methods_take_turns(void **state)
 {
     (void)state;
     uint32_t num[NUM(methods)], most[NUM(methods)];
-    struct rho_classic_track track;
+    struct rho_hough_track track;
     random_state = 35;
     lay_table_1(7, 10.0, 1);
     for (size_t i = 0; i < 15; i++) {
@@ -570,10 +569,10 @@ static void methods_take_turns(void **state)
         num[k] = result.num_peaks;
         most[k] = result.votes_max;
         uint32_t before = peaks[0].votes;
-        assert_int_equal(rho_classic_track(&classic, &points, peaks[0].theta_cell,
-                                           peaks[0].rho_cell, 0.0f, &track),
-                         RHO_OK);
-        assert_int_equal(rho_classic_find(&classic, &points, peaks, CELLS_MAX, &result), RHO_OK);
+        assert_int_equal(
+            rho_hough_track(&hough, &points, peaks[0].theta_cell, peaks[0].rho_cell, 0.0f, &track),
+            RHO_OK);
+        assert_int_equal(rho_hough_find(&hough, &points, peaks, CELLS_MAX, &result), RHO_OK);
         assert_int_equal(peaks[0].votes, before);
         assert_int_equal(result.num_peaks, num[k]);
     }

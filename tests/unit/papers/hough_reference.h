@@ -8,8 +8,8 @@
  * either way: a cell has the least and the most votes that it can have, and value, what exact
  * arithmetic gives it.
  */
-#ifndef RHOTRACK_TESTS_CLASSIC_REFERENCE_H
-#define RHOTRACK_TESTS_CLASSIC_REFERENCE_H
+#ifndef RHOTRACK_TESTS_HOUGH_REFERENCE_H
+#define RHOTRACK_TESTS_HOUGH_REFERENCE_H
 
 #include <math.h>
 #include <setjmp.h>
@@ -21,7 +21,7 @@
 
 #include <cmocka.h>
 
-#include "rhotrack/classic.h"
+#include "rhotrack/hough.h"
 
 #define REFERENCE_PI 3.14159265358979323846
 #define CELL_SLACK 1e-3 /* of a cell */
@@ -29,7 +29,7 @@
 #define GATE_SLACK 1e-6 /* of a length */
 #define VOTE_SLACK 2e-4 /* about the threshold F */
 
-static struct rho_classic_config config;
+static struct rho_hough_config config;
 
 /* ---- plots ----------------------------------------------------------------------------------- */
 
@@ -37,8 +37,8 @@ static struct rho_classic_config config;
 
 static float x_m[PLOTS_MAX], y_m[PLOTS_MAX], t_s[PLOTS_MAX];
 static uint32_t scan_end[RHO_ACCUMULATOR_SCANS_MAX + 1];
-static struct rho_classic_points points = {.at = {.x_m = x_m, .y_m = y_m, .scan_end = scan_end},
-                                           .t_s = t_s};
+static struct rho_hough_points points = {.at = {.x_m = x_m, .y_m = y_m, .scan_end = scan_end},
+                                         .t_s = t_s};
 static uint64_t random_state = 1;
 
 /* No libm: the same plots everywhere. */
@@ -283,7 +283,7 @@ static inline struct pairs pairs_of(unsigned scan)
     for (unsigned a = (unsigned)from; a < middle; a++) {
         for (unsigned b = (unsigned)middle; b < end; b++) {
             enum verdict gated = is_gated(a, b);
-            if (length_of(a, b) > 0.0 && (gated != NO || config.method == RHO_CLASSIC_MHT)) {
+            if (length_of(a, b) > 0.0 && (gated != NO || config.method == RHO_HOUGH_MHT)) {
                 pairs.list[pairs.num++] = (struct pair){a, b, line_of_plots(a, b), gated};
             }
         }
@@ -384,10 +384,10 @@ static inline struct worth neutrosophic(const struct pair *pair, const struct pa
 static inline struct worth worth_of(const struct pair *pair, const struct pairs *kernels)
 {
     struct worth worth = {1.0, 1.0, 1.0};
-    if (config.method == RHO_CLASSIC_MHT) {
+    if (config.method == RHO_HOUGH_MHT) {
         return worth;
     }
-    if (config.method != RHO_CLASSIC_IHT) {
+    if (config.method != RHO_HOUGH_IHT) {
         worth = neutrosophic(pair, kernels);
     }
     if (pair->gated != YES) {

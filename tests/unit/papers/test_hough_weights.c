@@ -3,7 +3,7 @@
  * What the neutrosophic vote is worth: T, I and F against the same in double precision; votes in 1
  * / 65536 against exact ones.
  */
-#include "classic_cells.h"
+#include "hough_cells.h"
 
 #define PARTS                                                                                      \
     16.0 /* of a vote, 2^-12, that a voter may be off; without I it is a quarter of that */
@@ -18,7 +18,7 @@ static void indeterminacy_raises_votes_as_in_double_precision(void **state)
     random_state = 14;
     for (int run = 0; run < 4; run++) {
         lay_table_1(7, 10.0, 1);
-        paper_all(run % 2 ? RHO_CLASSIC_NHT_C : RHO_CLASSIC_NHT_A);
+        paper_all(run % 2 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
         find();
         uint32_t num = result.num_peaks;
         memcpy(without, peaks, num * sizeof *peaks);
@@ -50,7 +50,7 @@ static void two_kernels_vouch_for_the_line_between(void **state)
     start_scan();
     add_plot(1100.0, 1000.0, 4.0);
     for (int run = 0; run < 4; run++) {
-        paper_all(RHO_CLASSIC_NHT_A);
+        paper_all(RHO_HOUGH_NHT_A);
         config.uses_indeterminacy = run & 1;
         config.lambda_k = run & 2 ? 8800.0f : 1.0f; /* F 0.88: T does not reach it, I does */
         find();
@@ -69,7 +69,7 @@ static void falsehood_above_a_vote_silences_it(void **state)
     random_state = 15;
     lay_table_1(7, 10.0, 1);
     for (float lambda = 1.0f; lambda < 2e4f; lambda *= 3.0f) {
-        paper_all(RHO_CLASSIC_NHT_A);
+        paper_all(RHO_HOUGH_NHT_A);
         config.lambda_k = lambda;
         find();
         expect();
@@ -88,7 +88,7 @@ static void pairs_without_votes_are_kernels(void **state)
 {
     (void)state;
     lay_table_1(3, 0.0, 0);
-    paper_all(RHO_CLASSIC_NHT_A);
+    paper_all(RHO_HOUGH_NHT_A);
     find();
     assert_int_equal(result.votes, 3);
     points.at.num_scans = 2;
@@ -126,7 +126,7 @@ static void whole_numbers_choose_the_peaks_of_exact_arithmetic(void **state)
     for (int seed = 0; seed < 20; seed++) {
         lay_table_1(7, seed % 2 ? 10.0 : 0.6, 1);
         for (int variant = 0; variant < 4; variant += seed % 5 ? 2 : 1) {
-            paper(variant & 1 ? RHO_CLASSIC_NHT_C : RHO_CLASSIC_NHT_A);
+            paper(variant & 1 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
             config.lambda_k = variant & 2 ? 10.0f : 1.0f;
             find();
             expect();
@@ -153,7 +153,7 @@ static void of_equally_near_kernels_the_first_counts(void **state)
     (void)state;
     for (int run = 0; run < 12000; run++) {
         unsigned count = 0;
-        paper(RHO_CLASSIC_NHT_A);
+        paper(RHO_HOUGH_NHT_A);
         config.uses_indeterminacy = 1;
         config.v_min_mps = 0.0f;
         config.eps_rho_m = 35.0f;
@@ -171,9 +171,9 @@ static void of_equally_near_kernels_the_first_counts(void **state)
         }
         find();
         for (uint32_t i = 0; i < result.num_peaks; i++) {
-            struct rho_classic_track track;
-            assert_int_equal(rho_classic_track(&classic, &points, peaks[i].theta_cell,
-                                               peaks[i].rho_cell, 0.0f, &track),
+            struct rho_hough_track track;
+            assert_int_equal(rho_hough_track(&hough, &points, peaks[i].theta_cell,
+                                             peaks[i].rho_cell, 0.0f, &track),
                              RHO_OK);
             assert_int_equal(track.votes, peaks[i].votes);
         }

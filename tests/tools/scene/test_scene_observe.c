@@ -15,7 +15,7 @@
 static struct scene_run *watch_text(const char *text, struct scene **scene, uint64_t seed)
 {
     *scene = scene_of(text);
-    return scene_watch(*scene, seed, 0);
+    return scene_observe(*scene, seed, 0);
 }
 
 static void end_watch(struct scene_run *run, struct scene *scene)

@@ -4,21 +4,21 @@
  * with other parameters, about the end of theta. The embedded build takes theta in parts there, the
  * workstation's all at once.
  */
-#include "classic_cells.h"
+#include "hough_cells.h"
 
 #define PARTS 4.0 /* of a vote, 2^-14, that a voter may be off */
 
-static const enum rho_classic_method methods[] = {RHO_CLASSIC_MHT, RHO_CLASSIC_IHT,
-                                                  RHO_CLASSIC_NHT_A, RHO_CLASSIC_NHT_C};
+static const enum rho_hough_method methods[] = {RHO_HOUGH_MHT, RHO_HOUGH_IHT, RHO_HOUGH_NHT_A,
+                                                RHO_HOUGH_NHT_C};
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
 /* Midpoints of kernels are rounded once more. */
 static double slack(void)
 {
-    return config.method == RHO_CLASSIC_MHT || config.method == RHO_CLASSIC_IHT ? 0.0
-           : config.uses_indeterminacy                                          ? 4.0 * PARTS
-                                                                                : PARTS;
+    return config.method == RHO_HOUGH_MHT || config.method == RHO_HOUGH_IHT ? 0.0
+           : config.uses_indeterminacy                                      ? 4.0 * PARTS
+                                                                            : PARTS;
 }
 
 /* All cells, then the peaks that follow from them at half the most votes. */
@@ -72,7 +72,7 @@ static void the_embedded_build_takes_theta_in_parts(void **state)
 #ifdef RHO_PROFILE_WORKSTATION
         assert_true(result.passes >= 1);
 #else
-        assert_true(result.passes > 1 || config.method == RHO_CLASSIC_IHT);
+        assert_true(result.passes > 1 || config.method == RHO_HOUGH_IHT);
         assert_true(result.passes <= 200);
 #endif
     }
@@ -94,7 +94,7 @@ static void other_cells_and_limits_vote_as_in_double_precision(void **state)
         config.v_max_mps = (float)uniform(250.0, 500.0);
         config.lambda_k = (float)uniform(0.0, 3000.0);
         config.uses_indeterminacy = run / 4 % 2;
-        if (config.method == RHO_CLASSIC_NHT_A || config.method == RHO_CLASSIC_NHT_C) {
+        if (config.method == RHO_HOUGH_NHT_A || config.method == RHO_HOUGH_NHT_C) {
             config.rho_max_m = 5000.0f;
             config.rho_cell_m = fmaxf(config.rho_cell_m, 5.0f);
         }
@@ -217,7 +217,7 @@ static void a_vertical_target_is_one_peak(void **state)
     unsigned kernels_beyond = 0;
     for (int run = 0; run < 10; run++) {
         lay_columns(0.1, 0.0);
-        paper(RHO_CLASSIC_NHT_A);
+        paper(RHO_HOUGH_NHT_A);
         config.tau = 0.25f;
         config.votes_min = 1.8f;
         find();
@@ -226,9 +226,9 @@ static void a_vertical_target_is_one_peak(void **state)
         assert_int_equal(result.candidates, 48);
         for (uint32_t i = 0; i < result.num_peaks; i++) {
             for (uint32_t k = 0; k < i; k++) {
-                double other = rho_classic_rho_m(&classic, peaks[k].rho_cell);
+                double other = rho_hough_rho_m(&hough, peaks[k].rho_cell);
                 other = abs(peaks[i].theta_cell - peaks[k].theta_cell) > 1571 ? -other : other;
-                assert_true(fabs(rho_classic_rho_m(&classic, peaks[i].rho_cell) - other) > 400.0);
+                assert_true(fabs(rho_hough_rho_m(&hough, peaks[i].rho_cell) - other) > 400.0);
             }
             kernels_beyond += peaks[i].theta_cell > 1571;
         }
@@ -253,7 +253,7 @@ static void a_vertical_line_is_in_the_first_row(void **state)
             assert_int_equal(result.num_peaks, 1);
             assert_int_equal(peaks[0].theta_cell, 0);
             assert_int_equal(peaks[0].rho_cell, i & 1 ? 699 : 1300);
-            assert_int_equal(peaks[0].votes, RHO_CLASSIC_VOTE * (m < 2 ? 4u : 3u));
+            assert_int_equal(peaks[0].votes, RHO_HOUGH_VOTE * (m < 2 ? 4u : 3u));
         }
     }
 }
@@ -267,11 +267,11 @@ static void a_vote_is_spread_round_the_end_of_theta(void **state)
         start_scan();
         add_plot(1502.5, 500.0 * scan, 2.0 * scan);
     }
-    paper_all(RHO_CLASSIC_NHT_C);
+    paper_all(RHO_HOUGH_NHT_C);
     find();
     assert_int_equal(result.votes, 289);
     assert_int_equal(result.num_peaks, 289);
-    assert_int_equal(peaks[0].votes, RHO_CLASSIC_VOTE);
+    assert_int_equal(peaks[0].votes, RHO_HOUGH_VOTE);
     unsigned mirrored = 0;
     for (uint32_t i = 0; i < result.num_peaks; i++) {
         int is_beyond = peaks[i].theta_cell > 1571, centre = is_beyond ? 1999 - 1300 : 1300;
@@ -293,7 +293,7 @@ static void a_vote_is_not_spread_beyond_the_largest_rho(void **state)
         start_scan();
         add_plot(500.0 * scan, 4982.5, 2.0 * scan); /* the fourth cell from the end */
     }
-    paper_all(RHO_CLASSIC_NHT_C);
+    paper_all(RHO_HOUGH_NHT_C);
     find();
     assert_int_equal(result.votes, 17 * (9 + 3));
     expect();

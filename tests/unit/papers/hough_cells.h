@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The cells, peaks and tracks of classic_reference.h's votes, and the library's beside them.
+ * The cells, peaks and tracks of hough_reference.h's votes, and the library's beside them.
  */
-#ifndef RHOTRACK_TESTS_CLASSIC_CELLS_H
-#define RHOTRACK_TESTS_CLASSIC_CELLS_H
+#ifndef RHOTRACK_TESTS_HOUGH_CELLS_H
+#define RHOTRACK_TESTS_HOUGH_CELLS_H
 
-#include "classic_reference.h"
+#include "hough_reference.h"
 
 #define CELLS_MAX 800000
 
 /* ---- the library's --------------------------------------------------------------------------- */
 
-static struct rho_classic classic;
-static struct rho_classic_result result;
+static struct rho_hough hough;
+static struct rho_hough_result result;
 static struct rho_accumulator_peak peaks[CELLS_MAX];
 
 static inline void prepare(void)
 {
-    assert_int_equal(rho_classic_init(&classic, sizeof classic, &config), RHO_OK);
+    assert_int_equal(rho_hough_init(&hough, sizeof hough, &config), RHO_OK);
 }
 
 static inline void find_some(uint32_t max_peaks)
 {
     prepare();
     memset(&result, 0x5a, sizeof result);
-    assert_int_equal(rho_classic_find(&classic, &points, peaks, max_peaks, &result), RHO_OK);
+    assert_int_equal(rho_hough_find(&hough, &points, peaks, max_peaks, &result), RHO_OK);
 }
 
 static inline void find(void)
@@ -36,14 +36,14 @@ static inline void find(void)
 }
 
 /* The paper's values for its first scene, 2000 x 3142 cells. */
-static inline void paper(enum rho_classic_method method)
+static inline void paper(enum rho_hough_method method)
 {
-    rho_classic_config_default(&config, method);
+    rho_hough_config_default(&config, method);
     config.rho_max_m = 5000.0f;
 }
 
 /* The same, and every cell that has votes is listed. */
-static inline void paper_all(enum rho_classic_method method)
+static inline void paper_all(enum rho_hough_method method)
 {
     paper(method);
     config.tau = 0.0f;
@@ -119,8 +119,8 @@ static inline long reach_rho(void)
 
 static inline void vote_around(struct place own, uint32_t source, struct worth worth)
 {
-    long kt = config.method == RHO_CLASSIC_NHT_C ? reach_theta() : 0;
-    long kr = config.method == RHO_CLASSIC_NHT_C ? reach_rho() : 0;
+    long kt = config.method == RHO_HOUGH_NHT_C ? reach_theta() : 0;
+    long kr = config.method == RHO_HOUGH_NHT_C ? reach_rho() : 0;
     for (long a = -kt; a <= kt && is_in_plane(own); a++) {
         for (long b = -kr; b <= kr; b++) {
             struct place place = wrapped((struct place){own.theta + a, own.rho + b});
@@ -249,7 +249,7 @@ static inline void expect(void)
 {
     memset(&counted, 0, sizeof counted);
     num_votes = 0;
-    if (config.method == RHO_CLASSIC_HT) {
+    if (config.method == RHO_HOUGH_HT) {
         vote_plots();
     } else {
         vote_pairs();
@@ -280,7 +280,7 @@ static inline struct cell *cell_of(uint32_t key)
 
 static inline void expect_cell(const struct cell *cell, double slack)
 {
-    double by = RHO_CLASSIC_VOTE, room = slack * (double)cell->sources;
+    double by = RHO_HOUGH_VOTE, room = slack * (double)cell->sources;
     double off = fmax(cell->worth.least * by - cell->shown, cell->shown - cell->worth.most * by);
     if (off > room) {
         print_error("theta cell %u, rho cell %u: %.0f, not %.2f .. %.2f\n",
@@ -316,7 +316,7 @@ static inline void expect_cells(double slack)
     for (size_t i = 0; i < num_cells; i++) {
         expect_cell(&cells[i], slack);
     }
-    assert_int_equal(result.cells, config.method == RHO_CLASSIC_HT ? 0 : result.num_peaks);
+    assert_int_equal(result.cells, config.method == RHO_HOUGH_HT ? 0 : result.num_peaks);
     assert_int_equal(result.votes_max, result.num_peaks ? peaks[0].votes : 0);
 }
 
@@ -400,7 +400,7 @@ static inline size_t choose_from_cells(void)
 static inline size_t choose_from_listed(void)
 {
     for (uint32_t i = 0; i < result.num_peaks; i++) {
-        listed[i] = (struct peak){(double)peaks[i].votes / RHO_CLASSIC_VOTE,
+        listed[i] = (struct peak){(double)peaks[i].votes / RHO_HOUGH_VOTE,
                                   {peaks[i].theta_cell, peaks[i].rho_cell}};
     }
     return choose(result.num_peaks);
@@ -412,7 +412,7 @@ static inline void expect_peaks(size_t num)
     for (size_t i = 0; i < num; i++) {
         assert_int_equal(peaks[i].theta_cell, listed[i].at.theta);
         assert_int_equal(peaks[i].rho_cell, listed[i].at.rho);
-        assert_int_equal(peaks[i].votes, (long long)(listed[i].votes * RHO_CLASSIC_VOTE + 0.5));
+        assert_int_equal(peaks[i].votes, (long long)(listed[i].votes * RHO_HOUGH_VOTE + 0.5));
     }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_watch: what the sensors of a scene see in one run: scans in the order of their arrival,
+ * scene_observe: what the sensors of a scene see in one run: scans in the order of their arrival,
  * each with its plots.
  *
  * Times are the true ones; a sensor's own clock is its time_bias_s ahead.
@@ -38,7 +38,7 @@ struct scene_run {
     struct scene_plot *plots[2 * SCENE_SENSORS_MAX];
 };
 
-struct scene_run *scene_watch(const struct scene *scene, uint64_t seed, uint64_t run);
+struct scene_run *scene_observe(const struct scene *scene, uint64_t seed, uint64_t run);
 void scene_run_free(struct scene_run *run);
 
 /* Whether some sensor could see what is there, were it not for events. */

@@ -1,0 +1,372 @@
+/* SPDX-License-Identifier: MIT */
+/* hough: configuration, passes over the rows of theta, thresholds and suppression. */
+#include "rhotrack/hough.h"
+
+#include <string.h>
+
+#include "hough_votes.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/types.h"
+
+#define HOUGH_MAGIC 0x434c4153u /* "CLAS" */
+
+#define SCAN_POINTS_MAX 65535u
+#define EPS_RHO_MIN_M 0.001f
+#define EPS_THETA_MIN_RAD 1.0e-4f
+#define EPS_THETA_MAX_RAD 0.5f
+#define LAMBDA_MAX 1.0e6f
+#define VOTES_MIN_MAX 65535.0f
+#define TIME_MAX_S 1.0e9f
+
+/* The build fails where the RAM formula of config.h is no longer an upper bound. */
+typedef char rho_assert_hough_ram[sizeof(struct rho_hough) <= RHO_RAM_HOUGH_BYTES ? 1 : -1];
+
+/* ---- setting up ------------------------------------------------------------------------------ */
+
+void rho_hough_config_default(struct rho_hough_config *config, enum rho_hough_method method)
+{
+    *config = (struct rho_hough_config){.method = method,
+                                        .rho_max_m = 2.5f * (float)RHO_MAX_RHO_CELLS,
+                                        .rho_cell_m = 5.0f,
+                                        .theta_cell_rad = 0.001f,
+                                        .eps_rho_m = 20.0f,
+                                        .eps_theta_rad = 0.004f,
+                                        .v_min_mps = 100.0f,
+                                        .v_max_mps = 400.0f,
+                                        .p_false = 0.01f,
+                                        .lambda_k = 1.0f,
+                                        .votes = RHO_VOTES_POINTS,
+                                        .tau = 0.5f};
+}
+
+static struct rho_accumulator_config plane_of(const struct rho_hough_config *config)
+{
+    return (struct rho_accumulator_config){.rho_max_m = config->rho_max_m,
+                                           .rho_cell_m = config->rho_cell_m,
+                                           .theta_cell_rad = config->theta_cell_rad,
+                                           .votes = config->votes,
+                                           .min_votes = 1,
+                                           .min_share = config->tau};
+}
+
+/* Number of cells within 2 eps, with 1/100 for rounding. */
+static float reach_of(float eps, float cell)
+{
+    return 2.0f * eps / cell + 0.01f;
+}
+
+static int are_thresholds_usable(const struct rho_hough_config *config)
+{
+    return rho_is_within(config->p_false, 0.0f, 1.0f) &&
+           rho_is_within(config->lambda_k, 0.0f, LAMBDA_MAX) &&
+           rho_is_within(config->tau, 0.0f, 1.0f) &&
+           rho_is_within(config->votes_min, 0.0f, VOTES_MIN_MAX);
+}
+
+static int is_usable(const struct rho_hough_config *config)
+{
+    return (unsigned)config->method <= RHO_HOUGH_NHT_C && are_thresholds_usable(config) &&
+           rho_is_within(config->eps_rho_m, EPS_RHO_MIN_M, RHO_LIMIT_POSITION_M) &&
+           rho_is_within(config->eps_theta_rad, EPS_THETA_MIN_RAD, EPS_THETA_MAX_RAD) &&
+           reach_of(config->eps_rho_m, config->rho_cell_m) < RHO_HOUGH_REACH_MAX + 1.0f &&
+           reach_of(config->eps_theta_rad, config->theta_cell_rad) < RHO_HOUGH_REACH_MAX + 1.0f &&
+           rho_is_within(config->v_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
+           rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
+           config->v_min_mps < config->v_max_mps;
+}
+
+enum rho_status rho_hough_init(struct rho_hough *hough, size_t size,
+                               const struct rho_hough_config *config)
+{
+    if (!hough || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *hough) {
+        return RHO_ERROR_SIZE;
+    }
+    struct rho_accumulator_config plane = plane_of(config);
+    uint16_t theta_cells, rho_cells;
+    if (rho_accumulator_plane(&plane, &theta_cells, &rho_cells) != RHO_OK || !is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    hough->config = *config;
+    hough->theta_cells = theta_cells;
+    hough->rho_cells = rho_cells;
+    hough->theta_reach = (uint16_t)reach_of(config->eps_theta_rad, config->theta_cell_rad);
+    hough->rho_reach = (uint16_t)reach_of(config->eps_rho_m, config->rho_cell_m);
+    hough->magic = HOUGH_MAGIC;
+    return RHO_OK;
+}
+
+/* ---- points of all plots --------------------------------------------------------------------- */
+
+static uint32_t count_points(const struct rho_hough_points *points)
+{
+    return rho_hough_scan_start(points, points->at.num_scans);
+}
+
+static enum rho_status check(const struct rho_hough *hough, const struct rho_hough_points *points)
+{
+    if (!hough || !points) {
+        return RHO_ERROR_NULL;
+    }
+    if (hough->magic != HOUGH_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    enum rho_status status = rho_accumulator_check(&points->at);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (count_points(points) > 0 && !points->t_s) {
+        return RHO_ERROR_NULL;
+    }
+    for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
+        uint32_t start = rho_hough_scan_start(points, scan), end = points->at.scan_end[scan];
+        if (end - start > SCAN_POINTS_MAX) {
+            return RHO_ERROR_VALUE;
+        }
+        for (uint32_t i = start; i < end; i++) {
+            if (!rho_is_within(points->t_s[i], -TIME_MAX_S, TIME_MAX_S)) {
+                return RHO_ERROR_VALUE;
+            }
+        }
+    }
+    return RHO_OK;
+}
+
+static uint32_t count_all_pairs(const struct rho_hough_points *points)
+{
+    uint64_t pairs = 0;
+    for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
+        uint32_t start = rho_hough_scan_start(points, scan);
+        uint64_t before = start - rho_hough_scan_start(points, scan - 1u);
+        pairs += before * (points->at.scan_end[scan] - start);
+    }
+    return pairs < UINT32_MAX ? (uint32_t)pairs : UINT32_MAX;
+}
+
+void rho_hough_count_pairs(const struct rho_hough *hough, const struct rho_hough_points *points,
+                           uint32_t *pairs, uint32_t *candidates)
+{
+    *pairs = count_all_pairs(points);
+    *candidates = 0;
+    for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
+        uint32_t from = rho_hough_scan_start(points, scan), end = points->at.scan_end[scan];
+        for (uint32_t i = rho_hough_scan_start(points, scan - 1u); i < from; i++) {
+            for (uint32_t j = from; j < end; j++) {
+                struct rho_hough_pair pair = {i, j};
+                *candidates = rho_count(*candidates,
+                                        rho_hough_speed(hough, points, pair) == RHO_SPEED_WITHIN);
+            }
+        }
+    }
+}
+
+/* Rounded up, at least 1. */
+static uint32_t whole(float votes)
+{
+    uint32_t below = (uint32_t)votes;
+    uint32_t whole = (float)below < votes ? below + 1u : below;
+    return whole > 0 ? whole : 1u;
+}
+
+/* ---- HT -------------------------------------------------------------------------------------- */
+
+static enum rho_status start_accumulator(struct rho_hough *hough)
+{
+    struct rho_accumulator_config plane = plane_of(&hough->config);
+    plane.min_votes = (uint16_t)whole(hough->config.votes_min);
+    return rho_accumulator_init(&hough->work.accumulator, sizeof hough->work.accumulator, &plane);
+}
+
+/* HT: every plot votes, which the accumulator does. */
+static enum rho_status find_lines(struct rho_hough *hough, const struct rho_hough_points *points,
+                                  struct rho_accumulator_peak *peaks, uint32_t max_peaks,
+                                  struct rho_hough_result *result)
+{
+    struct rho_accumulator *accumulator = &hough->work.accumulator;
+    struct rho_accumulator_result found;
+    enum rho_status status = start_accumulator(hough);
+    if (status == RHO_OK) {
+        status = rho_accumulator_find(accumulator, &points->at, peaks, max_peaks, &found);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    for (uint32_t i = 0; i < found.num_peaks; i++) {
+        peaks[i].votes *= RHO_HOUGH_VOTE;
+    }
+    *result = (struct rho_hough_result){.num_peaks = found.num_peaks,
+                                        .cells_dropped = found.peaks_dropped,
+                                        .votes = found.votes,
+                                        .votes_max = found.votes_max * RHO_HOUGH_VOTE,
+                                        .passes = 1};
+    return RHO_OK;
+}
+
+/* ---- pairs, in as many passes as it takes ---------------------------------------------------- */
+
+static struct rho_hough_rows widened(const struct rho_hough *hough, struct rho_hough_rows rows,
+                                     int32_t by)
+{
+    int32_t all = hough->theta_cells, first = rows.first - by;
+    if (rows.count + 2 * by >= all) {
+        return (struct rho_hough_rows){0, all};
+    }
+    return (struct rho_hough_rows){first < 0 ? first + all : first, rows.count + 2 * by};
+}
+
+/* Normals of the lines at the borders of the held rows, with one row of margin. */
+static void set_borders(struct rho_hough_pass *pass)
+{
+    float cell_rad = pass->hough->config.theta_cell_rad;
+    float from_rad = (float)(pass->held.first - 1) * cell_rad;
+    float to_rad = (float)(pass->held.first + pass->held.count + 1) * cell_rad;
+    /*
+     * (rho, theta + pi) is another name of the lines at theta: the sector must be less than half a
+     * turn
+     */
+    pass->can_reject = to_rad - from_rad < RHO_PI;
+    pass->from_x = rho_cos(from_rad);
+    pass->from_y = rho_sin(from_rad);
+    pass->to_x = rho_cos(to_rad);
+    pass->to_y = rho_sin(to_rad);
+}
+
+/*
+ * A hash table with twice as many slots as entries is enough, and faster to clear than the largest.
+ */
+static uint32_t table_size(uint32_t entries)
+{
+    uint32_t size = 256;
+    while (size < RHO_MAX_HOUGH_CELLS && size / 2u < entries) {
+        size *= 2u;
+    }
+    return size;
+}
+
+static struct rho_hough_pass pass_over(struct rho_hough *hough,
+                                       const struct rho_hough_points *points, int32_t first,
+                                       int32_t count)
+{
+    struct rho_hough_pass pass = {.hough = hough,
+                                  .points = points,
+                                  .wanted = {first, count},
+                                  .table_size = table_size(count_all_pairs(points)),
+                                  .stops_when_full = count > 1};
+    int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
+    pass.voting = widened(hough, pass.wanted, is_spread ? hough->theta_reach : 0);
+    /*
+     * two rows more: for a part of a cell in 2 eps, and for the last row, which is not a whole one
+     */
+    pass.held =
+        widened(hough, pass.voting, rho_hough_uses_kernels(hough) ? hough->theta_reach + 2 : 0);
+    set_borders(&pass);
+    return pass;
+}
+
+static void add_pass(struct rho_hough_result *result, const struct rho_hough_result *pass)
+{
+    result->candidates = pass->candidates; /* the same in every pass */
+    result->votes = rho_count(result->votes, pass->votes);
+    result->cells = rho_count(result->cells, pass->cells);
+    result->votes_dropped = rho_count(result->votes_dropped, pass->votes_dropped);
+    result->kernels_dropped = rho_count(result->kernels_dropped, pass->kernels_dropped);
+}
+
+/* Rows of the next pass: more if this pass left most of the tables free. */
+static int32_t rows_after(const struct rho_hough_pass *pass, int32_t rows)
+{
+    int has_room = pass->num_cells < RHO_MAX_HOUGH_CELLS / 3u &&
+                   pass->most_kernels < RHO_MAX_HOUGH_KERNELS / 3u;
+    return has_room && rows < pass->hough->theta_cells ? 2 * rows : rows;
+}
+
+static void find_pairs(struct rho_hough *hough, const struct rho_hough_points *points,
+                       struct rho_peak_list *list, struct rho_hough_result *result)
+{
+    int32_t all = hough->theta_cells, rows = all;
+    *result = (struct rho_hough_result){.pairs = count_all_pairs(points)};
+    for (int32_t first = 0; first < all;) {
+        int32_t count = all - first < rows ? all - first : rows;
+        struct rho_hough_pass pass = pass_over(hough, points, first, count);
+        rho_hough_vote_pairs(&pass);
+        if (pass.is_full && count > 1) {
+            rows = count / 2;
+            continue;
+        }
+        rho_hough_collect(&pass, list);
+        add_pass(result, &pass.found);
+        result->passes++;
+        first += count;
+        rows = rows_after(&pass, rows);
+    }
+    rho_peak_list_finish(list);
+    result->num_peaks = list->num_peaks;
+    result->cells_dropped = list->peaks_dropped;
+    result->votes_max = list->votes_max;
+}
+
+/* ---- public ---------------------------------------------------------------------------------- */
+
+static uint32_t suppress(struct rho_hough *hough, struct rho_accumulator_peak *peaks,
+                         uint32_t num_peaks)
+{
+    const struct rho_peak_distance distance = {.theta_cells = hough->theta_cells,
+                                               .rho_cells = hough->rho_cells,
+                                               .theta = hough->theta_reach,
+                                               .rho = hough->rho_reach};
+    return rho_peak_list_suppress(peaks, num_peaks, &distance, hough->work.kept,
+                                  table_size(num_peaks));
+}
+
+enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_points *points,
+                               struct rho_accumulator_peak *peaks, uint32_t max_peaks,
+                               struct rho_hough_result *result)
+{
+    enum rho_status status = check(hough, points);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (!result || (max_peaks > 0 && !peaks)) {
+        return RHO_ERROR_NULL;
+    }
+    if (hough->config.method == RHO_HOUGH_HT) {
+        status = find_lines(hough, points, peaks, max_peaks, result);
+    } else {
+        struct rho_peak_list list = {.peaks = peaks,
+                                     .max_peaks = max_peaks,
+                                     .min_votes =
+                                         whole(hough->config.votes_min * (float)RHO_HOUGH_VOTE),
+                                     .min_share = hough->config.tau};
+        find_pairs(hough, points, &list, result);
+    }
+    if (status == RHO_OK && !hough->config.keeps_all_cells) {
+        result->num_peaks = suppress(hough, peaks, result->num_peaks);
+    }
+    return status;
+}
+
+enum rho_status rho_hough_track(struct rho_hough *hough, const struct rho_hough_points *points,
+                                unsigned theta_cell, unsigned rho_cell, float at_s,
+                                struct rho_hough_track *track)
+{
+    enum rho_status status = check(hough, points);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (!track) {
+        return RHO_ERROR_NULL;
+    }
+    if (theta_cell >= hough->theta_cells || rho_cell >= hough->rho_cells ||
+        !rho_is_within(at_s, -TIME_MAX_S, TIME_MAX_S)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (hough->config.method == RHO_HOUGH_HT) {
+        status = start_accumulator(hough);
+    }
+    if (status == RHO_OK) {
+        rho_hough_find_voters(hough, points, theta_cell, rho_cell, at_s, track);
+    }
+    return status;
+}

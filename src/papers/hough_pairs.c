@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: MIT */
+/* hough_pairs: pairs of plots, their lines, and the votes that the kernels of NHT give them. */
+#include "hough_votes.h"
+
+#include <string.h>
+
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/types.h"
+
+/* ---- two plots ------------------------------------------------------------------------------- */
+
+int rho_hough_uses_kernels(const struct rho_hough *hough)
+{
+    return hough->config.method == RHO_HOUGH_NHT_A || hough->config.method == RHO_HOUGH_NHT_C;
+}
+
+enum rho_hough_speed rho_hough_speed(const struct rho_hough *hough,
+                                     const struct rho_hough_points *points,
+                                     struct rho_hough_pair pair)
+{
+    float dx_m = points->at.x_m[pair.second] - points->at.x_m[pair.first];
+    float dy_m = points->at.y_m[pair.second] - points->at.y_m[pair.first];
+    float dt_s = points->t_s[pair.second] - points->t_s[pair.first];
+    float least_m = hough->config.v_min_mps * dt_s, most_m = hough->config.v_max_mps * dt_s;
+    float distance2 = dx_m * dx_m + dy_m * dy_m;
+    if (!(distance2 > 0.0f)) {
+        return RHO_SPEED_NO_LINE;
+    }
+    return dt_s > 0.0f && distance2 >= least_m * least_m && distance2 <= most_m * most_m
+               ? RHO_SPEED_WITHIN
+               : RHO_SPEED_OUTSIDE;
+}
+
+struct rho_line rho_hough_line(const struct rho_hough_points *points, struct rho_hough_pair pair)
+{
+    float x_m = points->at.x_m[pair.first], y_m = points->at.y_m[pair.first];
+    return rho_angle_line(x_m, y_m, points->at.x_m[pair.second] - x_m,
+                          points->at.y_m[pair.second] - y_m);
+}
+
+/* ---- memberships ----------------------------------------------------------------------------- */
+
+/* (drho / eps)^2 + (dtheta / eps)^2; negative if either is more than 2 eps. */
+static float line_distance2(const struct rho_hough *hough, struct rho_line a, struct rho_line b)
+{
+    float drho_m = a.rho_m - b.rho_m, dtheta_rad = a.theta_rad - b.theta_rad;
+    if (dtheta_rad > RHO_HALF_PI ||
+        dtheta_rad < -RHO_HALF_PI) { /* the nearer name of one line is (-rho, theta +- pi) */
+        dtheta_rad += dtheta_rad > 0.0f ? -RHO_PI : RHO_PI;
+        drho_m = a.rho_m + b.rho_m;
+    }
+    float rho = drho_m / hough->config.eps_rho_m;
+    float theta = dtheta_rad / hough->config.eps_theta_rad;
+    return rho * rho <= 4.0f && theta * theta <= 4.0f ? rho * rho + theta * theta : -1.0f;
+}
+
+/* Smaller distance; of equal ones the lower first plot, then the lower second plot. */
+static int comes_before(float distance2, struct rho_hough_pair pair, float other_distance2,
+                        struct rho_hough_pair other)
+{
+    if (distance2 < other_distance2 || distance2 > other_distance2) {
+        return distance2 < other_distance2;
+    }
+    return pair.first != other.first ? pair.first < other.first : pair.second < other.second;
+}
+
+void rho_hough_compare_kernel(const struct rho_hough *hough, struct rho_line line,
+                              struct rho_line kernel, struct rho_hough_pair pair,
+                              struct rho_hough_nearest *nearest)
+{
+    float distance2 = line_distance2(hough, line, kernel);
+    if (distance2 < 0.0f) {
+        return;
+    }
+    uint32_t rank = nearest->count;
+    while (rank > 0 &&
+           comes_before(distance2, pair, nearest->distance2[rank - 1u], nearest->pair[rank - 1u])) {
+        rank--;
+    }
+    if (rank == 0) {
+        nearest->distance2[1] = nearest->distance2[0];
+        nearest->pair[1] = nearest->pair[0];
+    }
+    if (rank < 2) {
+        nearest->distance2[rank] = distance2;
+        nearest->pair[rank] = pair;
+        nearest->count += nearest->count < 2;
+    }
+}
+
+/* Membership of a line at the line between the two best kernels; 0: there are not two. */
+static float indeterminacy(const struct rho_hough *hough, const struct rho_hough_points *points,
+                           struct rho_line line, const struct rho_hough_nearest *nearest)
+{
+    const struct rho_hough_pair *a = &nearest->pair[0], *b = &nearest->pair[1];
+    const float *x_m = points->at.x_m, *y_m = points->at.y_m;
+    float first_x_m = 0.5f * (x_m[a->first] + x_m[b->first]);
+    float first_y_m = 0.5f * (y_m[a->first] + y_m[b->first]);
+    float dx_m = 0.5f * (x_m[a->second] + x_m[b->second]) - first_x_m;
+    float dy_m = 0.5f * (y_m[a->second] + y_m[b->second]) - first_y_m;
+    if (nearest->count < 2 || !(dx_m * dx_m + dy_m * dy_m > 0.0f)) {
+        return 0.0f;
+    }
+    struct rho_line between = rho_angle_line(first_x_m, first_y_m, dx_m, dy_m);
+    float distance2 = line_distance2(hough, line, between);
+    return distance2 < 0.0f ? 0.0f : rho_exp(-0.5f * distance2);
+}
+
+uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
+                               struct rho_line line, const struct rho_hough_nearest *nearest)
+{
+    const struct rho_hough_config *config = &hough->config;
+    if (nearest->count == 0) {
+        return 0;
+    }
+    float vote = rho_exp(-0.5f * nearest->distance2[0]);
+    if (config->uses_indeterminacy) {
+        float i = indeterminacy(hough, points, line, nearest);
+        vote = i > vote ? i : vote;
+    }
+    if (config->lambda_k * config->p_false * config->p_false > vote) {
+        return 0;
+    }
+    return (uint32_t)(vote * (float)RHO_HOUGH_VOTE + 0.5f);
+}
+
+/* ---- kernels --------------------------------------------------------------------------------- */
+
+/*
+ * Kernels lie in bins of rho and theta at least 2 eps wide, a whole number of them over [0, pi), so
+ * that all kernels near a line are in its bin or the eight around it, also across the ends of
+ * theta. The bins share a fixed number of hash chains.
+ */
+struct bin {
+    int32_t theta, rho;
+};
+
+static int32_t theta_bins(const struct rho_hough *hough)
+{
+    return (int32_t)(RHO_PI / (2.0f * hough->config.eps_theta_rad));
+}
+
+static int32_t rho_bin(const struct rho_hough *hough, float rho_m)
+{
+    float place = rho_m / (2.0f * hough->config.eps_rho_m);
+    int32_t bin = (int32_t)place;
+    return (float)bin > place ? bin - 1 : bin;
+}
+
+static struct bin bin_of(const struct rho_hough *hough, struct rho_line line)
+{
+    return (struct bin){rho_angle_theta_cell(line.theta_rad, theta_bins(hough)),
+                        rho_bin(hough, line.rho_m)};
+}
+
+static uint16_t *chain_of(struct rho_hough *hough, struct bin bin)
+{
+    uint32_t key = (uint32_t)bin.theta * 0x9e3779b1u ^ (uint32_t)bin.rho * 0x85ebca77u;
+    return &hough->work.sparse.step.kernels.heads[(key ^ key >> 16) % RHO_HOUGH_CHAINS];
+}
+
+static void hold(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
+                 struct rho_hough_pair pair)
+{
+    uint32_t *count = &pass->num_kernels[scan & 1u];
+    if (*count == RHO_MAX_HOUGH_KERNELS) {
+        pass->found.kernels_dropped = rho_count(pass->found.kernels_dropped, 1);
+        pass->is_full = 1;
+        return;
+    }
+    const struct rho_hough_points *points = pass->points;
+    uint32_t before = rho_hough_scan_start(points, scan - 1u);
+    uint32_t here = rho_hough_scan_start(points, scan);
+    pass->hough->work.sparse.step.kernels.list[scan & 1u][(*count)++] =
+        (struct rho_hough_kernel){.rho_m = line.rho_m,
+                                  .theta_rad = line.theta_rad,
+                                  .first = (uint16_t)(pair.first - before),
+                                  .second = (uint16_t)(pair.second - here)};
+}
+
+/*
+ * The pairs of the two scans before become kernels. They are chained from the last to the first, so
+ * that each chain is in the order of the plots.
+ */
+static void chain_kernels(struct rho_hough_pass *pass, unsigned scan)
+{
+    struct rho_hough *hough = pass->hough;
+    struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
+    uint32_t count = pass->num_kernels[(scan - 1u) & 1u];
+    pass->most_kernels = count > pass->most_kernels ? count : pass->most_kernels;
+    pass->num_kernels[scan & 1u] = 0;
+    memset(hough->work.sparse.step.kernels.heads, 0, sizeof hough->work.sparse.step.kernels.heads);
+    for (uint32_t i = count; i > 0; i--) {
+        struct rho_line line = {list[i - 1u].rho_m, list[i - 1u].theta_rad};
+        uint16_t *head = chain_of(hough, bin_of(hough, line));
+        list[i - 1u].next = *head;
+        *head = (uint16_t)i;
+    }
+}
+
+/* Compares the kernels of one bin; the chain may hold kernels of other bins too. */
+static void look_in_bin(const struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
+                        struct bin bin, struct rho_hough_nearest *nearest)
+{
+    struct rho_hough *hough = pass->hough;
+    const struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
+    uint32_t first = rho_hough_scan_start(pass->points, scan - 2u);
+    uint32_t second = rho_hough_scan_start(pass->points, scan - 1u);
+    for (uint16_t i = *chain_of(hough, bin); i > 0; i = list[i - 1u].next) {
+        const struct rho_hough_kernel *kernel = &list[i - 1u];
+        struct rho_line at = {kernel->rho_m, kernel->theta_rad};
+        struct bin in = bin_of(hough, at);
+        if (in.theta == bin.theta && in.rho == bin.rho) {
+            struct rho_hough_pair pair = {first + kernel->first, second + kernel->second};
+            rho_hough_compare_kernel(hough, line, at, pair, nearest);
+        }
+    }
+}
+
+static struct rho_hough_nearest nearest_kernels(const struct rho_hough_pass *pass, unsigned scan,
+                                                struct rho_line line)
+{
+    struct rho_hough_nearest nearest = {.count = 0};
+    int32_t bins = theta_bins(pass->hough);
+    int32_t middle = rho_angle_theta_cell(line.theta_rad, bins);
+    for (int32_t theta = middle - 1; theta <= middle + 1; theta++) {
+        int is_turned = theta < 0 || theta >= bins;
+        int32_t rho = rho_bin(pass->hough, is_turned ? -line.rho_m : line.rho_m);
+        for (int32_t i = rho - 1; i <= rho + 1; i++) {
+            struct bin bin = {theta < 0 ? bins - 1 : theta < bins ? theta : 0, i};
+            look_in_bin(pass, scan, line, bin, &nearest);
+        }
+    }
+    return nearest;
+}
+
+/* ---- votes ----------------------------------------------------------------------------------- */
+
+static int is_held(const struct rho_hough_pass *pass, float dx_m, float dy_m)
+{
+    float from = pass->from_x * dx_m + pass->from_y * dy_m;
+    float to = pass->to_x * dx_m + pass->to_y * dy_m;
+    return !pass->can_reject || from * to <= 0.0f;
+}
+
+static void vote_kernels(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
+                         struct rho_hough_pair pair)
+{
+    const struct rho_hough *hough = pass->hough;
+    int32_t row = rho_hough_row(hough, line.theta_rad);
+    if (scan > 1 && rho_hough_has_row(hough, pass->voting, row)) {
+        struct rho_hough_nearest nearest = nearest_kernels(pass, scan, line);
+        uint32_t votes = rho_hough_vote_weight(hough, pass->points, line, &nearest);
+        if (votes > 0) {
+            rho_hough_add_votes(pass, line, votes);
+        }
+    }
+    if (scan + 1u < pass->points->at.num_scans && rho_hough_has_row(hough, pass->held, row)) {
+        hold(pass, scan, line, pair);
+    }
+}
+
+static void vote_pair(struct rho_hough_pass *pass, unsigned scan, struct rho_hough_pair pair)
+{
+    const struct rho_hough_points *points = pass->points;
+    float dx_m = points->at.x_m[pair.second] - points->at.x_m[pair.first];
+    float dy_m = points->at.y_m[pair.second] - points->at.y_m[pair.first];
+    if (!is_held(pass, dx_m, dy_m)) {
+        return;
+    }
+    struct rho_line line = rho_hough_line(points, pair);
+    if (rho_hough_uses_kernels(pass->hough)) {
+        vote_kernels(pass, scan, line, pair);
+    } else if (rho_hough_has_row(pass->hough, pass->wanted,
+                                 rho_hough_row(pass->hough, line.theta_rad))) {
+        rho_hough_add_votes(pass, line, RHO_HOUGH_VOTE);
+    }
+}
+
+/* Pairs of one plot with all plots of the next scan. */
+static void vote_from(struct rho_hough_pass *pass, unsigned scan, uint32_t first)
+{
+    const struct rho_hough *hough = pass->hough;
+    uint32_t start = rho_hough_scan_start(pass->points, scan);
+    uint32_t end = pass->points->at.scan_end[scan];
+    int takes_all = hough->config.method == RHO_HOUGH_MHT;
+    for (uint32_t second = start; second < end; second++) {
+        struct rho_hough_pair pair = {first, second};
+        enum rho_hough_speed speed = rho_hough_speed(hough, pass->points, pair);
+        pass->found.candidates = rho_count(pass->found.candidates, speed == RHO_SPEED_WITHIN);
+        if (speed == RHO_SPEED_WITHIN || (takes_all && speed == RHO_SPEED_OUTSIDE)) {
+            vote_pair(pass, scan, pair);
+        }
+    }
+}
+
+void rho_hough_vote_pairs(struct rho_hough_pass *pass)
+{
+    const struct rho_hough_points *points = pass->points;
+    rho_hough_clear_cells(pass);
+    for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
+        uint32_t end = points->at.scan_end[scan - 1u];
+        if (rho_hough_uses_kernels(pass->hough)) {
+            chain_kernels(pass, scan);
+        }
+        for (uint32_t i = rho_hough_scan_start(points, scan - 1u); i < end; i++) {
+            vote_from(pass, scan, i);
+            if (pass->is_full && pass->stops_when_full) {
+                return;
+            }
+        }
+    }
+}
