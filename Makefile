@@ -160,7 +160,18 @@ experiments:
 
 # --- what packagers use ----------------------------------------------------------------------
 
-.PHONY: python-dist
+# The package is built in a folder that is kept, so that a change of one file compiles one file.
+python_site := $(BUILD)/python/site
+.PHONY: python python-dist
+## Build the package for Python in build/python/site, where the lab's scripts import it
+python: $(python_site)/built
+
+$(python_site)/built: $(shell find tools/python include src tools/rhotrack -type f)
+	@tools/setup.sh && tools/setup.sh python && tools/setup.sh lab
+	@rm -rf $(@D) && echo "  python   $(@D)" && python3 -m pip install -q --disable-pip-version-check \
+	    --no-deps --root-user-action ignore --config-settings build-dir=$(abspath $(BUILD))/python/objects \
+	    --target $(@D) ./tools/python && touch $@
+
 ## Build the package for Python: wheel and source package, in build/python
 python-dist:
 	@tools/setup.sh

@@ -59,9 +59,11 @@ python3             # tools/lab
 python3-numpy       # ... arrays
 python3-scipy       # ... pairing of tracks and targets
 python3-matplotlib  # ... pictures
+python3-cffi-backend # ... the package rhotrack (make python)
 '
 python_packages='
 python3-venv        # environments of their own: pip brings cffi, numpy and the build
+python3-pip         # make python
 python3-dev         # headers of Debian Python
 '
 case ${1:-} in

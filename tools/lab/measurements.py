@@ -57,6 +57,8 @@ def printed(command, program, options):
                 program, *words[1:], *options,
                 *(["-o", folder + "/out"] if words[1] == "experiment" else [])
             ]
+        elif words[0].startswith("tools/lab/"):
+            words += [*options, "-o", folder + "/out"]
         done = subprocess.run(words, stdout=subprocess.PIPE, text=True, check=False, cwd=HOME)
     if done.returncode not in (0, 1) or not done.stdout:  # 1: a bar is missed, which the tables say
         sys.exit(f"measurements: `{command}` ended with {done.returncode}")
