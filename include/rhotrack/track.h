@@ -55,7 +55,7 @@ enum rho_track_event {
 
 /* The filter of a track, from its start to its end. */
 enum rho_track_filter {
-    RHO_TRACK_KALMAN = 0, /* `kalman` alone: tracks of bearings, and without the two others */
+    RHO_TRACK_KALMAN = 0, /* `kalman` alone: without the two others */
     RHO_TRACK_INPUT,      /* `input`: Kalman filter with input estimation */
     RHO_TRACK_HYPOTHESES, /* a slot of the pool */
     RHO_NUM_TRACK_FILTERS
@@ -256,13 +256,14 @@ struct rho_track_bearing {
 
 /*
  * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans
- * have made; sensor_id is one of those that saw it. Errors: NULL, CONFIG (RHO_FILTERS has no Kalman
- * filter), VALUE (x or y not open, no hits); *track is unchanged. Constant cost. Stack: 620 bytes.
+ * have made, with the filter that the model asks for; sensor_id is one of those that saw it.
+ * Errors: NULL, CONFIG (the filter is none of RHO_FILTERS), CAPACITY (the pool of hypotheses),
+ * VALUE (x or y not open, no hits); *track is unchanged. Constant cost. Stack: 1.2 KB.
  */
-RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
-                                                        const struct rho_kalman *estimate,
-                                                        int64_t time_us, int32_t sensor_id,
-                                                        uint16_t hits, int32_t score_mnat);
+RHO_MUST_CHECK enum rho_status
+rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
+                         const struct rho_kalman *estimate, int64_t time_us, int32_t sensor_id,
+                         uint16_t hits, const struct rho_track_model *model, int32_t score_mnat);
 
 /*
  * Updates with a bearing: predicts to its own time, and takes it by a scalar update. Bearings of

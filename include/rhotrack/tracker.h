@@ -76,7 +76,7 @@ extern "C" {
  */
 enum rho_tracker_gate {
     RHO_TRACKER_BEST = 0, /* several hypotheses over two motion models: imm, hypotheses */
-    /* the paper: Hough clutter elimination among the plots in the gate, input estimation */
+    /* the paper: Hough clutter elimination among the plots of a window, input estimation */
     RHO_TRACKER_HOUGH,
     /* the likeliest plot in the gate, input estimation: least work and memory */
     RHO_TRACKER_NEAREST,
@@ -130,6 +130,14 @@ struct rho_tracker_config {
      */
     struct rho_input_config input;
     float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
+    /*
+     * hough: all plots so near to the prediction, along x and along y, are candidates, at least
+     * those in the chi-square gate's box: 0 .. 2 RHO_LIMIT_POSITION_M, the whole scan, which is the
+     * paper's beam. 0: that box, wider by as far as accel_max moves a target in twice the time
+     * since the track's last plot. Of scans that measure no velocities: those in the chi-square
+     * gate
+     */
+    float hough_window_m;
     /*
      * work that a step may do, up to 1e8 units (struct rho_tracker_work); 0: no limit. Tracks have
      * half of it at most, clutter a quarter, the search what is left, and at most its own work_max

@@ -141,7 +141,7 @@ static void start_track(struct step *step, const struct rho_passive_track *found
     fill_estimate(found, &estimate);
     if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->time_us,
                                  last_sensor(step->passive, found),
-                                 (uint16_t)rho_count_bits(found->scans),
+                                 (uint16_t)rho_count_bits(found->scans), &step->model,
                                  found->score_mnat) == RHO_OK &&
         rho_tracker_admit(step, &track, limits)) {
         tracker->counters.plots_initiated =

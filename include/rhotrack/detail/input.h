@@ -62,6 +62,11 @@ struct rho_input_config {
     /* the paper's Q: sd added at each prediction, independent of its interval: 0 .. 1e6 */
     float noise_m, noise_mps;
     float velocity_variance; /* of an axis that opens later: RHO_KALMAN_VARIANCE_MIN .. MAX */
+    /*
+     * the paper's P(0|0) is this times I, m^2 and (m/s)^2, taken by whoever starts a track
+     * (rho_kalman_set_covariance): 0 .. RHO_KALMAN_VARIANCE_MAX. 0: what its plots make of it
+     */
+    float initial_variance;
 };
 
 struct rho_input {

@@ -56,6 +56,7 @@ static struct rho_input_config config_of(const struct parameters *parameters,
     config.noise_m = (float)value[PARAMETER_FILTER_NOISE_M];
     config.noise_mps = (float)value[PARAMETER_FILTER_NOISE_MPS];
     config.velocity_variance = v_max_mps * v_max_mps;
+    config.initial_variance = (float)value[PARAMETER_INITIAL_VARIANCE];
     return config;
 }
 
@@ -150,6 +151,9 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
         maintainer_best_start(maintainer->best, time_us + plot->offset_us, time_us, &kalman,
                               sensor);
         return;
+    }
+    if (maintainer->config.initial_variance > 0.0f) {
+        rho_kalman_set_covariance(&kalman, maintainer->config.initial_variance);
     }
     must_succeed(rho_input_start(&maintainer->input, &maintainer->config, &kalman), "start");
     maintainer->is_predicted = false;
