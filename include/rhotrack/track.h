@@ -258,7 +258,7 @@ struct rho_track_bearing {
  * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans
  * have made, with the filter that the model asks for; sensor_id is one of those that saw it.
  * Errors: NULL, CONFIG (the filter is none of RHO_FILTERS), CAPACITY (the pool of hypotheses),
- * VALUE (x or y not open, no hits); *track is unchanged. Constant cost. Stack: 1.2 KB.
+ * VALUE (x or y not open, no hits); *track is unchanged. Constant cost. Stack: 1.5 KB.
  */
 RHO_MUST_CHECK enum rho_status
 rho_track_start_estimate(struct rho_track *track, uint32_t track_id,

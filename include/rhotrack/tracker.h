@@ -429,6 +429,17 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *track
                                                        struct rho_report *report);
 
 /*
+ * The same from an estimate at the time of the last step, made of hits >= 1 scans: of bearings, or
+ * by a filter of the caller's own. sensor_id is one of the sensors that saw it. Errors: NULL, STATE,
+ * and those of rho_track_start_estimate; VALUE for a score too low. Stack: 2.6 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
+                                                          const struct rho_kalman *estimate,
+                                                          int32_t sensor_id, uint16_t hits,
+                                                          int32_t score_mnat,
+                                                          struct rho_report *report);
+
+/*
  * Takes one frame of bearings through all phases: its scans in their order, each with the bearings'
  * own times.
  *   passive  NULL: existing tracks are maintained, none is started, unclaimed bearings are held

@@ -26,4 +26,15 @@ static inline uint32_t num_held(const struct step *step, const struct rho_bearin
     return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
 }
 
+/* The frame as a batch takes it: the bearings that have fates, and these fates in a row. */
+struct held_frame {
+    struct rho_frame frame;
+    struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SENSORS];
+    uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
+};
+
+/* bearing_initiation.c: fills *held from step->frame, and gives its fates back to the report */
+void rho_tracker_hold_frame(const struct step *step, struct held_frame *held);
+void rho_tracker_return_fates(const struct step *step, struct held_frame *held);
+
 #endif

@@ -824,7 +824,7 @@ struct program_pipeline *program_pipeline(const struct parameters *settings, boo
 {
     RETURN_ON_FAILURE(NULL)
     parameters_check(settings);
-    pipeline_set_gate((struct parameters *)settings, NULL);
+    pipeline_set_options((struct parameters *)settings, &(struct pipeline_options){NULL});
     struct program_pipeline *made = must_calloc(1, sizeof *made);
 
     made->settings = ready(settings, NULL, 0);

@@ -12,7 +12,7 @@
 #include "io/asterix/asterix_records.h"
 #include "settings/method.h"
 
-enum { NUM_OPTIONS = 23, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 24, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -23,6 +23,8 @@ static const struct {
      "where to write; it appears there only when it is complete (--follow: in place)"},
     {'m', "method", "METHOD",
      "how tracks are initiated: " METHOD_NAMES "; or an experiment's part"},
+    {'P', "pipeline", "paper",
+     "the papers' methods for all: nht, passive-paper, gate hough, inputs"},
     {'g', "gate", "GATE", "how a track chooses its plots; the parameter gate says the same"},
     {'K', "kind", "KIND", "which messages of a log: plots, polar, bearings, truth or tracks"},
     {'i', "no-input-estimation", NULL, "gates hough, nearest, none: a plain Kalman filter"},
@@ -160,6 +162,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
         break;
     case 'm':
         line->method = argument;
+        break;
+    case 'P':
+        line->pipeline = argument;
         break;
     case 'g':
         line->gate = argument;

@@ -445,7 +445,8 @@ int command_track(struct command_line *line)
     const char *why = NULL;
     bool is_saved;
 
-    pipeline_set_gate(&line->parameters, line->gate);
+    pipeline_set_options(&line->parameters,
+                         &(struct pipeline_options){line->gate, line->method, line->pipeline});
     check_clutter_map(line);
     inputs = open_inputs(line);
     open_chain(&tracking, inputs, &line->parameters);

@@ -87,6 +87,17 @@ static double cell_for(double range_m)
     return cell_m;
 }
 
+void method_fit_cells(struct parameters *parameters, double range_m)
+{
+    const double *value = parameters->value;
+    const double eps_cells = value[PARAMETER_EPS_RHO_M] / value[PARAMETER_D_RHO_M];
+
+    if (2.0 * count_cells(range_m, value[PARAMETER_D_RHO_M]) > RHO_MAX_RHO_CELLS) {
+        parameters_suggest(parameters, PARAMETER_D_RHO_M, cell_for(range_m));
+        parameters_suggest(parameters, PARAMETER_EPS_RHO_M, eps_cells * cell_for(range_m));
+    }
+}
+
 static double cells_for(double range_m, double cell_m)
 {
     double cells = count_cells(range_m, cell_m);

@@ -129,6 +129,10 @@
       "ht, passive-paper: a cell's votes are distinct scans, or plots")                            \
     X(PRUNE, "prune", "-", 0, 0, 2, 1, 1,                                                          \
       "passive, passive-paper: which crossings of bearings are left out as ghosts")                \
+    X(METHOD, "method", "-", 0, 0, 4, 1, 1,                                                        \
+      "track, node: how plots start tracks; --method goes before it")                              \
+    X(BEARINGS_METHOD, "bearings_method", "-", 0, 0, 1, 1, 1,                                      \
+      "track, node: how bearings start tracks; --method goes before it")                           \
     X(GATE, "gate", "-", 0, 0, 3, 1, 1,                                                            \
       "how tracks choose their plots; --gate goes before it; none: maintain alone")                \
     X(INPUT_ESTIMATION, "input_estimation", "-", 0, 0, 1, 1, 1,                                    \
@@ -289,6 +293,9 @@ const char *parameters_name(enum parameter_id id);
 
 /* The parameter gate from --gate; exit 2 where it is none. */
 void parameters_set_gate(struct parameters *parameters, const char *gate);
+
+/* The parameter method or bearings_method from --method; exit 2 where it is none. */
+void parameters_set_method(struct parameters *parameters, const char *method);
 
 /*
  * One assignment from any source, "key" or "sensor.N.key". A value from a source of higher
