@@ -430,8 +430,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *track
 
 /*
  * The same from an estimate at the time of the last step, made of hits >= 1 scans: of bearings, or
- * by a filter of the caller's own. sensor_id is one of the sensors that saw it. Errors: NULL, STATE,
- * and those of rho_track_start_estimate; VALUE for a score too low. Stack: 2.6 KB.
+ * by a filter of the caller's own. sensor_id is one of the sensors that saw it. Errors: NULL,
+ * STATE, and those of rho_track_start_estimate; VALUE for a score too low. Stack: 2.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
                                                           const struct rho_kalman *estimate,
