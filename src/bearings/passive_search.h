@@ -198,8 +198,8 @@ void rho_passive_rank_candidates(const struct rho_passive *passive,
                                  uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
 
 /*
- * A fitted state becomes a candidate, unless it is no track or has a better twin. Returns whether
- * it is a track.
+ * A fitted state becomes a candidate, unless it is no track or has a better duplicate. Returns
+ * whether it is a track.
  */
 int rho_passive_offer_candidate(struct rho_passive_search *search,
                                 const float state_m[RHO_PASSIVE_STATES]);
