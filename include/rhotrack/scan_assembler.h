@@ -283,7 +283,7 @@ struct rho_scan_assembler_item {
     enum rho_scan_assembler_kind kind;
     struct rho_scan scan;             /* PLOTS, POLAR */
     struct rho_bearing_scan bearings; /* BEARINGS */
-    /* who saw it, for rho_tracker_set_sensor; has_sensor 0: nothing is known but the defaults */
+    /* the sensor, for rho_tracker_set_sensor; has_sensor 0: nothing is known but the defaults */
     struct rho_sensor sensor;
     int has_sensor;
     /* the common clock was set anew: trackers start anew as well, before this scan */

@@ -99,9 +99,9 @@ struct rho_tracker_config {
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
     /*
      * best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they
-     * last, as long as these. What keeps straight becomes calm in a minute on average, and keeps
-     * straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where hardly a
-     * established track turns
+     * last, as long as these. A target that keeps straight becomes calm in a minute on average, and
+     * keeps straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where
+     * hardly a established track turns
      */
     float steady_s;
     /*
@@ -228,7 +228,7 @@ struct rho_tracker_learned {
      */
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
     uint8_t is_lowered; /* bit i: in ring i pd is used as learned */
-    uint8_t ring;       /* that is judged next, one a scan */
+    uint8_t ring;       /* that is learned next, one a scan */
 };
 
 /* How often a sensor looks at a place. */
