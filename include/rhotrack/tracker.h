@@ -101,7 +101,7 @@ struct rho_tracker_config {
      * best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they
      * last, as long as these. A target that keeps straight becomes calm in a minute on average, and
      * keeps straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where
-     * hardly a established track turns
+     * hardly an established track turns
      */
     float steady_s;
     /*

@@ -186,8 +186,8 @@ static float probability_of_one_target(const struct rho_track *track)
 }
 
 /* Both have a plot: the younger's is a second plot, or its target's. */
-static float both_nat(const struct step *step, const struct rho_second_plots *table,
-                      unsigned older_row, unsigned row)
+static float two_plots_nat(const struct step *step, const struct rho_second_plots *table,
+                           unsigned older_row, unsigned row)
 {
     const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -221,8 +221,8 @@ static float both_nat(const struct step *step, const struct rho_second_plots *ta
 /*
  * One has a plot, or both the same. Where either could have it, two targets explain it in two ways.
  */
-static float one_nat(const struct step *step, const struct rho_second_plots *table,
-                     unsigned older_row, unsigned row)
+static float one_plot_nat(const struct step *step, const struct rho_second_plots *table,
+                          unsigned older_row, unsigned row)
 {
     const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -280,8 +280,8 @@ static void decide_one_target(struct step *step, const struct rho_second_plots *
         return;
     }
     const float nat = track->plot >= 0 && older->plot >= 0 && track->plot != older->plot
-                          ? both_nat(step, table, older_row, row)
-                          : one_nat(step, table, older_row, row);
+                          ? two_plots_nat(step, table, older_row, row)
+                          : one_plot_nat(step, table, older_row, row);
     add_nat(track, nat);
     if (track->one_target_nat > ONE_TARGET_END_NAT) {
         track->one_target_nat = ONE_TARGET_END_NAT;
@@ -323,7 +323,7 @@ static float score_second_plot(struct step *step, const struct rho_second_plots 
         if (younger->older_id == 0 && younger->hits <= YOUNGER_HITS_MAX && track->was_confirmed) {
             younger->older_id = track->track_id;
             younger->one_target_nat = 0.0f;
-            add_nat(younger, both_nat(step, table, row, (unsigned)owner));
+            add_nat(younger, two_plots_nat(step, table, row, (unsigned)owner));
         }
         share = younger->older_id == track->track_id ? probability_of_one_target(younger) : 0.0f;
     }
