@@ -37,9 +37,9 @@ extern "C" {
 
 enum rho_track_status {
     RHO_TRACK_FREE = 0,  /* an empty slot */
-    RHO_TRACK_TENTATIVE, /* started, not yet believed; or believed no more */
-    RHO_TRACK_CONFIRMED, /* believed; updated at the last look */
-    RHO_TRACK_COASTING,  /* believed; predicted only since */
+    RHO_TRACK_TENTATIVE, /* started, not yet confirmed; or no longer */
+    RHO_TRACK_CONFIRMED, /* believed to be of a target; updated at the last look */
+    RHO_TRACK_COASTING,  /* confirmed; only predicted since its last plot */
     RHO_NUM_TRACK_STATUS
 };
 
@@ -95,7 +95,7 @@ struct rho_track {
      */
     float newest_mps[3], before_mps[3];
     uint8_t num_velocities;
-    uint8_t is_believed; /* has been confirmed */
+    uint8_t was_confirmed; /* has been confirmed */
     uint8_t fast_in_row; /* updates in a row with a speed beyond the fastest target's; saturates */
     /*
      * what its sensor is learned from: the last innovation, along the line of sight and across, in
@@ -122,11 +122,11 @@ struct rho_track {
     /* its second plots: scans in which it had a plot, and others near it; both fade */
     float second_looks, second_plots;
     /*
-     * an elder track that it started beside, 0: none; ln of how much likelier both are one target
+     * an older track that it started beside, 0: none; ln of how much likelier both are one target
      * than two
      */
-    uint32_t twin_id;
-    float twin_nat;
+    uint32_t older_id;
+    float one_target_nat;
     float second_share; /* scratch of a step: how far the track has all its second plots itself */
     struct rho_input input;
 };

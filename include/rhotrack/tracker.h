@@ -30,7 +30,7 @@
  * as long. When a sensor looks there again after so long, and misses the track or sees it amid
  * clutter, the track is tentative until it is seen once more; it ends at the third miss in a row.
  *
- * Where more confirmed tracks die young than false_tracks_per_hour allows, a new track stays
+ * Where more confirmed tracks end early than false_tracks_per_hour allows, a new track stays
  * tentative until it is seen as often as targets are, or 16 times. A track also ends when its place
  * is known no better than its sensor's range. Time is that of the scans: the tracks of a silent
  * sensor end at steps of other sensors, or at its own next one.
@@ -99,9 +99,9 @@ struct rho_tracker_config {
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
     /*
      * best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they
-     * last, as long as these. What keeps straight becomes calm in a minute on average, and keeps
-     * straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where hardly a
-     * grown track turns
+     * last, as long as these. A target that keeps straight becomes calm in a minute on average, and
+     * keeps straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where
+     * hardly an established track turns
      */
     float steady_s;
     /*
@@ -163,7 +163,7 @@ struct rho_tracker_counters {
     uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
     uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
     uint32_t scans_retrodicted;  /* of the accepted: late, by late_max_s at most */
-    uint32_t sensors_doubted;    /* times that a sensor became suspect */
+    uint32_t sensors_suspected;  /* times that a sensor became suspect */
 };
 
 /*
@@ -214,7 +214,7 @@ struct rho_tracker_look {
      * suspect: it contradicts the others; its plots' noise counts for more, its misses not at all,
      * and it starts no tracks
      */
-    uint16_t is_doubted;
+    uint16_t is_suspect;
 };
 
 /* Rings of range of equal widths, out to a sensor's range_max_m, that its pd is learned by. */
@@ -236,7 +236,7 @@ struct rho_tracker_learned {
      */
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
     uint8_t is_lowered; /* bit i: in ring i pd is used as learned */
-    uint8_t ring;       /* that is judged next, one a scan */
+    uint8_t ring;       /* that is learned next, one a scan */
 };
 
 /* How often a sensor looks at a place. */
@@ -271,11 +271,11 @@ struct rho_tracker {
      * tracks that misses ended before they had 16 hits, and those that had; of the last half an
      * hour
      */
-    float died_young, grown;
+    float ended_early, established;
     float straight_s,
         turning_s;         /* of those that had, likelier than not; of the last half an hour, too */
     float wanted_per_hour; /* false tracks, by the last initiator */
-    int64_t youth_us;
+    int64_t counted_us;
     uint32_t num_paces;
     struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
     uint32_t num_looks;

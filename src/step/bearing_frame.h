@@ -15,8 +15,8 @@ static inline int is_bearing(const struct rho_bearing *bearing)
 }
 
 /*
- * How many bearings of a scan have a fate of their own and room to be held. first: the scan's first
- * bearing among those of the frame.
+ * The number of bearings of a scan that have a place in the report's fates and in the batch. first:
+ * the place of the scan's first bearing among those of the frame.
  */
 static inline uint32_t num_held(const struct step *step, const struct rho_bearing_scan *scan,
                                 uint32_t first)

@@ -212,7 +212,7 @@ void rho_tracker_claim(struct step *step)
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
     rho_tracker_begin_work(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_reached(step, row)) {
+        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_in_view(step, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {

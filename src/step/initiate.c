@@ -68,7 +68,7 @@ static void start_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_initiator *initiator = step->initiator;
-    /* only the plots with a fate of their own are offered */
+    /* only the plots with a place in the report are offered */
     struct rho_scan held = *step->scan;
     held.num_plots = step->num_gated;
     push(step, &held);

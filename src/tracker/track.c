@@ -37,7 +37,7 @@ enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                  RHO_TRACK_TENTATIVE, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
         [RHO_TRACK_CONFIRMED] = {RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED,
                                  RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
-        /* once believed, a plot is enough to go on */
+        /* once confirmed, a plot is enough to go on */
         [RHO_TRACK_COASTING] = {RHO_TRACK_COASTING, RHO_TRACK_COASTING, RHO_TRACK_CONFIRMED,
                                 RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
     };
@@ -97,18 +97,18 @@ static int has_ended(const struct rho_track *track, const struct rho_track_limit
     if (track->misses_in_row >= limits->misses_in_row_max) {
         return 1;
     }
-    return track->is_believed ? fall_of(track) >= limits->fall_mnat
-                              : track->score_mnat < limits->tentative_mnat;
+    return track->was_confirmed ? fall_of(track) >= limits->fall_mnat
+                                : track->score_mnat < limits->tentative_mnat;
 }
 
 enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
                                                  const struct rho_track_limits *limits)
 {
-    enum rho_track_event event = RHO_TRACK_DOUBT; /* of what was never believed, too */
+    enum rho_track_event event = RHO_TRACK_DOUBT; /* of tracks that were never confirmed, too */
     if (fall_of(track) < limits->doubt_mnat &&
-        (track->is_believed || track->score_mnat >= limits->confirm_mnat)) {
+        (track->was_confirmed || track->score_mnat >= limits->confirm_mnat)) {
         event = RHO_TRACK_CONFIRM;
-        track->is_believed = 1;
+        track->was_confirmed = 1;
     }
     apply_event(track, has_ended(track, limits) ? RHO_TRACK_DROP : event);
     return (enum rho_track_status)track->status;

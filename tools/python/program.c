@@ -916,7 +916,7 @@ static void open_for(struct program_pipeline *made, const struct program_scans *
 }
 
 bool program_pipeline_run(struct program_pipeline *made, const struct program_scans *scans,
-                          bool is_told)
+                          bool collects_tracks)
 {
     RETURN_ON_FAILURE(false)
     made->tracks.count = 0;
@@ -932,7 +932,7 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
             }
             pipeline_step(made->pipeline, &scan->scan);
         }
-        if (is_told) {
+        if (collects_tracks) {
             add_tracks(&made->tracks, made->report);
         }
     }

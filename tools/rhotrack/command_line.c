@@ -340,7 +340,7 @@ void refuse_own_input(const struct command_line *line)
     }
 }
 
-static void refuse_twins(const struct command_line *line, const char *command)
+static void refuse_inputs_given_twice(const struct command_line *line, const char *command)
 {
     for (int i = 0; i < line->num_arguments; i++) {
         for (int other = 0; other < i; other++) {
@@ -373,7 +373,7 @@ bool is_output_standard(const struct command_line *line)
 void command_line_check_ini(const struct command_line *line, const char *command)
 {
     refuse_own_input(line);
-    refuse_twins(line, command);
+    refuse_inputs_given_twice(line, command);
     refuse_other_than_ini(line, command);
     if (line->json && is_output_standard(line)) {
         fail(EXIT_USAGE, "%s: --json and -o - both write on standard output", command);

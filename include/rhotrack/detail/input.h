@@ -160,7 +160,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
 /*
  * Tests each axis, starts anew where no input is present, and takes one that has stopped into the
  * estimate. Once a scan, after what the plot measures; a scan without a plot decides nothing. Where
- * the inputs of axes are correlated the weakest is judged first, and the others as they are without
+ * the inputs of axes are correlated the weakest is tested first, and the others as they are without
  * it. Cost: about 110 instructions, 300 where three inputs stop, 1500 where they are coupled.
  * Stack: 140 bytes.
  */

@@ -306,12 +306,12 @@ unsigned node_core_sensors(const struct node_core *core,
     return count;
 }
 
-bool node_core_has_twin(const struct node_core *core, int16_t sensor_id)
+bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *source = &core->assembler.sources[i];
 
-        if (source->is_used && source->sensor_id == sensor_id && source->has_twin) {
+        if (source->is_used && source->sensor_id == sensor_id && source->has_two_senders) {
             return true;
         }
     }
