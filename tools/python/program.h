@@ -123,7 +123,8 @@ struct program_pipeline {
     struct parameters *settings;
     bool is_open;
     struct rho_tracker *tracker;     /* in memory of the pipeline, as */
-    const struct rho_report *report; /* of the last step */
+    const struct rho_report *report; /* of the last step, and its initiator */
+    const struct rho_initiator *initiator;
     struct program_tracks tracks;    /* of the last program_pipeline_run */
 };
 

@@ -82,6 +82,14 @@ class Tracker:
         return plain(self._pipeline.tracker.work)
 
     @property
+    def thresholds(self) -> dict[str, float]:
+        """Of the last search for new tracks: min_scans, the scans that must vote; start_nat and
+        confirm_nat, the scores that start and confirm a track."""
+        initiator = self._pipeline.initiator
+        return {"min_scans": initiator.min_scans, "start_nat": initiator.start_mnat / 1000,
+                "confirm_nat": initiator.confirm_mnat / 1000}
+
+    @property
     def sensors(self) -> dict[int, dict[str, Any]]:
         """By sensor_id: factors on stated sigmas and the pd by ring of range, as learned."""
         tracker, found = self._pipeline.tracker, {}
