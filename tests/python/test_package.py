@@ -211,7 +211,7 @@ def test_an_initiator_counts_the_work_of_each_search():
 def test_a_tracker_tells_its_thresholds():
     tracker = rhotrack.Tracker(score_min_nat=2.5, min_scans=4, **SETTINGS)
     tracker.run(one_target(8))
-    assert tracker.thresholds == {"min_scans": 4, "start_nat": 2.5, "confirm_nat": 2.5}
+    assert (tracker.min_scans, tracker.thresholds_nat) == (4, (2.5, 2.5))
 
 
 def test_two_sensors_and_two_targets_have_two_ghosts():

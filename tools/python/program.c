@@ -834,7 +834,6 @@ struct program_pipeline *program_pipeline(const struct parameters *settings, boo
     made->report = made->pipeline->report;
     made->tracks.has_covariances = has_covariances;
     pipeline_open(made->pipeline, made->settings);
-    made->initiator = made->pipeline->initiator;
     return made;
 }
 
@@ -932,7 +931,7 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
                 describe(made, &scan->sensor);
             }
             pipeline_step(made->pipeline, &scan->scan);
-            made->initiator = made->pipeline->initiator;
+            made->min_scans = made->pipeline->initiator->min_scans;
         }
         if (is_told) {
             add_tracks(&made->tracks, made->report);

@@ -77,17 +77,20 @@ class Tracker:
         return counters
 
     @property
+    def min_scans(self) -> int:
+        """Hits in the window that start a track, M, as the clutter of the newest plots asks for."""
+        return self._pipeline.min_scans
+
+    @property
     def work(self) -> dict[str, int]:
         """Units of work of the last step and the worst one, and what work_max cut."""
         return plain(self._pipeline.tracker.work)
 
     @property
-    def thresholds(self) -> dict[str, float]:
-        """Of the last search for new tracks: min_scans, the scans that must vote; start_nat and
-        confirm_nat, the scores that start and confirm a track."""
-        initiator = self._pipeline.initiator
-        return {"min_scans": initiator.min_scans, "start_nat": initiator.start_mnat / 1000,
-                "confirm_nat": initiator.confirm_mnat / 1000}
+    def thresholds_nat(self) -> tuple[float, float]:
+        """Scores that start and confirm a track, of the last search for new ones."""
+        tracker = self._pipeline.tracker
+        return tracker.start_mnat / 1000, tracker.confirm_mnat / 1000
 
     @property
     def sensors(self) -> dict[int, dict[str, Any]]:
