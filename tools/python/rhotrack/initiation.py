@@ -38,7 +38,7 @@ class Initiator:
     vx_mps, vy_mps (at the last scan; NaN: fewer than two scans voted), rho_m, theta_rad, scans,
     score (nats for kernel, else votes). work has the counts of the last search, as the library's
     struct names them (rho_initiator_work, or rho_hough_result for the papers' methods), and
-    search_us, its time.
+    search_us, its processor time.
     """
 
     def __init__(self, settings: Settings | None = None, method: str = "kernel",
@@ -105,7 +105,7 @@ class Initiator:
             fates = ffi.new("uint8_t[]", [lib.RHO_FATE_HELD] * scan.num_plots)
             sensor = ffi.addressof(one.sensor) if one.has_sensor else NULL
             must_succeed(lib.rho_initiator_push(initiator, scan, sensor, fates, left), "a scan")
-        start_s = time.perf_counter()
+        start_s = time.thread_time()
         status = lib.rho_initiator_search(initiator, lib.RHO_SEARCH_BATCH)
         self._searched(status, "search", start_s, initiator.work)
         found = np.empty(initiator.num_candidates, FOUND)
@@ -134,13 +134,13 @@ class Initiator:
 
     def _peaks(self, hough: Any, points: _Points, room: int) -> np.ndarray:
         peaks, result = np.empty(room, PEAK), ffi.new("struct rho_hough_result *")
-        memory, start_s = pointer_to(peaks, "struct rho_accumulator_peak *"), time.perf_counter()
+        memory, start_s = pointer_to(peaks, "struct rho_accumulator_peak *"), time.thread_time()
         status = lib.rho_hough_find(hough, points.struct, memory, room, result)
         self._searched(status, "x_m, y_m or t_s of a plot", start_s, result[0])
         return peaks[:result.num_peaks]
 
     def _searched(self, status: int, what: str, start_s: float, work: Any) -> None:
-        search_us = 1e6 * (time.perf_counter() - start_s)
+        search_us = 1e6 * (time.thread_time() - start_s)
         must_succeed(status, what)
         self.work = {**plain(work), "search_us": search_us}
 
