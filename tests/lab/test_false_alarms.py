@@ -26,7 +26,7 @@ def delays(per_km2, runs):
 
 class Rate(unittest.TestCase):
     def test_clutter_alone_confirms_as_many_tracks_as_are_wanted(self):
-        """Over 111 h at .1 a km^2: .7 an hour where 1 is wanted, 5 where 10 are; a run has 5.6 h."""
+        """At .1 a km^2: .7 an hour where 1 is wanted, 5 where 10 are; a run has 5.6 h."""
         one, ten = (alarms.clutter_alone((0.1, wanted, 10000, SEED)) for wanted in (1.0, 10.0))
         self.assertLessEqual(one.confirmed, 13)  # 3.9
         self.assertTrue(7 <= ten.confirmed <= 50, ten)  # 28

@@ -446,8 +446,8 @@ def main():
         sweep_table(report, sweep)
         pictures.sweep(report, NOISES_M, sweep, COLOURS)
     report.heading("Times of one search in Situation IV, one at a time, Fig. 11")
-    report.text("Medians of processor time. The whole plane is numpy's: it clears and fills a plane "
-                "of 16-bit counts and lists the cells above the threshold.")
+    report.text("Medians of processor time. The whole plane is numpy's: it fills a plane of 16-bit "
+                "counts and lists the cells above the threshold.")
     times_table(report, times, methods)
     pictures.times(report, DENSITIES, times, COLOURS)
     if methods == list(METHODS):
