@@ -265,7 +265,8 @@ def situations_table(report, summaries):
     for situation, of in zip(SITUATIONS, summaries):
         for method, summary in of.items():
             cells = [text_of(figure, summary.get(figure, (np.nan, 0))[0]) for figure in figures]
-            texts = [known.text_of(situation.name, method, figure) for figure in figures]
+            texts = [known.text_of(situation.name, method, figure).replace("..", "-", 1)
+                     for figure in figures]
             rows.append([situation.name, method, *(f"{cell}/{text}" if text else cell
                                                    for cell, text in zip(cells, texts)),
                          f"{summary['ms'][0]:.3g}"])
