@@ -77,9 +77,20 @@ class Tracker:
         return counters
 
     @property
+    def min_scans(self) -> int:
+        """Hits in the window that start a track, M, as the clutter of the newest plots asks for."""
+        return self._pipeline.min_scans
+
+    @property
     def work(self) -> dict[str, int]:
         """Units of work of the last step and the worst one, and what work_max cut."""
         return plain(self._pipeline.tracker.work)
+
+    @property
+    def thresholds_nat(self) -> tuple[float, float]:
+        """Scores that start and confirm a track, of the last search for new ones."""
+        tracker = self._pipeline.tracker
+        return tracker.start_mnat / 1000, tracker.confirm_mnat / 1000
 
     @property
     def sensors(self) -> dict[int, dict[str, Any]]:
