@@ -18,11 +18,6 @@ static bool is_kernel(const char *name)
     return strcmp(name, "kernel") == 0;
 }
 
-static bool is_passive_method(const char *name)
-{
-    return strcmp(name, "passive") == 0 || strcmp(name, "passive-paper") == 0;
-}
-
 static bool is_air_part(const char *name)
 {
     return air_part_named(name) != 0;
@@ -45,7 +40,6 @@ static const struct {
     {"doppler", experiment_doppler, is_kernel, "method kernel"},
     {"rotating", experiment_rotating, is_kernel, "method kernel"},
     {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
-    {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
     {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
     {"air-traffic", experiment_air_traffic, is_air_part,
      "parts grid, stress, operation, pairs, clutter, rivals"},
@@ -53,7 +47,7 @@ static const struct {
 };
 
 #define NAMES                                                                                      \
-    "initiation, polar, doppler, rotating, false-alarms, passive, maneuver, air-traffic, "         \
+    "initiation, polar, doppler, rotating, false-alarms, maneuver, air-traffic, "                  \
     "two-radars"
 
 int command_experiment(struct command_line *line)

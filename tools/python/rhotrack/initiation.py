@@ -213,7 +213,7 @@ class Passive:
 
     def _found(self) -> Any:
         if self.method == "passive-paper":
-            raise Error("method 'passive-paper' finds lines, which have no covariance and no claims")
+            raise Error("method 'passive-paper' finds lines: no covariances, no claims")
         return self._search.tracks[0:self._search.num_tracks]
 
     def _tracks(self) -> list[tuple]:
