@@ -248,6 +248,30 @@ def test_the_papers_lines_are_where_all_pairs_of_sensors_vote(scene):
         assert min(votes) == line["score"]
 
 
+def test_a_tracks_covariance_is_that_of_the_bearings_it_claims(scene):
+    folder = scene("passive-three")
+    settings = rhotrack.Settings(folder / "scenario.ini")
+    frames = rhotrack.read(folder / "bearings.csv", settings=settings)[-8:]
+    passive = rhotrack.Passive(settings)
+    tracks = passive.find(frames)
+    assert len(tracks) == 2 and passive.claims.shape == (2, 8, 3)
+    for track, claims, covariance in zip(tracks, passive.claims, passive.covariances):
+        information = np.zeros((4, 4))
+        for k, i in np.argwhere(claims >= 0):
+            look = frames[k][frames[k]["sensor_id"] == i + 1]
+            row = look[~np.isnan(look["bearing_rad"])][claims[k, i]]
+            dt = row["t_s"] - track["t_s"]
+            dx = track["x_m"] + dt * track["vx_mps"] - row["sensor_x_m"]
+            dy = track["y_m"] + dt * track["vy_mps"] - row["sensor_y_m"]
+            assert abs(math.atan2(dy, dx) - row["bearing_rad"]) < 5 * row["sigma_rad"]
+            by_state = np.array([-dy, dx, -dt * dy, dt * dx]) / (dx**2 + dy**2)
+            information += np.outer(by_state, by_state) / row["sigma_rad"]**2
+        np.testing.assert_allclose(covariance, covariance.T)
+        np.testing.assert_allclose(covariance @ information, np.eye(4), atol=0.1)
+    with pytest.raises(rhotrack.Error, match="passive-paper"):
+        rhotrack.Passive(settings, "passive-paper").claims
+
+
 def test_rows_of_many_frames_are_split_into_frames(scene):
     folder = scene("passive-three")
     settings = rhotrack.Settings(folder / "scenario.ini")

@@ -11,11 +11,6 @@ static bool is_kernel(const char *name)
     return strcmp(name, "kernel") == 0;
 }
 
-static bool is_passive_method(const char *name)
-{
-    return strcmp(name, "passive") == 0 || strcmp(name, "passive-paper") == 0;
-}
-
 static bool is_air_part(const char *name)
 {
     return air_part_named(name) != 0;
@@ -36,14 +31,12 @@ static const struct {
     {"polar", experiment_polar, is_kernel, "method kernel"},
     {"doppler", experiment_doppler, is_kernel, "method kernel"},
     {"rotating", experiment_rotating, is_kernel, "method kernel"},
-    {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
     {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
     {"air-traffic", experiment_air_traffic, is_air_part,
      "parts grid, stress, operation, pairs, clutter, rivals"},
     {"two-radars", experiment_two_radars, knows_no_method, "default alone, no methods"},
 };
 
-#define NAMES "polar, doppler, rotating, passive, maneuver, air-traffic, two-radars"
 
 int command_experiment(struct command_line *line)
 {
