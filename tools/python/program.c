@@ -968,8 +968,11 @@ struct program_maintainers *program_maintainers(const struct parameters *setting
     made->hypotheses = must_calloc(count, sizeof *made->hypotheses);
     made->tracks.has_covariances = has_covariances;
     for (size_t i = 0; i < count; i++) {
+        const size_t first = i - i % MAINTAINERS_BESIDE;
+
         made->list[i] = (struct program_maintainer){
-            .maintainer = maintainer_new(gate, has_input_estimation, settings),
+            .maintainer = i == first ? maintainer_new(gate, has_input_estimation, settings)
+                                     : maintainer_new_beside(made->list[first].maintainer),
             .random = random_start(seed, 0, i)};
     }
     return made;
@@ -977,7 +980,7 @@ struct program_maintainers *program_maintainers(const struct parameters *setting
 
 void program_maintainers_free(struct program_maintainers *made)
 {
-    for (size_t i = 0; i < made->count; i++) {
+    for (size_t i = made->count; i-- > 0;) { /* the first of a pool last */
         maintainer_free(made->list[i].maintainer);
     }
     program_tracks_free(&made->tracks);

@@ -83,6 +83,23 @@ struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_esti
     return maintainer;
 }
 
+struct maintainer *maintainer_new_beside(const struct maintainer *first)
+{
+    struct maintainer *maintainer = must_calloc(1, sizeof *maintainer);
+
+    maintainer->gate = first->gate;
+    maintainer->density = scan_density_new();
+    maintainer->config = first->config;
+    maintainer->planes = first->planes;
+    maintainer->theta_cell_rad = first->theta_cell_rad;
+    maintainer->pd = first->pd;
+    maintainer->track.track_id = 1;
+    if (first->best) {
+        maintainer->best = maintainer_best_new_beside(first->best);
+    }
+    return maintainer;
+}
+
 void maintainer_free(struct maintainer *maintainer)
 {
     if (maintainer) {

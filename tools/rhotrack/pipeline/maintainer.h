@@ -11,6 +11,7 @@
 #include <stddef.h>
 
 #include "base/random.h"
+#include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/kalman.h"
 #include "rhotrack/track.h"
 #include "rhotrack/types.h"
@@ -35,6 +36,13 @@ struct maintainer_estimate {
 struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_estimation,
                                   const struct parameters *parameters);
 void maintainer_free(struct maintainer *maintainer);
+
+/*
+ * Another track with the same parameters, which shares the memory of hypotheses of the first: at
+ * most MAINTAINERS_BESIDE with the first, which is freed last.
+ */
+#define MAINTAINERS_BESIDE (RHO_MAX_HYPOTHESES / RHO_HYPOTHESES_OF_TRACK)
+struct maintainer *maintainer_new_beside(const struct maintainer *first);
 
 /* Of the library's objects that hold the track. */
 size_t maintainer_state_bytes(const struct maintainer *maintainer);
