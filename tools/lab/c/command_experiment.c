@@ -46,15 +46,13 @@ static const struct {
     {"rotating", experiment_rotating, is_kernel, "method kernel"},
     {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
     {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
-    {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
     {"air-traffic", experiment_air_traffic, is_air_part,
      "parts grid, stress, operation, pairs, clutter, rivals"},
     {"two-radars", experiment_two_radars, knows_no_method, "default alone, no methods"},
 };
 
 #define NAMES                                                                                      \
-    "initiation, polar, doppler, rotating, false-alarms, passive, maneuver, air-traffic, "         \
-    "two-radars"
+    "initiation, polar, doppler, rotating, false-alarms, passive, air-traffic, two-radars"
 
 int command_experiment(struct command_line *line)
 {

@@ -13,7 +13,6 @@ int experiment_rotating(const struct command_line *line);
 int experiment_false_alarms(const struct command_line *line);
 int experiment_passive(const struct command_line *line);
 int experiment_air_traffic(const struct command_line *line);
-int experiment_maneuver(const struct command_line *line);
 int experiment_two_radars(const struct command_line *line);
 
 #endif

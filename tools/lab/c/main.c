@@ -15,7 +15,7 @@ static const struct command commands[] = {
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
      "build/experiment/NAME). Experiments: initiation, polar, doppler, rotating, two-radars,\n"
-     "false-alarms, passive, maneuver, air-traffic; initiation takes --method kernel, ht, mht, iht "
+     "false-alarms, passive, air-traffic; initiation takes --method kernel, ht, mht, iht "
      "or nht, passive "
      "takes passive "
      "or\n"
