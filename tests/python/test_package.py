@@ -160,6 +160,18 @@ def test_tracks_alone_step_side_by_side_as_each_by_itself():
     assert (predicted["cov_x_x"] > rows["cov_x_x"][-2:]).all()
 
 
+def test_a_track_that_starts_again_leaves_its_neighbour_alone():
+    """After a gap too long for any prediction."""
+    gone = [scan(t_s, (100.0 * i, 0)) for i, t_s in enumerate((0, 1, 2, 1e6, 1e6 + 1, 1e6 + 2))]
+    stays = [scan(i, (50.0 * i, 900), (50.0 * i, 960)) for i in range(6)]
+    both = rhotrack.Maintainer(tracks=2, **SETTINGS)
+    rows = both.run([one for pair in zip(gone, stays) for one in pair])
+    for i, scans in enumerate((gone, stays)):
+        alone = rhotrack.Maintainer(**SETTINGS)
+        np.testing.assert_array_equal(rows[i::2]["x_m"], alone.run(scans)["x_m"])
+        assert both.refused[i] == alone.refused[0] == (1 - i)
+
+
 def test_a_density_of_clutter_that_is_told_decides():
     scans = [scan(i, (100 * i, 0)) for i in range(10)] + [scan(10, (1060, 60))]
     taken = [rhotrack.Maintainer(**SETTINGS).run(scans, density)["plot"][-1]
