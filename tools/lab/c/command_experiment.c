@@ -31,7 +31,6 @@ static const struct {
     {"polar", experiment_polar, is_kernel, "method kernel"},
     {"doppler", experiment_doppler, is_kernel, "method kernel"},
     {"rotating", experiment_rotating, is_kernel, "method kernel"},
-    {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
     {"air-traffic", experiment_air_traffic, is_air_part,
      "parts grid, stress, operation, pairs, clutter, rivals"},
     {"two-radars", experiment_two_radars, knows_no_method, "default alone, no methods"},

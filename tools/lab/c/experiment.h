@@ -10,7 +10,6 @@ int experiment_polar(const struct command_line *line);
 int experiment_doppler(const struct command_line *line);
 int experiment_rotating(const struct command_line *line);
 int experiment_air_traffic(const struct command_line *line);
-int experiment_maneuver(const struct command_line *line);
 int experiment_two_radars(const struct command_line *line);
 
 #endif
