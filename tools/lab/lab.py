@@ -45,6 +45,35 @@ def mean_of(values):
         values.std(ddof=1) / math.sqrt(len(values))) if len(values) > 1 else math.nan
 
 
+def ratio_of(tops, bottoms):
+    """(sum of tops / sum of bottoms, its standard error) over runs, each with one of both."""
+    tops, bottoms = np.asarray(tops, float), np.asarray(bottoms, float)
+    count, total = len(tops), bottoms.sum()
+    if total == 0:
+        return math.nan, math.nan
+    ratio = tops.sum() / total
+    error = math.sqrt(((tops - ratio * bottoms)**2).sum() * count / (count - 1)
+                      ) / abs(total) if count > 1 else math.nan
+    return float(ratio), error
+
+
+def root_of(ratio, error):
+    """The square root of a value, and its standard error."""
+    return math.sqrt(ratio), error / (2 * math.sqrt(ratio)) if ratio > 0 else math.nan
+
+
+def quotient_of(top, bottom):
+    """(quotient, standard error) of two (value, standard error), as if these were independent; of
+    the same runs they rarely are, and the error is rather less."""
+    quotient = top[0] / bottom[0]
+    return quotient, abs(quotient) * math.hypot(top[1] / top[0], bottom[1] / bottom[0])
+
+
+def values_of(figures):
+    """Figures without their standard errors, for fact()."""
+    return {key: value[0] if isinstance(value, tuple) else value for key, value in figures.items()}
+
+
 def share_error(share, trials):
     """The standard error of a share; at 0 and 1 that of half an event more or less."""
     smoothed = (share * trials + 0.5) / (trials + 1)

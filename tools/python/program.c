@@ -931,6 +931,7 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
                 describe(made, &scan->sensor);
             }
             pipeline_step(made->pipeline, &scan->scan);
+            made->min_scans = made->pipeline->initiator->min_scans;
         }
         if (is_told) {
             add_tracks(&made->tracks, made->report);

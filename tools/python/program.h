@@ -124,6 +124,7 @@ struct program_pipeline {
     bool is_open;
     struct rho_tracker *tracker;     /* in memory of the pipeline, as */
     const struct rho_report *report; /* of the last step */
+    uint16_t min_scans;              /* M of the initiator of the newest plots; 0: none yet */
     struct program_tracks tracks;    /* of the last program_pipeline_run */
 };
 

@@ -77,6 +77,11 @@ class Tracker:
         return counters
 
     @property
+    def min_scans(self) -> int:
+        """Hits in the window that start a track, M, as the clutter of the newest plots asks for."""
+        return self._pipeline.min_scans
+
+    @property
     def work(self) -> dict[str, int]:
         """Units of work of the last step and the worst one, and what work_max cut."""
         return plain(self._pipeline.tracker.work)
