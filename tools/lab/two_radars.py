@@ -80,7 +80,7 @@ def looks_of(scans):
     """Times of scans at which tracks are looked at."""
     looks, last_s = [], -math.inf
     for scan in scans:
-        if scan["t_s"][0] >= last_s + LOOK_S:
+        if scan["t_s"][0] >= last_s + LOOK_S - 1e-3:  # turns are fractions of it, rounded
             last_s = float(scan["t_s"][0])
             looks.append(last_s)
     return np.array(looks)
