@@ -138,27 +138,6 @@ for method in ht mht iht; do
     check "experiment initiation --method $method" sh -c \
         "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
 done
-run experiment polar --runs 1 --json -o "$folder/polar"
-check "experiment polar" exits 0
-check "experiment polar --json is JSON with its score" json stdout '(
-    o["experiment"] == "polar" and o["runs"] == 1 and len(o["cases"]) == 8 and
-    o["bars_held"] + o["bars_missed"] == len(o["bars"]) > 0 and
-    o["bars_held"] == sum(bar["held"] for bar in o["bars"]))'
-check "the double filter is within 10 % at every clutter and case" json stdout \
-    'all(abs(c["rmse_m"] / c["double_filter_rmse_m"] - 1) < 0.1 for c in o["cases"])'
-check "experiment polar writes a page" test -s "$folder/polar/index.html"
-for picture in map gates errors along; do
-    check "the page shows $picture.svg" grep -q "src=\"$picture.svg\"" "$folder/polar/index.html"
-    check "$picture.svg is well-formed" python3 -c \
-        "import xml.dom.minidom as m; m.parse('$folder/polar/$picture.svg')"
-done
-cp stdout first.json
-run experiment polar --runs 1 --json -o "$folder/polar"
-check "the same seed gives the same figures, but for times" sh -c "
-    grep -v 'search_ms\|frame_us' first.json >a; grep -v 'search_ms\|frame_us' stdout >b; cmp a b"
-run experiment polar --runs 1 -o "$folder/polar"
-check "experiment polar ends with its score" sh -c \
-    "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
 passive="$folder/passive"
 run experiment passive --runs 3 -o "$passive"
 check "experiment passive ends with its score" sh -c \
@@ -218,23 +197,19 @@ check "experiment passive knows no method of plots" says 2 \
     "*passive knows the methods passive, passive-paper*kernel*"
 run experiment passive --set sigma_rad=1 -o "$folder/refused"
 check "nor parameters" says 2 "*--set*"
-run experiment polar --runs 1 --method passive -o "$folder/refused"
-check "the others know no method of bearings" says 2 "*polar*kernel*passive*"
 # experiment false-alarms takes two minutes even with --runs 1: lab/test_experiments.c calls its
 # functions instead
-for name in initiation polar false-alarms passive; do
+for name in initiation false-alarms passive; do
     run experiment "$name" --runs 1 --method nonsense -o "$folder/refused"
     check "experiment $name knows no other method" says 2 "*$name*knows the method*nonsense*"
 done
 run experiment initiation --runs 1 --method nonsense -o "$folder/refused"
 check "and the methods that initiation knows are named" says 2 \
     "*kernel, ht, mht, iht, nht, not*nonsense*"
-run experiment polar --runs 1 --method nht -o "$folder/refused"
-check "which the others do not know" says 2 "*polar*kernel*nht*"
 check "a refused experiment writes nothing" test ! -e "$folder/refused"
 run experiment nothing
 check "an unknown experiment names all there are" says 2 \
-    "*nothing*initiation*polar*false-alarms*passive*"
+    "*nothing*initiation*false-alarms*passive*"
 run experiment real-skies
 check "experiment real-skies says where it is" says 2 \
     "*real-skies*make experiments*tools/lab/real_skies.py"

@@ -3,7 +3,6 @@
 
 #include "base/common.h"
 #include "experiment.h"
-#include "experiment_air_traffic.h"
 #include "experiment_classic.h"
 #include "lab_commands.h"
 #include "settings/method.h"
@@ -23,11 +22,6 @@ static bool is_passive_method(const char *name)
     return strcmp(name, "passive") == 0 || strcmp(name, "passive-paper") == 0;
 }
 
-static bool is_air_part(const char *name)
-{
-    return air_part_named(name) != 0;
-}
-
 static bool knows_no_method(const char *name)
 {
     (void)name;
@@ -41,20 +35,12 @@ static const struct {
     const char *methods;
 } experiments[] = {
     {"initiation", experiment_initiation, is_plot_method, "methods " METHOD_PLOT_NAMES},
-    {"polar", experiment_polar, is_kernel, "method kernel"},
-    {"doppler", experiment_doppler, is_kernel, "method kernel"},
-    {"rotating", experiment_rotating, is_kernel, "method kernel"},
     {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
     {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
     {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
-    {"air-traffic", experiment_air_traffic, is_air_part,
-     "parts grid, stress, operation, pairs, clutter, rivals"},
-    {"two-radars", experiment_two_radars, knows_no_method, "default alone, no methods"},
 };
 
-#define NAMES                                                                                      \
-    "initiation, polar, doppler, rotating, false-alarms, passive, maneuver, air-traffic, "         \
-    "two-radars"
+#define NAMES "initiation, false-alarms, passive, maneuver"
 
 int command_experiment(struct command_line *line)
 {

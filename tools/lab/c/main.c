@@ -14,15 +14,9 @@ static const struct command commands[] = {
      "orSmj", "a Monte Carlo experiment with tables and figures",
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
-     "build/experiment/NAME). Experiments: initiation, polar, doppler, rotating, two-radars,\n"
-     "false-alarms, passive, maneuver, air-traffic; initiation takes --method kernel, ht, mht, iht "
-     "or nht, passive "
-     "takes passive "
-     "or\n"
-     "passive-paper, air-traffic one of its parts: grid, stress, operation, pairs, clutter, "
-     "rivals;\n"
-     "without it they run all. real-skies is a script: tools/lab/real_skies.py, `make "
-     "experiments`.\n"},
+     "build/experiment/NAME). Experiments: initiation, false-alarms, passive, maneuver; initiation\n"
+     "takes --method kernel, ht, mht, iht or nht, passive takes passive or passive-paper; without\n"
+     "it they run all. The others are scripts, tools/lab/NAME.py.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
 };
