@@ -14,6 +14,7 @@ harness.need_packages("rhotrack")
 import numpy as np
 
 import air_traffic
+import air_traffic_runs as runs
 import lab
 import scene_runs
 import stonesoup_tracker
@@ -22,7 +23,7 @@ SEED = 7
 
 
 def run_of(aircraft, clutter, num_scans):
-    return air_traffic.run_traffic((air_traffic.Case("grid", "test", aircraft, clutter, num_scans),
+    return runs.run_traffic((runs.Case("grid", "test", aircraft, clutter, num_scans),
                                     SEED))
 
 
@@ -62,7 +63,7 @@ class Traffic(unittest.TestCase):
                                   "clutter.0.plots=0", "duration_s=400")
         rows = scene_runs.with_fields(run.plots, ("t_s", "sensor_id", "x_m", "y_m", "scan"))
         for min_scans in (3, 4, 5):
-            counts = [len(tracks) for tracks in air_traffic.limit_of(run, rows, min_scans)]
+            counts = [len(tracks) for tracks in runs.limit_of(run, rows, min_scans)]
             self.assertEqual((len(counts), max(counts[:min_scans - 1])), (40, 0))
             # seen in all of the first scans, .95^M of 20, and flown straight
             self.assertTrue(5 <= counts[min_scans - 1] <= 20 and counts[12] >= 14, counts)
@@ -70,7 +71,7 @@ class Traffic(unittest.TestCase):
 
 class Others(unittest.TestCase):
     def test_a_formation_meets_flies_side_by_side_and_parts(self):
-        place, velocity = air_traffic.path_of(air_traffic.Pair("", "formation", 61, 300))
+        place, velocity = runs.path_of(runs.Pair("", "formation", 61, 300))
         off_scans = np.maximum(0, abs(np.arange(61) - 30) - 15)
         spacing_m = 300 + off_scans * 10 * 2 * 250 * np.sin(np.radians(5))
         np.testing.assert_allclose(place[:, 0, 1] - place[:, 1, 1], spacing_m)
@@ -78,19 +79,19 @@ class Others(unittest.TestCase):
         np.testing.assert_allclose(np.linalg.norm(velocity, axis=2), 250)
         np.testing.assert_allclose(np.linalg.norm(np.diff(place, axis=0), axis=2), 2500)
         for path in ("parallel", "crossing"):
-            place, velocity = air_traffic.path_of(air_traffic.Pair("", path, 31, 400))
+            place, velocity = runs.path_of(runs.Pair("", path, 31, 400))
             np.testing.assert_allclose(np.diff(place, axis=0), 10 * velocity[1:])
         self.assertLess(np.linalg.norm(place[15]), 1e-6)  # those that cross, at half time
 
     def test_pairs_are_told_apart(self):
-        apart = air_traffic.run_pair((air_traffic.Pair("", "parallel", 31, 5000), SEED, 0))
-        one = air_traffic.run_pair((air_traffic.Pair("", "parallel", 31, 150, 250, 0), SEED, 0))
+        apart = runs.run_pair((runs.Pair("", "parallel", 31, 5000), SEED, 0))
+        one = runs.run_pair((runs.Pair("", "parallel", 31, 150, 250, 0), SEED, 0))
         self.assertTrue(apart["no_switch"] and not apart["lost"], apart)
         self.assertGreater(apart["completeness"], 0.85)
         self.assertTrue(one["lost"] and one["completeness"] < 0.6, one)
 
     def test_clutter_alone_gives_few_tracks(self):
-        less, more = (air_traffic.run_alarm((100, wanted, SEED)) for wanted in (1, 10000))
+        less, more = (runs.run_alarm((100, wanted, SEED)) for wanted in (1, 10000))
         self.assertAlmostEqual(less["hours"], 500 / 360)
         self.assertTrue(less["confirmed"] <= 6 and more["confirmed"] >= less["confirmed"] + 6)
         self.assertTrue(less["us"] > 0 and less["min_scans"] > 2.9)

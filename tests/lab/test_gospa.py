@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""GOSPA against all pairings of small sets, and the figures of lives that can be counted by hand."""
+"""GOSPA against all pairings of small sets, and figures of lives that can be counted by hand."""
 import itertools
 import math
 import unittest
@@ -75,7 +75,8 @@ class Figures(unittest.TestCase):
         self.assertEqual((result["missed"], result["false"]), ((2 + 1 + 1 + 1) / 5, 2 / 5))
         self.assertAlmostEqual(result["gospa_m"], math.sqrt(500 + 5000 * (1 + 0.4)))
         self.assertAlmostEqual(result["completeness"], 3 / 8)
-        self.assertEqual((result["switches"], result["fragments"], result["delay_scans"]), (1, 1, 1))
+        self.assertEqual([result[key] for key in ("switches", "fragments", "delay_scans")],
+                         [1, 1, 1])
         self.assertEqual(result["false_tracks"], 1)  # track 1: once of three times
         self.assertAlmostEqual(result["rmse_m"], math.sqrt(2500 / 3))
 

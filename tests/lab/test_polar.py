@@ -18,7 +18,9 @@ import numpy as np
 import doppler
 import lab
 import polar
+import polar_runs
 import polar_references as references
+import scene_runs
 
 RADAR = references.Radar(15.0, 0.003, range_min_m=1000, range_max_m=65000)
 WITH = references.Radar(15.0, 0.003, 1.0, 1000, 65000)
@@ -110,13 +112,13 @@ class Fit(unittest.TestCase):
                                references.fit(plots, RADAR, SKY).score_nat - 7 * math.log(2))
 
     def test_a_miss_costs_the_plots_weight_and_the_miss(self):
-        """The last plot adds the density that a line through the others predicts it with, beside the
-        clutter's, and takes away a miss."""
+        """The last plot adds the density that a line through the others predicts it with, beside
+        the clutter's, and takes away a miss."""
         plots = seen_from([30000, 0], [200, 0], self.TIMES_S)
         seven, six = references.fit(plots, RADAR, SKY), references.fit(plots[:-1], RADAR, SKY)
         t_s = plots["t_s"][:-1] - plots["t_s"][:-1].mean()
         ahead_s = plots["t_s"][-1] - plots["t_s"][:-1].mean()
-        ratio = 1 + 1 / 6 + ahead_s**2 / (t_s**2).sum()  # variance of the innovation, over the noise
+        ratio = 1 + 1 / 6 + ahead_s**2 / (t_s**2).sum()  # of the innovation to the noise
         across_m = plots["range_m"][-1] * 0.003
         density = 1 / (2 * math.pi * 15 * across_m * ratio)
         clutter = 100 / (2 * math.pi * plots["range_m"][-1] * 64000)
@@ -193,7 +195,7 @@ class Polar(unittest.TestCase):
         self.assertEqual(self.pictures, {"index.html", "map.svg", "gates.svg", "errors.svg"})
 
     def test_a_case_tells_the_library_what_it_says(self):
-        sky = polar.Sky(polar.scene_runs.simulate("doppler", 7, "clutter.0.plots=300"), 300)
+        sky = polar_runs.Sky(scene_runs.simulate("doppler", 7, "clutter.0.plots=300"), 300)
         for case in (*polar.CASES, *doppler.CASES):
             rows = sky.told(case)[sky.is_plot]
             self.assertEqual("range_rate_mps" in rows.dtype.names, case.has_range_rate)
@@ -229,8 +231,8 @@ class Polar(unittest.TestCase):
 class Doppler(unittest.TestCase):
     def test_range_rates_bear_ten_times_the_clutter(self):
         """.97 have a track after five turns without range rates and with ten times the clutter and
-        them, .95 with a span; 18 targets: four standard deviations are .19. Errors: 178, 145, 153 m.
-        """
+        them, .95 with a span; 18 targets: four standard deviations are .19. Errors of 178, 145 and
+        153 m."""
         with harness.folder() as folder:
             options = types.SimpleNamespace(runs=6, seed=4711, json=True, jobs=2, output=folder)
             report = lab.Report("test", options)

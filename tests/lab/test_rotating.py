@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Experiment rotating with few runs: scans of each case, figures beside those of many runs, bars."""
+"""Experiment rotating with few runs: scans of each case, figures beside those of many, bars."""
 import json
 import subprocess
 import types

@@ -20,8 +20,9 @@ import two_radars
 class TwoRadars(unittest.TestCase):
     def test_figures_bars_and_page(self):
         with harness.folder() as folder:
-            done = subprocess.run([harness.ROOT / "tools/lab/two_radars.py", "--runs", "2", "--json",
-                                   "-o", folder], capture_output=True, text=True, check=False)
+            done = subprocess.run([harness.ROOT / "tools/lab/two_radars.py", "--runs", "2",
+                                   "--json", "-o", folder], capture_output=True, text=True,
+                                  check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual({path.name for path in folder.iterdir()},
                              {"index.html", "map.svg", "plots.svg", "biases.svg"})

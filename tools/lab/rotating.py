@@ -145,8 +145,8 @@ def draw(report, steps):
                       markersize=4, label=case)
     axes.set(xlabel="since the start (s)", ylabel="a step (ms)")
     axes.legend()
-    report.figure("load", figure, "How long each step of the first run takes: the load spreads over "
-                  "the turn.")
+    report.figure("load", figure, "How long each step of the first run takes: the load spreads "
+                  "over the turn.")
 
 
 def main():

@@ -19,8 +19,8 @@ METHODS = ("gnn", "jpda")
 EPOCH = datetime.datetime(2000, 1, 1)
 POSITION = [0, 2]  # of the state x, vx, y, vy; a list, as numpy takes a tuple for two dimensions
 
-# Chosen by GOSPA (cutoff 1 km) on scene air-traffic, 50 aircraft and 100 false plots a scan, seed 3,
-# 60 scans, one setting at a time; figures are GOSPA in m, completeness, false tracks a scan.
+# Chosen by GOSPA (cutoff 1 km) on scene air-traffic, 50 aircraft and 100 false plots a scan, seed
+# 3, 60 scans, one setting at a time; figures are GOSPA in m, completeness, false tracks a scan.
 #   all at gnn, process_noise 200, velocity_sigma 150, gate 4, min_points 3, hold_misses 2, misses
 #   2: 1564 .938 1.10
 #   process_noise     50: 1603 .930  .70   100: 1519 .938 .83   400: 1663 .937 1.68

@@ -256,8 +256,8 @@ def draw_run(report):
         axes.set(xlabel="x east (km)", title=title)
     panels[0].set(ylabel="y north (km)")
     panels[0].legend()
-    report.figure("plots", figure, "An aircraft of it, 80 s, as the radars measure it, and with the "
-                  "biases taken off that register found.")
+    report.figure("plots", figure, "An aircraft of it, 80 s, as the radars measure it, and with "
+                  "the biases taken off that register found.")
 
 
 def draw_errors(report, found):
@@ -299,8 +299,8 @@ def main():
         for kind, name, unit, digits in KINDS])
     draw_errors(report, found)
     report.heading("Tracks")
-    report.text("Scans are stepped in the order of their times, as they are where one waits for the "
-                "late ones, but in the last case.")
+    report.text("Scans are stepped in the order of their times, as they are where one waits for "
+                "the late ones, but in the last case.")
     report.table(["tracks", "rmse m", "duplicates a target", "switches a target and hour",
                   "completeness", "false tracks a run", "scans refused as late %"], [
         [case.name, f"{of['rmse_m'][0]:.1f}", f"{of['duplicates_per_target'][0]:.4f}",
