@@ -23,8 +23,7 @@ SEED = 7
 
 
 def run_of(aircraft, clutter, num_scans):
-    return runs.run_traffic((runs.Case("grid", "test", aircraft, clutter, num_scans),
-                                    SEED))
+    return runs.run_traffic((runs.Case("grid", "test", aircraft, clutter, num_scans), SEED))
 
 
 class Traffic(unittest.TestCase):

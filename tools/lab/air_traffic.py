@@ -138,7 +138,8 @@ def tell_operation(report, summaries):
     report.heading("Detection against false tracks")
     report.text("50 aircraft, 1000 clutter plots a scan, false_tracks_per_hour varied. False "
                 "tracks an hour: confirmed ones in the same clutter alone; and with the aircraft, "
-                "those that have none in more than half of their scans. Found by scan k of their life.")
+                "those that have none in more than half of their scans. Found by scan k of their "
+                "life.")
     by = (3, 4, 5, 6, 8, 10)
     rows = []
     for of in summaries:

@@ -173,7 +173,8 @@ def main():
     draw_run(report)
     report.heading("Initiation")
     report.text("A batch of seven turns, at least five plots, score at least 0. The clairvoyant "
-                "fit knows which plots are the target's, and the clutter's true density.")
+                "fit knows which plots are the target's, and the clutter's true density. "
+                "Time is the processor's, with the memory of a new initiator.")
     report.table(["initiation from 7 turns", "clutter a turn", "Pd", "clairvoyant Pd",
                   "false a run", "error m", "ms"], [initiation_row(*row) for row in rows])
     report.heading("Tracks")

@@ -210,8 +210,8 @@ def measure(case, sky):
 
 
 def figures_of(runs):
-    """Over the runs of one case: shares, means, root mean squares; counts a run and what bars judge as
-    (value, standard error)."""
+    """Over the runs of one case: shares, means, root mean squares; what has an error as (value,
+    standard error)."""
     total = {key: sum(run[key] for run in runs) for key in runs[0]}
     sums = np.array([run["errors"].sum(axis=0) for run in runs]).T
     rms = [lab.root_of(*lab.ratio_of(one, sums[4])) for one in sums[:4]]
