@@ -20,6 +20,7 @@ import lab
 import polar
 import polar_runs
 import polar_references as references
+import rhotrack
 import scene_runs
 
 RADAR = references.Radar(15.0, 0.003, range_min_m=1000, range_max_m=65000)
@@ -94,6 +95,37 @@ class Filter(unittest.TestCase):
         filter_.update(np.array((0, 30000, 1e-4 - math.pi, 0), PLOT))
         self.assertAlmostEqual(filter_.state[0], -30000, delta=0.01)
         self.assertAlmostEqual(filter_.state[1], 0, delta=0.01)
+
+
+    def test_the_librarys_filter_agrees(self):
+        """A straight target past the radar, its plots with errors, through both. They differ where
+        they are not linear: r sigma^2 / 2 = 0.17 m along the line of sight, an azimuth's error
+        beside a range's, and how far the estimate is off across where rows are taken: up to a tenth
+        of the estimate's own sigma, with range rates a little more."""
+        random = np.random.default_rng(11)
+        for radar, limit in ((RADAR, 0.15), (WITH, 0.25)):
+            plots = seen_from([-20000, 30000], [250, 60], 4.0 * np.arange(25))
+            plots["range_m"] += random.normal(0, 15, 25)
+            plots["azimuth_rad"] += random.normal(0, 0.003, 25)
+            plots["range_rate_mps"] += random.normal(0, 1, 25)
+            kalman = rhotrack.Kalman()
+            for k, plot in enumerate(plots):
+                names = [name for name in ("range_m", "azimuth_rad", "range_rate_mps")
+                         if name != "range_rate_mps" or radar.has_range_rate]
+                row = scene_runs.with_fields(
+                    plots[k:k + 1], ["t_s", *names], sensor_id=1, sigma_range_m=15,
+                    sigma_azimuth_rad=0.003, sigma_range_rate_mps=1)
+                if k == 0:
+                    reference = references.Filter(plot, radar, 400.0)
+                else:
+                    kalman.predict(4.0, 6.25)
+                    reference.predict(4.0 * k, 6.25)
+                    reference.update(plot)
+                kalman.update_plot(row, 400.0**2)
+            spread = np.sqrt(np.diag(reference.covariance))
+            own = [0, 1, 3, 4]
+            np.testing.assert_array_less(abs(kalman.state[own] - reference.state), limit * spread)
+            np.testing.assert_allclose(np.diag(kalman.covariance)[own] / spread**2, 1, atol=0.05)
 
 
 class Fit(unittest.TestCase):
