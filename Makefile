@@ -304,11 +304,11 @@ $(BUILD)/tests/bench/hough_opencv: tests/bench/hough_opencv.cpp Makefile
 	@mkdir -p $(@D) && echo "  c++      $@" && \
 	g++ -O2 $(opencv_flags) -o $@ $< -lopencv_imgproc -lopencv_core
 
-## Install Stone Soup in build/stonesoup (from the package index): tests/bench/air_traffic_stonesoup.py compares with it
+## Install Stone Soup in build/stonesoup (from the package index), where tools/lab/air_traffic.py finds it
 bench-stonesoup: $(BUILD)/stonesoup/bin/stonesoup.installed
 
 $(BUILD)/stonesoup/bin/stonesoup.installed: tests/bench/requirements.txt
-	@mkdir -p $(BUILD) && python3 -m venv $(BUILD)/stonesoup && \
+	@mkdir -p $(BUILD) && /usr/bin/python3 -m venv --system-site-packages $(BUILD)/stonesoup && \
 	$(BUILD)/stonesoup/bin/python3 -m pip install -q --disable-pip-version-check -r $< && touch $@
 
 ## Unit, scenario and bad-input tests with address and undefined-behaviour, unit tests with the memory sanitizer (clang)

@@ -1,12 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 #
-# `simulate air-traffic` and `formation` as files, `track` with what they tell, and parts of
-# `experiment air-traffic`; Stone Soup's part by a script that stands in for it. Runs beside others.
+# `simulate air-traffic` and `formation` as files, and `track` with what they tell. Runs beside
+# others.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-# --- simulate
 run simulate air-traffic -o sky --seed 3 --set targets.0.flights=20 --set duration_s=500 \
     --set radars.0.sigma_m=40 --set radars.0.pd=0.9 --set "radars.0.told={\"pd\":0.95}"
 check "simulate air-traffic" exits 0
@@ -31,34 +30,5 @@ check "... and makes nothing" test ! -e "$folder/bad"
 run simulate air-traffic -o bad --set targets.0.box_m=[0,9000,0,9000]
 check "a box that no flight fits into" says 2 \
     "rhotrack: air-traffic: targets\[0\]: no flight of 400 s fits into box_m*"
-
-# --- experiment
-run experiment air-traffic --method pairs --runs 1 -o out --json
-check "part pairs" json stdout \
-    'o["experiment"] == "air-traffic" and len(o["pairs"]) == 6 and o["cases"] == o["clutter"] == []'
-check "... has bars" json stdout 'o["bars_held"] + o["bars_missed"] == 8'
-check "... and a page" grep -q "Two aircraft\|two aircraft" "$folder/out/index.html"
-run experiment air-traffic --method nothing -o out
-check "an unknown part" says 2 "*experiment air-traffic knows the parts grid, stress*"
-
-# stands in for an interpreter with Stone Soup: tracks are the truth, 300 m to the east
-cat >"$folder/python" <<'END'
-#!/bin/sh
-truth=$(dirname "$2")/truth.csv
-awk -F, 'NR == 1 { print "t_s,track_id,status,x_m,y_m" } NR > 1 { print $1 "," $2 + 1 ",confirmed," $3 + 300 "," $4 }' \
-    "$truth" >"$4"
-echo "{\"method\": \"$6\", \"mean_ms\": 700}"
-END
-chmod +x "$folder/python"
-RHOTRACK_STONESOUP_PYTHON=$folder/python run experiment air-traffic --method rivals --runs 1 \
-    -o out --json
-check "part rivals: time and tracks are the other's" json stdout '(
-    len(o["rivals"]) == 2 and o["rivals"][0]["scan_us"] == 700000 and o["rivals"][1]["completeness"] == 1
-    and abs(o["rivals"][0]["gospa_m"] - 300 * 50 ** 0.5) < 5)'
-check "... and judged" json stdout 'o["bars_held"] + o["bars_missed"] == 4'
-RHOTRACK_STONESOUP_PYTHON=/bin/false run experiment air-traffic --method rivals --runs 1 -o out
-check "one that fails" grep -q "air_traffic_stonesoup.py failed" stdout
-RHOTRACK_STONESOUP_PYTHON=$folder/none run experiment air-traffic --method rivals --runs 1 -o out
-check "one that is not there" grep -q "stonesoup is not installed.*make bench-stonesoup" stdout
 
 finish

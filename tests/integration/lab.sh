@@ -107,41 +107,21 @@ expect_exit 2 "a picture of a file that is not there" "$RHOTRACK" plot scans "$f
     -o "$folder/nothing.svg"
 check "and no picture is left" sh -c "! ls '$folder'/nothing.svg* 2>/dev/null"
 
-# --- experiment, bench, demo
-run experiment polar --runs 1 --json -o "$folder/polar"
-check "experiment polar" exits 0
-check "experiment polar --json is JSON with its score" json stdout '(
-    o["experiment"] == "polar" and o["runs"] == 1 and len(o["cases"]) == 8 and
-    o["bars_held"] + o["bars_missed"] == len(o["bars"]) > 0 and
-    o["bars_held"] == sum(bar["held"] for bar in o["bars"]))'
-check "the double filter is within 10 % at every clutter and case" json stdout \
-    'all(abs(c["rmse_m"] / c["double_filter_rmse_m"] - 1) < 0.1 for c in o["cases"])'
-check "experiment polar writes a page" test -s "$folder/polar/index.html"
-for picture in map gates errors along; do
-    check "the page shows $picture.svg" grep -q "src=\"$picture.svg\"" "$folder/polar/index.html"
-    check "$picture.svg is well-formed" python3 -c \
-        "import xml.dom.minidom as m; m.parse('$folder/polar/$picture.svg')"
-done
-cp stdout first.json
-run experiment polar --runs 1 --json -o "$folder/polar"
-check "the same seed gives the same figures, but for times" sh -c "
-    grep -v 'search_ms\|frame_us' first.json >a; grep -v 'search_ms\|frame_us' stdout >b; cmp a b"
-run experiment polar --runs 1 -o "$folder/polar"
-check "experiment polar ends with its score" sh -c \
-    "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
-run experiment polar --runs 1 --method passive -o "$folder/refused"
-check "the others know no method of bearings" says 2 "*polar*kernel*passive*"
-    run experiment "$name" --runs 1 --method nonsense -o "$folder/refused"
-    check "experiment $name knows no other method" says 2 "*$name*knows the method*nonsense*"
-done
-run experiment polar --runs 1 --method nht -o "$folder/refused"
-check "which the others do not know" says 2 "*polar*kernel*nht*"
-check "a refused experiment writes nothing" test ! -e "$folder/refused"
+# --- experiment: the lab's script of that name
+run experiment rotating --help
+check 'experiment calls the script' grep -q '^usage: rotating.py .*--runs' stdout
 run experiment nothing
-check "an unknown experiment names all there are" says 2 \
-run experiment real-skies
-check "experiment real-skies says where it is" says 2 \
-    "*real-skies*make experiments*tools/lab/real_skies.py"
+check 'an unknown experiment names all there are' says 2 \
+    '*nothing*air-traffic*false-alarms*initiation*maneuver*papers-initiation*passive*polar*real-skies*'
+run experiment
+check 'and so does none' exits 2
+mkdir -p elsewhere/bin && cp "$RHOTRACK" elsewhere/bin/rhotrack
+status=0
+elsewhere/bin/rhotrack experiment two-radars >stdout 2>stderr || status=$?
+check 'without its sources the program says where the script is' says 1 \
+    'rhotrack: experiment two-radars is the script tools/lab/two_radars.py of the source (No such file or directory)'
+
+# --- bench, demo
 check "bench kalman --json is JSON" sh -c \
     "'$RHOTRACK' bench kalman --json | python3 -m json.tool >/dev/null"
 check "bench initiate" "$RHOTRACK" bench initiate

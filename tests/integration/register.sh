@@ -118,17 +118,6 @@ run evaluate turns/truth.csv right.csv --set time_tolerance_s=0.1 --json
 check 'tracks are nearer to the truth with them' json stdout \
     "o[\"rmse_m\"] < 0.9 * $(python3 -c 'import json; print(json.load(open("raw.json"))["rmse_m"])')"
 
-# ---- experiment two-radars ----
-run experiment two-radars --runs 2 -o page --json
-check 'experiment: tracks with the biases of register are nearly as good as with the true ones' \
-    json stdout \
-    'len(o["cases"]) == 6 and (lambda c: c[3]["rmse_m"] < 1.1 * c[4]["rmse_m"] and c[3]["rmse_m"] < 0.95 * c[2]["rmse_m"] and c[3]["rmse_m"] < min(c[0]["rmse_m"], c[1]["rmse_m"]) and c[3]["duplicates_per_target"] < 0.02 and all(0.9 < x["completeness"] <= 1 for x in c[:5]))(o["cases"])'
-check 'experiment: biases of both radars' json stdout \
-    'o["range_bias_m"]["estimates"] == 4 and o["time_bias_s"]["estimates"] == 2 and 0 < o["range_bias_m"]["rms"] < 10'
-check 'experiment: a page and its pictures' test -s page/index.html -a -s page/map.svg -a \
-    -s page/raw.svg \
-    -a -s page/right.svg -a -s page/range.svg -a -s page/azimuth.svg
-
 # ---- what it refuses ----
 run register first.csv --config sectors/scenario.ini
 check 'one radar' says 2 'rhotrack: register: only one radar is in the input; *'

@@ -90,6 +90,14 @@ def test_step_and_run_are_the_same():
     assert rhotrack.Tracker(covariance=True, **SETTINGS).run(scans)["cov_x_x"].min() > 0
 
 
+def test_hits_that_start_a_track():
+    tracker, strict = rhotrack.Tracker(**SETTINGS), rhotrack.Tracker(min_scans=5, **SETTINGS)
+    assert tracker.min_scans == 0
+    tracker.run(one_target())
+    strict.run(one_target())
+    assert (tracker.min_scans, strict.min_scans) == (3, 5)
+
+
 def test_a_scan_that_saw_nothing_counts_as_a_miss():
     run = rhotrack.Tracker(**SETTINGS).run([*one_target(), scan(80, (np.nan, np.nan))])
     last = run[run["t_s"] == 80]
