@@ -29,7 +29,7 @@
 #define DELAY_US INT64_C(5000)
 #define CLUTTER 10
 #define STRANGERS 8
-#define DATAGRAMS 4000
+#define DATAGRAMS 6000
 #define SIGMA_M 20.0
 #define NEAR_M 1000.0
 
@@ -42,6 +42,7 @@ struct datagram {
     int32_t scan;
     int16_t sensor_id, part, num_parts, num_plots; /* num_plots 0: the radar's scan of this time */
     float sigma_m, half_m;
+    int is_polar; /* without plots */
 };
 
 struct live {
@@ -87,6 +88,31 @@ static void put_radar(struct rho_message_plot_scan *scan, struct random *random)
     }
 }
 
+static void take(struct live *live, const char *channel, int16_t sensor_id, const uint8_t *message,
+                 size_t size)
+{
+    char name[32];
+    int64_t start_us;
+
+    snprintf(name, sizeof name, "%s%d", channel, sensor_id);
+    start_us = clock_us();
+    node_core_take(live->core, name, message, size, live->now_us);
+    live->now_us += clock_us() - start_us;
+}
+
+static void send_polar(struct live *live, const struct datagram *datagram)
+{
+    const struct rho_message_polar_scan nothing = {.utime = datagram->time_us,
+                                                   .scan = datagram->scan,
+                                                   .sensor_id = datagram->sensor_id,
+                                                   .num_parts = 1};
+    uint8_t buffer[RHO_MESSAGE_POLAR_SCAN_MAX_SIZE];
+    size_t size;
+
+    assert_int_equal(rho_message_polar_scan_encode(&nothing, buffer, sizeof buffer, &size), RHO_OK);
+    take(live, RHO_MESSAGE_POLAR_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
+}
+
 /* The same plots whenever they are sent. */
 static void send(struct live *live, const struct datagram *datagram)
 {
@@ -94,10 +120,12 @@ static void send(struct live *live, const struct datagram *datagram)
     struct random random = random_start(1, (uint64_t)datagram->sensor_id,
                                         (uint64_t)(datagram->scan * 1000 + datagram->part));
     uint8_t buffer[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE];
-    char channel[32];
     size_t size;
-    int64_t start_us;
 
+    if (datagram->is_polar) {
+        send_polar(live, datagram);
+        return;
+    }
     scan = (struct rho_message_plot_scan){.utime = datagram->time_us,
                                           .scan = datagram->scan,
                                           .sensor_id = datagram->sensor_id,
@@ -114,10 +142,7 @@ static void send(struct live *live, const struct datagram *datagram)
         put_plot(&scan, x_m, random_between(&random, -half_m, half_m), datagram->sigma_m);
     }
     assert_int_equal(rho_message_plot_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
-    snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_PLOT_SCAN_CHANNEL, datagram->sensor_id);
-    start_us = clock_us();
-    node_core_take(live->core, channel, buffer, size, live->now_us);
-    live->now_us += clock_us() - start_us;
+    take(live, RHO_MESSAGE_PLOT_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
 }
 
 static void add(struct live *live, struct datagram datagram)
@@ -302,6 +327,40 @@ static void eight_an_hour_ahead(struct live *live, int64_t from_us)
     }
 }
 
+/* As a sensor of another kind, in the number of the radar, which the config names. */
+static void polar_scans_in_its_number(struct live *live, int64_t from_us)
+{
+    char reason[PARAMETER_REASON_BYTES];
+
+    assert_true(parameters_assign(&live->parameters, "sensor.1.range_max_m", "100000",
+                                  SOURCE_CONFIG, reason));
+    for (int16_t i = 0; i < 120; i++) {
+        add(live, (struct datagram){.received_us = from_us + i * 5000,
+                                    .time_us = from_us + i * 5000,
+                                    .scan = i,
+                                    .sensor_id = 1,
+                                    .is_polar = 1});
+    }
+}
+
+/* Until the end. */
+static void an_empty_one_after_each_of_its(struct live *live, int64_t from_us)
+{
+    const int64_t interval_us = live->datagrams[1].time_us - live->datagrams[0].time_us;
+
+    for (int32_t i = 0; i * interval_us < (END_S - ATTACK_S) * SECOND_US; i++) {
+        const int64_t time_us = from_us + i * interval_us + DELAY_US;
+
+        add(live, (struct datagram){.received_us = time_us + DELAY_US,
+                                    .time_us = time_us,
+                                    .scan = i,
+                                    .sensor_id = 9,
+                                    .num_plots = 1,
+                                    .sigma_m = 20.0f,
+                                    .half_m = 100.0f});
+    }
+}
+
 static void try(struct live *live, int64_t interval_us, attacker *attack, const char *what)
 {
     start(live, interval_us);
@@ -324,7 +383,9 @@ static void nobody_is_harmed(int64_t interval_us)
     } attacks[] = {{crowds_in_120_datagrams, "120 datagrams, crowds"},
                    {scans_in_120_datagrams, "120 datagrams, empty"},
                    {one_ahead_each_3_s, "1 datagram each 3 s"},
-                   {eight_an_hour_ahead, "8 datagrams"}};
+                   {eight_an_hour_ahead, "8 datagrams"},
+                   {polar_scans_in_its_number, "120 polar, in its number"},
+                   {an_empty_one_after_each_of_its, "1 after each, empty"}};
     static struct live alone, live;
 
     print_message("a scan each %.2f s\n", (double)interval_us / 1e6);
