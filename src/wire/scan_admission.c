@@ -323,7 +323,7 @@ int rho_scan_assembler_is_proven(const struct rho_scan_assembler_config *config,
 
 /* ---- Newcomers ---- */
 
-#define PRESENT_INTERVALS 3ull
+#define PRESENT_INTERVALS 3u
 
 static int is_live(const struct rho_scan_assembler *assembler,
                    const struct rho_scan_assembler_source *source, int64_t now_us)
@@ -333,18 +333,20 @@ static int is_live(const struct rho_scan_assembler *assembler,
 }
 
 /*
- * The sensor still sends. One that has fallen silent must make no other one a newcomer: its clock
- * would hold their scans for ever.
+ * The sensor still sends: its next scan is not overdue, or it was heard not long ago. One that has
+ * fallen silent must make no other one a newcomer: its clock would hold their scans for ever.
  */
 static int is_still_sending(const struct rho_scan_assembler *assembler,
                             const struct rho_scan_assembler_source *source, int64_t now_us)
 {
     uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
     uint64_t jump_max_us = (uint64_t)assembler->config.jump_max_us;
+    uint64_t interval_us = source->interval_us;
 
-    return is_live(assembler, source, now_us) && silent_us <= jump_max_us / 2 &&
-           (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
-            silent_us <= PRESENT_INTERVALS * source->interval_us);
+    return is_live(assembler, source, now_us) &&
+           (silent_us <= interval_us + interval_us / 4 ||
+            (silent_us <= jump_max_us / 2 && (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
+                                              silent_us <= PRESENT_INTERVALS * interval_us)));
 }
 
 uint32_t rho_scan_assembler_longest_known_us(const struct rho_scan_assembler *assembler,

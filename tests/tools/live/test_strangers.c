@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A radar that is heard for two minutes, and datagrams of somebody else, live: its track goes on,
- * and a new target is found when it would have been. The time that a step takes is taken from the
+ * A radar that is heard for minutes, and datagrams of somebody else, live: its track goes on, and a
+ * new target is found when it would have been. The time that a step takes is taken from the
  * node.
  */
 #include <math.h>
@@ -24,8 +24,6 @@
 
 #define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
 #define SECOND_US INT64_C(1000000)
-#define ATTACK_S 120 /* from here on, and so does the new target */
-#define END_S 180
 #define DELAY_US INT64_C(5000)
 #define CLUTTER 10
 #define STRANGERS 8
@@ -36,6 +34,8 @@
 /*
  * ---- the scene --------------------------------------------------------------------------------
  */
+
+static int64_t attack_s, end_s; /* of the attack and of the new target */
 
 struct datagram {
     int64_t received_us, time_us;
@@ -58,12 +58,12 @@ struct live {
 
 static double x_of(int target, double t_s)
 {
-    return target == 0 ? -20000.0 + 100.0 * t_s : 30000.0 - 120.0 * (t_s - ATTACK_S);
+    return target == 0 ? -20000.0 + 100.0 * t_s : 30000.0 - 120.0 * (t_s - attack_s);
 }
 
 static double y_of(int target, double t_s)
 {
-    return target == 0 ? 10000.0 - 50.0 * t_s : -20000.0 + 60.0 * (t_s - ATTACK_S);
+    return target == 0 ? 10000.0 - 50.0 * t_s : -20000.0 + 60.0 * (t_s - attack_s);
 }
 
 static void put_plot(struct rho_message_plot_scan *scan, double x_m, double y_m, double sigma_m)
@@ -76,7 +76,7 @@ static void put_radar(struct rho_message_plot_scan *scan, struct random *random)
 {
     const double t_s = (double)(scan->utime - START_US) / 1e6;
 
-    for (int i = 0; i < (t_s < ATTACK_S ? 1 : 2); i++) {
+    for (int i = 0; i < (t_s < attack_s ? 1 : 2); i++) {
         const double dx_m = SIGMA_M * random_normal(random), dy_m = SIGMA_M * random_normal(random);
 
         put_plot(scan, x_of(i, t_s) + dx_m, y_of(i, t_s) + dy_m, SIGMA_M);
@@ -154,7 +154,7 @@ static void add(struct live *live, struct datagram datagram)
 
 static void add_radar(struct live *live, int64_t interval_us)
 {
-    for (int32_t i = 0; i * interval_us < END_S * SECOND_US; i++) {
+    for (int32_t i = 0; i * interval_us < end_s * SECOND_US; i++) {
         const int64_t time_us = START_US + i * interval_us;
 
         add(live,
@@ -193,7 +193,7 @@ static void judge(void *context, const struct rho_report *report)
     const struct rho_track_report *track = nearest(report, 0);
     const int64_t gap_us = live->now_us - live->updated_us;
 
-    if (live->now_us >= START_US + ATTACK_S * SECOND_US && gap_us > live->gap_us) {
+    if (live->now_us >= START_US + attack_s * SECOND_US && gap_us > live->gap_us) {
         live->gap_us = gap_us;
     }
     if (track && track->hits != live->hits) {
@@ -236,7 +236,7 @@ static void run(struct live *live)
 
     live->core = node_core_open(&live->parameters, 1, &events);
     qsort(live->datagrams, live->count, sizeof live->datagrams[0], by_reception);
-    live->updated_us = START_US + ATTACK_S * SECOND_US;
+    live->updated_us = START_US + attack_s * SECOND_US;
     for (unsigned i = 0; i < live->count; i++) {
         const int64_t received_us = live->datagrams[i].received_us;
         int64_t due_us;
@@ -348,7 +348,7 @@ static void an_empty_one_after_each_of_its(struct live *live, int64_t from_us)
 {
     const int64_t interval_us = live->datagrams[1].time_us - live->datagrams[0].time_us;
 
-    for (int32_t i = 0; i * interval_us < (END_S - ATTACK_S) * SECOND_US; i++) {
+    for (int32_t i = 0; i * interval_us < (end_s - attack_s) * SECOND_US; i++) {
         const int64_t time_us = from_us + i * interval_us + DELAY_US;
 
         add(live, (struct datagram){.received_us = time_us + DELAY_US,
@@ -364,11 +364,11 @@ static void an_empty_one_after_each_of_its(struct live *live, int64_t from_us)
 static void try(struct live *live, int64_t interval_us, attacker *attack, const char *what)
 {
     start(live, interval_us);
-    attack(live, START_US + ATTACK_S * SECOND_US);
+    attack(live, START_US + attack_s * SECOND_US);
     run(live);
     print_message("  %-24s gap %.2f s, found after %.2f s, longest step %.3f s\n", what,
                   (double)live->gap_us / 1e6,
-                  live->found_us ? (double)(live->found_us - START_US) / 1e6 - ATTACK_S
+                  live->found_us ? (double)(live->found_us - START_US) / 1e6 - attack_s
                                  : (double)NAN,
                   node_core_max_us(live->core) / 1e6);
     node_core_close(live->core);
@@ -401,13 +401,26 @@ static void nobody_is_harmed(int64_t interval_us)
 static void a_fast_radar_tracks_on(void **state)
 {
     (void)state;
+    attack_s = 120;
+    end_s = 180;
     nobody_is_harmed(50000);
 }
 
 static void a_slow_radar_tracks_on(void **state)
 {
     (void)state;
+    attack_s = 120;
+    end_s = 180;
     nobody_is_harmed(2500000);
+}
+
+/* Between two of its scans it was not heard for more than half of jump_max_s. */
+static void a_radar_of_20_s_tracks_on(void **state)
+{
+    (void)state;
+    attack_s = 600;
+    end_s = 900;
+    nobody_is_harmed(20000000);
 }
 
 /* Said once, however often it happens. */
@@ -420,6 +433,8 @@ static void two_senders_of_one_number_are_told(void **state)
     FILE *to = open_memstream(&said, &size);
 
     (void)state;
+    attack_s = 120;
+    end_s = 180;
     start(&live, SECOND_US);
     for (int32_t scan = 1; scan < 120; scan += 40) {
         const int64_t time_us = START_US + scan * SECOND_US;
@@ -448,6 +463,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_fast_radar_tracks_on),
         cmocka_unit_test(a_slow_radar_tracks_on),
+        cmocka_unit_test(a_radar_of_20_s_tracks_on),
         cmocka_unit_test(two_senders_of_one_number_are_told),
     };
 
