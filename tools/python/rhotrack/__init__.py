@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""rhotrack: tracks from radar plots and bearings.
+"""rhotrack: tracks from radar plots and bearings::
 
     import rhotrack
     settings = rhotrack.Settings(sigma_m=5, v_max_mps=12, accel_max_mps2=0.5)

@@ -67,13 +67,15 @@ def _confirmed(tracks: np.ndarray) -> np.ndarray:
 def _draw_paths(ax: Any, rows: np.ndarray, key: str, style: str, label: str) -> None:
     for one in np.unique(rows[key]):
         path = rows[rows[key] == one]
-        ax.plot(path["x_m"] / 1e3, path["y_m"] / 1e3, style, lw=1, label=label)
+        ax.plot(path["x_m"] / 1e3, path["y_m"] / 1e3, style, lw=1, marker=".", markevery=[-1],
+                label=label)
 
 
 def _draw_rays(ax: Any, rows: np.ndarray) -> None:
     rows = rows[~np.isnan(rows["bearing_rad"])]
     x_km, y_km = rows["sensor_x_m"] / 1e3, rows["sensor_y_m"] / 1e3
-    length = max(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim()))
+    apart = max(np.ptp(x_km), np.ptp(y_km)) if len(rows) else 0
+    length = max(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim()), 5 * apart)
     ends = (x_km + length * np.cos(rows["bearing_rad"]),
             y_km + length * np.sin(rows["bearing_rad"]))
     ax.plot([x_km, ends[0]], [y_km, ends[1]], color="0.8", lw=0.3, zorder=0, label="bearings")

@@ -15,6 +15,11 @@ from .settings import Settings, settings_of
 class Tracks(np.ndarray):
     """The structured array of tracks; a notebook shows it as a picture and a table."""
 
+    def __getitem__(self, key: Any) -> Any:
+        found = super().__getitem__(key)  # columns are plain arrays
+        is_column = isinstance(found, Tracks) and found.dtype.names is None
+        return found.view(np.ndarray) if is_column else found
+
     def _repr_html_(self) -> str | None:
         if self.dtype.names is None or "track_id" not in self.dtype.names or not self.size:
             return None
