@@ -264,9 +264,8 @@ struct rho_tracker {
      * hour
      */
     float died_young, grown;
-    float straight_s,
-        turning_s;         /* of those that had, likelier than not; of the last half an hour, too */
-    float wanted_per_hour; /* false tracks, by the last initiator */
+    float straight_s, turning_s; /* of those that had, surely; of the last half an hour, too */
+    float wanted_per_hour;       /* false tracks, by the last initiator */
     int64_t youth_us;
     uint32_t num_paces;
     struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
