@@ -212,7 +212,7 @@ class Node:
         return self._do(ffi.NULL, b"", 2**63 - 1)
 
     def status(self) -> list[tuple[str, bytes]]:
-        """The messages RHO_STATUS, RHO_WORK and RHO_SENSORS of now."""
+        """The messages RHO_STATUS, RHO_WORK, RHO_SENSORS and RHO_LEARNED of now."""
         self._sent.clear()
         must(lib.program_node_status(self._node))
         return list(self._sent)
