@@ -5,7 +5,7 @@
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
-commands='track initiate simulate evaluate experiment plot bench config'
+commands='track initiate simulate evaluate plot bench config'
 printf 't_s,sensor_id,x_m,y_m\n1,1,2,3\n' >plots.csv
 
 # ---- help and version ----
@@ -91,9 +91,9 @@ refuse 'track decides on inputs by itself' 'track takes no --no-input-estimation
 refuse 'unknown method' \
     "no method 'passive-papers'; there are: kernel, ht, mht, iht, nht, passive, passive-paper" \
     initiate plots.csv --method passive-papers
-refuse 'runs not a number' "--runs 'many' is not a whole number" experiment initiation --runs many
-refuse 'no runs' '--runs 0 is outside 1 .. *' experiment initiation --runs 0
-refuse 'negative seed' "--seed '-1' is not a whole number" experiment initiation --seed -1
+refuse 'runs not a number' "--runs 'many' is not a whole number" simulate radar -o runs --runs many
+refuse 'no runs' '--runs 0 is outside 1 .. *' simulate radar -o runs --runs 0
+refuse 'negative seed' "--seed '-1' is not a whole number" simulate radar -o runs --seed -1
 
 # ---- parameters ----
 refuse 'set without =' '--set sigma_m: not of the form key=value' config --set sigma_m

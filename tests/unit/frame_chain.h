@@ -39,6 +39,14 @@ static inline void start_chain(float accel_max_mps2)
     assert_int_equal(start_passive(&passive), RHO_OK);
 }
 
+/* Another gate than the default's, and so another filter of new tracks. */
+static inline void use_gate(uint8_t gate)
+{
+    struct rho_tracker_config config = tracker.config;
+    config.gate = gate;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+}
+
 /* Any number of frames: the scene holds the last ones. */
 static inline unsigned slot_of(unsigned k)
 {
