@@ -60,6 +60,9 @@ run maintain sharp/plots.csv --gate none --seed 2
 check 'none: another draws others' bash -c '! cmp -s stdout none.csv'
 run maintain sharp/plots.csv --set gate=hough
 check 'the gate by parameter' writes_same_as hough.csv
+run maintain sharp/plots.csv --gate hough --set initial_variance=500 --covariance -o initial.csv
+check 'P(0|0) = 500 I' awk -F, 'NR == 2 { for (i = 19; i <= 39; i++) { n += $i == 500; bad += $i != 500 && $i != 0 }
+    exit !(n == 6 && !bad) }' initial.csv
 run maintain sharp/plots.csv --set gate=none --gate hough
 check '--gate goes before the parameter' writes_same_as hough.csv
 run maintain sharp/plots.csv --gate nearest --no-input-estimation
@@ -148,14 +151,14 @@ check 'polar plots' json stdout 'o["completeness"] > 0.9 and o["rmse_m"] < 200'
 
 # ---- what it refuses ----
 run maintain popup/plots.csv --gate hough -o none_left.csv
-check 'hough without velocities' says 2 "rhotrack: --gate hough looks at velocities, and the scan at 0.000000 s has none: columns 'vx_mps' and 'vy_mps' are wanted"
+check 'hough without velocities' says 2 "rhotrack: gate hough looks at velocities, and the scan at 0.000000 s has none: columns 'vx_mps' and 'vy_mps' are wanted"
 check 'and no output is left' test ! -e none_left.csv
 cut -d, -f1-4,6-8,10 sharp/plots.csv >level.csv
 run maintain level.csv --gate hough
 check 'hough without heights' exits 0
 run maintain level.csv --gate hough --set planes=xz+yz
 check 'and without a plane left' says 2 \
-    'rhotrack: --gate hough: the scan at 0.000000 s has no heights, so that planes must hold xy'
+    'rhotrack: gate hough: the scan at 0.000000 s has no heights, so that planes must hold xy'
 run maintain popup/plots.csv --gate nearest
 check 'places alone and the literal model: it says so' grep -q \
     '^rhotrack: places alone do not show the inputs of input_model literal' stderr

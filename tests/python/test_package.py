@@ -135,6 +135,76 @@ def test_frames_of_pandas_and_polars_go_both_ways():
     assert rhotrack.to_polars(run).filter(polars.col("status") == "confirmed").height > 10
 
 
+# ---- A track alone ----
+
+def test_tracks_alone_step_side_by_side_as_each_by_itself():
+    clutter = np.random.default_rng(2).uniform(-60, 60, (2, 15, 2))
+    runs = [[scan(i, (100.0 * i, 50.0 * run), (100 * i, 0) + clutter[run, i], z_m=[7, 7])
+             for i in range(15)] for run in range(2)]
+    both = rhotrack.Maintainer(tracks=2, covariance=True, **SETTINGS)
+    rows = both.run([one for pair in zip(*runs) for one in pair], np.full(30, -18.0))
+    for run in range(2):
+        alone = rhotrack.Maintainer(covariance=True, **SETTINGS)
+        stepped = []
+        for i, one in enumerate(runs[run]):
+            places, predicted = alone.predict(float(i))
+            assert np.isnan(places).all() == (i == 0) and len(predicted) == (i > 0)
+            stepped.append(alone.run([one], [-18.0]))
+        for name in rows.dtype.names:
+            if name != "track_id":
+                np.testing.assert_array_equal(rows[run::2][name], np.concatenate(stepped)[name])
+        assert both.hypotheses[run] == alone.hypotheses[0] >= 1
+    assert rows["track_id"].tolist() == [1, 2] * 15 and both.refused.tolist() == [0, 0]
+    places, predicted = both.predict(15.0)
+    assert abs(places[0, 0] - 1500) < 60 and abs(predicted["x_m"][0] - 1500) < 60
+    assert (predicted["cov_x_x"] > rows["cov_x_x"][-2:]).all()
+
+
+def test_a_track_that_starts_again_leaves_its_neighbour_alone():
+    """After a gap too long for any prediction."""
+    gone = [scan(t_s, (100.0 * i, 0)) for i, t_s in enumerate((0, 1, 2, 1e6, 1e6 + 1, 1e6 + 2))]
+    stays = [scan(i, (50.0 * i, 900), (50.0 * i, 960)) for i in range(6)]
+    both = rhotrack.Maintainer(tracks=2, **SETTINGS)
+    rows = both.run([one for pair in zip(gone, stays) for one in pair])
+    for i, scans in enumerate((gone, stays)):
+        alone = rhotrack.Maintainer(**SETTINGS)
+        np.testing.assert_array_equal(rows[i::2]["x_m"], alone.run(scans)["x_m"])
+        assert both.refused[i] == alone.refused[0] == (1 - i)
+
+
+def test_a_density_of_clutter_that_is_told_decides():
+    scans = [scan(i, (100 * i, 0)) for i in range(10)] + [scan(10, (1060, 60))]
+    taken = [rhotrack.Maintainer(**SETTINGS).run(scans, density)["plot"][-1]
+             for density in (-30.0, 10.0)]
+    assert taken == [0, -1]
+
+
+def test_a_gate_of_none_draws_from_its_seed():
+    scans = [scan(0, (0, 0)), *(scan(i, *[(100 * i, y) for y in range(9)]) for i in range(1, 30))]
+    a, b, other = (rhotrack.Maintainer(gate="none", seed=seed, **SETTINGS).run(scans)["plot"]
+                   for seed in (3, 3, 4))
+    assert (a == b).all() and (a != other).any() and set(a) > {0, 5, 8}
+
+
+@pytest.mark.parametrize("make, told", [
+    (lambda: rhotrack.Maintainer(tracks=0), "tracks"),
+    (lambda: rhotrack.Maintainer().predict(math.nan), "t_s"),
+    (lambda: rhotrack.Maintainer(gate="hough").step(scan(0, (1, 2))), "vx_mps"),
+    (lambda: rhotrack.Maintainer(gate="hough", planes="xz").step(
+        scan(0, (1, 2), vx_mps=1, vy_mps=1)), "planes"),
+    (lambda: rhotrack.Scans(scan(0, (1, 2), (3, 4)), counts=[1]), "counts")])
+def test_what_a_track_alone_cannot_take_is_named(make, told):
+    with pytest.raises(rhotrack.Error, match=told):
+        make()
+
+
+def test_rows_are_divided_by_counts():
+    rows = np.concatenate(one_target(5))
+    scans = rhotrack.Scans(rows, counts=[2, 2, 4, 2])
+    assert [len(one) for one in scans] == [2, 2, 4, 2]
+    np.testing.assert_array_equal(scans.rows["x_m"], rows["x_m"])
+
+
 # ---- Files ----
 
 def test_files_are_read_as_the_program_reads_them(scene, tmp_path):
@@ -179,6 +249,39 @@ def test_an_accumulator_holds_the_votes_that_find_returns():
     assert plane.theta_rad[theta] == pytest.approx(found["theta_rad"][0])
     with pytest.raises(rhotrack.Error, match="method"):
         rhotrack.Initiator(method="hough")
+    with pytest.raises(rhotrack.Error, match="accumulator"):
+        rhotrack.Initiator().accumulator(scans)
+
+
+@pytest.mark.parametrize("method", ["ht", "mht", "iht", "nht"])
+def test_lines_are_those_of_find(method):
+    initiator = rhotrack.Initiator(method=method, d_rho_m=200, d_theta_rad=0.05, eps_rho_m=400,
+                                   eps_theta_rad=0.1, v_min_mps=50, v_max_mps=300)
+    scans = one_target(7)
+    found, lines = initiator.find(scans), initiator.lines(scans)
+    assert len(lines) == len(found) == initiator.work["num_peaks"] > 0
+    for name, other in (("rho_m", "rho_m"), ("theta_rad", "theta_rad"), ("votes", "score")):
+        np.testing.assert_allclose(lines[name], found[other], atol=1e-6)
+    assert initiator.work["votes"] > 0 and initiator.work["search_us"] > 0
+
+
+def test_an_initiator_counts_the_work_of_each_search():
+    scans = one_target(7)
+    initiator = rhotrack.Initiator(min_scans=5, score_min_nat=-3, **SETTINGS)
+    assert initiator.work == {}
+    found, work = initiator.find(scans), initiator.work
+    assert len(found) == 1 and work["seeds"] > 0 and work["window"]["lookups"] > 0
+    again = rhotrack.Initiator(min_scans=5, score_min_nat=-3, **SETTINGS)
+    again.find(scans[:3])
+    assert len(again.find(scans)) == 1 and again.work["seeds"] == work["seeds"]
+    with pytest.raises(rhotrack.Error, match="kernel"):
+        initiator.lines(scans)
+
+
+def test_a_tracker_tells_its_thresholds():
+    tracker = rhotrack.Tracker(score_min_nat=2.5, min_scans=4, **SETTINGS)
+    tracker.run(one_target(8))
+    assert (tracker.min_scans, tracker.thresholds_nat) == (4, (2.5, 2.5))
 
 
 def test_two_sensors_and_two_targets_have_two_ghosts():

@@ -4,14 +4,7 @@
 #include "base/common.h"
 #include "experiment.h"
 #include "experiment_air_traffic.h"
-#include "experiment_classic.h"
 #include "lab_commands.h"
-#include "settings/method.h"
-
-static bool is_plot_method(const char *name)
-{
-    return classic_methods_named(name) != 0;
-}
 
 static bool is_kernel(const char *name)
 {
@@ -35,20 +28,14 @@ static const struct {
     bool (*knows)(const char *method);
     const char *methods;
 } experiments[] = {
-    {"initiation", experiment_initiation, is_plot_method, "methods " METHOD_PLOT_NAMES},
     {"polar", experiment_polar, is_kernel, "method kernel"},
     {"doppler", experiment_doppler, is_kernel, "method kernel"},
     {"rotating", experiment_rotating, is_kernel, "method kernel"},
-    {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
-    {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
     {"air-traffic", experiment_air_traffic, is_air_part,
      "parts grid, stress, operation, pairs, clutter, rivals"},
     {"two-radars", experiment_two_radars, knows_no_method, "default alone, no methods"},
 };
 
-#define NAMES                                                                                      \
-    "initiation, polar, doppler, rotating, false-alarms, maneuver, air-traffic, "                  \
-    "two-radars"
 
 int command_experiment(struct command_line *line)
 {

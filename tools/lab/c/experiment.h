@@ -6,13 +6,10 @@
 #include "commands.h"
 
 /* Each returns the program's exit code. */
-int experiment_initiation(const struct command_line *line);
 int experiment_polar(const struct command_line *line);
 int experiment_doppler(const struct command_line *line);
 int experiment_rotating(const struct command_line *line);
-int experiment_false_alarms(const struct command_line *line);
 int experiment_air_traffic(const struct command_line *line);
-int experiment_maneuver(const struct command_line *line);
 int experiment_two_radars(const struct command_line *line);
 
 #endif

@@ -15,8 +15,7 @@ static const struct command commands[] = {
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
      "build/experiment/NAME). Experiments: initiation, polar, doppler, rotating, two-radars,\n"
-     "false-alarms, maneuver, air-traffic; initiation takes --method kernel, ht, mht, iht or nht,\n"
-     "air-traffic one of its parts: grid, stress, operation, pairs, clutter, rivals;\n"
+     "air-traffic; air-traffic takes one of its parts: grid, stress, operation, pairs, clutter, rivals;\n"
      "without it they run all. real-skies is a script: tools/lab/real_skies.py, `make "
      "experiments`.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
