@@ -277,6 +277,7 @@ test-rest:
 	@tools/setup.sh firmware
 	@tools/setup.sh python
 	@BUILD=$(BUILD) tools/python.sh
+	-@$(MAKE) --no-print-directory python # without it, tests of the lab's scripts say that they are skipped
 	$(call run_tests,$(other_programs),$(other_scripts))
 
 test-programs: $(unit_programs) $(tool_programs)
@@ -535,6 +536,6 @@ help:
 	@awk '/^## /{text = substr($$0, 4); next} \
 	      text && /^[a-z-]+:/{sub(/:.*/, ""); printf "  %-15s %s\n", $$0, text; text = ""}' $(filter-out %.d,$(MAKEFILE_LIST))
 
--include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) \
+-include $(embedded_objects:.o=.d) $(workstation_objects:.o=.d) $(program_objects:.o=.d) $(lab_objects:.o=.d) \
          $(unit_programs:=.d) $(tool_programs:=.d) $(fuzz_objects:.o=.d) $(embedded_fuzz_objects:.o=.d) \
          $(small_fuzz_objects:.o=.d) $(fuzz_programs:=.d)

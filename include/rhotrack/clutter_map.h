@@ -159,8 +159,8 @@ RHO_MUST_CHECK enum rho_status rho_clutter_map_teach_returns(struct rho_clutter_
 /*
  * Probability that an echo with this number of hits returns after `unseen` misses. Constant cost.
  */
-float rho_clutter_map_chance(const struct rho_clutter_map *map, unsigned region, unsigned hits,
-                             unsigned unseen);
+float rho_clutter_map_return_probability(const struct rho_clutter_map *map, unsigned region,
+                                         unsigned hits, unsigned unseen);
 
 /*
  * True where a map of unknown origin (a snapshot) is consistent. rho_tracker_is_sound calls it.

@@ -59,6 +59,12 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
                                                     float velocity_variance);
 
 /*
+ * Makes the covariance variance times I, m^2 and (m/s)^2, on the axes that are open; variance is
+ * RHO_KALMAN_VARIANCE_MIN .. MAX. Constant cost.
+ */
+void rho_kalman_set_covariance(struct rho_kalman *kalman, float variance);
+
+/*
  * Moves the estimate on by dt_s, -1e5 .. 1e5. noise_density is the power spectral density of white
  * acceleration on each open axis, (m/s^2)^2 s = m^2/s^3, >= 0: Q = density [dt^3/3 dt^2/2; dt^2/2
  * dt], so that one long step equals several short ones. Going back (dt_s < 0) adds no noise: forth

@@ -67,6 +67,11 @@ struct rho_passive_paper_line {
     uint16_t has_state;     /* 1: they are of two scans or more, and gave the state */
     uint16_t reserved;      /* 0 */
     float x_m, y_m, vx_mps, vy_mps; /* at the newest scan; 0 without has_state */
+    /*
+     * covariance of x and vx, and of y and vy alike, by the scatter of the crossings about the fit,
+     * no less than that of a place within the cell; m^2, m^2/s, (m/s)^2
+     */
+    float place_m2, place_velocity_m2ps, velocity_m2ps2;
 };
 
 /* Counters of a search, and of what exceeded a capacity. All saturate. */
@@ -93,6 +98,7 @@ struct rho_passive_paper_fit {
     uint32_t count;
     float first_x_m, first_y_m;
     float u, uu, x_m, y_m, ux_m, uy_m; /* u: the scan's time, -1 .. 1 over the batch */
+    float rr_m2;                       /* of x^2 + y^2 */
 };
 
 struct rho_passive_paper {

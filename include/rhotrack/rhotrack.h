@@ -39,6 +39,7 @@
 
 /* the methods of the papers, to compare with */
 #include "rhotrack/hough.h"
+#include "rhotrack/paper_starts.h"
 #include "rhotrack/passive_paper.h"
 
 #endif

@@ -58,9 +58,9 @@
  *            tracks, and share stranger_plots_per_s: messages beyond that are dropped
  *            (messages_flooded). Their sigmas are not below those of `other`.
  * Allowed    Where `allowed` holds a sensor_id, messages of any other sensor are dropped.
- * Twins      The first part of a sensor's newest scan that comes again with other contents is
- *            counted (scans_other), and has_twin stays 1 in its source: two senders use its number.
- *            The scan that came first counts.
+ * Senders    The first part of a sensor's newest scan that comes again with other contents is
+ *            counted (scans_other), and has_two_senders stays 1 in its source: two senders use its
+ *            number. The scan that came first counts.
  * Clock      A scan is refused where most other live sensors say that its time is another one: more
  *            than an eighth of jump_max_us and hold_us, or two of their intervals, ahead of the
  *            time that follows from their last scans and the reception clock; or an eighth of
@@ -142,8 +142,9 @@ struct rho_scan_assembler_config {
     int64_t jump_max_us;   /* 1 s .. 1 h */
     uint32_t flood_per_s;  /* 1 .. 1e6 */
     uint32_t follow_scans; /* 2 .. 255 */
-    uint16_t is_told;   /* 1: items have a sensor also where `other` is all that is known of it */
-    uint16_t is_record; /* 1: no sensor is a newcomer: for files */
+    uint16_t
+        gives_other; /* 1: items of sensors that were not described have `other` as their sensor */
+    uint16_t is_record;            /* 1: no sensor is a newcomer: for files */
     uint32_t stranger_plots_per_s; /* 1 .. 1e6: of all newcomers that are not named, together */
     uint32_t num_allowed;          /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
     /* sensor_ids; messages of any other are dropped; an even count leaves no padding */
@@ -189,7 +190,7 @@ enum rho_scan_assembler_kind {
     RHO_SCAN_ASSEMBLER_PLOTS = 0,
     RHO_SCAN_ASSEMBLER_POLAR,
     RHO_SCAN_ASSEMBLER_BEARINGS,
-    RHO_NUM_FEED_KINDS
+    RHO_NUM_SCAN_ASSEMBLER_KINDS
 };
 
 /* True of kinds that the library is built with. */
@@ -230,10 +231,10 @@ struct rho_scan_assembler_source {
     uint32_t interval_us; /* from number to number, smoothed; 0: not known yet */
     /* reception clock: for how long it was heard; up to RHO_SCAN_ASSEMBLER_TRUST_US */
     uint32_t known_us;
-    uint32_t check;    /* private; of the newest scan's first part, as it came first */
-    uint16_t scans;    /* accepted; saturates */
-    uint8_t off_clock; /* scans in a row; saturates; 0: it tells the common time */
-    uint8_t has_twin;  /* 1: a scan came twice, with different contents */
+    uint32_t check;          /* private; of the newest scan's first part, as it came first */
+    uint16_t scans;          /* accepted; saturates */
+    uint8_t off_clock;       /* scans in a row; saturates; 0: it tells the common time */
+    uint8_t has_two_senders; /* 1: a scan came twice, with different contents */
     int16_t sensor_id;
     uint8_t kind; /* enum rho_scan_assembler_kind */
     uint8_t is_used;
@@ -282,7 +283,7 @@ struct rho_scan_assembler_item {
     enum rho_scan_assembler_kind kind;
     struct rho_scan scan;             /* PLOTS, POLAR */
     struct rho_bearing_scan bearings; /* BEARINGS */
-    /* who saw it, for rho_tracker_set_sensor; has_sensor 0: nothing is known but the defaults */
+    /* the sensor, for rho_tracker_set_sensor; has_sensor 0: nothing is known but the defaults */
     struct rho_sensor sensor;
     int has_sensor;
     /* the common clock was set anew: trackers start anew as well, before this scan */
@@ -295,7 +296,7 @@ struct rho_scan_assembler_item {
  * hold 20 ms, late_max 20 s (0 without RHO_SECTORS: no tracker takes them), jump_max 30 s, flood
  * 10 000 a second, follow_scans 3, stranger_plots 256 a second (embedded: 64), all sensors allowed;
  * other sensors: at the origin, looking everywhere, pd 0.9, no biases; noise 10 m, 1 m/s, 15 m, 3
- * mrad, 3 mrad, 1 m/s, 1.75 mrad; is_told 0, is_record 0. Constant cost.
+ * mrad, 3 mrad, 1 m/s, 1.75 mrad; gives_other 0, is_record 0. Constant cost.
  */
 void rho_scan_assembler_config_default(struct rho_scan_assembler_config *config);
 

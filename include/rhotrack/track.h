@@ -37,9 +37,9 @@ extern "C" {
 
 enum rho_track_status {
     RHO_TRACK_FREE = 0,  /* an empty slot */
-    RHO_TRACK_TENTATIVE, /* started, not yet believed; or believed no more */
-    RHO_TRACK_CONFIRMED, /* believed; updated at the last look */
-    RHO_TRACK_COASTING,  /* believed; predicted only since */
+    RHO_TRACK_TENTATIVE, /* started, not yet confirmed; or no longer */
+    RHO_TRACK_CONFIRMED, /* believed to be of a target; updated at the last look */
+    RHO_TRACK_COASTING,  /* confirmed; only predicted since its last plot */
     RHO_NUM_TRACK_STATUS
 };
 
@@ -55,7 +55,7 @@ enum rho_track_event {
 
 /* The filter of a track, from its start to its end. */
 enum rho_track_filter {
-    RHO_TRACK_KALMAN = 0, /* `kalman` alone: tracks of bearings, and without the two others */
+    RHO_TRACK_KALMAN = 0, /* `kalman` alone: without the two others */
     RHO_TRACK_INPUT,      /* `input`: Kalman filter with input estimation */
     RHO_TRACK_HYPOTHESES, /* a slot of the pool */
     RHO_NUM_TRACK_FILTERS
@@ -95,7 +95,7 @@ struct rho_track {
      */
     float newest_mps[3], before_mps[3];
     uint8_t num_velocities;
-    uint8_t is_believed; /* has been confirmed */
+    uint8_t was_confirmed; /* has been confirmed */
     uint8_t fast_in_row; /* updates in a row with a speed beyond the fastest target's; saturates */
     /*
      * what its sensor is learned from: the last innovation, along the line of sight and across, in
@@ -122,11 +122,11 @@ struct rho_track {
     /* its second plots: scans in which it had a plot, and others near it; both fade */
     float second_looks, second_plots;
     /*
-     * an elder track that it started beside, 0: none; ln of how much likelier both are one target
+     * an older track that it started beside, 0: none; ln of how much likelier both are one target
      * than two
      */
-    uint32_t twin_id;
-    float twin_nat;
+    uint32_t older_id;
+    float one_target_nat;
     float second_share; /* scratch of a step: how far the track has all its second plots itself */
     struct rho_input input;
 };
@@ -256,13 +256,14 @@ struct rho_track_bearing {
 
 /*
  * Makes *track a TENTATIVE track with identity track_id from an estimate at time_us that hits scans
- * have made; sensor_id is one of those that saw it. Errors: NULL, CONFIG (RHO_FILTERS has no Kalman
- * filter), VALUE (x or y not open, no hits); *track is unchanged. Constant cost. Stack: 620 bytes.
+ * have made, with the filter that the model asks for; sensor_id is one of those that saw it.
+ * Errors: NULL, CONFIG (the filter is none of RHO_FILTERS), CAPACITY (the pool of hypotheses),
+ * VALUE (x or y not open, no hits); *track is unchanged. Constant cost. Stack: 1.5 KB.
  */
-RHO_MUST_CHECK enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
-                                                        const struct rho_kalman *estimate,
-                                                        int64_t time_us, int32_t sensor_id,
-                                                        uint16_t hits, int32_t score_mnat);
+RHO_MUST_CHECK enum rho_status
+rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
+                         const struct rho_kalman *estimate, int64_t time_us, int32_t sensor_id,
+                         uint16_t hits, const struct rho_track_model *model, int32_t score_mnat);
 
 /*
  * Updates with a bearing: predicts to its own time, and takes it by a scalar update. Bearings of

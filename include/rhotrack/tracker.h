@@ -30,7 +30,7 @@
  * as long. When a sensor looks there again after so long, and misses the track or sees it amid
  * clutter, the track is tentative until it is seen once more; it ends at the third miss in a row.
  *
- * Where more confirmed tracks die young than false_tracks_per_hour allows, a new track stays
+ * Where more confirmed tracks end early than false_tracks_per_hour allows, a new track stays
  * tentative until it is seen as often as targets are, or 16 times. A track also ends when its place
  * is known no better than its sensor's range. Time is that of the scans: the tracks of a silent
  * sensor end at steps of other sensors, or at its own next one.
@@ -76,7 +76,7 @@ extern "C" {
  */
 enum rho_tracker_gate {
     RHO_TRACKER_BEST = 0, /* several hypotheses over two motion models: imm, hypotheses */
-    /* the paper: Hough clutter elimination among the plots in the gate, input estimation */
+    /* the paper: Hough clutter elimination among the plots of a window, input estimation */
     RHO_TRACKER_HOUGH,
     /* the likeliest plot in the gate, input estimation: least work and memory */
     RHO_TRACKER_NEAREST,
@@ -99,9 +99,9 @@ struct rho_tracker_config {
     float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
     /*
      * best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they
-     * last, as long as these. What keeps straight becomes calm in a minute on average, and keeps
-     * straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where hardly a
-     * grown track turns
+     * last, as long as these. A target that keeps straight becomes calm in a minute on average, and
+     * keeps straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where
+     * hardly an established track turns
      */
     float steady_s;
     /*
@@ -131,6 +131,14 @@ struct rho_tracker_config {
     struct rho_input_config input;
     float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
     /*
+     * hough: all plots so near to the prediction, along x and along y, are candidates, at least
+     * those in the chi-square gate's box: 0 .. 2 RHO_LIMIT_POSITION_M, the whole scan, which is the
+     * paper's beam. 0: that box, wider by as far as accel_max moves a target in twice the time
+     * since the track's last plot. Of scans that measure no velocities: those in the chi-square
+     * gate
+     */
+    float hough_window_m;
+    /*
      * work that a step may do, up to 1e8 units (struct rho_tracker_work); 0: no limit. Tracks have
      * half of it at most, clutter a quarter, the search what is left, and at most its own work_max
      */
@@ -155,7 +163,7 @@ struct rho_tracker_counters {
     uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
     uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
     uint32_t scans_retrodicted;  /* of the accepted: late, by late_max_s at most */
-    uint32_t sensors_doubted;    /* times that a sensor became suspect */
+    uint32_t sensors_suspected;  /* times that a sensor became suspect */
 };
 
 /*
@@ -206,7 +214,7 @@ struct rho_tracker_look {
      * suspect: it contradicts the others; its plots' noise counts for more, its misses not at all,
      * and it starts no tracks
      */
-    uint16_t is_doubted;
+    uint16_t is_suspect;
 };
 
 /* Rings of range of equal widths, out to a sensor's range_max_m, that its pd is learned by. */
@@ -228,7 +236,7 @@ struct rho_tracker_learned {
      */
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
     uint8_t is_lowered; /* bit i: in ring i pd is used as learned */
-    uint8_t ring;       /* that is judged next, one a scan */
+    uint8_t ring;       /* that is learned next, one a scan */
 };
 
 /* How often a sensor looks at a place. */
@@ -263,11 +271,11 @@ struct rho_tracker {
      * tracks that misses ended before they had 16 hits, and those that had; of the last half an
      * hour
      */
-    float died_young, grown;
+    float ended_early, established;
     float straight_s,
         turning_s;         /* of those that had, likelier than not; of the last half an hour, too */
     float wanted_per_hour; /* false tracks, by the last initiator */
-    int64_t youth_us;
+    int64_t counted_us;
     uint32_t num_paces;
     struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
     uint32_t num_looks;
@@ -419,6 +427,17 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *track
                                                        const struct rho_track_plot *plots,
                                                        unsigned num_plots, int32_t score_mnat,
                                                        struct rho_report *report);
+
+/*
+ * The same from an estimate at the time of the last step, made of hits >= 1 scans: of bearings, or
+ * by a filter of the caller's own. sensor_id is one of the sensors that saw it. Errors: NULL,
+ * STATE, and those of rho_track_start_estimate; VALUE for a score too low. Stack: 2.6 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
+                                                          const struct rho_kalman *estimate,
+                                                          int32_t sensor_id, uint16_t hits,
+                                                          int32_t score_mnat,
+                                                          struct rho_report *report);
 
 /*
  * Takes one frame of bearings through all phases: its scans in their order, each with the bearings'

@@ -33,7 +33,13 @@
  *   false-track rate      tracks that clutter alone starts, per hour
  *   kernel                two plots of different scans: the straight track through them
  *   vote                  a plot of another scan in the gate of a kernel
+ *   fate                  the use that a step made of a plot: claimed by a track, held, refused
+ *   held plot             an unclaimed plot, kept for this search and later ones
  *   hypotheses            alternative histories of a track, with other plots
+ *   steady, agile, calm   models of motion: constant velocity, random acceleration; a calm target
+ *                         has kept its velocity for about a minute, and seldom manoeuvres
+ *   established           a track of 16 hits or more; a sensor that has been heard for long
+ *   newcomer              a sensor that has not been heard for long, beside established ones
  *   merged plot           one plot of several unresolved targets
  *   split plots           several plots of one target
  *   sensor health         estimated errors of a sensor; a suspect sensor contradicts the others,

@@ -20,7 +20,7 @@ struct search {
     int32_t end_distance; /* of the nearest row that may give up its column; later of the end */
     int16_t end_row;
     int16_t end_column;
-    int num_scanned;  /* columns at the head of the queue whose rows were asked */
+    int num_scanned;  /* columns at the head of the queue whose rows were expanded */
     int num_labelled; /* columns in the queue */
 };
 

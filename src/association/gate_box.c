@@ -65,7 +65,7 @@ static void fill_box(const struct rho_hypotheses *pool, uint16_t slot,
 {
     const struct span x = span_of(pool, slot, 0), y = span_of(pool, slot, 1);
     const float x_m = far_of(&x), y_m = far_of(&y);
-    /* a hypothesis without a height does not mind that of a plot */
+    /* a hypothesis without a height ignores that of a plot */
     struct span z = {0.0f, 0.0f, 0.0f};
     float z_m = 1e30f;
     if (have_heights(pool, slot)) {
@@ -94,7 +94,7 @@ void rho_hypotheses_begin_scan(struct rho_hypotheses *pool, uint16_t slot,
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         pool->nodes[pool->node_of[slot][i]].num_candidates = 0;
     }
-    pool->gate_slot = RHO_HYPOTHESES_SLOTS; /* nobody's: estimates have moved since */
+    pool->gate_slot = RHO_HYPOTHESES_SLOTS; /* of no slot: estimates have moved since */
     if (box) {
         fill_box(pool, slot, box);
     }

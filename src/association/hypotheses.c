@@ -202,8 +202,8 @@ float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot)
     return best;
 }
 
-static enum rho_status move_quietly(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                                    int64_t time_us)
+static enum rho_status move_without_noise(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                          int64_t time_us)
 {
     struct rho_imm_step step = *find_step(pool, at->time_us, time_us);
     memset(step.noise, 0, sizeof step.noise);
@@ -212,7 +212,7 @@ static enum rho_status move_quietly(struct rho_hypotheses *pool, struct rho_hypo
 }
 
 static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
-                                int is_quiet)
+                                int is_without_noise)
 {
     if (!pool) {
         return RHO_ERROR_NULL;
@@ -225,8 +225,8 @@ static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int6
         uint16_t node = pool->node_of[slot][i];
         struct rho_hypothesis *at = &pool->nodes[node];
         if (at->time_us != time_us &&
-            (is_quiet
-                 ? move_quietly(pool, at, time_us)
+            (is_without_noise
+                 ? move_without_noise(pool, at, time_us)
                  : rho_imm_predict(&at->imm, find_step(pool, at->time_us, time_us))) != RHO_OK) {
             rho_hypotheses_release(pool, node);
             continue;

@@ -98,9 +98,9 @@ static float score_each(struct rho_hypotheses *pool, uint16_t slot, const struct
         struct rho_hypothesis *at = &pool->nodes[nodes[i]];
         if (score_one(pool, rates ? &rates[i] : 0, at, offer, &match)) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
-            const float worth = note_candidate(at, pd_over_clutter + match.log_likelihood,
+            const float score = note_candidate(at, pd_over_clutter + match.log_likelihood,
                                                match.probability, offer->row);
-            best = worth > best ? worth : best;
+            best = score > best ? score : best;
         }
     }
     return best;
@@ -150,18 +150,18 @@ static inline float enough_for(const struct rho_hypothesis *at, float best)
 }
 
 /*
- * A place alone; worth: ln of pd over the clutter's density. Returns the better one of `best` and
+ * A place alone; base: ln of pd over the clutter's density. Returns the better one of `best` and
  * the weight with the plot.
  */
 static inline float score_in_gate(struct rho_hypothesis *at, const struct rho_imm_gate *gate,
-                                  const float place_m[3], int16_t row, float worth, float best)
+                                  const float place_m[3], int16_t row, float base, float best)
 {
     float log_likelihood, probability;
-    if (!rho_imm_score_in_gate(gate, place_m, enough_for(at, best) - worth, &log_likelihood,
+    if (!rho_imm_score_in_gate(gate, place_m, enough_for(at, best) - base, &log_likelihood,
                                &probability)) {
         return best;
     }
-    const float made = note_candidate(at, worth + log_likelihood, probability, row);
+    const float made = note_candidate(at, base + log_likelihood, probability, row);
     return made > best ? made : best;
 }
 

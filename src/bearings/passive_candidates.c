@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * passive_candidates: the candidates for tracks, best score first where they are ranked. A
- * candidate that shares most of its bearings with a better one is a twin, and is dropped.
+ * candidate that shares most of its bearings with a better one is a duplicate, and is dropped.
  */
 #include <string.h>
 
 #include "passive_search.h"
 #include "rhotrack/types.h"
 
-#define TWIN_SHARE 0.8f
+#define DUPLICATE_SHARE 0.8f
 
 unsigned rho_passive_count_shared(const struct rho_passive_search *search,
                                   const struct rho_passive_candidate *a,
@@ -24,31 +24,32 @@ unsigned rho_passive_count_shared(const struct rho_passive_search *search,
 }
 
 /* Whether the other one claims most of the bearings of `of`. */
-static int is_twin(const struct rho_passive_search *search, const struct rho_passive_candidate *of,
-                   const struct rho_passive_candidate *other)
+static int is_duplicate(const struct rho_passive_search *search,
+                        const struct rho_passive_candidate *of,
+                        const struct rho_passive_candidate *other)
 {
-    return (float)rho_passive_count_shared(search, of, other) >= TWIN_SHARE * (float)of->hits;
+    return (float)rho_passive_count_shared(search, of, other) >= DUPLICATE_SHARE * (float)of->hits;
 }
 
-static int has_better_twin(const struct rho_passive_search *search,
-                           const struct rho_passive_candidate *candidate)
+static int has_better_duplicate(const struct rho_passive_search *search,
+                                const struct rho_passive_candidate *candidate)
 {
     const struct rho_passive *passive = search->passive;
     for (unsigned i = 0; i < passive->num_candidates; i++) {
         if (passive->candidates[i].score_nat >= candidate->score_nat &&
-            is_twin(search, candidate, &passive->candidates[i])) {
+            is_duplicate(search, candidate, &passive->candidates[i])) {
             return 1;
         }
     }
     return 0;
 }
 
-static void remove_worse_twins(struct rho_passive_search *search,
-                               const struct rho_passive_candidate *candidate)
+static void remove_worse_duplicates(struct rho_passive_search *search,
+                                    const struct rho_passive_candidate *candidate)
 {
     struct rho_passive *passive = search->passive;
     for (unsigned i = passive->num_candidates; i > 0; i--) {
-        if (is_twin(search, &passive->candidates[i - 1u], candidate)) {
+        if (is_duplicate(search, &passive->candidates[i - 1u], candidate)) {
             passive->candidates[i - 1u] = passive->candidates[--passive->num_candidates];
             search->candidates_removed++; /* at most once a fit: 2 passes, 96 lines, 20 fits */
         }
@@ -85,8 +86,8 @@ int rho_passive_offer_candidate(struct rho_passive_search *search,
     candidate.score_nat = score.score_nat;
     candidate.hits = score.hits;
     memcpy(candidate.state_m, state_m, sizeof candidate.state_m);
-    if (score.is_track && !has_better_twin(search, &candidate)) {
-        remove_worse_twins(search, &candidate);
+    if (score.is_track && !has_better_duplicate(search, &candidate)) {
+        remove_worse_duplicates(search, &candidate);
         add_candidate(search, &candidate);
     }
     return score.is_track;

@@ -67,7 +67,7 @@ static void add_while_gaining(struct rho_passive_choice *choice, unsigned exclud
     }
 }
 
-/* Replaces one candidate by others if that is worth more. Returns whether it is. */
+/* Replaces one candidate by others if that raises the total. Returns whether it is. */
 static int try_without(struct rho_passive_choice *choice, unsigned which)
 {
     struct rho_passive_choice tried = *choice;

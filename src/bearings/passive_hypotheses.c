@@ -118,7 +118,7 @@ static struct rho_passive_fitted *fitted_entry(struct rho_passive *passive, stru
 
 /*
  * Neighbouring lines share pairs. A pair that gave no track gives none again; a pair that gave a
- * track would give a twin of that candidate, unless a candidate was removed since.
+ * track would give a duplicate of that candidate, unless a candidate was removed since.
  */
 static int was_fitted(const struct rho_passive_search *search, struct pair pair)
 {

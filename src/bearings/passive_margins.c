@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_margins: by how much the best set of tracks is worth more than the best set without each
- * of its tracks. A set that turns out to be worth more becomes the best.
+ * passive_margins: by how much the total of the best set of tracks exceeds that of the best set
+ * without each of its tracks. A set that turns out to have a higher total becomes the best.
  */
 #include <string.h>
 

@@ -198,8 +198,8 @@ void rho_passive_rank_candidates(const struct rho_passive *passive,
                                  uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
 
 /*
- * A fitted state becomes a candidate, unless it is no track or has a better twin. Returns whether
- * it is a track.
+ * A fitted state becomes a candidate, unless it is no track or has a better duplicate. Returns
+ * whether it is a track.
  */
 int rho_passive_offer_candidate(struct rho_passive_search *search,
                                 const float state_m[RHO_PASSIVE_STATES]);
@@ -251,8 +251,8 @@ void rho_passive_fit_jointly(const struct rho_passive_search *search,
                              const struct rho_passive_choice *choice, struct rho_passive_set *set);
 
 /*
- * The total of passive->best minus that of the best set without each of its tracks. A set that is
- * worth more becomes passive->best.
+ * The total of passive->best minus that of the best set without each of its tracks. A set with
+ * a higher total becomes passive->best.
  */
 void rho_passive_find_margins(const struct rho_passive_search *search,
                               struct rho_passive_choice *choice,

@@ -42,7 +42,8 @@ void rho_input_config_default(struct rho_input_config *config)
                                                   .noise_density = 0.0f,
                                                   .noise_m = 1.0f,
                                                   .noise_mps = 1.0f,
-                                                  .velocity_variance = 490000.0f};
+                                                  .velocity_variance = 490000.0f,
+                                                  .initial_variance = 0.0f};
 
     if (config != NULL) {
         *config = paper;
@@ -62,7 +63,10 @@ int rho_input_is_usable(const struct rho_input_config *config)
            config->gamma <= 1.0f && config->noise_density >= 0.0f &&
            config->noise_density <= FLT_MAX && is_noise(config->noise_m) &&
            is_noise(config->noise_mps) && config->velocity_variance >= RHO_KALMAN_VARIANCE_MIN &&
-           config->velocity_variance <= RHO_KALMAN_VARIANCE_MAX;
+           config->velocity_variance <= RHO_KALMAN_VARIANCE_MAX &&
+           config->initial_variance >= 0.0f &&
+           config->initial_variance <= RHO_KALMAN_VARIANCE_MAX &&
+           !(config->initial_variance > 0.0f && config->initial_variance < RHO_KALMAN_VARIANCE_MIN);
 }
 
 /* ---- the estimate with its inputs ------------------------------------------------------------ */

@@ -148,6 +148,16 @@ enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float 
     return RHO_OK;
 }
 
+void rho_kalman_set_covariance(struct rho_kalman *kalman, float variance)
+{
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        for (int j = 0; j <= i; j++) {
+            kalman->covariance[RHO_AT(i, j)] =
+                i == j && rho_kalman_is_open(kalman, i % 3) ? variance : 0.0f;
+        }
+    }
+}
+
 enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float noise_density)
 {
     const float noise = dt_s > 0.0f ? noise_density * dt_s : 0.0f;

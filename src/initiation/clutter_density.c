@@ -322,9 +322,8 @@ static float prior_plots(const struct rho_density_map *map)
         float excess = (float)map->count[c] - mean;
         variance += excess * excess / (float)(cells - 1u);
     }
-    float beyond_chance = variance - mean;
-    return beyond_chance * PRIOR_PLOTS_MAX > mean * mean ? mean * mean / beyond_chance
-                                                         : PRIOR_PLOTS_MAX;
+    float excess = variance - mean;
+    return excess * PRIOR_PLOTS_MAX > mean * mean ? mean * mean / excess : PRIOR_PLOTS_MAX;
 }
 
 static float mean_density(const struct search *search, float plots, float scans, float content)

@@ -29,13 +29,13 @@
  * Prior probabilities of a return by class of hits, and their weight in looks; half of them after
  * misses.
  */
-static const float prior_chance[RHO_ECHO_HIT_CLASSES] = {0.004f, 0.04f, 0.12f, 0.2f};
+static const float prior_probability[RHO_ECHO_HIT_CLASSES] = {0.004f, 0.04f, 0.12f, 0.2f};
 /* Prior where targets may stand: standing plots are clutter less often. */
-#define PRIOR_CHANCE_STANDING 0.003f
+#define PRIOR_PROBABILITY_STANDING 0.003f
 #define PRIOR_LOOKS 3.0f
 /* Weight of the mean over all regions in one region, in looks. */
 #define REGION_LOOKS 2.0f
-#define CHANCE_MAX 0.98f
+#define PROBABILITY_MAX 0.98f
 
 /* Scans of its sensor, by class of hits, after which an unseen echo is forgotten. */
 static const uint8_t scans_kept[RHO_ECHO_HIT_CLASSES] = {12, 16, 30, 100};
@@ -60,21 +60,22 @@ static unsigned gap_class(unsigned gap)
     return gap < 2 ? 0 : gap < 3 ? 1 : gap < 5 ? 2 : gap < 9 ? 3 : 4;
 }
 
-float rho_clutter_map_chance(const struct rho_clutter_map *map, unsigned region, unsigned hits,
-                             unsigned unseen)
+float rho_clutter_map_return_probability(const struct rho_clutter_map *map, unsigned region,
+                                         unsigned hits, unsigned unseen)
 {
     const unsigned c = rho_clutter_map_hit_class(hits), g = gap_class(unseen);
     const struct rho_echo_returns *all = &map->tables[0][ALL_REGIONS];
     const struct rho_echo_returns *here =
         &map->tables[0][region < ALL_REGIONS ? region : ALL_REGIONS];
     const float prior =
-        (map->v_min_mps > 0.0f ? prior_chance[c] : PRIOR_CHANCE_STANDING) * (g > 0 ? 0.5f : 1.0f);
+        (map->v_min_mps > 0.0f ? prior_probability[c] : PRIOR_PROBABILITY_STANDING) *
+        (g > 0 ? 0.5f : 1.0f);
     /* counts may be negative, as tracks remove counts that are not used yet */
     const float all_returns = all->returns[c][g] > 0.0f ? all->returns[c][g] : 0.0f;
     const float returns = here->returns[c][g] > 0.0f ? here->returns[c][g] : 0.0f;
     const float mean = (all_returns + PRIOR_LOOKS * prior) / (all->looks[c][g] + PRIOR_LOOKS);
-    const float chance = (returns + REGION_LOOKS * mean) / (here->looks[c][g] + REGION_LOOKS);
-    return chance < CHANCE_MAX ? chance : CHANCE_MAX;
+    const float probability = (returns + REGION_LOOKS * mean) / (here->looks[c][g] + REGION_LOOKS);
+    return probability < PROBABILITY_MAX ? probability : PROBABILITY_MAX;
 }
 
 void rho_clutter_map_count_look(struct rho_clutter_map *map, const struct rho_echo *echo)

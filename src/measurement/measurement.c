@@ -14,7 +14,7 @@
 
 #define RANGE_MAX_M RHO_LIMIT_POSITION_M
 
-/* ---- what can be believed -------------------------------------------------------------------- */
+/* ---- ranges of values ------------------------------------------------------------------------ */
 
 static int is_speed(float v_mps)
 {

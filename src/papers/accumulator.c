@@ -48,7 +48,7 @@ enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t
     return RHO_OK;
 }
 
-static int are_believed(const struct rho_accumulator_points *points, unsigned num_points)
+static int are_valid(const struct rho_accumulator_points *points, unsigned num_points)
 {
     for (unsigned i = 0; i < num_points; i++) {
         if (!rho_is_coordinate(points->x_m[i]) || !rho_is_coordinate(points->y_m[i])) {
@@ -88,7 +88,7 @@ enum rho_status rho_accumulator_check(const struct rho_accumulator_points *point
     if (num_points > 0 && (!points->x_m || !points->y_m)) {
         return RHO_ERROR_NULL;
     }
-    return are_believed(points, num_points) ? RHO_OK : RHO_ERROR_VALUE;
+    return are_valid(points, num_points) ? RHO_OK : RHO_ERROR_VALUE;
 }
 
 /*

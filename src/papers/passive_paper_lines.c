@@ -151,6 +151,7 @@ static void add_point(const struct rho_passive_paper_search *search, unsigned li
     fit->y_m += y_m;
     fit->ux_m += u * x_m;
     fit->uy_m += u * y_m;
+    fit->rr_m2 += x_m * x_m + y_m * y_m;
     search->paper->lines[line].scans = (uint16_t)(search->paper->lines[line].scans | 1u << scan);
 }
 
@@ -195,6 +196,12 @@ static void add_pair(struct rho_passive_paper_search *search, unsigned number)
     }
 }
 
+/* Variance of a place that is anywhere within a cell. */
+static float paper_cell_m2(const struct rho_passive_paper *paper)
+{
+    return paper->config.rho_cell_m * paper->config.rho_cell_m / 12.0f;
+}
+
 /* Least squares of position = p + u d. */
 static void finish_fit(const struct rho_passive_paper_search *search,
                        const struct rho_passive_paper_fit *fit, struct rho_passive_paper_line *line)
@@ -212,6 +219,13 @@ static void finish_fit(const struct rho_passive_paper_search *search,
     line->y_m = search->middle_y_m + fit->first_y_m + fit->y_m / n + ahead * dy_m;
     line->vx_mps = dx_m / search->half_s;
     line->vy_mps = dy_m / search->half_s;
+    float left_m2 = fit->rr_m2 - (fit->x_m * fit->x_m + fit->y_m * fit->y_m) / n -
+                    spread * (dx_m * dx_m + dy_m * dy_m);
+    float axis_m2 = left_m2 / (2.0f * n), cell_m2 = paper_cell_m2(search->paper);
+    axis_m2 = axis_m2 > cell_m2 ? axis_m2 : cell_m2;
+    line->place_m2 = axis_m2 * (1.0f / n + ahead * ahead / spread);
+    line->place_velocity_m2ps = axis_m2 * ahead / (spread * search->half_s);
+    line->velocity_m2ps2 = axis_m2 / (spread * search->half_s * search->half_s);
 }
 
 void rho_passive_paper_fit(struct rho_passive_paper_search *search)

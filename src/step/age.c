@@ -75,13 +75,13 @@ void rho_tracker_age(struct step *step)
         rho_tracker_expect_second_plots(step);
     }
     const struct rho_track_limits limits = rho_tracker_limits(step);
-    rho_tracker_find_asked_evidence(step);
+    rho_tracker_find_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status == RHO_TRACK_FREE) {
             continue;
         }
-        const int is_missed = track->plot < 0 && rho_tracker_is_reached(step, row) &&
+        const int is_missed = track->plot < 0 && rho_tracker_is_in_view(step, row) &&
                               rho_tracker_scan_looked_at(step, track);
         if (is_missed) {
             count_miss(step, track);

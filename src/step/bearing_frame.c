@@ -23,7 +23,7 @@ struct look {
     const struct rho_bearing_scan *scan;
     struct rho_sensor sensor; /* at the place that the scan states */
     uint8_t *fates;
-    uint32_t num; /* bearings that have a fate of their own, and may be claimed */
+    uint32_t num; /* bearings that have a place in the report, and may be claimed */
     float log_density;
 };
 
@@ -266,7 +266,7 @@ static void age(struct step *step)
         }
     }
     const struct rho_track_limits limits = rho_tracker_limits(step);
-    rho_tracker_find_asked_evidence(step);
+    rho_tracker_find_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status != RHO_TRACK_FREE) {

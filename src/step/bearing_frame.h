@@ -15,8 +15,8 @@ static inline int is_bearing(const struct rho_bearing *bearing)
 }
 
 /*
- * How many bearings of a scan have a fate of their own and room to be held. first: the scan's first
- * bearing among those of the frame.
+ * The number of bearings of a scan that have a place in the report's fates and in the batch. first:
+ * the place of the scan's first bearing among those of the frame.
  */
 static inline uint32_t num_held(const struct step *step, const struct rho_bearing_scan *scan,
                                 uint32_t first)
@@ -25,5 +25,16 @@ static inline uint32_t num_held(const struct step *step, const struct rho_bearin
     const uint32_t num = scan->num_bearings < room ? scan->num_bearings : room;
     return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
 }
+
+/* The frame as a batch takes it: the bearings that have fates, and these fates in a row. */
+struct held_frame {
+    struct rho_frame frame;
+    struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SENSORS];
+    uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
+};
+
+/* bearing_initiation.c: fills *held from step->frame, and gives its fates back to the report */
+void rho_tracker_hold_frame(const struct step *step, struct held_frame *held);
+void rho_tracker_return_fates(const struct step *step, struct held_frame *held);
 
 #endif

@@ -68,15 +68,8 @@ static void mark_ghosts(struct step *step)
 
 /* ---- initiate -------------------------------------------------------------------------------- */
 
-/* The frame as the batch takes it: the bearings that have fates, and these fates in a row. */
-struct held {
-    struct rho_frame frame;
-    struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SENSORS];
-    uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
-};
-
 /* Copies fates to the held frame's, or back. */
-static void move_fates(const struct step *step, struct held *held, int is_back)
+static void move_fates(const struct step *step, struct held_frame *held, int is_back)
 {
     uint8_t *packed = held->fates;
     uint32_t first = 0;
@@ -89,21 +82,31 @@ static void move_fates(const struct step *step, struct held *held, int is_back)
     }
 }
 
-static void push(struct step *step)
+void rho_tracker_hold_frame(const struct step *step, struct held_frame *held)
 {
-    struct held held;
     uint32_t first = 0;
-    held.frame = *step->frame;
-    held.frame.scans = held.scans;
-    for (uint32_t i = 0; i < held.frame.num_scans; i++) {
-        held.scans[i] = step->frame->scans[i];
-        held.scans[i].num_bearings = num_held(step, &held.scans[i], first);
+    held->frame = *step->frame;
+    held->frame.scans = held->scans;
+    for (uint32_t i = 0; i < held->frame.num_scans; i++) {
+        held->scans[i] = step->frame->scans[i];
+        held->scans[i].num_bearings = num_held(step, &held->scans[i], first);
         first = rho_count(first, step->frame->scans[i].num_bearings);
     }
-    move_fates(step, &held, 0);
+    move_fates(step, held, 0);
+}
+
+void rho_tracker_return_fates(const struct step *step, struct held_frame *held)
+{
+    move_fates(step, held, 1);
+}
+
+static void push(struct step *step)
+{
+    struct held_frame held;
+    rho_tracker_hold_frame(step, &held);
     /* the frame was accepted before the step began */
     (void)!rho_passive_push(step->passive, &held.frame, held.fates);
-    move_fates(step, &held, 1);
+    rho_tracker_return_fates(step, &held);
 }
 
 /* The batch's estimate is of x, y, vx and vy. */
@@ -141,7 +144,7 @@ static void start_track(struct step *step, const struct rho_passive_track *found
     fill_estimate(found, &estimate);
     if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->time_us,
                                  last_sensor(step->passive, found),
-                                 (uint16_t)rho_count_bits(found->scans),
+                                 (uint16_t)rho_count_bits(found->scans), &step->model,
                                  found->score_mnat) == RHO_OK &&
         rho_tracker_admit(step, &track, limits)) {
         tracker->counters.plots_initiated =

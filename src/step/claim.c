@@ -3,13 +3,21 @@
  * claim: gates the scan's plots and assigns them to tracks, each at most one.
  */
 #include "phases.h"
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/measurement.h"
 
 /* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the
  * paper. */
 #define HOUGH_VELOCITIES_MIN 3
-/* More than any two velocities within the limits can differ, m/s for nat: only the order counts. */
-#define HOUGH_GAIN_MAX_NAT 80000.0f
+/*
+ * The gain of a plot by its Hough residual, in nat a factor of e in m/s: of a confirmed track so
+ * much that a tenth less outweighs what a tentative one gains by any plot. And its largest value,
+ * the same for both, and the least residual that counts.
+ */
+#define HOUGH_CONFIRMED_NAT 200.0f
+#define HOUGH_TENTATIVE_NAT 1.0f
+#define HOUGH_GAIN_MAX 16.0f
+#define HOUGH_RESIDUAL_MIN_MPS 0.001f
 
 /* ---- the plots of the scan ------------------------------------------------------------------- */
 
@@ -89,13 +97,19 @@ static void velocity_of(const struct step *step, const struct rho_track *track,
     }
 }
 
-/* The gain falls with the Hough residual; the offset makes any gated plot better than a miss. */
+/*
+ * The gain falls with the Hough residual; the offset makes any plot better than a miss. The paper
+ * has one track, whose plots it orders. Between tracks residuals are compared by their ratio: by
+ * their difference, a plot that suits nothing would take the place of one that fits.
+ */
 static float hough_gain(const struct step *step, const struct rho_track *track,
                         const struct rho_gate_hough *hough, const struct rho_plot *plot)
 {
     float velocity_mps[3];
     velocity_of(step, track, plot, velocity_mps);
-    return HOUGH_GAIN_MAX_NAT - rho_gate_hough_residual_mps(hough, velocity_mps);
+    return (track->status == RHO_TRACK_TENTATIVE ? HOUGH_TENTATIVE_NAT : HOUGH_CONFIRMED_NAT) *
+           (HOUGH_GAIN_MAX -
+            rho_log(HOUGH_RESIDUAL_MIN_MPS + rho_gate_hough_residual_mps(hough, velocity_mps)));
 }
 
 static int is_in_box(const struct step *step, const struct rho_gate *gate, const float half_m[2],
@@ -105,6 +119,23 @@ static int is_in_box(const struct step *step, const struct rho_gate *gate, const
     const float dy_m = step->scan->plots[i].y_m - gate->predicted.state[1];
     return dx_m <= half_m[0] && dx_m >= -half_m[0] && dy_m <= half_m[1] && dy_m >= -half_m[1] &&
            step->report->fates[i] == RHO_FATE_HELD;
+}
+
+/*
+ * The Hough gate chooses among all plots of its window: where a manoeuvre begins, the target's plot
+ * lies outside the chi-square gate of a filter that notices an input at the second plot only. That
+ * takes measured velocities, which tell a target from clutter; of places alone a far plot fits as
+ * well as a near one.
+ */
+static void widen_for_hough(const struct step *step, const struct rho_track *track, float half_m[2])
+{
+    const struct rho_tracker_config *config = &step->tracker->config;
+    const float dt_s = rho_seconds_between(track->updated_us, step->time_us);
+    for (int axis = 0; axis < 2; axis++) {
+        half_m[axis] = config->hough_window_m > 0.0f
+                           ? larger(half_m[axis], config->hough_window_m)
+                           : half_m[axis] + 2.0f * config->accel_max_mps2 * dt_s * dt_s;
+    }
 }
 
 static void offer_gated_plots(struct step *step, unsigned row)
@@ -118,8 +149,12 @@ static void offer_gated_plots(struct step *step, unsigned row)
     const float log_miss = rho_tracker_detection(step, track).log_miss;
     const float log_density = rho_tracker_log_density(step, track);
     const int by_hough = opens_hough(step, track, &hough);
+    const int has_window = by_hough && (step->scan->measures & RHO_MEASURES_VELOCITY);
     rho_tracker_open_gate(step, track, step->scan->measures, &gate);
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
+    if (has_window) {
+        widen_for_hough(step, track, half_m);
+    }
     struct plots_near near = rho_tracker_plots_near(
         step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
         gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
@@ -136,7 +171,7 @@ static void offer_gated_plots(struct step *step, unsigned row)
         const struct rho_plot *plot = &step->scan->plots[i];
         if (is_in_box(step, &gate, half_m, i) &&
             rho_tracker_is_chosen(step, &choice, track, plot) &&
-            rho_gate_test(&gate, plot, &result)) {
+            (has_window || rho_gate_test(&gate, plot, &result))) {
             rho_tracker_offer(
                 step, row, i,
                 by_hough ? hough_gain(step, track, &hough, plot)
@@ -177,7 +212,7 @@ void rho_tracker_claim(struct step *step)
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, step->num_gated);
     rho_tracker_begin_work(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_reached(step, row)) {
+        if (tracker->tracks[row].status == RHO_TRACK_FREE || !rho_tracker_is_in_view(step, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {

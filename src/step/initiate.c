@@ -4,39 +4,6 @@
  */
 #include "phases.h"
 
-/* The row of a held plot in its scan; -1: it came with an earlier sector. */
-static int16_t row_of(struct rho_initiator *initiator, unsigned m, unsigned plot)
-{
-    const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
-    if (RHO_SECTORS && m + 1u == initiator->window.num_scans &&
-        rho_tracker_is_of_earlier_sector(&initiator->window, scan, plot)) {
-        return -1;
-    }
-    return (int16_t)(scan->marks[plot] & RHO_WINDOW_ROW);
-}
-
-/* The candidate's plots in the order of their scans. */
-static unsigned gather_plots(struct rho_initiator *initiator, const struct rho_candidate *candidate,
-                             struct rho_track_plot *plots)
-{
-    unsigned n = 0;
-    for (unsigned m = 0; m < initiator->window.num_scans; m++) {
-        if ((unsigned)candidate->mask >> m & 1u) {
-            const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
-            struct rho_plot plot = rho_window_plot_of(scan, candidate->plot[m]);
-            plots[n++] = (struct rho_track_plot){
-                .time_us = scan->time_us + plot.offset_us,
-                .measures = scan->measures & ~RHO_MEASURES_VELOCITY, /* the window has none */
-                .sensor_id = scan->sensor.sensor_id,
-                .sensor = &scan->sensor,
-                .plot = plot,
-                .row = row_of(initiator, m, candidate->plot[m]),
-            };
-        }
-    }
-    return n;
-}
-
 /* A better candidate of this search has started with the newest plot. If there is another target,
  * the next scan will show it. */
 static int is_doubled(struct rho_initiator *initiator, const struct rho_candidate *candidate)
@@ -52,7 +19,7 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
     struct rho_tracker *tracker = step->tracker;
     struct rho_track_plot plots[RHO_MAX_SCANS];
     struct rho_track track;
-    unsigned n = gather_plots(step->initiator, candidate, plots);
+    unsigned n = rho_tracker_gather_plots(&step->initiator->window, candidate, plots);
     if (rho_track_start(&track, tracker->next_track_id, plots, n, &step->model,
                         candidate->score_mnat) != RHO_OK) {
         tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
@@ -101,7 +68,7 @@ static void start_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_initiator *initiator = step->initiator;
-    /* only the plots with a fate of their own are offered */
+    /* only the plots with a place in the report are offered */
     struct rho_scan held = *step->scan;
     held.num_plots = step->num_gated;
     push(step, &held);

@@ -47,7 +47,7 @@ struct pair {
 static int may_be_merged(const struct rho_track *track)
 {
     /* tentative ones, too: both missing a merged plot says nothing of the second target alone */
-    return track->is_believed && track->hits >= HITS_MIN && track->plot < 0;
+    return track->was_confirmed && track->hits >= HITS_MIN && track->plot < 0;
 }
 
 /* Along the line of sight, and across it. */
@@ -163,15 +163,15 @@ void rho_tracker_share_merged_plots(struct step *step)
             continue;
         }
         /*
-         * a track that refuses goes on as without a pair; the elder one gains as from a plot of its
+         * a track that refuses goes on as without a pair; the older one gains as from a plot of its
          * own
          */
-        const int second_is_elder = pair.second < pair.first;
+        const int second_is_older = pair.second < pair.first;
         if (take_merged_plot(step, pair.second, pair.plot,
-                             second_is_elder ? pair.gain_nat : gain_nat)) {
+                             second_is_older ? pair.gain_nat : gain_nat)) {
             step->report->fates[pair.plot] = RHO_FATE_CLAIMED;
             (void)!take_merged_plot(step, pair.first, pair.plot,
-                                    second_is_elder ? gain_nat : pair.gain_nat);
+                                    second_is_older ? gain_nat : pair.gain_nat);
         }
     }
 }

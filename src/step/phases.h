@@ -57,6 +57,9 @@ void rho_tracker_share_merged_plots(struct step *step);
  */
 int rho_tracker_admit(struct step *step, struct rho_track *track,
                       const struct rho_track_limits *limits);
+/* The candidate's plots in the order of their scans; returns how many. */
+unsigned rho_tracker_gather_plots(struct rho_window *window, const struct rho_candidate *candidate,
+                                  struct rho_track_plot *plots);
 /* Without an initiator, unclaimed plots and bearings are held nowhere. */
 void rho_tracker_refuse_unclaimed(struct step *step);
 

@@ -24,10 +24,10 @@ void rho_tracker_predict(struct step *step)
         if (RHO_SECTORS) {
             rho_tracker_note_ahead(track);
         }
-        if (rho_tracker_reaches(step, track) &&
+        if (rho_tracker_may_see(step, track) &&
             !(RHO_SECTORS && rho_tracker_was_seen(step, track)) &&
             !rho_tracker_is_only_seen_by_suspect_sensor(step, track)) {
-            step->reached[i / 32] |= 1u << i % 32;
+            step->in_view[i / 32] |= 1u << i % 32;
             rho_tracker_predict_track(step, track);
         }
     }

@@ -36,9 +36,9 @@ static void close_part(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         const int had = rho_assignment_column(&tracker->assignment, i) != RHO_ASSIGNMENT_NONE;
-        if (rho_tracker_is_reached(step, i) && (track->plot >= 0 || had)) {
+        if (rho_tracker_is_in_view(step, i) && (track->plot >= 0 || had)) {
             track->plot = (int16_t)(track->plot < 0 ? -1 : track->plot + (int32_t)step->first_row);
-            step->reached[i / 32] &= ~(1u << i % 32);
+            step->in_view[i / 32] &= ~(1u << i % 32);
         }
     }
     for (uint32_t i = 0; i < step->num_gated && step->first_row > 0; i++) {
@@ -71,7 +71,7 @@ void rho_tracker_claim_parts(struct step *step)
         }
     }
     memcpy(step->report->fates, fates, sizeof fates);
-    memcpy(step->reached, before.reached, sizeof step->reached);
+    memcpy(step->in_view, before.in_view, sizeof step->in_view);
     step->part_share = before.part_share;
     step->part_per_m2 = before.part_per_m2;
     step->scan = before.scan;

@@ -8,6 +8,38 @@
 #include "phases.h"
 #include "rhotrack/measurement.h"
 
+/* The row of a held plot in its scan; -1: it came with an earlier sector. */
+static int16_t row_of(const struct rho_window *window, const struct rho_window_scan *scan,
+                      unsigned m, unsigned plot)
+{
+    if (RHO_SECTORS && m + 1u == window->num_scans &&
+        rho_tracker_is_of_earlier_sector(window, scan, plot)) {
+        return -1;
+    }
+    return (int16_t)(scan->marks[plot] & RHO_WINDOW_ROW);
+}
+
+unsigned rho_tracker_gather_plots(struct rho_window *window, const struct rho_candidate *candidate,
+                                  struct rho_track_plot *plots)
+{
+    unsigned n = 0;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        if ((unsigned)candidate->mask >> m & 1u) {
+            const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+            struct rho_plot plot = rho_window_plot_of(scan, candidate->plot[m]);
+            plots[n++] = (struct rho_track_plot){
+                .time_us = scan->time_us + plot.offset_us,
+                .measures = scan->measures & ~RHO_MEASURES_VELOCITY, /* the window has none */
+                .sensor_id = scan->sensor.sensor_id,
+                .sensor = &scan->sensor,
+                .plot = plot,
+                .row = row_of(window, scan, m, candidate->plot[m]),
+            };
+        }
+    }
+    return n;
+}
+
 /* By which tentative tracks give way: the score; of a hidden track how far it has fallen. */
 static int32_t precedence(const struct step *step, const struct rho_track *track)
 {
@@ -79,33 +111,55 @@ static int are_usable(const struct rho_tracker *tracker, const struct rho_report
     return 1;
 }
 
-enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
-                                        const struct rho_track_plot *plots, unsigned num_plots,
-                                        int32_t score_mnat, struct rho_report *report)
+/* A step that starts go on from: the newest, whose report it still is. */
+static enum rho_status resume(struct rho_tracker *tracker, struct rho_report *report,
+                              int32_t score_mnat, struct step *step)
 {
-    if (!tracker || !plots || !report) {
-        return RHO_ERROR_NULL;
-    }
     if (!rho_tracker_is_ready(tracker) || !tracker->has_time ||
         report->time_us != tracker->time_us) {
         return RHO_ERROR_STATE;
     }
-    if (num_plots < 1 || !rho_tracker_is_score(score_mnat) ||
-        !are_usable(tracker, report, plots, num_plots)) {
+    step->tracker = tracker;
+    step->report = report;
+    step->time_us = tracker->time_us;
+    rho_tracker_set_model(step);
+    rho_tracker_set_pd(step);
+    return rho_tracker_is_score(score_mnat) && score_mnat >= rho_tracker_limits(step).tentative_mnat
+               ? RHO_OK
+               : RHO_ERROR_VALUE;
+}
+
+static enum rho_status admit_between_steps(struct step *step, struct rho_track *track)
+{
+    const struct rho_track_limits limits = rho_tracker_limits(step);
+    if (!rho_tracker_admit(step, track, &limits)) {
+        return RHO_ERROR_CAPACITY;
+    }
+    rho_tracker_merge_estimates(step);
+    rho_tracker_report_tracks(step);
+    return RHO_OK;
+}
+
+enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
+                                        const struct rho_track_plot *plots, unsigned num_plots,
+                                        int32_t score_mnat, struct rho_report *report)
+{
+    struct rho_track track;
+    struct step step = {0};
+    if (!tracker || !plots || !report) {
+        return RHO_ERROR_NULL;
+    }
+    enum rho_status status = resume(tracker, report, score_mnat, &step);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (num_plots < 1 || !are_usable(tracker, report, plots, num_plots)) {
         return RHO_ERROR_VALUE;
     }
     const struct rho_scan scan = {.time_us = tracker->time_us,
                                   .sensor_id = plots[num_plots - 1].sensor_id};
-    struct step step = {
-        .tracker = tracker, .report = report, .scan = &scan, .time_us = scan.time_us};
-    struct rho_track track;
-    rho_tracker_set_model(&step);
-    rho_tracker_set_pd(&step);
-    const struct rho_track_limits limits = rho_tracker_limits(&step);
-    if (score_mnat < limits.tentative_mnat) {
-        return RHO_ERROR_VALUE;
-    }
-    const enum rho_status status =
+    step.scan = &scan;
+    status =
         rho_track_start(&track, tracker->next_track_id, plots, num_plots, &step.model, score_mnat);
     if (status != RHO_OK) {
         return status;
@@ -115,12 +169,25 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
         step.look = look ? look->count : 0;
         rho_tracker_note_sight(&step, &track);
     }
-    if (!rho_tracker_admit(&step, &track, &limits)) {
-        return RHO_ERROR_CAPACITY;
+    return admit_between_steps(&step, &track);
+}
+
+enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
+                                           const struct rho_kalman *estimate, int32_t sensor_id,
+                                           uint16_t hits, int32_t score_mnat,
+                                           struct rho_report *report)
+{
+    struct rho_track track;
+    struct step step = {0};
+    if (!tracker || !estimate || !report) {
+        return RHO_ERROR_NULL;
     }
-    rho_tracker_merge_estimates(&step);
-    rho_tracker_report_tracks(&step);
-    return RHO_OK;
+    enum rho_status status = resume(tracker, report, score_mnat, &step);
+    if (status == RHO_OK) {
+        status = rho_track_start_estimate(&track, tracker->next_track_id, estimate, step.time_us,
+                                          sensor_id, hits, &step.model, score_mnat);
+    }
+    return status == RHO_OK ? admit_between_steps(&step, &track) : status;
 }
 
 void rho_tracker_refuse_unclaimed(struct step *step)

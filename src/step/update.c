@@ -128,7 +128,7 @@ void rho_tracker_update(struct step *step)
         const int may_wait =
             RHO_CLAIMS_BEYOND && step->has_more_parts && plot == RHO_ASSIGNMENT_NONE;
         if (track->status == RHO_TRACK_FREE || track->plot >= 0 || may_wait ||
-            !rho_tracker_is_reached(step, row)) {
+            !rho_tracker_is_in_view(step, row)) {
             continue;
         }
         if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {

@@ -25,7 +25,7 @@
 #define TARGET_HITS 12
 /*
  * A track has moved that is so many standard deviations of both places away from where it started;
- * where one of its first plots was clutter, five may be chance.
+ * where one of its first plots was clutter, five may be probability.
  */
 #define MOVED_SIGMAS 8.0f
 /* Gate of an echo: squared distance, in variances; e^-(this / 2) of the density is left out. */
@@ -167,7 +167,7 @@ static void add_echo_density(struct step *step, unsigned place)
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     struct rho_echo *echo = &map->echoes[place];
     struct echo_view view = {0.0f, 0.0f, 0.0f};
-    float chance = -1.0f; /* with the view, once there is a plot: most echoes have none near */
+    float probability = -1.0f; /* with the view, once there is a plot: most echoes have none near */
     const float sigma_m = step->sigma_max_m;
     const float half_m =
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
@@ -183,12 +183,13 @@ static void add_echo_density(struct step *step, unsigned place)
             step->report->fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        if (chance < 0.0f) {
+        if (probability < 0.0f) {
             view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
-            chance = rho_clutter_map_chance(map, echo->region, echo->hits, echo->unseen);
+            probability =
+                rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen);
         }
         rho_tracker_spend(step, units);
-        const float density = chance * density_at(step, echo, &view, plot);
+        const float density = probability * density_at(step, echo, &view, plot);
         if (!(density > 0.0f)) {
             continue;
         }
@@ -388,7 +389,7 @@ static void compare_with_echoes(struct step *step)
             continue;
         }
         const struct rho_plot *plot = &step->scan->plots[i];
-        const float density = rho_tracker_believed_density(step, plot);
+        const float density = rho_tracker_density_at_plot(step, plot);
         if (map->best_per_m2[i] > 0.0f) {
             struct rho_echo *echo = &map->echoes[map->best_echo[i]];
             const float weight = map->best_per_m2[i] / (density + map->denser[i]);
@@ -483,7 +484,7 @@ static int is_target(const struct step *step, struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float v_min_mps = step->tracker->config.v_min_mps;
-    if (!track->is_believed || track->hits < TARGET_HITS) {
+    if (!track->was_confirmed || track->hits < TARGET_HITS) {
         return 0;
     }
     track->has_moved = track->has_moved || has_left_its_start(track);

@@ -16,8 +16,8 @@
  * Margin of the field of view: standard deviations of the track's place, and a share of the range
  * for biases of its plots.
  */
-#define REACH_SIGMAS 8.0f
-#define REACH_SHARE 0.05f
+#define MARGIN_SIGMAS 8.0f
+#define MARGIN_SHARE 0.05f
 
 static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float margin_rad)
 {
@@ -63,7 +63,7 @@ static int has_sector(const struct step *step)
            (sensor && !rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad));
 }
 
-static int reaches_sector(const struct step *step, float azimuth_rad, float margin_rad)
+static int may_see_sector(const struct step *step, float azimuth_rad, float margin_rad)
 {
     const struct rho_scan *scan = step->scan;
     const struct rho_sensor *sensor = step->sensor;
@@ -78,7 +78,7 @@ int rho_tracker_covers_bearing(const struct rho_sensor *sensor, float bearing_ra
     return is_near_sector(bearing_rad, sensor->sector_from_rad, sensor->sector_to_rad, margin_rad);
 }
 
-int rho_tracker_reaches(const struct step *step, const struct rho_track *track)
+int rho_tracker_may_see(const struct step *step, const struct rho_track *track)
 {
     const struct rho_sensor *sensor = step->sensor;
     const float *state = track->kalman.state;
@@ -96,8 +96,8 @@ int rho_tracker_reaches(const struct step *step, const struct rho_track *track)
         return 1;
     }
     dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* the track's plot was later than the scan */
-    margin_m = REACH_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
-               step->tracker->config.accel_max_mps2 * dt_s * dt_s + REACH_SHARE * range_m;
+    margin_m = MARGIN_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
+               step->tracker->config.accel_max_mps2 * dt_s * dt_s + MARGIN_SHARE * range_m;
     if (sensor &&
         (range_m - margin_m > sensor->range_max_m || range_m + margin_m < sensor->range_min_m)) {
         return 0;
@@ -106,12 +106,12 @@ int rho_tracker_reaches(const struct step *step, const struct rho_track *track)
         return 1; /* nearer than the margin, its plots may be in any direction */
     }
     /* the angle that the margin is seen under, asin(margin / range), is no larger than this */
-    return reaches_sector(step, rho_atan2(dy_m, dx_m), margin_m / range_m * (0.5f * RHO_PI));
+    return may_see_sector(step, rho_atan2(dy_m, dx_m), margin_m / range_m * (0.5f * RHO_PI));
 }
 
-int rho_tracker_is_reached(const struct step *step, unsigned row)
+int rho_tracker_is_in_view(const struct step *step, unsigned row)
 {
-    return (step->reached[row / 32] >> row % 32 & 1u) != 0;
+    return (step->in_view[row / 32] >> row % 32 & 1u) != 0;
 }
 
 int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,

@@ -31,7 +31,7 @@ float rho_tracker_usual_density(const struct step *step, float x_m, float y_m)
     return (tracker->unclaimed_plots > 1.0f ? tracker->unclaimed_plots : 1.0f) / area_m2;
 }
 
-float rho_tracker_believed_density(const struct step *step, const struct rho_plot *plot)
+float rho_tracker_density_at_plot(const struct step *step, const struct rho_plot *plot)
 {
     const float density = rho_tracker_usual_density(step, plot->x_m, plot->y_m);
     return density > DENSITY_MIN ? density : DENSITY_MIN;

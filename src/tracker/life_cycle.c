@@ -15,9 +15,9 @@
 #define LIFETIME_MNAT 5298
 
 /*
- * A grown track that has moved, and is not seen any more, may hide: tentative, unreported, for so
- * many times coast_scans_max misses, as long as no more clutter plots than that are expected in its
- * gate. The target may have flown behind something, and keeps its identity.
+ * An established track that has moved, and is not seen any more, may hide: tentative, unreported,
+ * for so many times coast_scans_max misses, as long as no more clutter plots than that are expected
+ * in its gate. The target may have flown behind something, and keeps its identity.
  */
 #define HIDE_SHARE 2.4f
 #define HIDE_CLUTTER_MAX 3.0f
@@ -25,7 +25,7 @@
 void rho_tracker_end_track(struct step *step, struct rho_track *track)
 {
     struct rho_report *report = step->report;
-    if (track->is_believed) {
+    if (track->was_confirmed) {
         report->ended[report->num_ended++] = track->track_id;
     }
     rho_track_end(track, &step->model);
@@ -72,7 +72,8 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
 
 static int may_hide(const struct step *step, const struct rho_track *track)
 {
-    return rho_tracker_is_grown(track) && (RHO_MAX_ECHOES == 0 || rho_tracker_has_moved(track)) &&
+    return rho_tracker_is_established(track) &&
+           (RHO_MAX_ECHOES == 0 || rho_tracker_has_moved(track)) &&
            rho_tracker_clutter_in_gate(step, track) <= HIDE_CLUTTER_MAX;
 }
 
@@ -93,21 +94,21 @@ static void let_hide(struct rho_track *track, struct rho_track_limits *limits)
 void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
                                   const struct rho_track_limits *limits)
 {
-    const uint8_t was_believed = track->is_believed;
+    const uint8_t was_confirmed = track->was_confirmed;
     const int is_low = track->score_max_mnat - track->score_mnat > 2 * limits->doubt_mnat;
     const int is_late = track->misses_in_row >= limits->misses_in_row_max;
     struct rho_track_limits own = *limits;
     if ((is_low || is_late) && may_hide(step, track)) {
         let_hide(track, &own);
     }
-    if (is_late || rho_tracker_is_too_young(step, track)) {
+    if (is_late || rho_tracker_lacks_evidence(step, track)) {
         own.doubt_mnat = 0;
     }
-    rho_tracker_note_growth(step, track);
+    rho_tracker_note_established(step, track);
     if (rho_track_apply_thresholds(track, &own) == RHO_TRACK_FREE) {
-        rho_tracker_note_death(step, track);
+        rho_tracker_note_early_end(step, track);
         rho_tracker_end_track(step, track);
-    } else if (track->is_believed != was_believed) {
+    } else if (track->was_confirmed != was_confirmed) {
         step->tracker->counters.tracks_confirmed =
             rho_count(step->tracker->counters.tracks_confirmed, 1);
     }

@@ -4,9 +4,9 @@
  *
  * The probability that a calm target begins to turn (imm.h) is weighed at every plot of every
  * straight track. Where no target turns for hours, it makes covariances too large and estimates
- * worse than necessary. Over all grown tracks of the last half an hour, while they were seen, with
- * X the seconds of straight flight and Y those in which a manoeuvre was likelier than not, the mean
- * time between manoeuvres is
+ * worse than necessary. Over all established tracks of the last half an hour, while they were seen,
+ * with X the seconds of straight flight and Y those in which a manoeuvre was likelier than not, the
+ * mean time between manoeuvres is
  *
  *      (4 300 s + X) / (4 + Y / maneuver_s)
  *
@@ -40,7 +40,7 @@ void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s)
     }
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (rho_tracker_is_grown(track) && track->status == RHO_TRACK_CONFIRMED) {
+        if (rho_tracker_is_established(track) && track->status == RHO_TRACK_CONFIRMED) {
             *(track->maneuver_probability > 0.5f ? &tracker->turning_s : &tracker->straight_s) +=
                 dt_s;
         }

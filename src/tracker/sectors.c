@@ -194,7 +194,7 @@ int rho_tracker_has_passed(const struct step *step, const struct rho_track *trac
         return holds_end(step, track, step->turning); /* the far one */
     }
     if (step->is_late && is_sector(scan)) {
-        /* either neighbour may have had its plot */
+        /* the scan before or after may have had its plot */
         return holds_end(step, track, 1.0f) && holds_end(step, track, -1.0f);
     }
     return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,

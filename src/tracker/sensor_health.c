@@ -11,8 +11,8 @@
 #include "step.h"
 
 /* Memory of the means in looks and hits, and the least number of them that is used. */
-#define WATCH_MAX 16u
-#define WATCH_MIN 12u
+#define COMPARED_MAX 16u
+#define COMPARED_MIN 12u
 /* Shares of pd: the sensor sees too few tracks; it sees enough. */
 #define SHARE_LOW 0.3f
 #define SHARE_GOOD 0.6f
@@ -32,7 +32,7 @@
 
 static void average(float *mean, float value, uint16_t *count)
 {
-    *count = (uint16_t)(*count < WATCH_MAX ? *count + 1u : WATCH_MAX);
+    *count = (uint16_t)(*count < COMPARED_MAX ? *count + 1u : COMPARED_MAX);
     *mean += (value - *mean) / (float)*count;
 }
 
@@ -78,19 +78,19 @@ static float pd_of(const struct rho_tracker *tracker, int32_t sensor_id)
 /* The sensor does not see the tracks that others see. */
 static int is_blind(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
 {
-    return look->watched >= WATCH_MIN &&
+    return look->watched >= COMPARED_MIN &&
            look->seen_share < SHARE_LOW * pd_of(tracker, look->sensor_id);
 }
 
 /* Its plots are elsewhere than the tracks. */
 static int is_off(const struct rho_tracker_look *look)
 {
-    return look->watched_hits >= WATCH_MIN && look->distance2 > CHI2_HIGH;
+    return look->watched_hits >= COMPARED_MIN && look->distance2 > CHI2_HIGH;
 }
 
 static int sees_enough(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
 {
-    return look->watched >= WATCH_MIN &&
+    return look->watched >= COMPARED_MIN &&
            look->seen_share > SHARE_GOOD * pd_of(tracker, look->sensor_id);
 }
 
@@ -134,7 +134,7 @@ static struct witnesses find_witnesses(const struct step *step, const struct rho
     struct witnesses witnesses = {0, 0, 0, 0};
     for (unsigned i = 0; i < tracker->num_looks; i++) {
         const struct rho_tracker_look *other = &tracker->looks[i];
-        if (other == look || other->is_doubted || !sees_enough(tracker, other) ||
+        if (other == look || other->is_suspect || !sees_enough(tracker, other) ||
             step->time_us - other->time_us > RHO_TRACKER_SILENT_US) {
             continue;
         }
@@ -164,12 +164,12 @@ static void suspect_or_trust(struct step *step, struct rho_tracker_look *look)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct witnesses witnesses = find_witnesses(step, look);
-    if (look->is_doubted && (agrees(tracker, look) || witnesses.num == 0)) {
-        look->is_doubted = 0;
-    } else if (!look->is_doubted && ((is_blind(tracker, look) && witnesses.num >= 1) ||
+    if (look->is_suspect && (agrees(tracker, look) || witnesses.num == 0)) {
+        look->is_suspect = 0;
+    } else if (!look->is_suspect && ((is_blind(tracker, look) && witnesses.num >= 1) ||
                                      (is_off(look) && are_enough(&witnesses)))) {
-        look->is_doubted = 1;
-        tracker->counters.sensors_doubted = rho_count(tracker->counters.sensors_doubted, 1);
+        look->is_suspect = 1;
+        tracker->counters.sensors_suspected = rho_count(tracker->counters.sensors_suspected, 1);
     }
 }
 
@@ -178,9 +178,9 @@ static int is_evidence(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     const struct rho_tracker_look *last = rho_tracker_look_of(step->tracker, track->sensor_id);
-    return track->status != RHO_TRACK_FREE && track->is_believed && track->is_shared &&
-           track->sensor_id != step->scan->sensor_id && !(last && last->is_doubted) &&
-           rho_tracker_is_reached(step, row);
+    return track->status != RHO_TRACK_FREE && track->was_confirmed && track->is_shared &&
+           track->sensor_id != step->scan->sensor_id && !(last && last->is_suspect) &&
+           rho_tracker_is_in_view(step, row);
 }
 
 void rho_tracker_update_sensor_health(struct step *step)
@@ -197,7 +197,7 @@ void rho_tracker_update_sensor_health(struct step *step)
     }
     if (!step->has_more_parts) {
         suspect_or_trust(step, look);
-        step->is_suspect = look->is_doubted;
+        step->is_suspect = look->is_suspect;
     }
 }
 
@@ -207,7 +207,7 @@ float rho_tracker_find_suspect(struct step *step)
     if (look) {
         suspect_or_trust(step, look); /* its witnesses may be silent by now */
     }
-    step->is_suspect = look && look->is_doubted;
+    step->is_suspect = look && look->is_suspect;
     /* a bias is no noise: its plots pull a track off by more than their variance shows */
     const float shown = step->is_suspect ? look->distance2 : 1.0f;
     return shown < 1.0f ? 1.0f : shown < FACTOR_MAX ? shown : FACTOR_MAX;

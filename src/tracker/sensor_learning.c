@@ -336,8 +336,8 @@ static void find_lowered(struct step *step)
 static int is_evidence(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
-    return track->status != RHO_TRACK_FREE && track->is_believed && rho_tracker_is_grown(track) &&
-           rho_tracker_is_reached(step, row);
+    return track->status != RHO_TRACK_FREE && track->was_confirmed &&
+           rho_tracker_is_established(track) && rho_tracker_is_in_view(step, row);
 }
 
 static int is_steady(const struct rho_track *track)

@@ -18,7 +18,7 @@ static const float bin_end[RHO_SECOND_BINS] = {1.0f, 2.0f, 3.0f, 4.0f, 6.0f, 8.0
 static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
                                                  0.1f,  0.05f, 0.03f, 0.02f};
 #define BINS_PRIOR_PLOTS 4.0f
-#define REACH_SIGMAS 16.0f
+#define NEAR_SIGMAS 16.0f
 /* Units of work: two plots near each other. */
 #define PAIR_UNITS 12u
 
@@ -33,19 +33,19 @@ static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
 /* Hits from which a track teaches: another target beside it has its own track by then. */
 #define TEACHER_HITS 8
 
-/* A track that has been seen more often is not taken for another's twin. */
-#define TWIN_HITS_MAX 12
+/* A track that has been seen more often is not a second track of another's target. */
+#define YOUNGER_HITS_MAX 12
 /*
  * ln of the odds of one target against two: where the younger track ends, the least that is
  * remembered, and the most that one scan may add or take.
  */
-#define TWIN_END_NAT 3.0f
-#define TWIN_LEAST_NAT (-4.0f)
-#define TWIN_STEP_NAT 3.0f
+#define ONE_TARGET_END_NAT 3.0f
+#define ONE_TARGET_LEAST_NAT (-4.0f)
+#define ONE_TARGET_STEP_NAT 3.0f
 
 /*
  * Evidence for one target: of a scan in which both tracks took one plot (merged_plots); and of one
- * in which the younger has no plot, and the elder's lies outside the younger's gate.
+ * in which the younger has no plot, and the older's lies outside the younger's gate.
  */
 #define SHARED_NAT 0.3f
 #define MISS_NAT 1.0f
@@ -180,111 +180,112 @@ static struct rho_track *track_of(struct rho_tracker *tracker, uint32_t track_id
     return track->track_id == track_id && track->status != RHO_TRACK_FREE ? track : 0;
 }
 
-static float chance_of_twin(const struct rho_track *track)
+static float probability_of_one_target(const struct rho_track *track)
 {
-    return 1.0f / (1.0f + rho_exp(-track->twin_nat));
+    return 1.0f / (1.0f + rho_exp(-track->one_target_nat));
 }
 
 /* Both have a plot: the younger's is a second plot, or its target's. */
-static float both_nat(const struct step *step, const struct rho_second_plots *table,
-                      unsigned elder_row, unsigned row)
+static float two_plots_nat(const struct step *step, const struct rho_second_plots *table,
+                           unsigned older_row, unsigned row)
 {
-    const struct rho_track *elder = &step->tracker->tracks[elder_row];
+    const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
-    const struct rho_plot *first = &step->scan->plots[elder->plot];
+    const struct rho_plot *first = &step->scan->plots[older->plot];
     const struct rho_plot *second = &step->scan->plots[track->plot];
     const struct offset offset = offset_of(step->sensor, first, second);
     float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
     (void)rho_tracker_gain_offered(step, row, track->plot, &gain_nat);
     /*
-     * the elder's target may have made the younger's plot: then the elder's is the second, or the
+     * the older's target may have made the younger's plot: then the older's is the second, or the
      * younger's target made it
      */
-    float ways = 1.0f, elder_ways = 1.0f;
-    if (rho_tracker_gain_offered(step, elder_row, elder->plot, &own_nat) &&
-        rho_tracker_gain_offered(step, elder_row, track->plot, &swap_nat)) {
+    float ways = 1.0f, older_ways = 1.0f;
+    if (rho_tracker_gain_offered(step, older_row, older->plot, &own_nat) &&
+        rho_tracker_gain_offered(step, older_row, track->plot, &swap_nat)) {
         float other_nat;
-        elder_ways += rho_exp(swap_nat - own_nat);
-        if (rho_tracker_gain_offered(step, row, elder->plot, &other_nat)) {
+        older_ways += rho_exp(swap_nat - own_nat);
+        if (rho_tracker_gain_offered(step, row, older->plot, &other_nat)) {
             ways += rho_exp(swap_nat - own_nat + other_nat - gain_nat);
         }
     }
     if (is_near(offset)) {
-        ratio = rate_of(table, elder) * density_at(table, offset, first) *
+        ratio = rate_of(table, older) * density_at(table, offset, first) *
                 range_rate_ratio(step, step->scan->measures, first, second) /
-                rho_tracker_believed_density(step, second) *
+                rho_tracker_density_at_plot(step, second) *
                 rho_exp(-rho_tracker_repeats_nat(step, (uint32_t)track->plot));
     }
-    return rho_log(1.0f + ratio) + rho_log(elder_ways / ways) - gain_nat;
+    return rho_log(1.0f + ratio) + rho_log(older_ways / ways) - gain_nat;
 }
 
 /*
  * One has a plot, or both the same. Where either could have it, two targets explain it in two ways.
  */
-static float one_nat(const struct step *step, const struct rho_second_plots *table,
-                     unsigned elder_row, unsigned row)
+static float one_plot_nat(const struct step *step, const struct rho_second_plots *table,
+                          unsigned older_row, unsigned row)
 {
-    const struct rho_track *elder = &step->tracker->tracks[elder_row];
+    const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
-    const int plot = elder->plot >= 0 ? elder->plot : track->plot;
-    float gain_nat = 0.0f, elder_gain_nat = 0.0f, nat = -rate_of(table, elder);
-    if (elder->plot == track->plot) {
+    const int plot = older->plot >= 0 ? older->plot : track->plot;
+    float gain_nat = 0.0f, older_gain_nat = 0.0f, nat = -rate_of(table, older);
+    if (older->plot == track->plot) {
         return SHARED_NAT;
     }
     const int is_in_gate = rho_tracker_gain_offered(step, row, plot, &gain_nat);
-    const int is_in_elders = rho_tracker_gain_offered(step, elder_row, plot, &elder_gain_nat);
-    if (elder->plot < 0) {
-        if (!is_in_elders) {
+    const int is_in_olders_gate = rho_tracker_gain_offered(step, older_row, plot, &older_gain_nat);
+    if (older->plot < 0) {
+        if (!is_in_olders_gate) {
             /*
              * a second plot, of a first that another track has; or clutter, if it was not the
              * younger's target
              */
             struct rho_plot place = step->scan->plots[plot];
-            place.x_m = elder->kalman.state[0];
-            place.y_m = elder->kalman.state[1];
+            place.x_m = older->kalman.state[0];
+            place.y_m = older->kalman.state[1];
             return is_near(offset_of(step->sensor, &place, &step->scan->plots[plot])) ? 0.0f
                                                                                       : -gain_nat;
         }
-        nat += elder_gain_nat - gain_nat;
+        nat += older_gain_nat - gain_nat;
     }
     if (!is_in_gate) {
         return MISS_NAT;
     }
-    return nat - rho_tracker_detection(step, track).log_miss - (is_in_elders ? LOG_TWO : 0.0f);
+    return nat - rho_tracker_detection(step, track).log_miss - (is_in_olders_gate ? LOG_TWO : 0.0f);
 }
 
 static void add_nat(struct rho_track *track, float nat)
 {
-    nat = nat < TWIN_STEP_NAT ? nat : TWIN_STEP_NAT;
-    track->twin_nat += nat > -TWIN_STEP_NAT ? nat : -TWIN_STEP_NAT;
-    track->twin_nat = track->twin_nat > TWIN_LEAST_NAT ? track->twin_nat : TWIN_LEAST_NAT;
+    nat = nat < ONE_TARGET_STEP_NAT ? nat : ONE_TARGET_STEP_NAT;
+    track->one_target_nat += nat > -ONE_TARGET_STEP_NAT ? nat : -ONE_TARGET_STEP_NAT;
+    track->one_target_nat =
+        track->one_target_nat > ONE_TARGET_LEAST_NAT ? track->one_target_nat : ONE_TARGET_LEAST_NAT;
 }
 
-static void decide_twin(struct step *step, const struct rho_second_plots *table, unsigned row)
+static void decide_one_target(struct step *step, const struct rho_second_plots *table, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
-    struct rho_track *elder = track_of(tracker, track->twin_id, row);
-    if (!elder) {
-        track->twin_id = 0;
-        track->twin_nat = 0.0f;
+    struct rho_track *older = track_of(tracker, track->older_id, row);
+    if (!older) {
+        track->older_id = 0;
+        track->one_target_nat = 0.0f;
         return;
     }
-    const unsigned elder_row = (unsigned)(elder - tracker->tracks);
-    const float share = chance_of_twin(track);
-    elder->second_share = share < elder->second_share ? share : elder->second_share;
-    if (!rho_tracker_is_reached(step, row) || !rho_tracker_is_reached(step, elder_row) ||
-        !rho_tracker_scan_looked_at(step, track) || !rho_tracker_scan_looked_at(step, elder) ||
-        (track->plot < 0 && elder->plot < 0)) {
+    const unsigned older_row = (unsigned)(older - tracker->tracks);
+    const float share = probability_of_one_target(track);
+    older->second_share = share < older->second_share ? share : older->second_share;
+    if (!rho_tracker_is_in_view(step, row) || !rho_tracker_is_in_view(step, older_row) ||
+        !rho_tracker_scan_looked_at(step, track) || !rho_tracker_scan_looked_at(step, older) ||
+        (track->plot < 0 && older->plot < 0)) {
         return;
     }
-    const float nat = track->plot >= 0 && elder->plot >= 0 && track->plot != elder->plot
-                          ? both_nat(step, table, elder_row, row)
-                          : one_nat(step, table, elder_row, row);
+    const float nat = track->plot >= 0 && older->plot >= 0 && track->plot != older->plot
+                          ? two_plots_nat(step, table, older_row, row)
+                          : one_plot_nat(step, table, older_row, row);
     add_nat(track, nat);
-    if (track->twin_nat > TWIN_END_NAT) {
-        track->twin_nat = TWIN_END_NAT;
-        if (elder->plot >= 0) {
+    if (track->one_target_nat > ONE_TARGET_END_NAT) {
+        track->one_target_nat = ONE_TARGET_END_NAT;
+        if (older->plot >= 0) {
             rho_tracker_end_track(step, track);
         }
     }
@@ -299,7 +300,7 @@ struct found {
 
 static int is_teacher(const struct rho_track *track)
 {
-    return track->is_believed && track->hits >= TEACHER_HITS;
+    return track->was_confirmed && track->hits >= TEACHER_HITS;
 }
 
 /* Another plot near the track's: its share that is the target's second one. */
@@ -315,20 +316,20 @@ static float score_second_plot(struct step *step, const struct rho_second_plots 
     if (step->report->fates[other] != RHO_FATE_HELD) {
         if (owner <= (int)row || tracker->tracks[owner].plot != (int)other ||
             tracker->config.gate == RHO_TRACKER_HOUGH) {
-            /* an elder's, or no plot at all; the Hough gate's gains are no likelihoods */
+            /* an older's, or no plot at all; the Hough gate's gains are no likelihoods */
             return 0.0f;
         }
         struct rho_track *younger = &tracker->tracks[owner];
-        if (younger->twin_id == 0 && younger->hits <= TWIN_HITS_MAX && track->is_believed) {
-            younger->twin_id = track->track_id;
-            younger->twin_nat = 0.0f;
-            add_nat(younger, both_nat(step, table, row, (unsigned)owner));
+        if (younger->older_id == 0 && younger->hits <= YOUNGER_HITS_MAX && track->was_confirmed) {
+            younger->older_id = track->track_id;
+            younger->one_target_nat = 0.0f;
+            add_nat(younger, two_plots_nat(step, table, row, (unsigned)owner));
         }
-        share = younger->twin_id == track->track_id ? chance_of_twin(younger) : 0.0f;
+        share = younger->older_id == track->track_id ? probability_of_one_target(younger) : 0.0f;
     }
     const float ratio = rate_of(table, track) * density_at(table, offset, first) *
                         range_rate_ratio(step, step->scan->measures, first, second) /
-                        rho_tracker_believed_density(step, second);
+                        rho_tracker_density_at_plot(step, second);
     float *denser = &tracker->clutter_map.denser[other];
     const float known = rho_exp(*denser);
     if (step->report->fates[other] == RHO_FATE_HELD) {
@@ -342,7 +343,7 @@ static void score_plots_near(struct step *step, const struct rho_second_plots *t
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     const struct rho_plot *first = &step->scan->plots[track->plot];
-    const float half_m = REACH_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
+    const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(first);
     struct plots_near near = rho_tracker_plots_near(step, first->x_m - half_m, first->x_m + half_m,
                                                     first->y_m - half_m, first->y_m + half_m);
     uint32_t passed = 0;
@@ -408,8 +409,8 @@ void rho_tracker_expect_second_plots(struct step *step)
     /* the Hough gate's gains are no likelihoods */
     for (unsigned row = 1; row < tracker->num_tracks && tracker->config.gate != RHO_TRACKER_HOUGH;
          row++) {
-        if (tracker->tracks[row].twin_id > 0 && tracker->tracks[row].status != RHO_TRACK_FREE) {
-            decide_twin(step, table, row);
+        if (tracker->tracks[row].older_id > 0 && tracker->tracks[row].status != RHO_TRACK_FREE) {
+            decide_one_target(step, table, row);
         }
     }
     rho_tracker_begin_share(step, RHO_WORK_SECOND_SHARE);
@@ -447,7 +448,7 @@ static void score_window_plots_near(struct step *step, const struct rho_second_p
 {
     const struct rho_plot first = rho_window_plot_of(scan, own);
     const struct rho_sensor *sensor = rho_window_sensor(scan);
-    const float half_m = REACH_SIGMAS * 1.4142136f * rho_plot_sigma_m(&first);
+    const float half_m = NEAR_SIGMAS * 1.4142136f * rho_plot_sigma_m(&first);
     for (unsigned i = 0; i < scan->num_plots; i++) {
         const float dx_m = scan->plots[i].x_m - first.x_m, dy_m = scan->plots[i].y_m - first.y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
@@ -460,7 +461,7 @@ static void score_window_plots_near(struct step *step, const struct rho_second_p
         if (is_near(offset)) {
             const float ratio = rate_of(table, 0) * density_at(table, offset, &first) *
                                 range_rate_ratio(step, scan->measures, &first, &plot) /
-                                rho_tracker_believed_density(step, &plot);
+                                rho_tracker_density_at_plot(step, &plot);
             scan->repeats[i] = repeats_with(scan->repeats[i], ratio);
         }
     }
@@ -484,11 +485,12 @@ void rho_tracker_expect_earlier_second_plots(struct step *step,
 
 /* ---- snapshots ------------------------------------------------------------------------------- */
 
-int rho_tracker_has_sound_twin(const struct rho_track *track)
+int rho_tracker_has_sound_older_track(const struct rho_track *track)
 {
     return rho_is_within(track->second_looks, 0.0f, 1e6f) &&
            rho_is_within(track->second_plots, 0.0f, 1e6f) &&
-           rho_is_within(track->twin_nat, -1e3f, 1e3f) && rho_are_finite(&track->second_share, 1);
+           rho_is_within(track->one_target_nat, -1e3f, 1e3f) &&
+           rho_are_finite(&track->second_share, 1);
 }
 
 int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker)

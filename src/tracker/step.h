@@ -65,14 +65,14 @@ struct step {
     struct work_share share;        /* of the phase that runs */
     int is_partial;
     /* bit i: track i is in the scan's field of view and was predicted */
-    uint32_t reached[(RHO_MAX_TRACKS + 31) / 32];
+    uint32_t in_view[(RHO_MAX_TRACKS + 31) / 32];
     struct plot_box boxes[RHO_PLOT_BOXES]; /* of plots that follow each other, as many in each */
     uint32_t plots_of_box;
     struct rho_track_model model;
     float log_pd;
-    float log_miss;  /* ln(1 - pd) */
-    float asked_nat; /* evidence that a young track needs to be believed; 0: none is asked */
-    float miss_nat;  /* what a miss takes from it */
+    float log_miss;   /* ln(1 - pd) */
+    float needed_nat; /* evidence that a new track needs to be confirmed; 0: none */
+    float miss_nat;   /* what a miss takes from it */
     /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; velocities of one axis, m/s */
     float log_height, log_rates;
     float log_range_rates; /* range rates that the sensor tells apart, m/s */
@@ -155,8 +155,8 @@ int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *p
                        uint32_t measures);
 int rho_tracker_covers_bearing(const struct rho_sensor *sensor, float bearing_rad,
                                float margin_rad);
-int rho_tracker_reaches(const struct step *step, const struct rho_track *track);
-int rho_tracker_is_reached(const struct step *step, unsigned row);
+int rho_tracker_may_see(const struct step *step, const struct rho_track *track);
+int rho_tracker_is_in_view(const struct step *step, unsigned row);
 /* The sensor looked where the track is: in this sector; in the scan, so that no plot is a miss. */
 int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
                           const struct rho_track *track);
@@ -277,7 +277,7 @@ void rho_tracker_end_work(struct step *step);
 /* expected_clutter.c: density of false plots, 1/m^2. Of clutter that does not come back */
 float rho_tracker_usual_density(const struct step *step, float x_m, float y_m);
 /* The same where a plot is, but never 0. */
-float rho_tracker_believed_density(const struct step *step, const struct rho_plot *plot);
+float rho_tracker_density_at_plot(const struct step *step, const struct rho_plot *plot);
 /* ln of the density where the track is, in the part of the scan that is claimed. */
 float rho_tracker_log_density(const struct step *step, const struct rho_track *track);
 /* False plots expected within three standard deviations of the track's place; 0 in a frame. */
@@ -320,7 +320,7 @@ int rho_tracker_has_moved(const struct rho_track *track);
 void rho_tracker_expect_second_plots(struct step *step);
 void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker);
-int rho_tracker_has_sound_twin(const struct rho_track *track);
+int rho_tracker_has_sound_older_track(const struct rho_track *track);
 /*
  * A track has started with the candidate's plots: others near them, in the window, may be its own.
  */
@@ -379,18 +379,18 @@ void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
 void rho_tracker_end_track(struct step *step, struct rho_track *track);
 void rho_tracker_remove_ended(struct rho_tracker *tracker);
 
-/* early_deaths.c: evidence that is asked of young tracks, found once a step */
-#define RHO_GROWN_HITS 16
-static inline int rho_tracker_is_grown(const struct rho_track *track)
+/* short_lived_tracks.c: evidence that new tracks need to be confirmed, found once a step */
+#define RHO_ESTABLISHED_HITS 16
+static inline int rho_tracker_is_established(const struct rho_track *track)
 {
-    return track->hits >= RHO_GROWN_HITS;
+    return track->hits >= RHO_ESTABLISHED_HITS;
 }
-void rho_tracker_find_asked_evidence(struct step *step);
-int rho_tracker_is_too_young(const struct step *step, const struct rho_track *track);
-void rho_tracker_note_growth(struct step *step, const struct rho_track *track);
-void rho_tracker_note_death(struct step *step, const struct rho_track *track);
+void rho_tracker_find_evidence_needed(struct step *step);
+int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track);
+void rho_tracker_note_established(struct step *step, const struct rho_track *track);
+void rho_tracker_note_early_end(struct step *step, const struct rho_track *track);
 
-/* manoeuvre_interval.c: mean time between manoeuvres; learned from grown tracks over dt_s */
+/* manoeuvre_interval.c: mean time between manoeuvres; learned from established tracks over dt_s */
 void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
 /* After a silence it is the default again. */
 void rho_tracker_reset_manoeuvre_interval(struct rho_tracker *tracker, int64_t time_us);

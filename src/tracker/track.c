@@ -37,7 +37,7 @@ enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                  RHO_TRACK_TENTATIVE, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
         [RHO_TRACK_CONFIRMED] = {RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED,
                                  RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
-        /* once believed, a plot is enough to go on */
+        /* once confirmed, a plot is enough to go on */
         [RHO_TRACK_COASTING] = {RHO_TRACK_COASTING, RHO_TRACK_COASTING, RHO_TRACK_CONFIRMED,
                                 RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
     };
@@ -97,18 +97,18 @@ static int has_ended(const struct rho_track *track, const struct rho_track_limit
     if (track->misses_in_row >= limits->misses_in_row_max) {
         return 1;
     }
-    return track->is_believed ? fall_of(track) >= limits->fall_mnat
-                              : track->score_mnat < limits->tentative_mnat;
+    return track->was_confirmed ? fall_of(track) >= limits->fall_mnat
+                                : track->score_mnat < limits->tentative_mnat;
 }
 
 enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
                                                  const struct rho_track_limits *limits)
 {
-    enum rho_track_event event = RHO_TRACK_DOUBT; /* of what was never believed, too */
+    enum rho_track_event event = RHO_TRACK_DOUBT; /* of tracks that were never confirmed, too */
     if (fall_of(track) < limits->doubt_mnat &&
-        (track->is_believed || track->score_mnat >= limits->confirm_mnat)) {
+        (track->was_confirmed || track->score_mnat >= limits->confirm_mnat)) {
         event = RHO_TRACK_CONFIRM;
-        track->is_believed = 1;
+        track->was_confirmed = 1;
     }
     apply_event(track, has_ended(track, limits) ? RHO_TRACK_DROP : event);
     return (enum rho_track_status)track->status;
@@ -360,6 +360,16 @@ static enum rho_status run_filter(struct rho_track *track, const struct rho_trac
     return status;
 }
 
+/* Input estimation with a covariance of its own begins at the estimate of all plots. */
+static enum rho_status begin_paper(struct rho_track *track, const struct rho_track_model *model)
+{
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) || !(model->input->initial_variance > 0.0f)) {
+        return RHO_OK;
+    }
+    rho_kalman_set_covariance(&track->kalman, model->input->initial_variance);
+    return rho_input_start(&track->input, model->input, &track->kalman);
+}
+
 /* Clears its padding, too: the same plots give the same bytes. */
 static void clear_track(struct rho_track *track, uint32_t track_id, int32_t score_mnat)
 {
@@ -397,6 +407,9 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
         return status;
     }
     status = run_filter(&start, plots, num_plots, model);
+    if (status == RHO_OK) {
+        status = begin_paper(&start, model);
+    }
     if (status != RHO_OK) {
         rho_track_end(&start, model);
         return status;
@@ -411,13 +424,11 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
 
 enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track_id,
                                          const struct rho_kalman *estimate, int64_t time_us,
-                                         int32_t sensor_id, uint16_t hits, int32_t score_mnat)
+                                         int32_t sensor_id, uint16_t hits,
+                                         const struct rho_track_model *model, int32_t score_mnat)
 {
-    if (!track || !estimate) {
+    if (!track || !estimate || !model) {
         return RHO_ERROR_NULL;
-    }
-    if (!RHO_HAS_FILTER(RHO_TRACK_KALMAN)) {
-        return RHO_ERROR_CONFIG;
     }
     if (hits < 1 || !rho_kalman_is_open(estimate, 0) || !rho_kalman_is_open(estimate, 1)) {
         return RHO_ERROR_VALUE;
@@ -430,6 +441,14 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     start.time_us = time_us;
     start.updated_us = time_us;
     start.kalman = *estimate;
+    enum rho_status status = open_filter(&start, model);
+    if (status == RHO_OK) {
+        status = begin_paper(&start, model);
+    }
+    if (status != RHO_OK) {
+        return status;
+    }
+    rho_track_merge_estimates(&start, time_us, model);
     note_velocity(&start, 1);
     apply_event(&start, RHO_TRACK_START);
     *track = start;

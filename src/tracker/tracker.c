@@ -63,6 +63,7 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            (!RHO_HAS_FILTER(RHO_TRACK_INPUT) || rho_input_is_usable(&config->input)) &&
            config->planes > 0 && config->planes <= ALL_PLANES &&
            rho_is_within(config->theta_cell_rad, 1e-3f, RHO_HALF_PI) &&
+           rho_is_within(config->hough_window_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            config->work_max <= RHO_LIMIT_WORK;
 }
 

@@ -41,7 +41,7 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
 {
     return (!RHO_SECTORS || rho_tracker_is_sound_ahead(track)) &&
            (RHO_MAX_ECHOES == 0 ||
-            (rho_tracker_has_sound_returns(track) && rho_tracker_has_sound_twin(track))) &&
+            (rho_tracker_has_sound_returns(track) && rho_tracker_has_sound_older_track(track))) &&
            track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS &&
            rho_tracker_is_score(track->score_mnat) && rho_tracker_is_score(track->score_max_mnat) &&
            rho_is_stored_time(track->time_us) && rho_is_stored_time(track->updated_us) &&
@@ -135,13 +135,14 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_tracker_is_score(tracker->confirm_mnat) && tracker->looks_max > 0 &&
            rho_is_within(tracker->unclaimed_plots, 0.0f, 1e9f) &&
            rho_is_within(tracker->unclaimed_bearings, 0.0f, 1e9f) &&
-           rho_is_within(tracker->died_young, 0.0f, 1e9f) &&
+           rho_is_within(tracker->ended_early, 0.0f, 1e9f) &&
            rho_is_within(tracker->straight_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->turning_s, 0.0f, 1e9f) &&
            rho_is_within(tracker->wanted_per_hour, 0.0f, 1e9f) &&
-           rho_is_within(tracker->grown, 0.0f, 1e9f) && rho_is_stored_time(tracker->youth_us) &&
-           is_sound_extent(&tracker->extent) && has_sound_sensors(tracker) &&
-           has_sound_paces(tracker) && (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
+           rho_is_within(tracker->established, 0.0f, 1e9f) &&
+           rho_is_stored_time(tracker->counted_us) && is_sound_extent(&tracker->extent) &&
+           has_sound_sensors(tracker) && has_sound_paces(tracker) &&
+           (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
            (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_clutter_map(tracker) &&
                                     rho_tracker_has_sound_second_plots(tracker))) &&
            has_sound_tracks(tracker);

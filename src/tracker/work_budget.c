@@ -18,7 +18,7 @@
  * Units of scoring a plot with one hypothesis; more of them at the plot's own time, to which the
  * hypothesis is moved; with a velocity in two or three axes; with a Kalman filter's gate.
  */
-#define WEIGH_UNITS 20u
+#define SCORE_UNITS 20u
 #define MOVE_UNITS 60u
 #define VELOCITY_UNITS 70u
 #define VELOCITY_3D_UNITS 140u
@@ -46,7 +46,7 @@ void rho_tracker_begin_work(struct step *step)
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         waiting +=
-            tracker->tracks[row].status != RHO_TRACK_FREE && rho_tracker_is_reached(step, row);
+            tracker->tracks[row].status != RHO_TRACK_FREE && rho_tracker_is_in_view(step, row);
     }
     rho_tracker_begin_share(step, part);
     step->share.kept = waiting > 0 ? tracker->config.work_max / (part * KEPT_SHARE * waiting) : 0u;
@@ -58,7 +58,7 @@ static uint32_t units_of_plot(const struct step *step, const struct rho_track *t
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         return GATE_UNITS;
     }
-    uint32_t units = WEIGH_UNITS + (step->offset_max_s > 0.0f ? MOVE_UNITS : 0u);
+    uint32_t units = SCORE_UNITS + (step->offset_max_s > 0.0f ? MOVE_UNITS : 0u);
     if (step->scan->measures & RHO_MEASURES_VELOCITY) {
         units += step->scan->measures & RHO_MEASURES_Z ? VELOCITY_3D_UNITS : VELOCITY_UNITS;
     }

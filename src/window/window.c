@@ -173,7 +173,7 @@ static void find_bin_starts(const struct entry *entry)
 }
 
 /*
- * Moves the plots of earlier sectors to the new begins of their bins, the last bin first.
+ * Moves the plots held of earlier sectors to the new begins of their bins, the last bin first.
  * Afterwards each start lies behind the plots that were moved.
  */
 static void move_held_plots(struct rho_window_scan *slot)

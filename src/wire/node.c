@@ -491,7 +491,9 @@ static enum rho_status step_frame(struct rho_node *node)
     enum rho_status status;
 
     (void)rho_frames_closed(config->frames, &view);
-    status = rho_tracker_step_frame(config->tracker, config->passive, &view.frame, config->report);
+    status =
+        rho_tracker_step_frame(config->tracker, config->has_own_starts ? NULL : config->passive,
+                               &view.frame, config->report);
     node->counters.frames_refused = rho_count(node->counters.frames_refused, status != RHO_OK);
     return status;
 }

@@ -29,7 +29,8 @@ static struct rho_message_echo echo_of(const struct rho_clutter_map *map,
         .vy_mps = at_most(echo->vy_mps, RHO_LIMIT_SPEED_MPS),
         .sigma_range_m = at_most(rho_sqrt(echo->along[0]), SIGMA_MAX_M),
         .sigma_cross_m = at_most(rho_sqrt(echo->across[0]), SIGMA_MAX_M),
-        .chance = rho_clutter_map_chance(map, echo->region, echo->hits, echo->unseen + 1u),
+        .chance =
+            rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen + 1u),
     };
 }
 

@@ -43,7 +43,7 @@ int rho_publish_sensor(const struct rho_scan_assembler *assembler,
         const struct rho_tracker_look *look = rho_tracker_look_of(tracker, source->sensor_id);
 
         if (look) {
-            sensor->is_doubted = look->is_doubted != 0;
+            sensor->is_doubted = look->is_suspect != 0;
             sensor->watched = (int16_t)look->watched;
             sensor->watched_hits = (int16_t)look->watched_hits;
             sensor->seen_share = look->seen_share;

@@ -158,13 +158,13 @@ static int read_number(const char *text, int16_t *number)
 
 static int read_channel(const char *channel, enum rho_scan_assembler_kind *kind, int16_t *sensor_id)
 {
-    static const char prefixes[RHO_NUM_FEED_KINDS][14] = {
+    static const char prefixes[RHO_NUM_SCAN_ASSEMBLER_KINDS][14] = {
         [RHO_SCAN_ASSEMBLER_PLOTS] = RHO_MESSAGE_PLOT_SCAN_CHANNEL,
         [RHO_SCAN_ASSEMBLER_POLAR] = RHO_MESSAGE_POLAR_SCAN_CHANNEL,
         [RHO_SCAN_ASSEMBLER_BEARINGS] = RHO_MESSAGE_BEARING_SCAN_CHANNEL,
     };
 
-    for (unsigned i = 0; i < RHO_NUM_FEED_KINDS; i++) {
+    for (unsigned i = 0; i < RHO_NUM_SCAN_ASSEMBLER_KINDS; i++) {
         unsigned length = 0;
 
         while (prefixes[i][length] != '\0' && channel[length] == prefixes[i][length]) {

@@ -151,9 +151,10 @@ static void describe_sensor(const struct rho_scan_assembler *assembler,
         slot->sensor.y_m = heading->y_m;
         slot->sensor.z_m = heading->z_m;
     }
-    slot->has_sensor = (uint8_t)(known != &assembler->config.other || assembler->config.is_told ||
-                                 (has_place && !RHO_SCAN_ASSEMBLER_IS(
-                                                   heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)));
+    slot->has_sensor =
+        (uint8_t)(known != &assembler->config.other || assembler->config.gives_other ||
+                  (has_place &&
+                   !RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)));
 }
 
 void rho_scan_assembler_open_scan(struct rho_scan_assembler *assembler,
@@ -206,7 +207,7 @@ void rho_scan_assembler_count_duplicate(struct rho_scan_assembler *assembler,
 {
     if (heading->part == 0 && heading->place.scan == source->place.scan &&
         source->check > CHECK_NOT_ADMITTED && source->check != heading->check) {
-        source->has_twin = 1;
+        source->has_two_senders = 1;
         rho_scan_assembler_count_one(&assembler->counters.scans_other);
     } else {
         rho_scan_assembler_count_one(&assembler->counters.scans_duplicate);

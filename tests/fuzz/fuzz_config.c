@@ -22,7 +22,7 @@
 static struct parameters parameters;
 static struct rho_tracker tracker;
 static struct rho_initiator initiator;
-static struct rho_scan_assembler feed;
+static struct rho_scan_assembler assembler;
 static FILE *nowhere;
 
 struct reading {
@@ -77,7 +77,7 @@ static void ask_library(void)
         }
     }
     CHECK(rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK);
-    parameters_to_assembler(&parameters, &feed);
+    parameters_to_assembler(&parameters, &assembler);
 }
 
 static void read_config(void *context)

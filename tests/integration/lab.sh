@@ -108,36 +108,6 @@ expect_exit 2 "a picture of a file that is not there" "$RHOTRACK" plot scans "$f
 check "and no picture is left" sh -c "! ls '$folder'/nothing.svg* 2>/dev/null"
 
 # --- experiment, bench, demo
-check "experiment initiation ends with its score" sh -c "
-    '$RHOTRACK' experiment initiation --runs 2 -o '$folder/experiment' | tail -1 | grep -Eq '^[0-9]+ bars held, [0-9]+ missed$'"
-check "and writes a page" test -s "$folder/experiment/index.html"
-for picture in situation-I situation-II situation-III situation-IV situation-real-10 \
-    situation-real-100 noise times \
-    example found false; do
-    check "the page shows $picture.svg" grep -q "src=\"$picture.svg\"" \
-        "$folder/experiment/index.html"
-    check "$picture.svg is well-formed" python3 -c \
-        "import xml.dom.minidom as m; m.parse('$folder/experiment/$picture.svg')"
-    check "$picture.svg is not too large" test "$(stat -c %s "$folder/experiment/$picture.svg")" \
-        -lt 400000
-done
-run experiment initiation --runs 2 --method nht --json -o "$folder/nht"
-check "experiment initiation --method nht" exits 0
-check "and its JSON has that method's figures alone" json stdout '(
-    o["method"] == "nht" and "cases" not in o and
-    {c["method"] for c in o["paper"]["cases"]} == {"NHT A", "NHT C"} and len(o["paper"]["cases"]) == 14 and
-    len(o["paper"]["noise_sweep"]) == 14 and o["paper"]["table3_nht_a_votes"] == 1 and
-    o["bars_held"] == sum(bar["held"] for bar in o["paper"]["bars"]) > 0 and
-    o["bars_held"] + o["bars_missed"] == len(o["paper"]["bars"]))'
-check "and its page no bars of the default" sh -c "! grep -q found.svg '$folder/nht/index.html'"
-run experiment initiation --runs 1 --method kernel --json -o "$folder/kernel"
-check "experiment initiation --method kernel has its bars alone" json stdout \
-    'o["method"] == "kernel" and len(o["cases"]) > 30 and "paper" not in o'
-for method in ht mht iht; do
-    run experiment initiation --runs 1 --method "$method" -o "$folder/$method"
-    check "experiment initiation --method $method" sh -c \
-        "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
-done
 passive="$folder/passive"
 run experiment passive --runs 3 -o "$passive"
 check "experiment passive ends with its score" sh -c \
@@ -197,19 +167,11 @@ check "experiment passive knows no method of plots" says 2 \
     "*passive knows the methods passive, passive-paper*kernel*"
 run experiment passive --set sigma_rad=1 -o "$folder/refused"
 check "nor parameters" says 2 "*--set*"
-# experiment false-alarms takes two minutes even with --runs 1: lab/test_experiments.c calls its
-# functions instead
-for name in initiation false-alarms passive; do
-    run experiment "$name" --runs 1 --method nonsense -o "$folder/refused"
-    check "experiment $name knows no other method" says 2 "*$name*knows the method*nonsense*"
-done
-run experiment initiation --runs 1 --method nonsense -o "$folder/refused"
-check "and the methods that initiation knows are named" says 2 \
-    "*kernel, ht, mht, iht, nht, not*nonsense*"
+run experiment passive --runs 1 --method nonsense -o "$folder/refused"
+check "experiment passive knows no other method" says 2 "*passive*knows the method*nonsense*"
 check "a refused experiment writes nothing" test ! -e "$folder/refused"
 run experiment nothing
-check "an unknown experiment names all there are" says 2 \
-    "*nothing*initiation*false-alarms*passive*"
+check "an unknown experiment names all there are" says 2 "*nothing*passive*maneuver*"
 run experiment real-skies
 check "experiment real-skies says where it is" says 2 \
     "*real-skies*make experiments*tools/lab/real_skies.py"

@@ -106,7 +106,7 @@ check 'clocks that are 10 s apart, in one file' same apart.csv
 run convert apart.csv apart.lcm
 check 'in a log' same apart.lcm
 
-# ---- more than a feed has room for: 11 sectors a second, some 3 s late ----
+# ---- more than a assembler has room for: 11 sectors a second, some 3 s late ----
 run simulate two-radars --set radars.0.late_s=3 --set radars.1.late_s=3 \
     --set settings.hold_ms=3000 --set duration_s=150 --seed 5 -o busy
 run convert busy/plots.csv busy.lcm --config busy/scenario.ini

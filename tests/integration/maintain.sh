@@ -60,6 +60,9 @@ run maintain sharp/plots.csv --gate none --seed 2
 check 'none: another draws others' bash -c '! cmp -s stdout none.csv'
 run maintain sharp/plots.csv --set gate=hough
 check 'the gate by parameter' writes_same_as hough.csv
+run maintain sharp/plots.csv --gate hough --set initial_variance=500 --covariance -o initial.csv
+check 'P(0|0) = 500 I' awk -F, 'NR == 2 { for (i = 19; i <= 39; i++) { n += $i == 500; bad += $i != 500 && $i != 0 }
+    exit !(n == 6 && !bad) }' initial.csv
 run maintain sharp/plots.csv --set gate=none --gate hough
 check '--gate goes before the parameter' writes_same_as hough.csv
 run maintain sharp/plots.csv --gate nearest --no-input-estimation

@@ -166,6 +166,29 @@ check 'plots and bearings together as well, though live' cmp merged.csv both.csv
 check 'without a loss, but for room to wait for a sensor that has ended' matches \
     "$(grep -Evc 'no route|no room for more' both.err)" 1
 
+# ---- the papers' pipeline: from files, from a log, live ----
+"$program" simulate crossing --seed 4 --set radars.0.sigma_m=0.3 --set duration_s=60 -o sharp
+awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%.6f", $1 + 0.02); $2 = 9 } { print }' sharp/plots.csv \
+    >plots.csv
+run track plots.csv bearings.csv --config sharp/scenario.ini --pipeline paper
+cp stdout paper.csv
+check 'plots and bearings start tracks' test "$(awk -F, 'NR > 1 { print $2, $17 == 9 }' paper.csv |
+    sort -u | cut -d' ' -f2 | sort -u | wc -l)" = 2
+run publish plots.csv bearings.csv --speed 0 --lcm 'file://papers.lcm?mode=w'
+run node --lcm 'file://papers.lcm?speed=0' --print --config sharp/scenario.ini --pipeline paper
+check 'the node starts the same from a log' writes_same_as paper.csv
+start papers --config sharp/scenario.ini --pipeline paper
+run publish plots.csv bearings.csv --speed 100
+sleep 0.2
+stop INT "$node"
+check 'and live' cmp paper.csv papers.csv
+run track plots.csv --config sharp/scenario.ini --method iht --gate hough -o iht.csv
+check 'one method alone' test "$(awk -F, '$3 == "confirmed"' iht.csv | cut -d, -f2 | sort -u | wc -l)" -ge 1
+run track plots.csv --method ihh
+check 'an unknown method' says 2 "rhotrack: --method 'ihh' is not one of kernel|ht|mht|iht|nht"
+run node --pipeline all --for 0.1
+check 'an unknown pipeline' says 2 "rhotrack: --pipeline 'all' is not paper"
+
 # ---- files instead of a network ----
 run publish scene/plots.csv --speed 0 --lcm 'file://played.lcm?mode=w'
 check 'publish writes a log' exits 0

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * scan_kinds: what a build with RHO_SCAN_KINDS takes, for scan_kinds.sh. Prints a line for each
- * kind of message, what the feed says of it and the bytes of what it gives; and what the initiator
- * finds of two targets in clutter: with the noise of a radar, and with noise of one axis.
+ * kind of message, what the assembler says of it and the bytes of what it gives; and what the
+ * initiator finds of two targets in clutter: with the noise of a radar, and with noise of one axis.
  */
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 #define TARGETS 2
 #define CLUTTER 20
 
-static struct rho_scan_assembler feed;
+static struct rho_scan_assembler assembler;
 static struct rho_initiator initiator;
 static uint32_t sum, random_state;
 
@@ -61,7 +61,7 @@ static size_t encode(int kind, uint8_t *buffer, size_t capacity)
     return status == RHO_OK ? size : 0;
 }
 
-static void print_feed(int kind)
+static void print_assembled(int kind)
 {
     static const char *const channels[] = {RHO_MESSAGE_PLOT_SCAN_CHANNEL "1",
                                            RHO_MESSAGE_POLAR_SCAN_CHANNEL "1",
@@ -72,13 +72,13 @@ static void print_feed(int kind)
     size_t size = encode(kind, buffer, sizeof buffer);
     unsigned inputs = 0;
     rho_scan_assembler_config_default(&config);
-    if (size == 0 || rho_scan_assembler_init(&feed, sizeof feed, &config) != RHO_OK) {
+    if (size == 0 || rho_scan_assembler_init(&assembler, sizeof assembler, &config) != RHO_OK) {
         printf("kind %d: unusable\n", kind);
         return;
     }
     sum = 2166136261u;
-    enum rho_status status = rho_scan_assembler_take(&feed, channels[kind], buffer, size, 0);
-    while (rho_scan_assembler_next(&feed, INT64_MAX, &item)) {
+    enum rho_status status = rho_scan_assembler_take(&assembler, channels[kind], buffer, size, 0);
+    while (rho_scan_assembler_next(&assembler, INT64_MAX, &item)) {
         add(&item.sensor.x_m, sizeof item.sensor.x_m);
         add(item.scan.plots, item.scan.num_plots * sizeof *item.scan.plots);
         add(item.bearings.bearings, item.bearings.num_bearings * sizeof *item.bearings.bearings);
@@ -140,8 +140,8 @@ static void print_search(const char *name, float sigma_cross_m)
 
 int main(void)
 {
-    for (int kind = 0; kind < RHO_NUM_FEED_KINDS; kind++) {
-        print_feed(kind);
+    for (int kind = 0; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
+        print_assembled(kind);
     }
     print_search("radar", 60.0f);
     print_search("one axis", 20.0f);

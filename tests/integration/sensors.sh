@@ -88,7 +88,7 @@ check 'three radars: the tracks are those of the files' same_from 0
 python3 - <<'PYTHON'
 import math, random
 random.seed(5)
-with open("liar.csv", "w") as plots:
+with open("biased.csv", "w") as plots:
     print("t_s,sensor_id,x_m,y_m,sigma_m", file=plots)
     for k in range(90):
         for sensor in (1, 2, 3):
@@ -100,16 +100,16 @@ with open("liar.csv", "w") as plots:
                     print(f"{t},{sensor},{x:.3f},{y:.3f},30", file=plots)
 PYTHON
 limits=(--set v_max_mps=400 --set accel_max_mps2=10)
-"$program" convert liar.csv liar.lcm
-run node --lcm 'file://liar.lcm?speed=0' "${limits[@]}"
-check 'a liar: what was said' matches "$(grep 'sensor [0-9]' stderr)" 'rhotrack: sensor 3 is doubted: its innovations are ?.? times what its sigmas say
+"$program" convert biased.csv biased.lcm
+run node --lcm 'file://biased.lcm?speed=0' "${limits[@]}"
+check 'a biased sensor: what was said' matches "$(grep 'sensor [0-9]' stderr)" 'rhotrack: sensor 3 is suspect: its innovations are ?.? times what its sigmas say
 rhotrack: sensor 3 is trusted again'
-awk -F, 'NR == 1 || $1 < 240' liar.csv >begun.csv
+awk -F, 'NR == 1 || $1 < 240' biased.csv >begun.csv
 "$program" convert begun.csv begun.lcm
 run node --lcm 'file://begun.lcm?speed=0' --log said.lcm "${limits[@]}"
-check 'a liar: the last words' matches "$(tail -n 1 stderr)" \
+check 'a biased sensor: the last words' matches "$(tail -n 1 stderr)" \
     'rhotrack: sensor 3 contradicts the others'
-check 'a liar: on RHO_SENSORS' matches "$(read_sensors said.lcm)" '1 0
+check 'a biased sensor: on RHO_SENSORS' matches "$(read_sensors said.lcm)" '1 0
 2 0
 3 1'
 

@@ -187,6 +187,39 @@ def test_an_accumulator_holds_the_votes_that_find_returns():
     assert plane.theta_rad[theta] == pytest.approx(found["theta_rad"][0])
     with pytest.raises(rhotrack.Error, match="method"):
         rhotrack.Initiator(method="hough")
+    with pytest.raises(rhotrack.Error, match="accumulator"):
+        rhotrack.Initiator().accumulator(scans)
+
+
+@pytest.mark.parametrize("method", ["ht", "mht", "iht", "nht"])
+def test_lines_are_those_of_find(method):
+    initiator = rhotrack.Initiator(method=method, d_rho_m=200, d_theta_rad=0.05, eps_rho_m=400,
+                                   eps_theta_rad=0.1, v_min_mps=50, v_max_mps=300)
+    scans = one_target(7)
+    found, lines = initiator.find(scans), initiator.lines(scans)
+    assert len(lines) == len(found) == initiator.work["num_peaks"] > 0
+    for name, other in (("rho_m", "rho_m"), ("theta_rad", "theta_rad"), ("votes", "score")):
+        np.testing.assert_allclose(lines[name], found[other], atol=1e-6)
+    assert initiator.work["votes"] > 0 and initiator.work["search_us"] > 0
+
+
+def test_an_initiator_counts_the_work_of_each_search():
+    scans = one_target(7)
+    initiator = rhotrack.Initiator(min_scans=5, score_min_nat=-3, **SETTINGS)
+    assert initiator.work == {}
+    found, work = initiator.find(scans), initiator.work
+    assert len(found) == 1 and work["seeds"] > 0 and work["window"]["lookups"] > 0
+    again = rhotrack.Initiator(min_scans=5, score_min_nat=-3, **SETTINGS)
+    again.find(scans[:3])
+    assert len(again.find(scans)) == 1 and again.work["seeds"] == work["seeds"]
+    with pytest.raises(rhotrack.Error, match="kernel"):
+        initiator.lines(scans)
+
+
+def test_a_tracker_tells_its_thresholds():
+    tracker = rhotrack.Tracker(score_min_nat=2.5, min_scans=4, **SETTINGS)
+    tracker.run(one_target(8))
+    assert (tracker.min_scans, tracker.thresholds_nat) == (4, (2.5, 2.5))
 
 
 def test_two_sensors_and_two_targets_have_two_ghosts():

@@ -169,6 +169,19 @@ CASES = {
         simulate crossing-angle --seed 3 -o polar
         track polar/plots.csv --config polar/scenario.ini --gate nearest --json -o polar.csv
         """,
+    "track-papers": """
+        simulate crossing --seed 4 --set radars.0.sigma_m=0.3 --set duration_s=60 -o in
+        track in/plots.csv --config in/scenario.ini --method ht --json -o ht.csv
+        track in/plots.csv --config in/scenario.ini --method mht --json -o mht.csv
+        track in/plots.csv --config in/scenario.ini --method iht --gate hough --json -o iht.csv
+        track in/plots.csv --config in/scenario.ini --method nht --covariance --json -o nht.csv
+        track in/plots.csv --config in/scenario.ini --pipeline paper --json -o paper.csv
+        simulate passive-two --seed 2 --set duration_s=200 -o bearings
+        track bearings/bearings.csv --config bearings/scenario.ini --pipeline paper --json \
+            -o bearings.csv
+        track bearings/bearings.csv --config bearings/scenario.ini --method passive-paper --json \
+            -o best.csv
+        """,
     "track-settings": """
         simulate towers --seed 5 --set duration_s=240 -o in
         track in/plots.csv --config in/scenario.ini --set work_max=300000 --json -o cut.csv
@@ -474,7 +487,7 @@ CASES = {
 # Pages and pictures with times in them are left out.
 CASES |= {f"experiment-{name}": f"""
         experiment {name} --runs 1 --json -o out"""
-          for name in ("initiation", "passive", "maneuver")}
+          for name in ("passive", "maneuver")}
 CASES |= {f"harbour-{number}": harbour_case(number) for number in (2, 16)}
 CASES |= {f"scene-{path.stem}": scene_case(path.stem)
           for path in sorted((ROOT / "tools/scenes").glob("*/*.json"))}

@@ -137,7 +137,7 @@ head_of 'messages'
 row 'plot_scan_t of 34 plots, 1401 bytes, encoded: 20 a byte at most' 1 28020 wire encode
 row 'the same, decoded' 1 - wire decode
 row 'the same, its values checked' 1 - wire validate
-row 'the same, taken by the feed: decoded, checked, made plots' 1 - wire take
+row 'the same, assembled: decoded, checked, made plots' 1 - wire take
 row 'track_list_t of 9 tracks, from a report' 1 - wire publish
 
 votes() { # points: a row with and without pruning

@@ -13,7 +13,7 @@
 
 static struct rho_message_plot_scan scan;
 static struct rho_report report;
-static struct rho_scan_assembler feed;
+static struct rho_scan_assembler assembler;
 static uint8_t bytes[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE];
 static size_t size;
 static enum rho_status status;
@@ -35,8 +35,8 @@ static void validate_scan(void)
 
 static void take_scan(void)
 {
-    status = rho_scan_assembler_take(&feed, "RHO_PLOTS_1", bytes, size, 0);
-    if (status == RHO_OK && feed.counters.scans_accepted != 1) {
+    status = rho_scan_assembler_take(&assembler, "RHO_PLOTS_1", bytes, size, 0);
+    if (status == RHO_OK && assembler.counters.scans_accepted != 1) {
         status = RHO_ERROR_VALUE;
     }
 }
@@ -65,7 +65,7 @@ static void fill(void)
         report.tracks[i].status = RHO_TRACK_CONFIRMED;
     }
     rho_scan_assembler_config_default(&config);
-    status = rho_scan_assembler_init(&feed, sizeof feed, &config);
+    status = rho_scan_assembler_init(&assembler, sizeof assembler, &config);
 }
 
 int main(int argc, char **argv)

@@ -14,6 +14,7 @@ import multiprocessing
 import os
 import pathlib
 import sys
+import textwrap
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # matrices are small, and runs go side by side
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -138,7 +139,7 @@ class Report:
         self.page.append(f"<h2>{html.escape(text)}</h2>")
 
     def text(self, text):
-        self.say(text)
+        self.say(textwrap.fill(text, 100))
         self.page.append(f"<p>{html.escape(text)}</p>")
 
     def table(self, headings, rows):

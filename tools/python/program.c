@@ -824,7 +824,7 @@ struct program_pipeline *program_pipeline(const struct parameters *settings, boo
 {
     RETURN_ON_FAILURE(NULL)
     parameters_check(settings);
-    pipeline_set_gate((struct parameters *)settings, NULL);
+    pipeline_set_options((struct parameters *)settings, &(struct pipeline_options){NULL});
     struct program_pipeline *made = must_calloc(1, sizeof *made);
 
     made->settings = ready(settings, NULL, 0);
@@ -916,7 +916,7 @@ static void open_for(struct program_pipeline *made, const struct program_scans *
 }
 
 bool program_pipeline_run(struct program_pipeline *made, const struct program_scans *scans,
-                          bool is_told)
+                          bool collects_tracks)
 {
     RETURN_ON_FAILURE(false)
     made->tracks.count = 0;
@@ -933,7 +933,7 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
             pipeline_step(made->pipeline, &scan->scan);
             made->min_scans = made->pipeline->initiator->min_scans;
         }
-        if (is_told) {
+        if (collects_tracks) {
             add_tracks(&made->tracks, made->report);
         }
     }

@@ -131,9 +131,9 @@ struct program_pipeline {
 struct program_pipeline *program_pipeline(const struct parameters *settings, bool has_covariances);
 void program_pipeline_free(struct program_pipeline *pipeline);
 
-/* Steps all scans; with is_told all their tracks are in pipeline->tracks. */
+/* Steps all scans; with collects_tracks all their tracks are in pipeline->tracks. */
 bool program_pipeline_run(struct program_pipeline *pipeline, const struct program_scans *scans,
-                          bool is_told);
+                          bool collects_tracks);
 
 /* ---- Initiation: the configs of its methods, by name ---- */
 

@@ -61,7 +61,7 @@ int command_calibrate(struct command_line *line)
     uint64_t rows_skipped;
 
     command_line_check_ini(line, "calibrate");
-    pipeline_set_gate(&line->parameters, line->gate);
+    pipeline_set_options(&line->parameters, &(struct pipeline_options){.gate = line->gate});
     rows_skipped = read_all(line, data);
     if (register_num_radars(data) == 0) {
         fail(EXIT_USAGE, "calibrate: the input has no plots");

@@ -12,7 +12,7 @@
 #include "io/asterix/asterix_records.h"
 #include "settings/method.h"
 
-enum { NUM_OPTIONS = 23, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 24, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -23,6 +23,8 @@ static const struct {
      "where to write; it appears there only when it is complete (--follow: in place)"},
     {'m', "method", "METHOD",
      "how tracks are initiated: " METHOD_NAMES "; or an experiment's part"},
+    {'P', "pipeline", "paper",
+     "the papers' methods for all: nht, passive-paper, gate hough, inputs"},
     {'g', "gate", "GATE", "how a track chooses its plots; the parameter gate says the same"},
     {'K', "kind", "KIND", "which messages of a log: plots, polar, bearings, truth or tracks"},
     {'i', "no-input-estimation", NULL, "gates hough, nearest, none: a plain Kalman filter"},
@@ -160,6 +162,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
         break;
     case 'm':
         line->method = argument;
+        break;
+    case 'P':
+        line->pipeline = argument;
         break;
     case 'g':
         line->gate = argument;
@@ -335,7 +340,7 @@ void refuse_own_input(const struct command_line *line)
     }
 }
 
-static void refuse_twins(const struct command_line *line, const char *command)
+static void refuse_inputs_given_twice(const struct command_line *line, const char *command)
 {
     for (int i = 0; i < line->num_arguments; i++) {
         for (int other = 0; other < i; other++) {
@@ -368,7 +373,7 @@ bool is_output_standard(const struct command_line *line)
 void command_line_check_ini(const struct command_line *line, const char *command)
 {
     refuse_own_input(line);
-    refuse_twins(line, command);
+    refuse_inputs_given_twice(line, command);
     refuse_other_than_ini(line, command);
     if (line->json && is_output_standard(line)) {
         fail(EXIT_USAGE, "%s: --json and -o - both write on standard output", command);

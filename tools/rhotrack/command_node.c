@@ -541,7 +541,8 @@ int command_node(struct command_line *line)
     if (line->log && transport_is_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
     }
-    pipeline_set_gate(&line->parameters, line->gate);
+    pipeline_set_options(&line->parameters,
+                         &(struct pipeline_options){line->gate, line->method, line->pipeline});
     clutter_file_refuse(line->clutter_map, line->log, "log");
     if (line->clutter_map && transport_is_file(line->lcm, line->clutter_map)) {
         fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);

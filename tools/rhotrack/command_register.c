@@ -98,7 +98,7 @@ int command_register(struct command_line *line)
     uint64_t rows_skipped;
 
     command_line_check_ini(line, "register");
-    pipeline_set_gate(&line->parameters, line->gate);
+    pipeline_set_options(&line->parameters, &(struct pipeline_options){.gate = line->gate});
     rows_skipped = read_all(line, data);
     check_enough(data);
     result = register_estimate(data, &pipeline);

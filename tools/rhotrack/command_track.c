@@ -251,7 +251,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
     for (uint32_t i = 0; i < tracking->pipeline.tracker->num_looks; i++) {
-        if (tracking->pipeline.tracker->looks[i].is_doubted) {
+        if (tracking->pipeline.tracker->looks[i].is_suspect) {
             fprintf(stderr, ", sensor %" PRId32 " contradicts the others",
                     tracking->pipeline.tracker->looks[i].sensor_id);
         }
@@ -283,7 +283,7 @@ static cJSON *counters_json(const struct rho_tracker *tracker)
     cJSON_AddNumberToObject(object, "scans_accepted", counters->scans_accepted);
     cJSON_AddNumberToObject(object, "scans_late", counters->scans_late);
     cJSON_AddNumberToObject(object, "scans_retrodicted", counters->scans_retrodicted);
-    cJSON_AddNumberToObject(object, "sensors_doubted", counters->sensors_doubted);
+    cJSON_AddNumberToObject(object, "sensors_doubted", counters->sensors_suspected);
     cJSON_AddNumberToObject(object, "plots_outside", counters->plots_outside);
     cJSON_AddNumberToObject(object, "plots_initiated", counters->plots_initiated);
     cJSON_AddNumberToObject(object, "plots_clutter", counters->plots_clutter);
@@ -311,7 +311,7 @@ static cJSON *sensors_json(const struct rho_tracker *tracker)
         cJSON_AddNumberToObject(object, "sensor_id", look->sensor_id);
         cJSON_AddNumberToObject(object, "seen_share", (double)look->seen_share);
         cJSON_AddNumberToObject(object, "distance2", (double)look->distance2);
-        cJSON_AddBoolToObject(object, "is_doubted", look->is_doubted);
+        cJSON_AddBoolToObject(object, "is_doubted", look->is_suspect);
         cJSON_AddItemToArray(list, object);
     }
     return list;
@@ -445,7 +445,8 @@ int command_track(struct command_line *line)
     const char *why = NULL;
     bool is_saved;
 
-    pipeline_set_gate(&line->parameters, line->gate);
+    pipeline_set_options(&line->parameters,
+                         &(struct pipeline_options){line->gate, line->method, line->pipeline});
     check_clutter_map(line);
     inputs = open_inputs(line);
     open_chain(&tracking, inputs, &line->parameters);

@@ -17,6 +17,7 @@ struct command_line {
     const char *output;       /* -o; NULL where not given */
     const char *method;       /* --method; NULL where not given */
     const char *gate;         /* --gate */
+    const char *pipeline;     /* --pipeline */
     const char *kind;         /* --kind; NULL where not given */
     const char *lcm, *log;    /* --lcm, --log; NULL where not given */
     const char *clutter_map;  /* --clutter-map; NULL where not given */

@@ -26,7 +26,7 @@
 
 static const struct command commands[] = {
     {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest] [--follow]", 1,
-     INT_MAX, "ogfcMjksC", "the main job: scans in, tracks out",
+     INT_MAX, "omPgfcMjksC", "the main job: scans in, tracks out",
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
@@ -110,7 +110,7 @@ static const struct command commands[] = {
      "become CAT062 where OUT ends with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
-     "lpLRTgMsC", "the live tracker: LCM messages in, LCM messages out",
+     "lpLRTmPgMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
      "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS, RHO_WORK and RHO_SENSORS once a second,\n"
      "and what is known of clutter that comes back, RHO_CLUTTER, every five. Bad, late and lost "

@@ -9,7 +9,7 @@
  * of those with the same assignments in the last RHO_HYPOTHESES_MEMORY scans only one. So a clutter
  * plot that was taken for the target's is undone when the next plots do not follow it.
  *
- *     scan n            n+1              A quiet track in thin clutter has one hypothesis, one that
+ *     scan n            n+1              A steady track in thin clutter has one hypothesis, one that
  *     h1 ---- plot 3 ---- plot 1   w  0  meets clutter while it turns RHO_HYPOTHESES_OF_TRACK.
  *       \---- miss ------ plot 1   w -4  All tracks share one pool. Where it is empty, the tracks
  *        \--- plot 7 ---- miss     w -9  with the most hypotheses lose the least likely ones, and
@@ -127,8 +127,8 @@ struct rho_hypotheses_scan {
     const struct rho_sensor *sensor; /* NULL: at the origin */
     float log_miss;                  /* ln(1 - pd); 0 where the sensor did not look */
     /*
-     * plots of others: row of plots to track, or -1 for nobody's; own is this track. NULL: all are
-     * free
+     * plots of others: row of plots to track, or -1 for no track's; own is this track. NULL: all
+     * are free
      */
     const int16_t *claims;
     int16_t own;

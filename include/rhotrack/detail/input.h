@@ -62,6 +62,11 @@ struct rho_input_config {
     /* the paper's Q: sd added at each prediction, independent of its interval: 0 .. 1e6 */
     float noise_m, noise_mps;
     float velocity_variance; /* of an axis that opens later: RHO_KALMAN_VARIANCE_MIN .. MAX */
+    /*
+     * the paper's P(0|0) is this times I, m^2 and (m/s)^2, taken by whoever starts a track
+     * (rho_kalman_set_covariance): 0 .. RHO_KALMAN_VARIANCE_MAX. 0: what its plots make of it
+     */
+    float initial_variance;
 };
 
 struct rho_input {
@@ -155,7 +160,7 @@ RHO_MUST_CHECK enum rho_status rho_input_update_bearing(struct rho_input *input,
 /*
  * Tests each axis, starts anew where no input is present, and takes one that has stopped into the
  * estimate. Once a scan, after what the plot measures; a scan without a plot decides nothing. Where
- * the inputs of axes are correlated the weakest is judged first, and the others as they are without
+ * the inputs of axes are correlated the weakest is tested first, and the others as they are without
  * it. Cost: about 110 instructions, 300 where three inputs stop, 1500 where they are coupled.
  * Stack: 140 bytes.
  */

@@ -12,7 +12,7 @@
  *     rate q(z - p)
  *
  * It is added to the density of clutter against which new tracks start. Of two tracks, the younger
- * of which started beside the elder, it tells whether they are one target with second plots or two
+ * of which started beside the older, it tells whether they are one target with second plots or two
  * targets. Two targets that separate stay two: their plots leave the distances that were learned.
  * src/DESIGN.md ("Second plots of one target") derives it.
  */

@@ -215,7 +215,7 @@ static void one_that_lies_is_named_once(void **state)
     the_others_are_well(live);
     assert_int_equal(find(live, 1)->is_doubted, 1);
     assert_true(find(live, 1)->innovation_factor > 4.0f);
-    times = number_in(live->text, "rhotrack: sensor 1 is doubted: its innovations are ",
+    times = number_in(live->text, "rhotrack: sensor 1 is suspect: its innovations are ",
                       " times what its sigmas say\n");
     assert_true(times >= 2.0 && times < 4.0);
     node_sensors_print(live->core, live->lines);
@@ -251,7 +251,7 @@ static void one_that_sees_nothing_is_named(void **state)
     assert_int_equal(find(live, 1)->is_doubted, 1);
     assert_true(find(live, 1)->seen_share < 0.3f);
     the_others_are_well(live);
-    number_in(live->text, "rhotrack: sensor 1 is doubted: it sees ",
+    number_in(live->text, "rhotrack: sensor 1 is suspect: it sees ",
               " % of the tracks that others see\n");
     end(live);
 }

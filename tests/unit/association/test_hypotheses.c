@@ -297,7 +297,7 @@ static void assert_estimate(const struct model_track *track, uint16_t slot, int6
 #define LOG_PD(pd) ((float)log(pd))
 
 /* Weighs all plots; what the box leaves out is in no gate. Returns how many were in one. */
-static int weigh_all(struct rho_hypotheses *of, uint16_t slot,
+static int score_all(struct rho_hypotheses *of, uint16_t slot,
                      const struct rho_hypotheses_scan *scan, int num_plots, double pd,
                      const struct rho_hypotheses_clutter *clutter)
 {
@@ -352,7 +352,7 @@ static void follow(const struct scene *scene, int num_scans)
         assert_int_equal(rho_hypotheses_predict(&pool, slot, time_us), RHO_OK);
         model_predict(&track, time_us);
         assert_same(&track, slot);
-        (void)weigh_all(&pool, slot, &scan, num_plots, scene->pd, &clutter);
+        (void)score_all(&pool, slot, &scan, num_plots, scene->pd, &clutter);
         assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, &outcome), RHO_OK);
         const double gain =
             model_scan(&track, &scan, num_plots, (double)LOG_PD(scene->pd), &clutter);
@@ -415,7 +415,7 @@ static void plots_of_others_are_left_out_by_the_plain_rules(void **state)
 
             assert_int_equal(rho_hypotheses_predict(&pool, slot, scan.time_us), RHO_OK);
             model_predict(&track, scan.time_us);
-            (void)weigh_all(&pool, slot, &scan, num_plots, scene->pd, &clutter);
+            (void)score_all(&pool, slot, &scan, num_plots, scene->pd, &clutter);
             assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, &outcome), RHO_OK);
             (void)model_scan(&track, &scan, num_plots, (double)LOG_PD(scene->pd), &clutter);
             assert_same(&track, slot);
@@ -523,7 +523,7 @@ static int is_lost(void)
         assert_int_equal(rho_hypotheses_predict(&pool, slot, scan.time_us), RHO_OK);
         assert_int_equal(rho_hypotheses_estimate(&pool, slot, scan.time_us, &estimate), RHO_OK);
         const int num = look_along(x, estimate.kalman.state, beam, k < 3, plots);
-        (void)weigh_all(&pool, slot, &scan, num, 0.9, &clutter);
+        (void)score_all(&pool, slot, &scan, num, 0.9, &clutter);
         assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, &outcome), RHO_OK);
         assert_int_equal(rho_hypotheses_estimate(&pool, slot, scan.time_us, &estimate), RHO_OK);
         if (k >= 3 && distance(x, estimate.kalman.state) > beam) {

@@ -240,9 +240,30 @@ static void an_update_by_hand(void **state)
     assert_true(kalman.state[3] == 0.0f && kalman.covariance[RHO_AT(3, 3)] == 9.0f);
 }
 
+/* Variances on open axes alone, covariances 0; the state stays. */
+static void a_set_covariance_is_diagonal(void **state)
+{
+    (void)state;
+    struct rho_kalman filter;
+    rho_kalman_init(&filter);
+    assert_int_equal(rho_kalman_open_axis(&filter, 0, 7.0f, 4.0f, 9.0f), RHO_OK);
+    assert_int_equal(rho_kalman_open_axis(&filter, 2, 8.0f, 4.0f, 9.0f), RHO_OK);
+    assert_int_equal(rho_kalman_predict(&filter, 2.0f, 1.0f), RHO_OK);
+    const struct rho_kalman before = filter;
+    rho_kalman_set_covariance(&filter, 500.0f);
+    assert_memory_equal(filter.state, before.state, sizeof filter.state);
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        for (int j = 0; j <= i; j++) {
+            const float expected = i == j && i % 3 != 1 ? 500.0f : 0.0f;
+            assert_float_equal(filter.covariance[RHO_AT(i, j)], expected, 0.0f);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_set_covariance_is_diagonal),
         cmocka_unit_test(sequences_agree_with_the_vector_filter),
         cmocka_unit_test(init_measures_nothing),
         cmocka_unit_test(axes_are_open_once_opened),

@@ -94,25 +94,27 @@ static void chances_follow_counts_once_a_block_is_over(void **state)
 
     (void)state;
     begin();
-    before = rho_clutter_map_chance(&map, 0, 1, 1);
+    before = rho_clutter_map_return_probability(&map, 0, 1, 1);
     for (int i = 0; i < 10; i++) {
         rho_clutter_map_count_look(&map, &echo);
         if (i < 4) {
             rho_clutter_map_count_return(&map, &echo);
         }
     }
-    assert_true(rho_clutter_map_chance(&map, 0, 1, 1) == before); /* counted, not yet used */
+    assert_true(rho_clutter_map_return_probability(&map, 0, 1, 1) ==
+                before); /* counted, not yet used */
     for (int i = 0; i < 4; i++) {
-        assert_true(rho_clutter_map_chance(&map, 0, 1, 1) == before);
+        assert_true(rho_clutter_map_return_probability(&map, 0, 1, 1) == before);
         rho_clutter_map_age(&map, 1.0f);
     }
-    after = rho_clutter_map_chance(&map, 0, 1, 1);
+    after = rho_clutter_map_return_probability(&map, 0, 1, 1);
     assert_true(after > 2.0f * before && after < 0.2f + before); /* on the way to 2 of 10 */
-    assert_true(rho_clutter_map_chance(&map, 0, 2, 1) == rho_clutter_map_chance(&map, 1, 2, 1));
+    assert_true(rho_clutter_map_return_probability(&map, 0, 2, 1) ==
+                rho_clutter_map_return_probability(&map, 1, 2, 1));
 
     const float returns[RHO_ECHO_HIT_CLASSES] = {100.0f}; /* a target's: all that there is */
     rho_clutter_map_remove_returns(&map, 0, returns);
-    assert_true(rho_clutter_map_chance(&map, 0, 1, 1) < before);
+    assert_true(rho_clutter_map_return_probability(&map, 0, 1, 1) < before);
     assert_true(map.tables[0][0].returns[0][0] >= 0.0f);
 }
 

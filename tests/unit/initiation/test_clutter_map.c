@@ -137,7 +137,7 @@ static unsigned count_known_towers(void)
 /* Of all regions: what an echo with many hits that was just seen does next. */
 static double known_chance(void)
 {
-    return (double)rho_clutter_map_chance(map_of(), UINT8_MAX, 20, 1);
+    return (double)rho_clutter_map_return_probability(map_of(), UINT8_MAX, 20, 1);
 }
 
 /* ---- towers ---------------------------------------------------------------------------------- */
@@ -247,8 +247,8 @@ static void clutter_that_comes_nowhere_twice_has_no_chance(void **state)
     (void)state;
     start(40, 30.0f);
     (void)turn_on(&turn, 150, 0.0, 20);
-    assert_true(rho_clutter_map_chance(map_of(), UINT8_MAX, 1, 1) < 0.004f);
-    assert_true(rho_clutter_map_chance(map_of(), UINT8_MAX, 1, 3) < 0.002f);
+    assert_true(rho_clutter_map_return_probability(map_of(), UINT8_MAX, 1, 1) < 0.004f);
+    assert_true(rho_clutter_map_return_probability(map_of(), UINT8_MAX, 1, 3) < 0.002f);
     assert_int_equal(count_known(map_of()), 0);
 }
 

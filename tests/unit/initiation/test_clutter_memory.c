@@ -59,7 +59,7 @@ static void push_next(void)
 }
 
 /* Scans of clutter all over, and so many plots more in the spot at (5, 5) km. */
-static void feed(int scans, int hot)
+static void push_scans(int scans, int hot)
 {
     for (int k = 0; k < scans; k++) {
         add_clutter(&around, COLD_PLOTS);
@@ -98,11 +98,11 @@ static void a_hot_spot_is_learned(void **state)
     double mean = 0.0;
     (void)state;
     begin();
-    feed(SCANS, HOT_PLOTS);
+    push_scans(SCANS, HOT_PLOTS);
     const double at_first = hot_density();
-    feed(20, HOT_PLOTS);
+    push_scans(20, HOT_PLOTS);
     const double soon = hot_density();
-    feed(100, HOT_PLOTS);
+    push_scans(100, HOT_PLOTS);
     const double later = hot_density(), is = cold + HOT_PLOTS / cell_m2;
     assert_true(soon > 1.2 * at_first);
     assert_true(later > soon);
@@ -123,7 +123,7 @@ static void nothing_is_made_less(void **state)
     static struct rho_initiator plain;
     (void)state;
     begin();
-    feed(60, HOT_PLOTS);
+    push_scans(60, HOT_PLOTS);
     plain = initiator;
     memset(&plain.memory, 0, sizeof plain.memory);
     for (double x_m = -30000.0; x_m < 30000.0; x_m += 1100.0) {
@@ -177,11 +177,11 @@ static void a_hot_spot_is_forgotten(void **state)
 {
     (void)state;
     begin();
-    feed(130, HOT_PLOTS);
+    push_scans(130, HOT_PLOTS);
     const double hot = hot_density();
-    feed(130, 0);
+    push_scans(130, 0);
     const double later = hot_density();
-    feed(270, 0);
+    push_scans(270, 0);
     const double last = hot_density();
     assert_true(later < 0.8 * hot);
     assert_true(last < 0.35 * hot);
@@ -194,7 +194,7 @@ static void it_goes_on_for_long(void **state)
     (void)state;
     begin();
     for (int round = 0; round < 20; round++) {
-        feed(100, 30);
+        push_scans(100, 30);
         assert_in_range(initiator.memory.num_scans, 1, 128);
     }
     const double is = 30.0 / (cell_m * cell_m);
@@ -258,7 +258,7 @@ static void refused_scans_are_not_remembered(void **state)
     uint32_t unused = 0;
     (void)state;
     begin();
-    feed(20, HOT_PLOTS);
+    push_scans(20, HOT_PLOTS);
     then = initiator;
     old.time_us = llround((time_s - 1.5 * SCAN_S) * 1e6);
     assert_int_equal(rho_initiator_push(&initiator, &old, NULL, fates, &unused), RHO_ERROR_STATE);
@@ -305,7 +305,7 @@ static void an_area_that_changes_lays_it_anew(void **state)
     }
 }
 
-static void feed_wide(double side_m, int scans)
+static void push_wide(double side_m, int scans)
 {
     for (int k = 0; k < scans; k++) {
         for (int n = 0; n < COLD_PLOTS; n++) {
@@ -333,7 +333,7 @@ static void hot_spots_are_learned_anew_where_the_area_has_grown(void **state)
     random_state = 1;
     time_s = 0.0;
     start(&config);
-    feed_wide(1e4, 100);
+    push_wide(1e4, 100);
     assert_true(density_at(5e3, 5e3) > 10.0 * density_at(-5e3, -5e3));
     for (int k = 0; k < 40; k++) {
         add_clutter(&(struct rho_extent){-1e5f, 1e5f, -1e5f, 1e5f}, COLD_PLOTS);
@@ -344,7 +344,7 @@ static void hot_spots_are_learned_anew_where_the_area_has_grown(void **state)
         hot_there = fmax(hot_there, density_at(x_m, x_m));
     }
     assert_true(hot_there < 6.0 * cold);
-    feed_wide(wide_m, 40);
+    push_wide(wide_m, 40);
     assert_true(density_at(0.5 * wide_m, 0.5 * wide_m) > 8.0 * cold);
 }
 

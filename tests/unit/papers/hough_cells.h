@@ -67,12 +67,12 @@ static inline int by_rank(const void *a, const void *b)
 /* Of one source, a pair, plot or scan, a cell takes the largest vote only. */
 struct vote {
     uint32_t key, source;
-    struct worth worth;
+    struct vote_bounds bounds;
 };
 
 struct cell {
     uint32_t key, sources;
-    struct worth worth;
+    struct vote_bounds bounds;
     double shown; /* the library's votes */
 };
 
@@ -81,21 +81,21 @@ static size_t num_votes, votes_room;
 static struct cell cells[CELLS_MAX];
 static size_t num_cells;
 
-static inline void vote(struct place place, uint32_t source, struct worth worth)
+static inline void vote(struct place place, uint32_t source, struct vote_bounds bounds)
 {
-    if (!is_in_plane(place) || worth.most <= 0.0) {
+    if (!is_in_plane(place) || bounds.most <= 0.0) {
         return;
     }
     if (num_votes == votes_room) {
         votes_room = votes_room ? 2 * votes_room : 1 << 16;
         votes = realloc(votes, votes_room * sizeof *votes);
     }
-    votes[num_votes++] = (struct vote){key_of(place), source, worth};
+    votes[num_votes++] = (struct vote){key_of(place), source, bounds};
 }
 
-static inline struct worth scaled(struct worth worth, double by)
+static inline struct vote_bounds scaled(struct vote_bounds bounds, double by)
 {
-    return (struct worth){worth.value * by, worth.least * by, worth.most * by};
+    return (struct vote_bounds){bounds.value * by, bounds.least * by, bounds.most * by};
 }
 
 /* Reading C's weight of a cell so far from the pair's own. */
@@ -117,14 +117,14 @@ static inline long reach_rho(void)
     return (long)(2.0 * (double)config.eps_rho_m / (double)config.rho_cell_m + 0.01);
 }
 
-static inline void vote_around(struct place own, uint32_t source, struct worth worth)
+static inline void vote_around(struct place own, uint32_t source, struct vote_bounds bounds)
 {
     long kt = config.method == RHO_HOUGH_NHT_C ? reach_theta() : 0;
     long kr = config.method == RHO_HOUGH_NHT_C ? reach_rho() : 0;
     for (long a = -kt; a <= kt && is_in_plane(own); a++) {
         for (long b = -kr; b <= kr; b++) {
             struct place place = wrapped((struct place){own.theta + a, own.rho + b});
-            vote(place, source, scaled(worth, weight_of(a, b)));
+            vote(place, source, scaled(bounds, weight_of(a, b)));
         }
     }
 }
@@ -156,17 +156,17 @@ static struct {
 
 static inline void vote_pair(const struct pair *pair, const struct pairs *kernels)
 {
-    struct worth worth = worth_of(pair, kernels);
+    struct vote_bounds bounds = bounds_of(pair, kernels);
     struct place places[5];
     int num = places_of(pair->line, places);
     uint32_t source = counted.lines++;
     counted.candidates += pair->gated != NO;
     counted.candidates_surely += pair->gated == YES;
-    counted.voters += worth.most > 0.0;
-    counted.at_limits += worth.most > 0.0 && (num > 1 || worth.least <= 0.0);
+    counted.voters += bounds.most > 0.0;
+    counted.at_limits += bounds.most > 0.0 && (num > 1 || bounds.least <= 0.0);
     for (int i = 0; i < num; i++) {
-        struct worth vague = {i == 0 ? worth.value : 0.0, 0.0, worth.most};
-        vote_around(places[i], source, num == 1 ? worth : vague);
+        struct vote_bounds vague = {i == 0 ? bounds.value : 0.0, 0.0, bounds.most};
+        vote_around(places[i], source, num == 1 ? bounds : vague);
     }
 }
 
@@ -199,9 +199,10 @@ static inline void vote_plots(void)
             struct place low = {row, place_of((struct line){rho - slack, 0.0}).rho};
             struct place high = {row, place_of((struct line){rho + slack, 0.0}).rho};
             int is_sure = low.rho == high.rho;
-            vote(place, source, (struct worth){1.0, is_sure ? 1.0 : 0.0, 1.0});
+            vote(place, source, (struct vote_bounds){1.0, is_sure ? 1.0 : 0.0, 1.0});
             if (!is_sure) {
-                vote(low.rho == place.rho ? high : low, source, (struct worth){0.0, 0.0, 1.0});
+                vote(low.rho == place.rho ? high : low, source,
+                     (struct vote_bounds){0.0, 0.0, 1.0});
             }
         }
     }
@@ -216,9 +217,10 @@ static inline int by_cell(const void *a, const void *b)
     return (p->source > q->source) - (p->source < q->source);
 }
 
-static inline struct worth larger(struct worth a, struct worth b)
+static inline struct vote_bounds larger(struct vote_bounds a, struct vote_bounds b)
 {
-    return (struct worth){fmax(a.value, b.value), fmax(a.least, b.least), fmax(a.most, b.most)};
+    return (struct vote_bounds){fmax(a.value, b.value), fmax(a.least, b.least),
+                                fmax(a.most, b.most)};
 }
 
 static inline void add_up(void)
@@ -226,22 +228,22 @@ static inline void add_up(void)
     qsort(votes, num_votes, sizeof *votes, by_cell);
     num_cells = 0;
     for (size_t i = 0; i < num_votes;) {
-        struct worth worth = votes[i].worth;
+        struct vote_bounds bounds = votes[i].bounds;
         uint32_t key = votes[i].key, source = votes[i].source;
         while (++i < num_votes && votes[i].key == key && votes[i].source == source) {
-            worth = larger(worth, votes[i].worth);
+            bounds = larger(bounds, votes[i].bounds);
         }
         if (num_cells == 0 || cells[num_cells - 1].key != key) {
             assert_true(num_cells < CELLS_MAX);
             cells[num_cells++] = (struct cell){.key = key};
         }
         struct cell *cell = &cells[num_cells - 1];
-        cell->worth.value += worth.value;
-        cell->worth.least += worth.least;
-        cell->worth.most += worth.most;
+        cell->bounds.value += bounds.value;
+        cell->bounds.least += bounds.least;
+        cell->bounds.most += bounds.most;
         cell->sources++;
         counted.votes++;
-        counted.votes_surely += worth.least > 0.0;
+        counted.votes_surely += bounds.least > 0.0;
     }
 }
 
@@ -281,14 +283,14 @@ static inline struct cell *cell_of(uint32_t key)
 static inline void expect_cell(const struct cell *cell, double slack)
 {
     double by = RHO_HOUGH_VOTE, room = slack * (double)cell->sources;
-    double off = fmax(cell->worth.least * by - cell->shown, cell->shown - cell->worth.most * by);
+    double off = fmax(cell->bounds.least * by - cell->shown, cell->shown - cell->bounds.most * by);
     if (off > room) {
         print_error("theta cell %u, rho cell %u: %.0f, not %.2f .. %.2f\n",
                     cell->key / (unsigned)num_rho(), cell->key % (unsigned)num_rho(), cell->shown,
-                    cell->worth.least * by, cell->worth.most * by);
+                    cell->bounds.least * by, cell->bounds.most * by);
         fail();
     }
-    int is_exact = cell->worth.most - cell->worth.least < 1e-12;
+    int is_exact = cell->bounds.most - cell->bounds.least < 1e-12;
     seen.cells++;
     seen.exact += (size_t)is_exact;
     if (is_exact) {
@@ -391,7 +393,7 @@ static inline size_t choose(size_t num)
 static inline size_t choose_from_cells(void)
 {
     for (size_t i = 0; i < num_cells; i++) {
-        listed[i] = (struct peak){cells[i].worth.value,
+        listed[i] = (struct peak){cells[i].bounds.value,
                                   {cells[i].key / num_rho(), cells[i].key % num_rho()}};
     }
     return choose(num_cells);

@@ -291,10 +291,10 @@ static inline struct pairs pairs_of(unsigned scan)
     return pairs;
 }
 
-/* ---- what a pair's vote is worth ------------------------------------------------------------- */
+/* ---- bounds of a pair's vote ------------------------------------------------------------- */
 
 /* Value, and between what limits it is where something is nearly equal. */
-struct worth {
+struct vote_bounds {
     double value, least, most;
 };
 
@@ -344,11 +344,12 @@ static inline struct nearest nearest_of(const struct pair *pair, const struct pa
     return nearest;
 }
 
-static inline struct worth indeterminacy(const struct pair *pair, const struct nearest *nearest)
+static inline struct vote_bounds indeterminacy(const struct pair *pair,
+                                               const struct nearest *nearest)
 {
     const struct pair *p = nearest->best[0].kernel, *q = nearest->best[1].kernel;
     if (!q) {
-        return (struct worth){0.0, 0.0, nearest->is_vague ? 1.0 : 0.0};
+        return (struct vote_bounds){0.0, 0.0, nearest->is_vague ? 1.0 : 0.0};
     }
     double x = ((double)x_m[p->a] + (double)x_m[q->a]) / 2.0;
     double y = ((double)y_m[p->a] + (double)y_m[q->a]) / 2.0;
@@ -356,44 +357,45 @@ static inline struct worth indeterminacy(const struct pair *pair, const struct n
     double dy = ((double)y_m[p->b] + (double)y_m[q->b]) / 2.0 - y;
     int is_tied = nearest->best[2].kernel && nearest->best[1].mu - nearest->best[2].mu < 1e-3;
     if (nearest->is_vague || is_tied || hypot(dx, dy) < 200.0) {
-        return (struct worth){0.0, 0.0, 1.0};
+        return (struct vote_bounds){0.0, 0.0, 1.0};
     }
     struct line away = offset(pair->line, line_along(x, y, dx, dy));
     double mu = closeness(away);
     enum verdict counts = is_near(away);
-    return (struct worth){counts == NO ? 0.0 : mu, counts == YES ? mu : 0.0,
-                          counts == NO ? 0.0 : mu};
+    return (struct vote_bounds){counts == NO ? 0.0 : mu, counts == YES ? mu : 0.0,
+                                counts == NO ? 0.0 : mu};
 }
 
-static inline struct worth neutrosophic(const struct pair *pair, const struct pairs *kernels)
+static inline struct vote_bounds neutrosophic(const struct pair *pair, const struct pairs *kernels)
 {
     double f = (double)config.lambda_k * (double)config.p_false * (double)config.p_false;
     struct nearest nearest = nearest_of(pair, kernels);
     double t = nearest.best[0].mu;
-    struct worth worth = {t, nearest.surely, t};
+    struct vote_bounds bounds = {t, nearest.surely, t};
     if (nearest.best[0].kernel && config.uses_indeterminacy) {
-        struct worth i = indeterminacy(pair, &nearest);
-        worth = (struct worth){fmax(t, i.value), fmax(worth.least, i.least), fmax(t, i.most)};
+        struct vote_bounds i = indeterminacy(pair, &nearest);
+        bounds =
+            (struct vote_bounds){fmax(t, i.value), fmax(bounds.least, i.least), fmax(t, i.most)};
     }
-    worth.value = worth.value < f ? 0.0 : worth.value;
-    worth.least = worth.least < f + VOTE_SLACK ? 0.0 : worth.least;
-    worth.most = worth.most < f - VOTE_SLACK ? 0.0 : worth.most;
-    return worth;
+    bounds.value = bounds.value < f ? 0.0 : bounds.value;
+    bounds.least = bounds.least < f + VOTE_SLACK ? 0.0 : bounds.least;
+    bounds.most = bounds.most < f - VOTE_SLACK ? 0.0 : bounds.most;
+    return bounds;
 }
 
-static inline struct worth worth_of(const struct pair *pair, const struct pairs *kernels)
+static inline struct vote_bounds bounds_of(const struct pair *pair, const struct pairs *kernels)
 {
-    struct worth worth = {1.0, 1.0, 1.0};
+    struct vote_bounds bounds = {1.0, 1.0, 1.0};
     if (config.method == RHO_HOUGH_MHT) {
-        return worth;
+        return bounds;
     }
     if (config.method != RHO_HOUGH_IHT) {
-        worth = neutrosophic(pair, kernels);
+        bounds = neutrosophic(pair, kernels);
     }
     if (pair->gated != YES) {
-        worth.least = 0.0;
+        bounds.least = 0.0;
     }
-    return worth;
+    return bounds;
 }
 
 #endif

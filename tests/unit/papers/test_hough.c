@@ -217,9 +217,10 @@ static void look_up_pair(const struct pair *pair, const struct pairs *kernels, s
     for (int i = 0; i < num; i++) {
         getting += gets_some(cell, places[i]);
     }
-    struct worth worth = getting ? worth_of(pair, kernels) : (struct worth){0.0, 0.0, 0.0};
-    if (worth.most > 0.0) {
-        int is_sure = num == 1 && worth.least > 0.0;
+    struct vote_bounds bounds =
+        getting ? bounds_of(pair, kernels) : (struct vote_bounds){0.0, 0.0, 0.0};
+    if (bounds.most > 0.0) {
+        int is_sure = num == 1 && bounds.least > 0.0;
         add_voter(pair->a, is_sure);
         add_voter(pair->b, is_sure);
     }

@@ -385,7 +385,7 @@ static void more_pairs_of_one_direction_than_there_is_room_for_are_counted(void 
         const struct cell *cell =
             cell_of(peaks[i].theta_cell * (uint32_t)num_rho() + peaks[i].rho_cell);
         assert_non_null(cell);
-        assert_true(peaks[i].votes <= cell->worth.most * RHO_HOUGH_VOTE + 4.0 * cell->sources);
+        assert_true(peaks[i].votes <= cell->bounds.most * RHO_HOUGH_VOTE + 4.0 * cell->sources);
     }
 }
 

@@ -470,7 +470,7 @@ static uint32_t hide(int seen, int missed, double *t_s)
 }
 
 /*
- * Behind a hill for forty seconds; what is not back after twelve misses has gone. Of a young track
+ * Behind a hill for forty seconds; what is not back after twelve misses has gone. Of a new track
  * five are enough.
  */
 static void a_grown_target_that_hides_keeps_its_identity(void **state)

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* How long calm targets keep straight is learned from what grown tracks do. */
+/* How long calm targets keep straight is learned from what established tracks do. */
 #include "tracker_setup.h"
 
 #define SIGMA_M 40.0
 #define SPEED_MPS 200.0
 #define TURN_S 4.0
 #define MEMORY_S 1600.0
-#define GROWN_HITS 16
+#define ESTABLISHED_HITS 16
 #define TARGETS 6
 
 /*
@@ -53,7 +53,7 @@ static unsigned grown_tracks(void)
 {
     unsigned count = 0;
     for (unsigned i = 0; i < report.num_tracks; i++) {
-        count += report.tracks[i].hits >= GROWN_HITS;
+        count += report.tracks[i].hits >= ESTABLISHED_HITS;
     }
     return count;
 }
@@ -70,7 +70,7 @@ static unsigned grown_that_turn(const struct rho_report *before, int turns)
     for (unsigned i = 0; i < report.num_tracks; i++) {
         for (unsigned k = 0; k < before->num_tracks; k++) {
             count += before->tracks[k].track_id == report.tracks[i].track_id &&
-                     report.tracks[i].hits >= GROWN_HITS &&
+                     report.tracks[i].hits >= ESTABLISHED_HITS &&
                      turns == (before->tracks[k].maneuver_probability > 0.5f);
         }
     }
@@ -149,7 +149,7 @@ static void turns_take_it_back(void **state)
 }
 
 /*
- * A minute in which nobody looked teaches nothing, nor do young tracks; and then calm targets are
+ * A minute in which nobody looked teaches nothing, nor do new tracks; and then calm targets are
  * what they were at first.
  */
 static void silence_teaches_nothing(void **state)

@@ -48,7 +48,7 @@ static void place_of(const struct radar *radar, int target, int k, double place_
     place_m[1] = range_m * sin(azimuth) + along_m * sin(heading) + off_m * cos(heading);
 }
 
-static unsigned doubts; /* reports of grown tracks that are in doubt */
+static unsigned doubts; /* reports of established tracks that are in doubt */
 
 static void look(const struct radar *radar, int k)
 {
@@ -218,7 +218,8 @@ static void pd_is_learned_by_range(void **state)
 }
 
 /*
- * Times that grown tracks are in doubt of targets that are seen in half of the scans, in five runs.
+ * Times that established tracks are in doubt of targets that are seen in half of the scans, in five
+ * runs.
  */
 static unsigned doubts_with(float learn_pd_min)
 {

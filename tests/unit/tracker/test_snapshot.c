@@ -693,12 +693,12 @@ static void test_nonsense_with_a_right_checksum_is_refused(void **state)
     NONSENSE(0, rho_tracker, hypotheses.model.memory_s, float, nan);
     NONSENSE(0, rho_tracker, hypotheses.step.calm_begins, float, 2.0f);
     NONSENSE(0, rho_tracker, hypotheses.step.quiet_density, float, nan);
-    NONSENSE(0, rho_tracker, died_young, float, nan);
-    NONSENSE(0, rho_tracker, grown, float, -1.0f);
+    NONSENSE(0, rho_tracker, ended_early, float, nan);
+    NONSENSE(0, rho_tracker, established, float, -1.0f);
     NONSENSE(0, rho_tracker, straight_s, float, nan);
     NONSENSE(0, rho_tracker, turning_s, float, -1.0f);
     NONSENSE(0, rho_tracker, wanted_per_hour, float, nan);
-    NONSENSE(0, rho_tracker, youth_us, int64_t, INT64_MAX);
+    NONSENSE(0, rho_tracker, counted_us, int64_t, INT64_MAX);
 #if RHO_MAX_ECHOES > 0
     unsigned echo = 0;
     while (chain.tracker.clutter_map.echoes[echo].hits == 0) {

@@ -291,11 +291,11 @@ static void a_track_in_doubt_comes_back_as_itself(void **state)
 {
     (void)state;
     struct rho_track track = started(9000);
-    assert_false(track.is_believed);
+    assert_false(track.was_confirmed);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_CONFIRMED);
     rho_track_miss(&track, 6500);
     assert_int_equal(rho_track_apply_thresholds(&track, &limits), RHO_TRACK_TENTATIVE);
-    assert_true(track.is_believed);
+    assert_true(track.was_confirmed);
     /* below the confirm threshold, but the doubt is gone: it had been confirmed */
     track.score_mnat += 1;
     assert_true(track.score_mnat < limits.confirm_mnat);
@@ -304,7 +304,7 @@ static void a_track_in_doubt_comes_back_as_itself(void **state)
     /* one that never was is not, by the same */
     struct rho_track never = started(4000);
     assert_int_equal(rho_track_apply_thresholds(&never, &limits), RHO_TRACK_TENTATIVE);
-    assert_false(never.is_believed);
+    assert_false(never.was_confirmed);
 }
 
 static void counters_and_scores_saturate(void **state)

@@ -37,7 +37,8 @@ static struct rho_track started(void)
 {
     const struct rho_kalman kalman = estimate();
     struct rho_track track;
-    assert_int_equal(rho_track_start_estimate(&track, 42, &kalman, START_US, 9, 8, 6000), RHO_OK);
+    assert_int_equal(rho_track_start_estimate(&track, 42, &kalman, START_US, 9, 8, &model, 6000),
+                     RHO_OK);
     return track;
 }
 
@@ -71,7 +72,7 @@ static void expect_no_start(const struct rho_kalman *kalman, uint16_t hits)
     struct rho_track track, before;
     memset(&track, 0x5a, sizeof track);
     before = track;
-    assert_int_equal(rho_track_start_estimate(&track, 42, kalman, START_US, 9, hits, 6000),
+    assert_int_equal(rho_track_start_estimate(&track, 42, kalman, START_US, 9, hits, &model, 6000),
                      RHO_ERROR_VALUE);
     assert_memory_equal(&track, &before, sizeof track);
 }
@@ -81,8 +82,11 @@ static void starts_from_no_estimate_are_refused(void **state)
     (void)state;
     struct rho_kalman kalman = estimate();
     struct rho_track track = started();
-    assert_int_equal(rho_track_start_estimate(NULL, 1, &kalman, 0, 9, 8, 0), RHO_ERROR_NULL);
-    assert_int_equal(rho_track_start_estimate(&track, 1, NULL, 0, 9, 8, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_start_estimate(NULL, 1, &kalman, 0, 9, 8, &model, 0),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_track_start_estimate(&track, 1, NULL, 0, 9, 8, &model, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_track_start_estimate(&track, 1, &kalman, 0, 9, 8, NULL, 0),
+                     RHO_ERROR_NULL);
     assert_int_equal(track.track_id, 42);
     expect_no_start(&kalman, 0);
     for (int axis = 0; axis < 2; axis++) {

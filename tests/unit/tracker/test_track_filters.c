@@ -90,8 +90,7 @@ static void the_model_says_which_filter(void **state)
     assert_int_equal(track.filter, RHO_TRACK_HYPOTHESES);
 }
 
-/* A track keeps to its filter, whatever the model offers later. */
-static void an_estimate_starts_a_plain_filter(void **state)
+static void an_estimate_starts_the_filter_of_the_model(void **state)
 {
     (void)state;
     struct rho_track track, plain;
@@ -99,17 +98,46 @@ static void an_estimate_starts_a_plain_filter(void **state)
     plain = started();
     for (int filter = 0; filter < RHO_NUM_TRACK_FILTERS; filter++) {
         start_with((enum rho_track_filter)filter);
-        assert_int_equal(rho_track_start_estimate(&track, 2, &plain.kalman, 3 * SCAN_US, 3, 5, 100),
-                         RHO_OK);
-        assert_int_equal(track.filter, RHO_TRACK_KALMAN);
+        assert_int_equal(
+            rho_track_start_estimate(&track, 2, &plain.kalman, 3 * SCAN_US, 3, 5, &model, 100),
+            RHO_OK);
+        assert_int_equal(track.filter, filter);
+        assert_float_equal(track.kalman.state[0], plain.kalman.state[0], 0.01f);
         struct rho_track_plot next = seen(4);
         assert_int_equal(rho_track_predict(&track, next.time_us, &model), RHO_OK);
         assert_int_equal(rho_track_update(&track, &next, &model, 0), RHO_OK);
-        assert_int_equal(count_open(), 0);
-        assert_float_equal(track.accel_mps2[0], 0.0f, 0.0f);
-        rho_track_end(&track, &model); /* holds nothing */
+        assert_int_equal(count_open() > 0, filter == RHO_TRACK_HYPOTHESES);
+        rho_track_end(&track, &model);
         assert_int_equal(count_open(), 0);
     }
+}
+
+/* The paper's P(0|0): the covariance at the start's end, and nowhere else. */
+static void a_start_takes_the_initial_variance(void **state)
+{
+    (void)state;
+    struct rho_track track, other;
+    start_with(RHO_TRACK_INPUT);
+    other = started();
+    estimation.initial_variance = 500.0f;
+    for (int from_estimate = 0; from_estimate < 2; from_estimate++) {
+        if (from_estimate) {
+            assert_int_equal(
+                rho_track_start_estimate(&track, 2, &other.kalman, 3 * SCAN_US, 3, 5, &model, 100),
+                RHO_OK);
+        } else {
+            track = started();
+        }
+        for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+            assert_float_equal(track.kalman.state[i], other.kalman.state[i], 0.0f);
+            for (int j = 0; j <= i; j++) {
+                const int is_open = i % 3 < 2; /* x and y */
+                assert_float_equal(track.kalman.covariance[RHO_AT(i, j)],
+                                   i == j && is_open ? 500.0f : 0.0f, 0.0f);
+            }
+        }
+    }
+    estimation.initial_variance = 0.0f;
 }
 
 static void a_refused_start_gives_its_slot_back(void **state)
@@ -456,7 +484,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_model_says_which_filter),
-        cmocka_unit_test(an_estimate_starts_a_plain_filter),
+        cmocka_unit_test(an_estimate_starts_the_filter_of_the_model),
+        cmocka_unit_test(a_start_takes_the_initial_variance),
         cmocka_unit_test(a_refused_start_gives_its_slot_back),
         cmocka_unit_test(a_full_pool_refuses),
         cmocka_unit_test(commit_and_settle_are_for_hypotheses),

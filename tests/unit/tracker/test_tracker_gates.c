@@ -76,7 +76,7 @@ static void let_all_end(int k)
     scene.num_targets = 0;
     scene.clutter = 0.0;
     scene.num_sectors = 0;
-    for (int i = 0; i < 14; i++) { /* grown tracks are in doubt for twelve misses */
+    for (int i = 0; i < 14; i++) { /* established tracks are in doubt for twelve misses */
         step(k + i);
     }
     assert_int_equal(report.num_tracks, 0);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Radars over the same targets, one of which fails or lies from some time on: it is doubted, the
- * tracks stay the others', and it is believed again when it agrees. No good one is ever doubted,
+ * Radars over the same targets, one of which fails or lies from some time on: it is suspect, the
+ * tracks stay the others', and it is trusted again when it agrees. No good one is ever suspect,
  * however fine the one that lies claims to be.
  */
 #include <math.h>
@@ -45,7 +45,7 @@ struct scene {
     double sigma_m[SENSORS_MAX + 1], claim_m, shift_m;
     /* what came of it, from round 20 on */
     double sum_m2;
-    int judged, lost, tracks_most, first_doubted, last_doubted;
+    int judged, lost, tracks_most, first_suspect, last_suspect;
 };
 
 static void describe(int32_t sensor_id)
@@ -161,27 +161,27 @@ static void judge(struct scene *scene, double t_s)
     }
 }
 
-static int is_doubted(int32_t sensor_id)
+static int is_suspect(int32_t sensor_id)
 {
-    return rho_tracker_look_of(&tracker, sensor_id)->is_doubted;
+    return rho_tracker_look_of(&tracker, sensor_id)->is_suspect;
 }
 
 /* All look once a round, a second after one another. */
 static void fly(struct scene *scene, int rounds)
 {
-    scene->first_doubted = scene->last_doubted = -1;
+    scene->first_suspect = scene->last_suspect = -1;
     start();
     for (int round = 0; round < rounds; round++) {
         double t_s = ROUND_S * round;
 
         step(scene, OTHER, t_s, round >= scene->from && round < scene->to);
-        if (is_doubted(OTHER)) {
-            scene->first_doubted = scene->first_doubted < 0 ? round : scene->first_doubted;
-            scene->last_doubted = round;
+        if (is_suspect(OTHER)) {
+            scene->first_suspect = scene->first_suspect < 0 ? round : scene->first_suspect;
+            scene->last_suspect = round;
         }
         for (int32_t good = OTHER + 1; good <= scene->sensors; good++) {
             step(scene, good, t_s + good - OTHER, 0);
-            assert_int_equal(is_doubted(good), 0);
+            assert_int_equal(is_suspect(good), 0);
         }
         if (round >= 20) {
             judge(scene, t_s + scene->sensors - OTHER);
@@ -194,31 +194,31 @@ static double rmse_m(const struct scene *scene)
     return sqrt(scene->sum_m2 / scene->judged);
 }
 
-static void sensors_that_agree_are_not_doubted(void **state)
+static void sensors_that_agree_are_not_suspect(void **state)
 {
     (void)state;
     for (int k = 0; k < 3; k++) {
         struct scene scene = {.sensors = 2, .turn_radps = 0.02 * k}; /* up to 9 m/s^2 */
 
         fly(&scene, 100);
-        assert_int_equal(scene.first_doubted, -1);
+        assert_int_equal(scene.first_suspect, -1);
         assert_in_range(scene.lost, 0, LOST_MAX);
         assert_int_equal(scene.tracks_most, TARGETS);
-        assert_int_equal(tracker.counters.sensors_doubted, 0);
+        assert_int_equal(tracker.counters.sensors_suspected, 0);
     }
 }
 
-static void one_that_lies_is_doubted_and_counts_little(void **state)
+static void one_that_lies_is_suspect_and_counts_little(void **state)
 {
     struct scene well = {.sensors = 3, .fault = NONE},
                  lies = {.sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000};
     (void)state;
     fly(&well, 100);
     fly(&lies, 100);
-    print_message("all well %.1f m, one off by %.0f m: %.1f m, doubted from round %d\n",
-                  rmse_m(&well), 4.0 * SIGMA_M * 1.414, rmse_m(&lies), lies.first_doubted);
-    assert_in_range(lies.first_doubted, 31, 36);
-    assert_int_equal(lies.last_doubted, 99);
+    print_message("all well %.1f m, one off by %.0f m: %.1f m, suspect from round %d\n",
+                  rmse_m(&well), 4.0 * SIGMA_M * 1.414, rmse_m(&lies), lies.first_suspect);
+    assert_in_range(lies.first_suspect, 31, 36);
+    assert_int_equal(lies.last_suspect, 99);
     assert_in_range(lies.lost, 0, LOST_MAX);
     assert_int_equal(lies.tracks_most, TARGETS);
     /* a third of the measurements is gone */
@@ -233,8 +233,8 @@ static void whoever_lies_is_found_out_whatever_the_noise(void **state)
         struct scene scene = {.sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000};
 
         fly(&scene, 60);
-        assert_in_range(scene.first_doubted, 30, 36);
-        assert_int_equal(scene.last_doubted, 59);
+        assert_in_range(scene.first_suspect, 30, 36);
+        assert_int_equal(scene.last_suspect, 59);
         assert_in_range(scene.lost, 0, LOST_MAX);
     }
     seed = 5;
@@ -244,7 +244,7 @@ static void whoever_lies_is_found_out_whatever_the_noise(void **state)
  * Two others as fine as it is, or two coarser ones that are less off; what it claims to be is no
  * proof.
  */
-static void of_three_that_are_not_alike_no_good_one_is_doubted(void **state)
+static void of_three_that_are_not_alike_no_good_one_is_suspect(void **state)
 {
     const struct scene scenes[] = {
         {.sigma_m = {0.0, 50.0, 30.0, 100.0}, .claim_m = 15.0, .shift_m = 120.0},
@@ -281,10 +281,10 @@ static void one_that_claims_to_be_finer_is_found_out_often(void **state)
             .sensors = 3, .fault = SHIFTED, .from = 30, .to = 1000, .claim_m = 10.0};
 
         fly(&scene, 60);
-        found += scene.first_doubted >= 0;
+        found += scene.first_suspect >= 0;
     }
     seed = 5;
-    print_message("30 m that claims 10 m, off by 170 m: doubted in %d runs of 20\n", found);
+    print_message("30 m that claims 10 m, off by 170 m: suspect in %d runs of 20\n", found);
     assert_true(found >= 10);
 }
 
@@ -294,11 +294,11 @@ static void one_that_is_far_off_starts_no_tracks(void **state)
     struct scene scene = {.sensors = 2, .fault = FAR_OFF, .from = 30, .to = 1000};
     (void)state;
     fly(&scene, 100);
-    assert_in_range(scene.first_doubted, 31, 34);
-    assert_int_equal(scene.last_doubted, 99);
+    assert_in_range(scene.first_suspect, 31, 34);
+    assert_int_equal(scene.last_suspect, 99);
     assert_int_equal(scene.tracks_most, TARGETS);
     assert_in_range(scene.lost, 0, LOST_MAX);
-    assert_int_equal(tracker.counters.sensors_doubted, 1);
+    assert_int_equal(tracker.counters.sensors_suspected, 1);
 }
 
 static void one_that_is_dead_ends_no_track(void **state)
@@ -306,12 +306,12 @@ static void one_that_is_dead_ends_no_track(void **state)
     struct scene scene = {.sensors = 2, .fault = DEAD, .from = 30, .to = 1000};
     (void)state;
     fly(&scene, 100);
-    assert_in_range(scene.first_doubted, 31, 34);
+    assert_in_range(scene.first_suspect, 31, 34);
     assert_in_range(scene.lost, 0, LOST_MAX);
     assert_int_equal(scene.tracks_most, TARGETS);
 }
 
-static void one_that_agrees_again_is_believed(void **state)
+static void one_that_agrees_again_is_no_longer_suspect(void **state)
 {
     const enum fault faults[] = {SHIFTED, FAR_OFF, DEAD};
     (void)state;
@@ -319,7 +319,7 @@ static void one_that_agrees_again_is_believed(void **state)
         struct scene scene = {.sensors = 3, .fault = faults[i], .from = 30, .to = 60};
 
         fly(&scene, 100);
-        assert_in_range(scene.last_doubted, 59, 75);
+        assert_in_range(scene.last_suspect, 59, 75);
         assert_in_range(scene.lost, 0, LOST_MAX);
         assert_int_equal(scene.tracks_most, TARGETS);
         assert_true(tracker.sensors[0].sigma_range_percent <= 150);
@@ -340,12 +340,12 @@ static void one_of_very_many_plots_is_watched_too(void **state)
         if (faults[i] == NONE) {
             const struct rho_tracker_look *look = rho_tracker_look_of(&tracker, OTHER);
 
-            assert_int_equal(scene.first_doubted, -1);
+            assert_int_equal(scene.first_suspect, -1);
             assert_true(look->seen_share > 0.7f); /* of 0.9: the last 16 looks */
             assert_int_equal(look->watched, 16);
         } else {
-            assert_in_range(scene.first_doubted, 30, 36);
-            assert_in_range(scene.last_doubted, 59, 75);
+            assert_in_range(scene.first_suspect, 30, 36);
+            assert_in_range(scene.last_suspect, 59, 75);
         }
     }
 }
@@ -354,12 +354,12 @@ static void one_of_very_many_plots_is_watched_too(void **state)
  * Two that contradict each other: on whose word would it be? Both count on, and what is wrong
  * shows.
  */
-static void of_two_that_contradict_each_other_none_is_doubted(void **state)
+static void of_two_that_contradict_each_other_none_is_suspect(void **state)
 {
     struct scene scene = {.sensors = 2, .fault = SHIFTED, .from = 30, .to = 1000};
     (void)state;
     fly(&scene, 100);
-    assert_int_equal(scene.first_doubted, -1);
+    assert_int_equal(scene.first_suspect, -1);
     assert_in_range(scene.lost, 0, LOST_MAX);
     assert_int_equal(scene.tracks_most, TARGETS);
     for (int32_t sensor = 1; sensor <= 2; sensor++) {
@@ -368,32 +368,32 @@ static void of_two_that_contradict_each_other_none_is_doubted(void **state)
 }
 
 /* On whose word? */
-static void a_sensor_alone_is_never_doubted(void **state)
+static void a_sensor_alone_is_never_suspect(void **state)
 {
     struct scene scene = {.fault = DEAD, .from = 30, .to = 50};
     (void)state;
     start();
     for (int round = 0; round < 60; round++) {
         step(&scene, OTHER, ROUND_S * round, round >= scene.from && round < scene.to);
-        assert_int_equal(is_doubted(OTHER), 0);
+        assert_int_equal(is_suspect(OTHER), 0);
     }
-    assert_int_equal(tracker.counters.sensors_doubted, 0);
+    assert_int_equal(tracker.counters.sensors_suspected, 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sensors_that_agree_are_not_doubted),
-        cmocka_unit_test(one_that_lies_is_doubted_and_counts_little),
+        cmocka_unit_test(sensors_that_agree_are_not_suspect),
+        cmocka_unit_test(one_that_lies_is_suspect_and_counts_little),
         cmocka_unit_test(whoever_lies_is_found_out_whatever_the_noise),
-        cmocka_unit_test(of_three_that_are_not_alike_no_good_one_is_doubted),
+        cmocka_unit_test(of_three_that_are_not_alike_no_good_one_is_suspect),
         cmocka_unit_test(one_that_claims_to_be_finer_is_found_out_often),
         cmocka_unit_test(one_that_is_far_off_starts_no_tracks),
         cmocka_unit_test(one_that_is_dead_ends_no_track),
-        cmocka_unit_test(one_that_agrees_again_is_believed),
+        cmocka_unit_test(one_that_agrees_again_is_no_longer_suspect),
         cmocka_unit_test(one_of_very_many_plots_is_watched_too),
-        cmocka_unit_test(of_two_that_contradict_each_other_none_is_doubted),
-        cmocka_unit_test(a_sensor_alone_is_never_doubted),
+        cmocka_unit_test(of_two_that_contradict_each_other_none_is_suspect),
+        cmocka_unit_test(a_sensor_alone_is_never_suspect),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -331,7 +331,7 @@ static void a_small_pool_shares_what_there_is(void **state)
     assert_true(best >= nearest + 10); /* 88 */
     scene.num_targets = 0;
     scene.clutter = 0.0;
-    for (int k = 40; k < 54; k++) { /* grown tracks are in doubt for twelve misses */
+    for (int k = 40; k < 54; k++) { /* established tracks are in doubt for twelve misses */
         step(k);
     }
     assert_int_equal(tracker.hypotheses.num_free, RHO_MAX_HYPOTHESES);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* One sensor's scans, one a second, some of them late. */
-#ifndef FEED_LATE_H
-#define FEED_LATE_H
+#ifndef LATE_SCANS_H
+#define LATE_SCANS_H
 
 #include "scan_assembler_setup.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What feed.h says, once more and in the plainest way: lists, wide integers, no memory saved. Good
- * messages alone are shown to it; what is no message is counted by the test.
+ * What scan_assembler.h says, once more and in the plainest way: lists, wide integers, no memory saved.
+ * Good messages alone are shown to it; what is no message is counted by the test.
  */
-#ifndef FEED_MODEL_H
-#define FEED_MODEL_H
+#ifndef SCAN_ASSEMBLER_MODEL_H
+#define SCAN_ASSEMBLER_MODEL_H
 
 #include "scan_assembler_setup.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* A feed, messages for it that are easily told apart, and what comes out. */
-#ifndef FEED_SETUP_H
-#define FEED_SETUP_H
+/* A assembler, messages for it that are easily told apart, and what comes out. */
+#ifndef SCAN_ASSEMBLER_SETUP_H
+#define SCAN_ASSEMBLER_SETUP_H
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,7 @@
 #define JUMP_US INT64_C(30000000)
 #define DATAGRAM 1472
 
-static struct rho_scan_assembler feed;
+static struct rho_scan_assembler assembler;
 static struct rho_scan_assembler_item item;
 
 static uint64_t random_state = 1;
@@ -33,7 +33,7 @@ static inline uint32_t random_below(uint32_t count)
 }
 
 /*
- * ---- feeds ------------------------------------------------------------------------------------
+ * ---- assemblers -------------------------------------------------------------------------------
  */
 
 static inline struct rho_scan_assembler_config usual(void)
@@ -46,7 +46,7 @@ static inline struct rho_scan_assembler_config usual(void)
 
 static inline void start_with(const struct rho_scan_assembler_config *config)
 {
-    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed, config), RHO_OK);
+    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, config), RHO_OK);
 }
 
 static inline void start(void)
@@ -167,7 +167,7 @@ static inline enum rho_status take_bytes(const char *channel, const uint8_t *dat
 
     assert_non_null(exact);
     memcpy(exact, data, size);
-    status = rho_scan_assembler_take(&feed, channel, exact, size, now_us);
+    status = rho_scan_assembler_take(&assembler, channel, exact, size, now_us);
     free(exact);
     return status;
 }
@@ -211,21 +211,21 @@ static inline int32_t item_sensor(void)
 /* The next item is that sensor's scan of that time. */
 static inline void next_is(int64_t now_us, int32_t sensor_id, int64_t time_us)
 {
-    assert_int_equal(rho_scan_assembler_next(&feed, now_us, &item), 1);
+    assert_int_equal(rho_scan_assembler_next(&assembler, now_us, &item), 1);
     assert_int_equal(item_sensor(), sensor_id);
     assert_int_equal(item_time_us(), time_us);
 }
 
 static inline void next_is_none(int64_t now_us)
 {
-    assert_int_equal(rho_scan_assembler_next(&feed, now_us, &item), 0);
+    assert_int_equal(rho_scan_assembler_next(&assembler, now_us, &item), 0);
 }
 
 static inline unsigned drain(int64_t now_us)
 {
     unsigned count = 0;
 
-    while (rho_scan_assembler_next(&feed, now_us, &item)) {
+    while (rho_scan_assembler_next(&assembler, now_us, &item)) {
         count++;
     }
     return count;
@@ -234,7 +234,7 @@ static inline unsigned drain(int64_t now_us)
 /* Counters that moved must be these: a field that is not named is 0. */
 static inline void counters_are(struct rho_scan_assembler_counters want)
 {
-    const uint32_t *is = (const uint32_t *)&feed.counters, *must = (const uint32_t *)&want;
+    const uint32_t *is = (const uint32_t *)&assembler.counters, *must = (const uint32_t *)&want;
 
     for (unsigned i = 0; i < sizeof want / sizeof *is; i++) {
         if (is[i] != must[i]) {

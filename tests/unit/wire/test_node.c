@@ -358,7 +358,7 @@ static void frames_close_by_the_next_one_or_in_time(void **state)
 {
     (void)state;
     start(WAITING);
-    assembler.config.is_told = 1;
+    assembler.config.gives_other = 1;
     for (int32_t k = 0; k < 2; k++, now_us += SECOND_US) {
         send_bearing(1, 0.0f, k, now_us);
         send_bearing(2, 20000.0f, k, now_us);
@@ -412,7 +412,7 @@ static void passive_sensors_have_the_range_of_the_search(void **state)
 {
     (void)state;
     start(WAITING);
-    assembler.config.is_told = 1;
+    assembler.config.gives_other = 1;
     node.config.passive_range_max_m = 90000.0f;
     send_bearing(1, 0.0f, 0, now_us);
     assert_int_equal(tracker.num_sensors, 1);

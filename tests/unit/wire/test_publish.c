@@ -19,7 +19,7 @@ static struct rho_tracker tracker;
 static struct rho_initiator initiator;
 static struct rho_passive passive;
 static struct rho_frames frames;
-static struct rho_scan_assembler feed;
+static struct rho_scan_assembler assembler;
 static struct rho_message_track_list list;
 static struct rho_message_peak_list peaks;
 static struct rho_message_status status;
@@ -350,21 +350,21 @@ static void every_field_comes_from_its_counter(void **state)
     memset(&tracker, 0, sizeof tracker);
     memset(&initiator, 0, sizeof initiator);
     memset(&frames, 0, sizeof frames);
-    memset(&feed, 0, sizeof feed);
-    feed.counters = (struct rho_scan_assembler_counters){.messages_bad = 1,
-                                                         .messages_wrong_type = 2,
-                                                         .messages_flooded = 4,
-                                                         .scans_accepted = 8,
-                                                         .scans_late = 16,
-                                                         .scans_duplicate = 32,
-                                                         .scans_lost = 64,
-                                                         .scans_bad = 128,
-                                                         .scans_incomplete = 256,
-                                                         .clock_jumps = 512,
-                                                         .sensor_restarts = 1024,
-                                                         .sensors_no_room = 2048,
-                                                         .bearings_in = 4096,
-                                                         .plots_no_room = 8192};
+    memset(&assembler, 0, sizeof assembler);
+    assembler.counters = (struct rho_scan_assembler_counters){.messages_bad = 1,
+                                                              .messages_wrong_type = 2,
+                                                              .messages_flooded = 4,
+                                                              .scans_accepted = 8,
+                                                              .scans_late = 16,
+                                                              .scans_duplicate = 32,
+                                                              .scans_lost = 64,
+                                                              .scans_bad = 128,
+                                                              .scans_incomplete = 256,
+                                                              .clock_jumps = 512,
+                                                              .sensor_restarts = 1024,
+                                                              .sensors_no_room = 2048,
+                                                              .bearings_in = 4096,
+                                                              .plots_no_room = 8192};
     frames.counters = (struct rho_frames_counters){.frames_incomplete = 3,
                                                    .scans_taken = 999,
                                                    .scans_late = 100000,
@@ -379,7 +379,7 @@ static void every_field_comes_from_its_counter(void **state)
     }
     tracker.time_us = 4711;
     initiator.density_per_m2 = 2.5e-7f;
-    rho_publish_status(&feed, &frames, &tracker, &initiator, &status);
+    rho_publish_status(&assembler, &frames, &tracker, &initiator, &status);
     want = (struct rho_message_status){
         .utime = 4711,
         .messages_bad = 1,
@@ -413,11 +413,11 @@ static void every_field_comes_from_its_counter(void **state)
 static void full_counters_stay_at_the_end(void **state)
 {
     (void)state;
-    memset(&feed.counters, 0xff, sizeof feed.counters);
+    memset(&assembler.counters, 0xff, sizeof assembler.counters);
     memset(&frames.counters, 0xff, sizeof frames.counters);
     memset(&tracker.counters, 0xff, sizeof tracker.counters);
     tracker.num_tracks = 0;
-    rho_publish_status(&feed, &frames, &tracker, NULL, &status);
+    rho_publish_status(&assembler, &frames, &tracker, NULL, &status);
     assert_int_equal(rho_message_status_validate(&status, &place), RHO_OK);
     for (const int32_t *field = &status.scans_accepted; field <= &status.ghosts_pruned; field++) {
         int is_callers = field == &status.fragments_refused;

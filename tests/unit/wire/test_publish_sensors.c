@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the feed and the tracker know of each sensor, as messages: what the receivers read is what
- * was there.
+ * What the assembler and the tracker know of each sensor, as messages: what the receivers read is
+ * what was there.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,24 +17,24 @@
 #define NOW_US INT64_C(5000000000)
 
 static struct rho_tracker tracker;
-static struct rho_scan_assembler feed;
+static struct rho_scan_assembler assembler;
 static struct rho_message_sensor_list list;
 
-static void make_feed(unsigned num_sources)
+static void make_sources(unsigned num_sources)
 {
     struct rho_scan_assembler_config config;
 
     rho_scan_assembler_config_default(&config);
-    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed, &config), RHO_OK);
+    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &config), RHO_OK);
     memset(&tracker, 0, sizeof tracker);
     for (unsigned i = 0; i < num_sources; i++) {
-        feed.sources[i] = (struct rho_scan_assembler_source){
+        assembler.sources[i] = (struct rho_scan_assembler_source){
             .place = {.time_us = 1000 + i, .scan = 7, .epoch = 1},
             .heard_us = NOW_US - 10 * (int64_t)i,
             .interval_us = 4000000 + i,
             .scans = (uint16_t)(i + 1),
             .sensor_id = (int16_t)(100 + i),
-            .kind = (uint8_t)(i % RHO_NUM_FEED_KINDS),
+            .kind = (uint8_t)(i % RHO_NUM_SCAN_ASSEMBLER_KINDS),
             .is_used = 1,
         };
     }
@@ -48,7 +48,7 @@ static void read_part(const struct rho_tracker *of, uint16_t part)
     size_t size = 0;
 
     memset(&filled, 0x5a, sizeof filled);
-    assert_int_equal(rho_publish_sensors(&feed, of, NOW_US, part, &filled), RHO_OK);
+    assert_int_equal(rho_publish_sensors(&assembler, of, NOW_US, part, &filled), RHO_OK);
     assert_int_equal(filled.scan, 0);
     assert_int_equal(filled.epoch, 0);
     assert_int_equal(rho_message_sensor_list_encode(&filled, buffer, sizeof buffer, &size), RHO_OK);
@@ -61,18 +61,18 @@ static void nobody_is_one_empty_part(void **state)
     struct rho_message_sensor sensor;
 
     (void)state;
-    make_feed(0);
-    assert_int_equal(rho_publish_num_sensor_parts(&feed), 1);
+    make_sources(0);
+    assert_int_equal(rho_publish_num_sensor_parts(&assembler), 1);
     assert_int_equal(rho_publish_num_sensor_parts(NULL), 1);
     read_part(&tracker, 0);
     assert_int_equal(list.num_sensors, 0);
     assert_int_equal(list.num_sensors_total, 0);
-    assert_int_equal(rho_publish_sensor(&feed, &tracker, 0, 0, &sensor), 0);
+    assert_int_equal(rho_publish_sensor(&assembler, &tracker, 0, 0, &sensor), 0);
     assert_int_equal(rho_publish_sensor(NULL, &tracker, 0, 0, &sensor), 0);
     assert_int_equal(rho_publish_sensors(NULL, &tracker, 0, 0, &list), RHO_ERROR_NULL);
-    assert_int_equal(rho_publish_sensors(&feed, &tracker, 0, 0, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_publish_sensors(&assembler, &tracker, 0, 0, NULL), RHO_ERROR_NULL);
     list.part = 77;
-    assert_int_equal(rho_publish_sensors(&feed, &tracker, 0, 1, &list), RHO_ERROR_VALUE);
+    assert_int_equal(rho_publish_sensors(&assembler, &tracker, 0, 1, &list), RHO_ERROR_VALUE);
     assert_int_equal(list.part, 77);
 }
 
@@ -83,11 +83,11 @@ static void every_sensor_is_in_one_part(void **state)
     unsigned found = 0, hole = RHO_MAX_SENSORS / 2;
 
     (void)state;
-    make_feed(RHO_MAX_SENSORS);
-    feed.sources[hole].is_used = 0;
+    make_sources(RHO_MAX_SENSORS);
+    assembler.sources[hole].is_used = 0;
     tracker.time_us = -77;
-    assert_int_equal(rho_publish_num_sensor_parts(&feed), (used + PART - 1) / PART);
-    for (uint16_t part = 0; part < rho_publish_num_sensor_parts(&feed); part++) {
+    assert_int_equal(rho_publish_num_sensor_parts(&assembler), (used + PART - 1) / PART);
+    for (uint16_t part = 0; part < rho_publish_num_sensor_parts(&assembler); part++) {
         read_part(&tracker, part);
         assert_true(list.utime == -77);
         assert_int_equal(list.part, part);
@@ -113,20 +113,20 @@ static void silence_and_another_clock_are_told(void **state)
     const int64_t jump_us = 30000000;
 
     (void)state;
-    make_feed(1);
-    assert_int_equal(rho_publish_sensor(&feed, NULL, NOW_US + jump_us, 0, &sensor), 1);
+    make_sources(1);
+    assert_int_equal(rho_publish_sensor(&assembler, NULL, NOW_US + jump_us, 0, &sensor), 1);
     assert_int_equal(sensor.is_silent, 0);
     assert_int_equal(sensor.heard_age_us, jump_us);
-    assert_int_equal(rho_publish_sensor(&feed, NULL, NOW_US + jump_us + 1, 0, &sensor), 1);
+    assert_int_equal(rho_publish_sensor(&assembler, NULL, NOW_US + jump_us + 1, 0, &sensor), 1);
     assert_int_equal(sensor.is_silent, 1);
     assert_int_equal(sensor.is_off_clock, 0);
     /* a reception clock that was set back makes nobody old; the widest span has no overflow */
-    assert_int_equal(rho_publish_sensor(&feed, NULL, INT64_MIN, 0, &sensor), 1);
+    assert_int_equal(rho_publish_sensor(&assembler, NULL, INT64_MIN, 0, &sensor), 1);
     assert_int_equal(sensor.is_silent + sensor.heard_age_us, 0);
-    feed.sources[0].heard_us = INT64_MIN;
-    feed.sources[0].interval_us = UINT32_MAX;
-    feed.sources[0].off_clock = 2;
-    assert_int_equal(rho_publish_sensor(&feed, NULL, INT64_MAX, 0, &sensor), 1);
+    assembler.sources[0].heard_us = INT64_MIN;
+    assembler.sources[0].interval_us = UINT32_MAX;
+    assembler.sources[0].off_clock = 2;
+    assert_int_equal(rho_publish_sensor(&assembler, NULL, INT64_MAX, 0, &sensor), 1);
     assert_int_equal(sensor.is_silent, 1);
     assert_int_equal(sensor.heard_age_us, INT32_MAX);
     assert_int_equal(sensor.interval_us, INT32_MAX);
@@ -138,16 +138,16 @@ static void silence_and_another_clock_are_told(void **state)
 static void doubt_is_of_plots_alone(void **state)
 {
     (void)state;
-    make_feed(3);
-    feed.sources[2].sensor_id = 101; /* bearings */
+    make_sources(3);
+    assembler.sources[2].sensor_id = 101; /* bearings */
     tracker.num_looks = 2;
-    tracker.looks[0] = (struct rho_tracker_look){.sensor_id = 55, .is_doubted = 1};
+    tracker.looks[0] = (struct rho_tracker_look){.sensor_id = 55, .is_suspect = 1};
     tracker.looks[1] = (struct rho_tracker_look){.sensor_id = 101,
                                                  .seen_share = 0.75f,
                                                  .distance2 = 9.0f,
                                                  .watched = 16,
                                                  .watched_hits = 12,
-                                                 .is_doubted = 1};
+                                                 .is_suspect = 1};
     read_part(&tracker, 0);
     assert_int_equal(list.num_sensors, 3);
     assert_int_equal(list.sensors[0].is_doubted + list.sensors[0].watched, 0);

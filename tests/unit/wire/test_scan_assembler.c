@@ -84,7 +84,7 @@ static void a_scan_with_parts_missing_goes_out_when_held(void **state)
                 take_part(part, 4, last_us);
             }
         }
-        assert_int_equal(rho_scan_assembler_due_us(&feed), last_us + HOLD_US);
+        assert_int_equal(rho_scan_assembler_due_us(&assembler), last_us + HOLD_US);
         next_is_none(last_us + HOLD_US - 1);
         COUNTERS_ARE(.scans_accepted = 1);
         next_is(last_us + HOLD_US, 3, 5 * SECOND_US);
@@ -296,7 +296,7 @@ static void one_sensor_waits_for_nothing(void **state)
         take_scan(1, scan, scan * SECOND_US);
         next_is(scan * SECOND_US, 1, scan * SECOND_US);
         assert_int_equal(item.is_restart, 0);
-        assert_int_equal(rho_scan_assembler_due_us(&feed), INT64_MAX);
+        assert_int_equal(rho_scan_assembler_due_us(&assembler), INT64_MAX);
     }
     COUNTERS_ARE(.scans_accepted = 10);
 }
@@ -313,7 +313,7 @@ static void a_scan_waits_for_the_other_sensor(void **state)
     assert_int_equal(drain(INT64_MAX), 2);
     take(&look, now_us); /* the other one is due to send one a microsecond later, or before */
     next_is_none(now_us + HOLD_US - 1);
-    assert_int_equal(rho_scan_assembler_due_us(&feed), now_us + HOLD_US);
+    assert_int_equal(rho_scan_assembler_due_us(&assembler), now_us + HOLD_US);
     look = (struct look){.time_us = 2 * SECOND_US - 1, .scan = 2, .sensor_id = 2};
     take(&look, now_us + 100);
     next_is(now_us + 100, 2, 2 * SECOND_US - 1);
@@ -337,14 +337,14 @@ static void of_one_sensor_plots_come_before_bearings(void **state)
 {
     (void)state;
     start();
-    for (int kind = RHO_NUM_FEED_KINDS - 1; kind >= 0; kind--) {
+    for (int kind = RHO_NUM_SCAN_ASSEMBLER_KINDS - 1; kind >= 0; kind--) {
         struct look look = {
             .time_us = 7, .scan = kind, .sensor_id = 5, .kind = (uint8_t)kind, .count = 1};
         if (kind > 0 || RHO_MAX_OPEN_SCANS > 2) {
             take(&look, 0);
         }
     }
-    for (int kind = RHO_MAX_OPEN_SCANS > 2 ? 0 : 1; kind < RHO_NUM_FEED_KINDS; kind++) {
+    for (int kind = RHO_MAX_OPEN_SCANS > 2 ? 0 : 1; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
         next_is(0, 5, 7);
         assert_int_equal(item.kind, kind);
     }
@@ -383,7 +383,7 @@ static void older_scans_go_out_before_one_that_was_held(void **state)
         take(&older[i], 7);
     }
     next_is_none(HOLD_US - 1);
-    assert_int_equal(rho_scan_assembler_due_us(&feed), HOLD_US);
+    assert_int_equal(rho_scan_assembler_due_us(&assembler), HOLD_US);
     for (unsigned i = 0; i < num_older; i++) {
         next_is(HOLD_US, older[i].sensor_id, older[i].time_us);
         assert_int_equal(item.parts_missing, 1);
@@ -408,7 +408,7 @@ static void an_older_scan_that_came_later_holds_nothing_up(void **state)
     take_scan(2, 2, now_us);
     take(&older, now_us + HOLD_US / 2);
     next_is_none(now_us + HOLD_US - 1); /* nothing of the third sensor yet */
-    assert_int_equal(rho_scan_assembler_due_us(&feed), now_us + HOLD_US);
+    assert_int_equal(rho_scan_assembler_due_us(&assembler), now_us + HOLD_US);
     next_is(now_us + HOLD_US, 1, older.time_us);
     next_is(now_us + HOLD_US, 2, now_us);
     COUNTERS_ARE(.scans_accepted = 5);
@@ -439,7 +439,7 @@ static void hold_0_waits_for_nobody(void **state)
     config.hold_us = 0;
     start_with(&config);
     take(&look, 0);
-    assert_int_equal(rho_scan_assembler_due_us(&feed), INT64_MAX);
+    assert_int_equal(rho_scan_assembler_due_us(&assembler), INT64_MAX);
     next_is_none(INT64_MAX - 1); /* parts wait for a newer scan alone */
     take_scan(4, 1, 6 * SECOND_US);
     next_is(6 * SECOND_US, 4, 6 * SECOND_US);
@@ -465,7 +465,7 @@ static void a_sensor_that_died_delays_no_more_than_hold(void **state)
         int64_t now_us = scan * SECOND_US;
 
         take_scan(1, scan, now_us);
-        if (!rho_scan_assembler_next(&feed, now_us, &item)) {
+        if (!rho_scan_assembler_next(&assembler, now_us, &item)) {
             next_is(now_us + HOLD_US, 1, now_us);
             waited++;
         }
@@ -505,7 +505,7 @@ static void delays_within_hold_keep_the_order(void **state)
                 in++;
             }
         }
-        while (rho_scan_assembler_next(&feed, now_us, &item)) {
+        while (rho_scan_assembler_next(&assembler, now_us, &item)) {
             assert_true(item.scan.time_us >= last_us);
             last_us = item.scan.time_us;
             out++;
@@ -513,7 +513,7 @@ static void delays_within_hold_keep_the_order(void **state)
     }
     out += drain(INT64_MAX);
     assert_int_equal(in, out);
-    assert_int_equal(feed.counters.scans_accepted, in);
+    assert_int_equal(assembler.counters.scans_accepted, in);
 }
 
 static void a_reception_clock_that_goes_back_holds_nothing(void **state)

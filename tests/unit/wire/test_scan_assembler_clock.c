@@ -21,15 +21,15 @@ static void begin(void)
  */
 static int push(int16_t sensor_id, int64_t time_us, int64_t now_us)
 {
-    uint32_t before = feed.counters.scans_accepted;
+    uint32_t before = assembler.counters.scans_accepted;
     struct look look = {.time_us = time_us, .scan = ++numbers[sensor_id], .sensor_id = sensor_id};
 
     take(&look, now_us);
-    while (rho_scan_assembler_next(&feed, now_us + HOLD_US, &item)) {
+    while (rho_scan_assembler_next(&assembler, now_us + HOLD_US, &item)) {
         restarts += (unsigned)item.is_restart;
         given_us = item_time_us();
     }
-    return feed.counters.scans_accepted > before;
+    return assembler.counters.scans_accepted > before;
 }
 
 /*
@@ -114,10 +114,10 @@ static void one_sensor_far_in_the_future_changes_nothing(void **state)
                 assert_false(push((int16_t)good, t * SECOND_US + jumps_us[i], t * SECOND_US));
             }
             assert_int_equal(restarts, 0);
-            assert_int_equal(feed.counters.clock_jumps + feed.counters.scans_late +
-                                 feed.counters.scans_bad,
+            assert_int_equal(assembler.counters.clock_jumps + assembler.counters.scans_late +
+                                 assembler.counters.scans_bad,
                              195);
-            assert_int_equal(feed.counters.scans_accepted, 5 * (good + 1) + 195 * good);
+            assert_int_equal(assembler.counters.scans_accepted, 5 * (good + 1) + 195 * good);
         }
     }
 }
@@ -170,7 +170,7 @@ static void the_majority_moves_the_clock(void **state)
         assert_int_equal(is_2, t >= 7);
     }
     assert_int_equal(restarts, 1);
-    assert_int_equal(feed.counters.sensor_restarts, 2);
+    assert_int_equal(assembler.counters.sensor_restarts, 2);
     for (int64_t t = 20; t < 25; t++) { /* and the third one follows them */
         int is_0 = push(0, t * SECOND_US + HOUR_US, t * SECOND_US + 100 * HOUR_US);
 
@@ -197,7 +197,7 @@ static void all_clocks_set_together_are_followed_once(void **state)
             }
             assert_int_equal(restarts <= 1, 1);
             assert_int_equal(given_us, 29 * SECOND_US + jumps_us[i]);
-            assert_in_range(feed.counters.scans_accepted, sensors * 5 + sensors * 20 - 3,
+            assert_in_range(assembler.counters.scans_accepted, sensors * 5 + sensors * 20 - 3,
                             sensors * 30);
         }
     }
@@ -255,7 +255,7 @@ static void a_sensor_that_is_gone_has_no_vote(void **state)
         (void)push(1, t * SECOND_US + HOUR_US, t * SECOND_US);
     }
     assert_int_equal(restarts, 1);
-    assert_in_range(feed.counters.clock_jumps, 29, 32);
+    assert_in_range(assembler.counters.clock_jumps, 29, 32);
 }
 
 static void a_sensor_has_a_vote_for_jump_max(void **state)
@@ -309,7 +309,7 @@ static void what_waits_when_the_clock_is_set_is_late(void **state)
             take(&jump, t * SECOND_US);
         }
     }
-    assert_int_equal(feed.counters.scans_late, 1);
+    assert_int_equal(assembler.counters.scans_late, 1);
     next_is(8 * SECOND_US, 1, 7 * SECOND_US + HOUR_US);
     assert_int_equal(item.is_restart, 1);
     next_is_none(INT64_MAX);
@@ -353,9 +353,9 @@ static void honest_sensors_of_all_kinds_are_on_the_clock(void **state)
             }
         }
         assert_int_equal(restarts, 0);
-        assert_int_equal(feed.counters.scans_late, 0);
-        assert_int_equal(feed.counters.clock_jumps, 4 * 2); /* where the fifth comes back */
-        assert_int_equal(feed.counters.scans_bad + feed.counters.scans_duplicate, 0);
+        assert_int_equal(assembler.counters.scans_late, 0);
+        assert_int_equal(assembler.counters.clock_jumps, 4 * 2); /* where the fifth comes back */
+        assert_int_equal(assembler.counters.scans_bad + assembler.counters.scans_duplicate, 0);
     }
 }
 

@@ -58,7 +58,7 @@ static void judge_item(void)
 
 static void drain_items(int64_t now_us)
 {
-    while (rho_scan_assembler_next(&feed, now_us, &item)) {
+    while (rho_scan_assembler_next(&assembler, now_us, &item)) {
         judge_item();
     }
 }
@@ -66,7 +66,7 @@ static void drain_items(int64_t now_us)
 static void send_bytes(const uint8_t *bytes, size_t size, int64_t now_us)
 {
     while (take_bytes(channel_of(sender->kind, 1), bytes, size, now_us) == RHO_ERROR_CAPACITY) {
-        if (rho_scan_assembler_next(&feed, now_us, &item)) {
+        if (rho_scan_assembler_next(&assembler, now_us, &item)) {
             judge_item();
         }
     }

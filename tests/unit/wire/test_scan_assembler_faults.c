@@ -108,7 +108,8 @@ static size_t write_message(const struct message *message, uint8_t *buffer)
 }
 
 /*
- * ---- the chain: feed, tracker, record ---------------------------------------------------------
+ * ---- the chain: assembler, tracker, record
+ * ---------------------------------------------------------
  */
 
 static void record_good(void)
@@ -142,7 +143,7 @@ static void step_item(void)
 
 static void step_all(int64_t now_us)
 {
-    while (rho_scan_assembler_next(&feed, now_us, &item)) {
+    while (rho_scan_assembler_next(&assembler, now_us, &item)) {
         step_item();
     }
 }
@@ -150,7 +151,7 @@ static void step_all(int64_t now_us)
 static void send_bytes(const char *channel, const uint8_t *bytes, size_t size, int64_t now_us)
 {
     while (take_bytes(channel, bytes, size, now_us) == RHO_ERROR_CAPACITY) {
-        if (rho_scan_assembler_next(&feed, now_us, &item)) {
+        if (rho_scan_assembler_next(&assembler, now_us, &item)) {
             step_item();
         }
     }
@@ -328,14 +329,14 @@ static void start_chain(uint8_t gate)
     struct rho_tracker_config tracker_config;
     struct rho_initiator_config initiator_config;
 
-    config.is_told = 1;
+    config.gives_other = 1;
     start_with(&config);
     for (int32_t radar = 0; radar < NUM_RADARS; radar++) {
         struct rho_scan_assembler_sensor sensor = config.other;
         sensor.sensor.sensor_id = radar + 1;
         sensor.sensor.x_m = radar_x_m[radar];
         sensor.sensor.range_max_m = REACH_M;
-        assert_int_equal(rho_scan_assembler_set_sensor(&feed, &sensor), RHO_OK);
+        assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_OK);
     }
     rho_tracker_config_default(&tracker_config);
     rho_initiator_config_default(&initiator_config);

@@ -15,7 +15,7 @@ static uint8_t buffer[DATAGRAM];
 
 static void set_sensor(const struct rho_scan_assembler_sensor *sensor)
 {
-    assert_int_equal(rho_scan_assembler_set_sensor(&feed, sensor), RHO_OK);
+    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, sensor), RHO_OK);
 }
 
 static struct rho_scan_assembler_sensor known_sensor(void)
@@ -131,13 +131,13 @@ static void noise_is_the_messages_the_sensors_or_the_defaults(void **state)
     }
 }
 
-static void is_told_tells_of_all_sensors(void **state)
+static void gives_other_gives_all_items_a_sensor(void **state)
 {
     const struct rho_message_plot plot = {.x_m = 0};
     struct rho_scan_assembler_config config = usual();
 
     (void)state;
-    config.is_told = 1;
+    config.gives_other = 1;
     config.other.sensor.pd = 0.55f;
     config.other.sensor.sensor_id = 99;
     start_with(&config);
@@ -338,7 +338,7 @@ static void scans_are_in_order_without_their_time_biases(void **state)
     struct rho_scan_assembler_sensor known = known_sensor();
 
     (void)state;
-    for (uint8_t kind = 0; kind < RHO_NUM_FEED_KINDS; kind++) {
+    for (uint8_t kind = 0; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
         start();
         known.sensor.time_bias_s = -1.0f;
         set_sensor(&known);
@@ -353,9 +353,9 @@ static void scans_are_in_order_without_their_time_biases(void **state)
             take(&behind, k * SECOND_US + SECOND_US / 2);
             next_is(INT64_MAX, 7, k * SECOND_US + SECOND_US / 2);
         }
-        assert_int_equal(feed.counters.scans_accepted, 40);
-        assert_int_equal(feed.counters.clock_jumps, 0);
-        assert_int_equal(feed.counters.scans_late, 0);
+        assert_int_equal(assembler.counters.scans_accepted, 40);
+        assert_int_equal(assembler.counters.clock_jumps, 0);
+        assert_int_equal(assembler.counters.scans_late, 0);
     }
 }
 
@@ -395,8 +395,8 @@ static void times_beyond_their_limit_are_refused(void **state)
             known.sensor.time_bias_s = i == (unsigned)beyond ? -10.0f : 10.0f;
             set_sensor(&known);
             take(&look, 0);
-            assert_int_equal(feed.counters.messages_bad, beyond);
-            assert_int_equal(feed.counters.scans_accepted, 1 - beyond);
+            assert_int_equal(assembler.counters.messages_bad, beyond);
+            assert_int_equal(assembler.counters.scans_accepted, 1 - beyond);
         }
     }
 }
@@ -406,7 +406,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plot_keeps_its_values),
         cmocka_unit_test(noise_is_the_messages_the_sensors_or_the_defaults),
-        cmocka_unit_test(is_told_tells_of_all_sensors),
+        cmocka_unit_test(gives_other_gives_all_items_a_sensor),
         cmocka_unit_test(polar_plots_are_what_measurement_makes_of_them),
         cmocka_unit_test(plots_without_a_place_keep_their_row_and_are_invalid),
         cmocka_unit_test(bearings_have_the_sensors_biases_taken_off),

@@ -11,7 +11,7 @@ static void two_that_are_swapped_go_out_in_order(void **state)
     begin(5);
     late(7, 7 * SECOND_US);
     next_is_none(7 * SECOND_US); /* 6 may come */
-    assert_int_equal(rho_scan_assembler_due_us(&feed), 7 * SECOND_US + HOLD_US);
+    assert_int_equal(rho_scan_assembler_due_us(&assembler), 7 * SECOND_US + HOLD_US);
     late(6, 7 * SECOND_US + HOLD_US - 1);
     next_is(7 * SECOND_US + HOLD_US - 1, 1, 6 * SECOND_US);
     assert_true(item.scan.plots[0].x_m == 6.0f);
@@ -56,8 +56,8 @@ static void one_that_is_later_goes_out_late(void **state)
     next_is(8 * SECOND_US, 1, 6 * SECOND_US); /* at once: what it would wait for has gone out */
     take_scan(1, 8, 8 * SECOND_US);
     next_is(8 * SECOND_US, 1, 8 * SECOND_US);
-    assert_int_equal(feed.sources[0].interval_us, SECOND_US);
-    assert_int_equal(feed.sources[0].place.scan, 8);
+    assert_int_equal(assembler.sources[0].interval_us, SECOND_US);
+    assert_int_equal(assembler.sources[0].place.scan, 8);
     COUNTERS_ARE(.scans_accepted = 8, .scans_late = 1, .scans_lost = 1);
 }
 
@@ -102,12 +102,12 @@ static void a_time_that_is_not_its_numbers_is_not_taken(void **state)
         begin(5);
         late(7, 7 * SECOND_US);
         take(&look, 7 * SECOND_US);
-        assert_int_equal(feed.counters.scans_accepted, 6 + cases[i].is_taken);
-        assert_int_equal(feed.counters.scans_late, 1);
+        assert_int_equal(assembler.counters.scans_accepted, 6 + cases[i].is_taken);
+        assert_int_equal(assembler.counters.scans_late, 1);
         /* the real one may still come */
         late(6, 7 * SECOND_US);
-        assert_int_equal(feed.counters.scans_accepted, 7);
-        assert_int_equal(feed.counters.scans_duplicate, cases[i].is_taken);
+        assert_int_equal(assembler.counters.scans_accepted, 7);
+        assert_int_equal(assembler.counters.scans_duplicate, cases[i].is_taken);
     }
 }
 
@@ -255,7 +255,8 @@ static void others_wait_for_what_may_be_older_and_no_more(void **state)
 
             begin_two(num_parts);
             take(&other, 9 * SECOND_US);
-            assert_int_equal(rho_scan_assembler_next(&feed, 9 * SECOND_US, &item), !cases[i].waits);
+            assert_int_equal(rho_scan_assembler_next(&assembler, 9 * SECOND_US, &item),
+                             !cases[i].waits);
             if (cases[i].waits && RHO_MAX_OPEN_SCANS > 2) {
                 late(8, 9 * SECOND_US);
                 next_is(9 * SECOND_US, 1, 8 * SECOND_US);
@@ -419,7 +420,7 @@ static void one_that_another_clock_drops_counts_once(void **state)
     next_is(7 * SECOND_US, 1, 3610 * SECOND_US);
     assert_int_equal(item.is_restart, 1);
     next_is_none(INT64_MAX);
-    assert_int_equal(feed.counters.scans_late, 2); /* 6 and 7 */
+    assert_int_equal(assembler.counters.scans_late, 2); /* 6 and 7 */
 }
 
 int main(void)

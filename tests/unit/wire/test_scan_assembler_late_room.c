@@ -29,10 +29,10 @@ static void a_late_one_takes_nobodys_room(void **state)
 }
 
 /*
- * Sensor 1 sends scans 1 .. 9, one a second, and sensor 9, the liar, a hundred a second. Returns
- * the liar's last number.
+ * Sensor 1 sends scans 1 .. 9, one a second, and sensor 9, whose numbers are wrong, a hundred a
+ * second. Returns the last number of sensor 9.
  */
-static int32_t begin_with_liar(const struct rho_scan_assembler_config *config)
+static int32_t begin_with_wrong_numbers(const struct rho_scan_assembler_config *config)
 {
     int32_t scan = 0;
 
@@ -48,7 +48,7 @@ static int32_t begin_with_liar(const struct rho_scan_assembler_config *config)
 }
 
 /*
- * The first parts of a scan of the liar far ahead, and of those that it skipped; all with times
+ * The first parts of a scan of sensor 9 far ahead, and of those that it skipped; all with times
  * after 10 s.
  */
 static struct look lie(int32_t last, int64_t now_us)
@@ -70,19 +70,19 @@ static struct look lie(int32_t last, int64_t now_us)
     return look;
 }
 
-static void late_ones_of_a_liar_cut_no_scan_short(void **state)
+static void late_scans_of_wrong_numbers_cut_no_scan_short(void **state)
 {
     const struct rho_scan_assembler_config config = usual();
     const int64_t now_us = 10 * SECOND_US;
-    const int32_t last = begin_with_liar(&config);
+    const int32_t last = begin_with_wrong_numbers(&config);
     struct look look = part_of(10, 0), more;
 
     (void)state;
     take(&look, now_us);
     more = lie(last, now_us);
     /* one waits for its parts at most, and none where there is no room */
-    assert_int_equal(feed.counters.scans_accepted, 9 + 9 * 99 + 2 + (RHO_MAX_OPEN_SCANS > 2));
-    assert_int_equal(feed.counters.scans_late, 30);
+    assert_int_equal(assembler.counters.scans_accepted, 9 + 9 * 99 + 2 + (RHO_MAX_OPEN_SCANS > 2));
+    assert_int_equal(assembler.counters.scans_late, 30);
     if (RHO_MAX_OPEN_SCANS > 2) {
         more.scan++;
         more.time_us += 10000;
@@ -118,14 +118,14 @@ static void one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it(void **st
     COUNTERS_ARE(.scans_accepted = 9, .scans_late = 4, .scans_lost = 3);
 }
 
-static void late_ones_of_a_liar_shut_nobody_out(void **state)
+static void late_scans_of_wrong_numbers_shut_no_sensor_out(void **state)
 {
     struct rho_scan_assembler_config config = usual();
 
     (void)state;
     for (int is_held = 0; is_held < 2; is_held++) {
         config.hold_us = is_held * HOLD_US;
-        (void)lie(begin_with_liar(&config), 10 * SECOND_US);
+        (void)lie(begin_with_wrong_numbers(&config), 10 * SECOND_US);
         for (int32_t i = 1; i <= 5; i++) {
             int64_t now_us = (10 + 4 * i) * SECOND_US;
 
@@ -133,7 +133,7 @@ static void late_ones_of_a_liar_shut_nobody_out(void **state)
             assert_in_range(drain(now_us + HOLD_US), 1, 3);
             assert_int_equal(item_sensor(), 3);
         }
-        assert_int_equal(feed.counters.scans_accepted, 9 + 9 * 99 + 2 + 5);
+        assert_int_equal(assembler.counters.scans_accepted, 9 + 9 * 99 + 2 + 5);
     }
 }
 
@@ -163,9 +163,9 @@ static void late_ones_give_way(void **state)
             take(&look, 9 * SECOND_US);
         }
     }
-    assert_int_equal(feed.counters.scans_late, late_ones);
-    assert_int_equal(feed.counters.sensors_no_room, 0);
-    assert_int_equal(feed.counters.scans_incomplete, 0);
+    assert_int_equal(assembler.counters.scans_late, late_ones);
+    assert_int_equal(assembler.counters.sensors_no_room, 0);
+    assert_int_equal(assembler.counters.scans_incomplete, 0);
     next_is_none(9 * SECOND_US);
     next_is(9 * SECOND_US + HOLD_US, 10, 6 * SECOND_US + 9);
 }
@@ -195,7 +195,7 @@ static void a_late_one_makes_nobody_late(void **state)
         take(&look, now_us);
     }
     take_scan(3, 6, 6 * SECOND_US); /* no room for it */
-    assert_int_equal(feed.counters.scans_late, 1);
+    assert_int_equal(assembler.counters.scans_late, 1);
     next_is_none(now_us);
     open.part = 1;
     take(&open, now_us);
@@ -208,9 +208,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_late_one_takes_nobodys_room),
-        cmocka_unit_test(late_ones_of_a_liar_cut_no_scan_short),
+        cmocka_unit_test(late_scans_of_wrong_numbers_cut_no_scan_short),
         cmocka_unit_test(one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it),
-        cmocka_unit_test(late_ones_of_a_liar_shut_nobody_out),
+        cmocka_unit_test(late_scans_of_wrong_numbers_shut_no_sensor_out),
         cmocka_unit_test(late_ones_give_way),
         cmocka_unit_test(a_late_one_makes_nobody_late),
     };

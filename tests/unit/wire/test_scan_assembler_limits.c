@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a feed has no room for, what it refuses, and what is no message at all. */
+/* What a assembler has no room for, what it refuses, and what is no message at all. */
 #include "scan_assembler_setup.h"
 
 static struct rho_scan_assembler before;
@@ -78,7 +78,7 @@ static void what_is_taken_again_is_drawn_once(void **state)
     for (int i = 0; i < 10; i++) {
         assert_int_equal(take_status(&look, 0), RHO_ERROR_CAPACITY);
     }
-    assert_int_equal(feed.counters.messages_flooded, 0);
+    assert_int_equal(assembler.counters.messages_flooded, 0);
 }
 
 /*
@@ -103,9 +103,9 @@ static void the_sensor_heard_longest_ago_gives_way(void **state)
     take_scan(1000, 0, SECOND_US);
     assert_int_equal(drain(INT64_MAX), 1);
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        assert_int_equal(feed.sources[i].sensor_id, i == 0 ? 1000 : (int)i);
+        assert_int_equal(assembler.sources[i].sensor_id, i == 0 ? 1000 : (int)i);
     }
-    assert_int_equal(feed.counters.sensors_no_room, 0);
+    assert_int_equal(assembler.counters.sensors_no_room, 0);
 }
 
 static void proven_sensors_do_not_give_way_while_they_are_heard(void **state)
@@ -121,7 +121,7 @@ static void proven_sensors_do_not_give_way_while_they_are_heard(void **state)
     COUNTERS_ARE(.scans_accepted = known, .sensors_no_room = 2);
     take_scan(1000, 0, 2 * SECOND_US + JUMP_US + 1);
     COUNTERS_ARE(.scans_accepted = known + 1, .sensors_no_room = 2);
-    assert_int_equal(feed.sources[0].sensor_id, 1000);
+    assert_int_equal(assembler.sources[0].sensor_id, 1000);
 }
 
 static void forged_sensors_never_drive_out_proven_ones(void **state)
@@ -134,7 +134,7 @@ static void forged_sensors_never_drive_out_proven_ones(void **state)
     fill_table(3);
     for (int32_t scan = 3; scan < 40; scan++) {
         for (int16_t id = 0; id < RHO_MAX_SENSORS; id++) {
-            uint32_t accepted = feed.counters.scans_accepted;
+            uint32_t accepted = assembler.counters.scans_accepted;
             int64_t now_us = scan * SECOND_US + id;
 
             for (int i = 0; i < 20; i++) {
@@ -147,11 +147,11 @@ static void forged_sensors_never_drive_out_proven_ones(void **state)
                 forged++;
             }
             take_scan(id, scan, now_us);
-            assert_int_equal(feed.counters.scans_accepted, accepted + 1);
+            assert_int_equal(assembler.counters.scans_accepted, accepted + 1);
             assert_int_equal(drain(now_us + HOLD_US), 1);
         }
     }
-    assert_int_equal(feed.counters.sensors_no_room, forged);
+    assert_int_equal(assembler.counters.sensors_no_room, forged);
 }
 
 static void a_proven_sensor_off_the_clock_gives_way(void **state)
@@ -166,15 +166,15 @@ static void a_proven_sensor_off_the_clock_gives_way(void **state)
         take(&look, 3 * SECOND_US);
     }
     take_scan(1000, 0, 4 * SECOND_US);
-    assert_int_equal(feed.counters.sensors_no_room, 0);
-    assert_int_equal(feed.sources[1].sensor_id, 1000);
+    assert_int_equal(assembler.counters.sensors_no_room, 0);
+    assert_int_equal(assembler.sources[1].sensor_id, 1000);
 }
 
 static void one_number_on_three_channels_is_three_sensors(void **state)
 {
     (void)state;
     start();
-    for (uint8_t kind = 0; kind < RHO_NUM_FEED_KINDS; kind++) {
+    for (uint8_t kind = 0; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
         struct look look = {.sensor_id = 5, .kind = kind, .time_us = kind};
         take(&look, 0);
         assert_int_equal(drain(INT64_MAX), 1);
@@ -196,7 +196,7 @@ static void a_sensor_that_gives_way_leaves_its_scan(void **state)
         take(&look, 1);
         next_is(1, id, 4);
         next_is_none(1);
-        assert_int_equal(feed.counters.scans_incomplete, id == RHO_MAX_SENSORS - 1);
+        assert_int_equal(assembler.counters.scans_incomplete, id == RHO_MAX_SENSORS - 1);
     }
     next_is(20000000, 500, 5);
     assert_int_equal(item.parts_missing, 1);
@@ -221,9 +221,9 @@ static void without_room_the_oldest_goes_out_and_the_message_is_taken(void **sta
         next_is_none(0);
     }
     look.sensor_id = 500;
-    was = feed.strangers;
+    was = assembler.strangers;
     assert_int_equal(take_status(&look, 0), RHO_ERROR_CAPACITY);
-    assert_memory_equal(&was, &feed.strangers, sizeof was);
+    assert_memory_equal(&was, &assembler.strangers, sizeof was);
     COUNTERS_ARE(.scans_accepted = RHO_MAX_OPEN_SCANS);
     next_is(0, 0, 100); /* the first that is not proven */
     assert_int_equal(item.parts_missing, 1);
@@ -247,7 +247,7 @@ static void complete_scans_make_room_before_open_ones(void **state)
     for (int16_t id = 3; id < 3 + 2 * RHO_MAX_OPEN_SCANS; id++) {
         struct look more = {.sensor_id = id, .time_us = 90 + id};
         while (take_status(&more, 0) == RHO_ERROR_CAPACITY) {
-            if (rho_scan_assembler_next(&feed, 0, &item)) {
+            if (rho_scan_assembler_next(&assembler, 0, &item)) {
                 assert_int_not_equal(item_sensor(), 1);
             }
         }
@@ -327,7 +327,7 @@ static void there_is_always_progress(void **state)
         unsigned tries = 0;
 
         while (take_status(&look, i * 100) == RHO_ERROR_CAPACITY) {
-            (void)rho_scan_assembler_next(&feed, i * 100, &item);
+            (void)rho_scan_assembler_next(&assembler, i * 100, &item);
             assert_true(++tries <= 2);
             pressed++;
         }
@@ -422,10 +422,10 @@ static void only_sensors_channels_are_taken(void **state)
 
     (void)state;
     start();
-    before = feed;
+    before = assembler;
     for (unsigned i = 0; i < sizeof others / sizeof others[0]; i++) {
         assert_int_equal(take_bytes(others[i], bytes, sizeof bytes, 0), RHO_ERROR_TYPE);
-        assert_memory_equal(&feed, &before, sizeof feed);
+        assert_memory_equal(&assembler, &before, sizeof assembler);
     }
     for (unsigned i = 0; i < 3; i++) {
         struct look look = {.sensor_id = good[i].sensor_id};
@@ -445,7 +445,7 @@ static void wrong_bytes_are_counted_by_what_is_wrong(void **state)
     size_t size;
 
     (void)state;
-    for (look.kind = 0; look.kind < RHO_NUM_FEED_KINDS; look.kind++) {
+    for (look.kind = 0; look.kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; look.kind++) {
         start();
         size = pack(&look, buffer);
         for (size_t length = 0; length <= size + 1; length++) {
@@ -472,9 +472,10 @@ static void wrong_bytes_are_counted_by_what_is_wrong(void **state)
 
 static void refused(struct rho_scan_assembler_config config)
 {
-    before = feed;
-    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed, &config), RHO_ERROR_CONFIG);
-    assert_memory_equal(&feed, &before, sizeof feed);
+    before = assembler;
+    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &config),
+                     RHO_ERROR_CONFIG);
+    assert_memory_equal(&assembler, &before, sizeof assembler);
 }
 
 #define REFUSE(field, value)                                                                       \
@@ -527,41 +528,43 @@ static void init_and_sensors_are_checked(void **state)
     struct rho_scan_assembler_sensor sensor = config.other;
 
     (void)state;
-    memset(&feed, 0x5a, sizeof feed);
-    assert_int_equal(rho_scan_assembler_set_sensor(&feed, &sensor), RHO_ERROR_STATE);
-    assert_int_equal(rho_scan_assembler_take(&feed, "RHO_PLOTS_1", (const uint8_t *)"", 0, 0),
+    memset(&assembler, 0x5a, sizeof assembler);
+    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_ERROR_STATE);
+    assert_int_equal(rho_scan_assembler_take(&assembler, "RHO_PLOTS_1", (const uint8_t *)"", 0, 0),
                      RHO_ERROR_STATE);
-    assert_int_equal(rho_scan_assembler_next(&feed, 0, &item), 0);
-    assert_int_equal(rho_scan_assembler_due_us(&feed), INT64_MAX);
-    assert_int_equal(rho_scan_assembler_init(NULL, sizeof feed, &config), RHO_ERROR_NULL);
-    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed, NULL), RHO_ERROR_NULL);
-    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed - 1, &config), RHO_ERROR_SIZE);
+    assert_int_equal(rho_scan_assembler_next(&assembler, 0, &item), 0);
+    assert_int_equal(rho_scan_assembler_due_us(&assembler), INT64_MAX);
+    assert_int_equal(rho_scan_assembler_init(NULL, sizeof assembler, &config), RHO_ERROR_NULL);
+    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler - 1, &config),
+                     RHO_ERROR_SIZE);
     start();
-    before = feed;
+    before = assembler;
     assert_int_equal(rho_scan_assembler_set_sensor(NULL, &sensor), RHO_ERROR_NULL);
-    assert_int_equal(rho_scan_assembler_set_sensor(&feed, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, NULL), RHO_ERROR_NULL);
     sensor.noise.sigma_m = 0.0f;
-    assert_int_equal(rho_scan_assembler_set_sensor(&feed, &sensor), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_ERROR_CONFIG);
     assert_int_equal(rho_scan_assembler_take(NULL, "RHO_PLOTS_1", (const uint8_t *)"", 0, 0),
                      RHO_ERROR_NULL);
-    assert_int_equal(rho_scan_assembler_take(&feed, NULL, (const uint8_t *)"", 0, 0),
+    assert_int_equal(rho_scan_assembler_take(&assembler, NULL, (const uint8_t *)"", 0, 0),
                      RHO_ERROR_NULL);
-    assert_int_equal(rho_scan_assembler_take(&feed, "RHO_PLOTS_1", NULL, 0, 0), RHO_ERROR_NULL);
+    assert_int_equal(rho_scan_assembler_take(&assembler, "RHO_PLOTS_1", NULL, 0, 0),
+                     RHO_ERROR_NULL);
     assert_int_equal(rho_scan_assembler_next(NULL, 0, &item), 0);
-    assert_int_equal(rho_scan_assembler_next(&feed, 0, NULL), 0);
+    assert_int_equal(rho_scan_assembler_next(&assembler, 0, NULL), 0);
     assert_int_equal(rho_scan_assembler_due_us(NULL), INT64_MAX);
-    assert_memory_equal(&feed, &before, sizeof feed);
+    assert_memory_equal(&assembler, &before, sizeof assembler);
     sensor = config.other;
     for (int32_t id = 0; id < RHO_MAX_SENSORS; id++) {
         sensor.sensor.sensor_id = id;
-        assert_int_equal(rho_scan_assembler_set_sensor(&feed, &sensor), RHO_OK);
+        assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_OK);
     }
     sensor.sensor.sensor_id = 5;
-    assert_int_equal(rho_scan_assembler_set_sensor(&feed, &sensor), RHO_OK); /* replaced */
+    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_OK); /* replaced */
     sensor.sensor.sensor_id = RHO_MAX_SENSORS;
-    before = feed;
-    assert_int_equal(rho_scan_assembler_set_sensor(&feed, &sensor), RHO_ERROR_CAPACITY);
-    assert_memory_equal(&feed, &before, sizeof feed);
+    before = assembler;
+    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &sensor), RHO_ERROR_CAPACITY);
+    assert_memory_equal(&assembler, &before, sizeof assembler);
 }
 
 static void a_copy_goes_on_like_the_original(void **state)
@@ -573,7 +576,7 @@ static void a_copy_goes_on_like_the_original(void **state)
     start();
     take_scan(1, 0, 0);
     take_scan(2, 0, 5);
-    copy = feed;
+    copy = assembler;
     for (int round = 0; round < 2; round++) {
         next_is(0, 1, 0);
         next_is(5 + HOLD_US, 2, 5);
@@ -581,10 +584,10 @@ static void a_copy_goes_on_like_the_original(void **state)
         next_is(INT64_MAX, 1, SECOND_US);
         next_is_none(INT64_MAX);
         if (round > 0) {
-            assert_memory_equal(&counters, &feed.counters, sizeof counters);
+            assert_memory_equal(&counters, &assembler.counters, sizeof counters);
         }
-        counters = feed.counters;
-        feed = copy;
+        counters = assembler.counters;
+        assembler = copy;
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Random streams of sensors with faults of every kind, beside a model of the rules over lists
- * (feed_model.h).
+ * (scan_assembler_model.h).
  */
 #include "scan_assembler_model.h"
 
@@ -24,7 +24,7 @@ static unsigned given, taken, pressed, restarted, skipped;
 
 static void compare_counters(void)
 {
-    if (memcmp(&feed.counters, &model.counters, sizeof feed.counters) != 0) {
+    if (memcmp(&assembler.counters, &model.counters, sizeof assembler.counters) != 0) {
         counters_are(model.counters);
     }
 }
@@ -50,11 +50,11 @@ static void compare_inputs(const struct model_scan *scan)
 
 static int next(int64_t at_us)
 {
-    int is_restart = 0, is_there = rho_scan_assembler_next(&feed, at_us, &item);
+    int is_restart = 0, is_there = rho_scan_assembler_next(&assembler, at_us, &item);
     const struct model_scan *scan = model_next(at_us, &is_restart);
 
     assert_int_equal(is_there, scan != NULL);
-    assert_true(is_there || rho_scan_assembler_due_us(&feed) > at_us || at_us == INT64_MAX);
+    assert_true(is_there || rho_scan_assembler_due_us(&assembler) > at_us || at_us == INT64_MAX);
     if (scan) {
         assert_int_equal(item.kind, scan->kind);
         assert_int_equal(item_sensor(), scan->id);
@@ -76,10 +76,11 @@ static unsigned num_kept;
 static void say(const struct look *look)
 {
     for (;;) {
-        uint32_t late = feed.counters.scans_late, accepted = feed.counters.scans_accepted;
+        uint32_t late = assembler.counters.scans_late, accepted = assembler.counters.scans_accepted;
         enum rho_status status = take_status(look, now_us);
 
-        skipped += feed.counters.scans_late > late && feed.counters.scans_accepted > accepted;
+        skipped +=
+            assembler.counters.scans_late > late && assembler.counters.scans_accepted > accepted;
 
         assert_int_equal(status, model_take(look, now_us));
         compare_counters();
@@ -214,8 +215,8 @@ static void run(uint32_t seed, unsigned steps, unsigned faults,
         for (unsigned i = 1; i < SENSORS; i++) {
             sender = senders[i].next_us < sender->next_us ? &senders[i] : sender;
         }
-        while (rho_scan_assembler_due_us(&feed) < sender->next_us &&
-               next(rho_scan_assembler_due_us(&feed))) {
+        while (rho_scan_assembler_due_us(&assembler) < sender->next_us &&
+               next(rho_scan_assembler_due_us(&assembler))) {
         }
         now_us = sender->next_us > now_us ? sender->next_us + any_of(10000) : now_us;
         say_scan(sender, faults);
@@ -237,7 +238,7 @@ static void run(uint32_t seed, unsigned steps, unsigned faults,
     }
 }
 
-static void the_feed_does_what_the_model_does(void **state)
+static void the_assembler_does_what_the_model_does(void **state)
 {
     struct rho_scan_assembler_config config = usual();
 
@@ -262,7 +263,7 @@ static void the_feed_does_what_the_model_does(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_feed_does_what_the_model_does),
+        cmocka_unit_test(the_assembler_does_what_the_model_does),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -23,13 +23,13 @@ static void radar(void)
     const int64_t time_us = turn * INTERVAL_US;
 
     take_scan(RADAR, turn++, time_us);
-    assert_true(rho_scan_assembler_next(&feed, time_us + HOLD_US, &item));
+    assert_true(rho_scan_assembler_next(&assembler, time_us + HOLD_US, &item));
     while (item_sensor() != RADAR) {
-        assert_true(rho_scan_assembler_next(&feed, time_us + HOLD_US, &item));
+        assert_true(rho_scan_assembler_next(&assembler, time_us + HOLD_US, &item));
     }
     assert_int_equal(item_time_us(), time_us);
     next_is_none(time_us + HOLD_US);
-    assert_int_equal(feed.out_us, time_us);
+    assert_int_equal(assembler.out_us, time_us);
 }
 
 static int64_t begin_with_a_radar(void)
@@ -45,11 +45,11 @@ static int64_t begin_with_a_radar(void)
 
 static int is_taken(int16_t sensor_id, int32_t scan, int64_t time_us, int64_t now_us)
 {
-    const uint32_t before = feed.counters.scans_accepted;
+    const uint32_t before = assembler.counters.scans_accepted;
     struct look look = {.time_us = time_us, .scan = scan, .sensor_id = sensor_id, .count = 1};
 
     take(&look, now_us);
-    return feed.counters.scans_accepted > before;
+    return assembler.counters.scans_accepted > before;
 }
 
 static void what_is_ahead_waits_for_the_clock_of_who_was_heard(void **state)
@@ -58,12 +58,12 @@ static void what_is_ahead_waits_for_the_clock_of_who_was_heard(void **state)
 
     (void)state;
     assert_true(is_taken(9, 0, now_us + SECOND_US, now_us));
-    assert_int_equal(rho_scan_assembler_due_us(&feed), now_us + SECOND_US + HOLD_US);
+    assert_int_equal(rho_scan_assembler_due_us(&assembler), now_us + SECOND_US + HOLD_US);
     next_is_none(now_us + SECOND_US + HOLD_US - 1);
     next_is(now_us + SECOND_US + HOLD_US, 9, now_us + SECOND_US);
     radar();
     assert_true(is_taken(9, 1, now_us + 5 * SECOND_US, now_us + 2 * SECOND_US));
-    assert_int_equal(feed.clock_us, (turn - 1) * INTERVAL_US);
+    assert_int_equal(assembler.clock_us, (turn - 1) * INTERVAL_US);
     radar(); /* goes out before */
     next_is(now_us + 5 * SECOND_US + HOLD_US, 9, now_us + 5 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = TURNS + 5);
@@ -80,10 +80,10 @@ static void it_makes_no_other_wait_and_gives_way(void **state)
 
     (void)state;
     for (int16_t i = 0; i < RHO_MAX_OPEN_SCANS; i++) { /* as if a radar's scan were in between */
-        feed.newcomers = 0;
+        assembler.newcomers = 0;
         assert_true(is_taken((int16_t)(20 + i), 0, now_us + 3 * SECOND_US, now_us));
     }
-    feed.newcomers = 0;
+    assembler.newcomers = 0;
     assert_false(is_taken(80, 0, now_us + 3 * SECOND_US, now_us));
     next_is_none(now_us);
     take(&look, look.time_us);
@@ -91,7 +91,7 @@ static void it_makes_no_other_wait_and_gives_way(void **state)
     take(&look, look.time_us + HOLD_US / 2);
     next_is(look.time_us + HOLD_US / 2 + HOLD_US, RADAR, look.time_us);
     assert_int_equal(item.parts_missing, 0);
-    assert_int_equal(feed.counters.sensors_no_room, 2);
+    assert_int_equal(assembler.counters.sensors_no_room, 2);
 }
 
 /* It is as far behind the radar's first part as it likes, and later than its scan. */
@@ -130,8 +130,8 @@ static void many_of_them_do_not_move_the_clock(void **state)
     }
     radar();
     radar();
-    assert_int_equal(feed.counters.sensor_restarts, 0);
-    assert_int_equal(feed.is_restart, 0);
+    assert_int_equal(assembler.counters.sensor_restarts, 0);
+    assert_int_equal(assembler.is_restart, 0);
 }
 
 /*
@@ -144,7 +144,7 @@ static int32_t scans_until_followed(int32_t turns, int64_t every_us)
     int32_t scans = 0;
 
     begin(&config);
-    for (int64_t now_us = 0; !feed.is_restart && scans < 1000; now_us += INTERVAL_US) {
+    for (int64_t now_us = 0; !assembler.is_restart && scans < 1000; now_us += INTERVAL_US) {
         radar();
         if (now_us >= sent_us + every_us) {
             sent_us = now_us;
@@ -183,8 +183,8 @@ static void an_honest_one_loses_nothing(void **state)
         radar();
     }
     assert_int_equal(given, 200);
-    assert_int_equal(feed.counters.scans_lost + feed.counters.scans_late, 0);
-    assert_true(feed.sources[1].known_us >= RHO_SCAN_ASSEMBLER_TRUST_US / 2 - 1);
+    assert_int_equal(assembler.counters.scans_lost + assembler.counters.scans_late, 0);
+    assert_true(assembler.sources[1].known_us >= RHO_SCAN_ASSEMBLER_TRUST_US / 2 - 1);
 }
 
 /* Its scans fill the time until it is missed, and then count as any: nothing begins anew. */
@@ -200,13 +200,13 @@ static void who_falls_silent_holds_nobody(void **state)
         }
         now_us += INTERVAL_US;
         refused += !is_taken(9, n, now_us, now_us);
-        while (rho_scan_assembler_next(&feed, now_us + HOLD_US, &item)) {
+        while (rho_scan_assembler_next(&assembler, now_us + HOLD_US, &item)) {
             assert_false(item.is_restart);
         }
     }
     assert_in_range(refused, 0, 4);
-    assert_int_equal(feed.counters.clock_jumps, 0);
-    assert_int_equal(feed.out_us, now_us);
+    assert_int_equal(assembler.counters.clock_jumps, 0);
+    assert_int_equal(assembler.out_us, now_us);
 }
 
 static void in_a_record_nobody_is_new(void **state)
@@ -231,8 +231,8 @@ static void newcomers_share_plots_and_turns(void **state)
 {
     const int64_t now_us = begin_with_a_radar() + SECOND_US;
     struct look look = {.count = 30, .num_parts = 12, .time_us = now_us, .sensor_id = 9};
-    struct rho_scan_assembler_sensor known = feed.config.other;
-    const uint32_t parts = feed.config.stranger_plots_per_s / look.count;
+    struct rho_scan_assembler_sensor known = assembler.config.other;
+    const uint32_t parts = assembler.config.stranger_plots_per_s / look.count;
 
     (void)state;
     for (; look.part < look.num_parts; look.part++) {
@@ -241,18 +241,18 @@ static void newcomers_share_plots_and_turns(void **state)
     COUNTERS_ARE(.scans_accepted = TURNS + 2, .messages_flooded = (uint32_t)look.num_parts - parts);
     look = (struct look){.time_us = now_us, .sensor_id = 8};
     take(&look, now_us); /* the next one has its turn behind the radar's */
-    assert_int_equal(feed.counters.messages_flooded, 13 - parts);
+    assert_int_equal(assembler.counters.messages_flooded, 13 - parts);
     look.sensor_id = known.sensor.sensor_id = 7;
     look.count = 34;
-    assert_int_equal(rho_scan_assembler_set_sensor(&feed, &known), RHO_OK);
+    assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &known), RHO_OK);
     drain(INT64_MAX);
     take(&look, now_us); /* one that is described has its own */
-    assert_int_equal(feed.counters.messages_flooded, 13 - parts);
-    assert_int_equal(feed.counters.scans_accepted, TURNS + 3);
-    feed.config.allowed[feed.config.num_allowed++] = look.sensor_id = 6;
+    assert_int_equal(assembler.counters.messages_flooded, 13 - parts);
+    assert_int_equal(assembler.counters.scans_accepted, TURNS + 3);
+    assembler.config.allowed[assembler.config.num_allowed++] = look.sensor_id = 6;
     drain(INT64_MAX);
     take(&look, now_us); /* and one that is allowed by name */
-    assert_int_equal(feed.counters.scans_accepted, TURNS + 4);
+    assert_int_equal(assembler.counters.scans_accepted, TURNS + 4);
 }
 
 /*
@@ -288,7 +288,7 @@ static void parts_of_a_scan_without_a_turn_are_flooded_too(void **state)
     COUNTERS_ARE(.scans_accepted = TURNS + 2, .scans_lost = 1, .messages_flooded = 9);
 }
 
-/* The message says 1 mm; the feed's own noise is 10 m. */
+/* The message says 1 mm; the assembler's own noise is 10 m. */
 static void a_newcomer_is_no_surer_than_the_config(void **state)
 {
     const int64_t now_us = begin_with_a_radar() + SECOND_US;
@@ -332,10 +332,12 @@ static void sensors_that_are_not_allowed_are_counted(void **state)
     take_scan(0, 0, 0);
     COUNTERS_ARE(.scans_accepted = 2, .messages_not_allowed = 2);
     config.num_allowed = RHO_MAX_SENSORS + 1;
-    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed, &config), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &config),
+                     RHO_ERROR_CONFIG);
     config.num_allowed = 0;
     config.stranger_plots_per_s = 0;
-    assert_int_equal(rho_scan_assembler_init(&feed, sizeof feed, &config), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, &config),
+                     RHO_ERROR_CONFIG);
 }
 
 static void two_senders_of_one_number_are_told(void **state)
@@ -346,13 +348,13 @@ static void two_senders_of_one_number_are_told(void **state)
     start();
     take(&look, 0);
     take(&look, 0);
-    assert_int_equal(feed.sources[0].has_twin, 0);
+    assert_int_equal(assembler.sources[0].has_two_senders, 0);
     next_is(0, 4, SECOND_US);
     take(&look, 0);
     look.tag = 7;
     take(&look, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 2, .scans_other = 1);
-    assert_int_equal(feed.sources[0].has_twin, 1);
+    assert_int_equal(assembler.sources[0].has_two_senders, 1);
 }
 
 int main(void)

@@ -10,10 +10,10 @@ static int32_t epoch;
 static int push(int32_t scan, int64_t time_us, int64_t now_us)
 {
     struct look look = {.time_us = time_us, .scan = scan, .epoch = epoch, .sensor_id = 1};
-    uint32_t before = feed.counters.scans_accepted;
+    uint32_t before = assembler.counters.scans_accepted;
 
     take(&look, now_us);
-    if (feed.counters.scans_accepted > before) {
+    if (assembler.counters.scans_accepted > before) {
         next_is(now_us + HOLD_US, 1, time_us);
         next_is_none(now_us + HOLD_US);
         return 1;
@@ -37,7 +37,7 @@ static void scans_count_up(void **state)
     (void)state;
     begin(1, 100);
     COUNTERS_ARE(.scans_accepted = 100);
-    assert_int_equal(feed.sources[0].interval_us, SECOND_US);
+    assert_int_equal(assembler.sources[0].interval_us, SECOND_US);
 }
 
 static void numbers_wrap(void **state)
@@ -126,7 +126,7 @@ static void a_new_epoch_is_followed_at_the_third_scan(void **state)
     COUNTERS_ARE(.scans_accepted = 6, .scans_bad = 2, .sensor_restarts = 1);
     assert_true(push(4, 8 * SECOND_US, 8 * SECOND_US));
     assert_int_equal(item.is_restart, 0);
-    assert_int_equal(feed.sources[0].interval_us, SECOND_US);
+    assert_int_equal(assembler.sources[0].interval_us, SECOND_US);
     COUNTERS_ARE(.scans_accepted = 7, .scans_bad = 2, .sensor_restarts = 1);
 }
 
@@ -190,7 +190,7 @@ static void strays_in_between_do_no_harm(void **state)
             assert_false(push(-50 * k, (4 + i) * SECOND_US, (4 + i) * SECOND_US));
         }
     }
-    assert_int_equal(feed.counters.sensor_restarts, 1);
+    assert_int_equal(assembler.counters.sensor_restarts, 1);
 }
 
 static void a_believed_scan_ends_the_strays(void **state)
@@ -259,10 +259,10 @@ static void a_number_ahead_of_its_time_is_not_believed(void **state)
         begin(1, 5);
         if (scan > 6 || scan < -30) {
             assert_false(push(scan, at_us + SECOND_US, at_us + SECOND_US));
-            assert_int_equal(feed.counters.scans_bad, 1);
+            assert_int_equal(assembler.counters.scans_bad, 1);
         }
         assert_true(push(6, at_us + SECOND_US, at_us + SECOND_US));
-        assert_int_equal(feed.counters.scans_lost, 0);
+        assert_int_equal(assembler.counters.scans_lost, 0);
     }
     begin(1, 5); /* two numbers in the time of one and a half, less what clocks jitter */
     assert_false(push(7, at_us + 1490000 - 1, at_us + SECOND_US));
@@ -280,7 +280,7 @@ static void another_pace_is_followed(void **state)
     }
     COUNTERS_ARE(.scans_accepted = 20 - 2 + 5, .scans_bad = 2, .sensor_restarts = 1,
                  .scans_lost = 17);
-    assert_in_range(feed.sources[0].interval_us, 49000, 51000);
+    assert_in_range(assembler.sources[0].interval_us, 49000, 51000);
 }
 
 static void intervals_may_change_while_nothing_is_lost(void **state)
@@ -323,7 +323,7 @@ static void a_clock_set_back_is_followed_though_numbers_fell_back_as_well(void *
     assert_false(push(2, -999 * SECOND_US, 21 * SECOND_US));
     COUNTERS_ARE(.scans_accepted = 20, .clock_jumps = 2);
     assert_true(push(3, -998 * SECOND_US, 22 * SECOND_US));
-    assert_int_equal(feed.counters.sensor_restarts, 1);
+    assert_int_equal(assembler.counters.sensor_restarts, 1);
 }
 
 static void times_at_the_ends_of_their_range(void **state)
@@ -341,8 +341,8 @@ static void times_at_the_ends_of_their_range(void **state)
             static const int64_t now_us[] = {INT64_MIN, INT64_MAX, 0, INT64_MAX - 1};
 
             (void)take_status(&look, now_us[i % 4]);
-            (void)rho_scan_assembler_due_us(&feed);
-            (void)rho_scan_assembler_next(&feed, now_us[(i + i / 4) % 4], &item);
+            (void)rho_scan_assembler_due_us(&assembler);
+            (void)rho_scan_assembler_next(&assembler, now_us[(i + i / 4) % 4], &item);
         }
         (void)drain(INT64_MAX);
     }

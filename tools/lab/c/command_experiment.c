@@ -3,19 +3,7 @@
 
 #include "base/common.h"
 #include "experiment.h"
-#include "experiment_classic.h"
 #include "lab_commands.h"
-#include "settings/method.h"
-
-static bool is_plot_method(const char *name)
-{
-    return classic_methods_named(name) != 0;
-}
-
-static bool is_kernel(const char *name)
-{
-    return strcmp(name, "kernel") == 0;
-}
 
 static bool is_passive_method(const char *name)
 {
@@ -34,13 +22,11 @@ static const struct {
     bool (*knows)(const char *method);
     const char *methods;
 } experiments[] = {
-    {"initiation", experiment_initiation, is_plot_method, "methods " METHOD_PLOT_NAMES},
-    {"false-alarms", experiment_false_alarms, is_kernel, "method kernel"},
     {"passive", experiment_passive, is_passive_method, "methods passive, passive-paper"},
     {"maneuver", experiment_maneuver, knows_no_method, "gates of `maintain`, all of them"},
 };
 
-#define NAMES "initiation, false-alarms, passive, maneuver"
+#define NAMES "passive, maneuver"
 
 int command_experiment(struct command_line *line)
 {

@@ -6,8 +6,6 @@
 #include "commands.h"
 
 /* Each returns the program's exit code. */
-int experiment_initiation(const struct command_line *line);
-int experiment_false_alarms(const struct command_line *line);
 int experiment_passive(const struct command_line *line);
 int experiment_maneuver(const struct command_line *line);
 

@@ -14,9 +14,8 @@ static const struct command commands[] = {
      "orSmj", "a Monte Carlo experiment with tables and figures",
      "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
      "(default\n"
-     "build/experiment/NAME). Experiments: initiation, false-alarms, passive, maneuver; initiation\n"
-     "takes --method kernel, ht, mht, iht or nht, passive takes passive or passive-paper; without\n"
-     "it they run all. The others are scripts, tools/lab/NAME.py.\n"},
+     "build/experiment/NAME). Experiments: passive, maneuver; passive takes --method passive or\n"
+     "passive-paper, without it it runs both. The others are scripts, tools/lab/NAME.py.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
 };

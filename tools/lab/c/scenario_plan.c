@@ -7,16 +7,6 @@
 
 #include "base/common.h"
 
-const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2] = {
-    {{-23793, 24841}, {-2548, 21411}, {-7021, 14156}},
-    {{-21011, 25246}, {-5080, 20251}, {-8675, 16448}},
-    {{-18300, 25575}, {-7720, 19125}, {-10248, 18720}},
-    {{-15547, 25858}, {-10322, 17938}, {-11849, 21086}},
-    {{-12823, 26185}, {-12766, 16739}, {-13363, 23508}},
-    {{-10050, 26402}, {-15310, 15467}, {-14961, 25823}},
-    {{-7248, 26643}, {-17794, 14169}, {-16459, 28155}},
-};
-
 /* ---- plans ----------------------------------------------------------------------------------- */
 
 struct truth_point *plan_truth(const struct scenario_plan *plan, size_t scan, size_t target)
@@ -114,77 +104,6 @@ void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_st
         now.x_m += start.vx_mps * t_s;
         now.y_m += start.vy_mps * t_s;
         plan_put(plan, scan, target, now);
-    }
-}
-
-void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_state start,
-                 double change_mps, struct random *random)
-{
-    struct scenario_state now = start;
-    for (size_t scan = 0; scan < plan->num_scans; scan++) {
-        plan_put(plan, scan, target, now);
-        double dvx_mps = change_mps * random_normal(random);
-        double dvy_mps = change_mps * random_normal(random);
-        now.x_m += plan->interval_s * (now.vx_mps + dvx_mps / 2.0);
-        now.y_m += plan->interval_s * (now.vy_mps + dvy_mps / 2.0);
-        now.vx_mps += dvx_mps;
-        now.vy_mps += dvy_mps;
-    }
-}
-
-void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state start,
-               double turn_rad)
-{
-    struct scenario_state now = start;
-    for (size_t scan = 0; scan < plan->num_scans; scan++) {
-        plan_put(plan, scan, target, now);
-        double vx_mps = now.vx_mps * cos(turn_rad) - now.vy_mps * sin(turn_rad);
-        double vy_mps = now.vx_mps * sin(turn_rad) + now.vy_mps * cos(turn_rad);
-        now = (struct scenario_state){.x_m = now.x_m + plan->interval_s * vx_mps,
-                                      .vx_mps = vx_mps,
-                                      .y_m = now.y_m + plan->interval_s * vy_mps,
-                                      .vy_mps = vy_mps};
-    }
-}
-
-void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_state start,
-                     double mps2)
-{
-    double speed_mps = hypot(start.vx_mps, start.vy_mps);
-    for (size_t scan = 0; scan < plan->num_scans; scan++) {
-        double t_s = (double)scan * plan->interval_s;
-        double path_m = speed_mps * t_s + mps2 * t_s * t_s / 2.0;
-        double gain = 1.0 + mps2 * t_s / speed_mps;
-        plan_put(plan, scan, target,
-                 (struct scenario_state){.x_m = start.x_m + path_m * start.vx_mps / speed_mps,
-                                         .vx_mps = start.vx_mps * gain,
-                                         .y_m = start.y_m + path_m * start.vy_mps / speed_mps,
-                                         .vy_mps = start.vy_mps * gain});
-    }
-}
-
-/* Slope of a least-squares line through one coordinate of a target's real plots. */
-static double radar_table_velocity(size_t target, int axis)
-{
-    double sum = 0.0, sum_tt = 0.0;
-    for (int scan = 0; scan < RADAR_TABLE_SCANS; scan++) {
-        double t_s = (scan - (RADAR_TABLE_SCANS - 1) / 2.0) * RADAR_TABLE_INTERVAL_S;
-        sum += t_s * radar_table_m[scan][target][axis];
-        sum_tt += t_s * t_s;
-    }
-    return sum / sum_tt;
-}
-
-void plan_radar_table(struct scenario_plan *plan)
-{
-    for (size_t target = 0; target < RADAR_TABLE_TARGETS; target++) {
-        struct scenario_state state = {.vx_mps = radar_table_velocity(target, 0),
-                                       .vy_mps = radar_table_velocity(target, 1)};
-        for (size_t scan = 0; scan < plan->num_scans; scan++) {
-            state.x_m = radar_table_m[scan][target][0];
-            state.y_m = radar_table_m[scan][target][1];
-            plan_put(plan, scan, target, state);
-        }
     }
 }
 

@@ -10,18 +10,6 @@
 #include "base/random.h"
 #include "scenario.h"
 
-#define RADAR_TABLE_SCANS 7
-#define RADAR_TABLE_TARGETS 3
-#define RADAR_TABLE_INTERVAL_S 10.0
-/* the targets turn slightly: what a straight line leaves, an axis */
-#define RADAR_TABLE_SIGMA_M 60.0
-
-/*
- * x, then y, in metres: the real plots of Fan et al., "Neutrosophic Hough Transform-Based Track
- * Initiation ...", Table 3.
- */
-extern const double radar_table_m[RADAR_TABLE_SCANS][RADAR_TABLE_TARGETS][2];
-
 struct scenario_plan {
     size_t num_scans, num_targets; /* targets at a time */
     size_t num_identities;         /* over all scans; num_targets where none comes or goes */
@@ -63,27 +51,6 @@ double plan_clutter_mean(const struct parameters *parameters, const struct scena
 
 /* Straight at constant velocity. */
 void plan_straight(struct scenario_plan *plan, size_t target, struct scenario_state start);
-
-/*
- * Straight, but each scan interval adds a normal velocity change of this standard deviation, each
- * axis.
- */
-void plan_wander(struct scenario_plan *plan, size_t target, struct scenario_state start,
-                 double change_mps, struct random *random);
-
-/* Constant speed, the heading changes by turn_rad at each scan. */
-void plan_turn(struct scenario_plan *plan, size_t target, struct scenario_state start,
-               double turn_rad);
-
-/* Constant acceleration along the first velocity. */
-void plan_accelerate(struct scenario_plan *plan, size_t target, struct scenario_state start,
-                     double mps2);
-
-/*
- * The real plots as paths; velocities from a straight-line fit. The plan has RADAR_TABLE_... sizes,
- * or fewer scans.
- */
-void plan_radar_table(struct scenario_plan *plan);
 
 /* Puts the plots of a scan in random order. */
 void plan_shuffle(struct simulated_scan *scan, struct random *random);

@@ -26,7 +26,7 @@ static void suggest_settings(const struct scene *scene, struct parameters *param
 
 static void suggest_radar(const struct scene_sensor *sensor, struct parameters *parameters)
 {
-    const struct scene_told *told = &sensor->told;
+    const struct scene_stated *told = &sensor->told;
 
     parameters_suggest(parameters, PARAMETER_INTERVAL_S, sensor->turn_s);
     parameters_suggest(parameters, PARAMETER_PD, told->pd);

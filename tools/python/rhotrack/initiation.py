@@ -2,11 +2,12 @@
 """Initiation alone: the default method, and those of the papers."""
 from __future__ import annotations
 
+import time
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._core import NULL, Error, array_of, dtype_of, ffi, lib, must, must_succeed, pointer_to
+from ._core import NULL, Error, array_of, dtype_of, ffi, lib, must, must_succeed, plain, pointer_to
 from .filters import Ghosts, ghosts
 from .scans import Scans, as_scans
 from .settings import Settings, settings_of
@@ -16,6 +17,7 @@ FOUND = np.dtype([("track_id", "u4"), ("t_s", "f8"), ("x_m", "f4"), ("y_m", "f4"
                   ("scans", "u2"), ("score", "f4")])
 PLOT = dtype_of("rho_plot")
 PEAK = dtype_of("rho_accumulator_peak")
+LINE = np.dtype([("rho_m", "f4"), ("theta_rad", "f4"), ("votes", "f8")])
 PEAKS_MAX = 1 << 20
 CELLS_MAX = 1 << 26
 METHODS = ("kernel", "ht", "mht", "iht", "nht")
@@ -34,7 +36,9 @@ class Initiator:
     method: "kernel", the tracker's own, or "ht", "mht", "iht", "nht", the papers'. find returns a
     structured array with the columns of the program's file, best first: track_id, t_s, x_m, y_m,
     vx_mps, vy_mps (at the last scan; NaN: fewer than two scans voted), rho_m, theta_rad, scans,
-    score (nats for kernel, else votes).
+    score (nats for kernel, else votes). work has the counts of the last search, as the library's
+    struct names them (rho_initiator_work, or rho_hough_result for the papers' methods), and
+    search_us, its processor time.
     """
 
     def __init__(self, settings: Settings | None = None, method: str = "kernel",
@@ -42,6 +46,9 @@ class Initiator:
         if method not in METHODS:
             raise Error(f"method {method!r} is none of {', '.join(METHODS)}")
         self.settings, self.method = settings_of(settings, parameters), method
+        self.work: dict[str, Any] = {}
+        self._memory = ffi.new("struct rho_initiator *" if method == "kernel"
+                               else "struct rho_hough *")
 
     def find(self, scans: Any) -> np.ndarray:
         """Searches the last `scans` (a parameter) of the scans, as one batch."""
@@ -50,17 +57,29 @@ class Initiator:
             return np.empty(0, FOUND)
         return self._find_kernel(held) if self.method == "kernel" else self._find_hough(held)
 
+    def lines(self, scans: Any) -> np.ndarray:
+        """The peaks of the papers' plane, best first: rho_m, theta_rad, votes. find fits a track to
+        each of them, which takes longer than the search."""
+        points = self._points(scans)
+        hough = self._hough(points)
+        peaks = self._peaks(hough, points, PEAKS_MAX)
+        found = np.empty(len(peaks), LINE)
+        for name, cell in (("rho_m", "rho_cell"), ("theta_rad", "theta_cell")):
+            middle = getattr(lib, f"rho_hough_{name}")
+            cells, which = np.unique(peaks[cell], return_inverse=True)
+            found[name] = np.array([middle(hough, one) for one in cells.tolist()], "f4")[which]
+        found["votes"] = peaks["votes"] / lib.RHO_HOUGH_VOTE
+        return found
+
     def accumulator(self, scans: Any) -> Accumulator:
         """The votes of every cell of the papers' plane; cells are d_rho_m by d_theta_rad."""
-        if self.method == "kernel":
-            raise Error("method 'kernel' has no accumulator")
-        points = _Points(self._held(scans))
+        points = self._points(scans)
         hough = self._hough(points, tau=0.0, votes_min=0.0, keeps_all_cells=1)
         shape = hough.theta_cells, hough.rho_cells
         if shape[0] * shape[1] > CELLS_MAX:
             raise Error(f"d_rho_m, d_theta_rad: {shape[0]} x {shape[1]} cells are too many for one "
                         f"array, {CELLS_MAX}")
-        peaks = _peaks(hough, points, shape[0] * shape[1])
+        peaks = self._peaks(hough, points, shape[0] * shape[1])
         votes = np.zeros(shape, "f4")
         votes[peaks["theta_cell"], peaks["rho_cell"]] = peaks["votes"] / lib.RHO_HOUGH_VOTE
         return Accumulator(
@@ -77,7 +96,7 @@ class Initiator:
     def _find_kernel(self, held: list[Any]) -> np.ndarray:
         config = ffi.new("struct rho_initiator_config *")
         must(lib.program_initiator_config(self.settings.handle, config))
-        initiator = ffi.new("struct rho_initiator *")
+        initiator = self._memory
         must_succeed(lib.rho_initiator_init(initiator, ffi.sizeof(initiator[0]), config), "init")
         left = ffi.new("uint32_t *")
         for one in held:
@@ -86,7 +105,9 @@ class Initiator:
             fates = ffi.new("uint8_t[]", [lib.RHO_FATE_HELD] * scan.num_plots)
             sensor = ffi.addressof(one.sensor) if one.has_sensor else NULL
             must_succeed(lib.rho_initiator_push(initiator, scan, sensor, fates, left), "a scan")
-        must_succeed(lib.rho_initiator_search(initiator, lib.RHO_SEARCH_BATCH), "search")
+        start_s = time.thread_time()
+        status = lib.rho_initiator_search(initiator, lib.RHO_SEARCH_BATCH)
+        self._searched(status, "search", start_s, initiator.work)
         found = np.empty(initiator.num_candidates, FOUND)
         for i in range(len(found)):
             one = initiator.candidates[i]
@@ -102,14 +123,31 @@ class Initiator:
                                         config))
         for name, value in changes.items():
             setattr(config, name, value)
-        hough = ffi.new("struct rho_hough *")
+        hough = self._memory
         must_succeed(lib.rho_hough_init(hough, ffi.sizeof(hough[0]), config), "init")
         return hough
+
+    def _points(self, scans: Any) -> _Points:
+        if self.method == "kernel":
+            raise Error("method 'kernel' has no accumulator")
+        return _Points(self._held(scans))
+
+    def _peaks(self, hough: Any, points: _Points, room: int) -> np.ndarray:
+        peaks, result = np.empty(room, PEAK), ffi.new("struct rho_hough_result *")
+        memory, start_s = pointer_to(peaks, "struct rho_accumulator_peak *"), time.thread_time()
+        status = lib.rho_hough_find(hough, points.struct, memory, room, result)
+        self._searched(status, "x_m, y_m or t_s of a plot", start_s, result[0])
+        return peaks[:result.num_peaks]
+
+    def _searched(self, status: int, what: str, start_s: float, work: Any) -> None:
+        search_us = 1e6 * (time.thread_time() - start_s)
+        must_succeed(status, what)
+        self.work = {**plain(work), "search_us": search_us}
 
     def _find_hough(self, held: list[Any]) -> np.ndarray:
         points = _Points(held)
         hough = self._hough(points)
-        peaks = _peaks(hough, points, PEAKS_MAX)
+        peaks = self._peaks(hough, points, PEAKS_MAX)
         track = ffi.new("struct rho_hough_track *")
         found = np.full(len(peaks), np.array(
             (0, points.time_us / 1e6, *[np.nan] * 6, 0, 0), FOUND))
@@ -146,13 +184,6 @@ class _Points:
             "at": {"x_m": pointer_to(self.x_m, "float *"), "y_m": pointer_to(self.y_m, "float *"),
                    "num_scans": len(scans), "scan_end": pointer_to(self.end, "uint32_t *")},
             "t_s": pointer_to(self.t_s, "float *")})
-
-
-def _peaks(hough: Any, points: _Points, room: int) -> np.ndarray:
-    peaks, result = np.empty(room, PEAK), ffi.new("struct rho_hough_result *")
-    must_succeed(lib.rho_hough_find(hough, points.struct, pointer_to(
-        peaks, "struct rho_accumulator_peak *"), room, result), "x_m, y_m or t_s of a plot")
-    return peaks[:result.num_peaks]
 
 
 class Passive:

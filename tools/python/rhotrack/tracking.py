@@ -87,6 +87,12 @@ class Tracker:
         return plain(self._pipeline.tracker.work)
 
     @property
+    def thresholds_nat(self) -> tuple[float, float]:
+        """Scores that start and confirm a track, of the last search for new ones."""
+        tracker = self._pipeline.tracker
+        return tracker.start_mnat / 1000, tracker.confirm_mnat / 1000
+
+    @property
     def sensors(self) -> dict[int, dict[str, Any]]:
         """By sensor_id: factors on stated sigmas and the pd by ring of range, as learned."""
         tracker, found = self._pipeline.tracker, {}

@@ -113,7 +113,7 @@ static struct alignment_times times_of(const struct points *points)
 }
 
 /* As time_alignment.h has it. */
-static void lead_tracks(struct points *tracks, const struct points *truth, int64_t most_us)
+static void align_tracks(struct points *tracks, const struct points *truth, int64_t most_us)
 {
     struct alignment_times track_times = times_of(tracks), truth_times = times_of(truth);
     size_t far = alignment_find_far(track_times, truth_times, most_us);
@@ -228,7 +228,7 @@ struct evaluation *evaluation_read(const struct table *truth_table,
     level(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     int64_t tolerance_us = alignment_tolerance_us(parameters);
     if (tolerance_us > ALIGNMENT_LEAST_US) {
-        lead_tracks(&tracks, &truth, tolerance_us);
+        align_tracks(&tracks, &truth, tolerance_us);
     }
     evaluate_times(e, &truth, &tracks);
     free(truth.list);

@@ -65,6 +65,7 @@ static void open_node(struct node_core *core, int32_t epoch)
         .passive = core->pipeline.passive,
         .waiting = core->waiting,
         .waiting_max = WAITING_MAX,
+        .has_own_starts = core->pipeline.paper != NULL,
         .passive_range_max_m = (float)core->parameters->value[PARAMETER_RANGE_MAX_M],
         .epoch = epoch};
 
@@ -111,6 +112,7 @@ static void start_anew(struct node_core *core)
 
     *clutter = core->pipeline.tracker->clutter_map;
     pipeline_open(&core->pipeline, core->parameters);
+    pipeline_reopen_paper(&core->pipeline);
     clutter_file_carry(&core->pipeline.tracker->clutter_map, clutter);
     free(clutter);
     core->pipeline.tracker->counters = counters;
@@ -134,16 +136,29 @@ static void send_step(const struct node_core *core)
     }
 }
 
+static void start_tracks(struct node_core *core, enum rho_node_due due)
+{
+    struct rho_frame_view view;
+
+    if (due == RHO_NODE_SCAN) {
+        pipeline_start_tracks(&core->pipeline, &core->node.scan, NULL);
+    } else if (rho_frames_closed(&core->frames, &view)) {
+        pipeline_start_tracks(&core->pipeline, NULL, &view.frame);
+    }
+}
+
 static void step(struct node_core *core, enum rho_node_due due)
 {
     const int64_t start_us = clock_us();
-    struct rho_initiator *initiator =
-        due == RHO_NODE_SCAN ? pipeline_initiator_of(&core->pipeline, &core->node.scan) : NULL;
+    struct rho_initiator *initiator = due == RHO_NODE_SCAN && !core->pipeline.starts
+                                          ? pipeline_initiator_of(&core->pipeline, &core->node.scan)
+                                          : NULL;
     int64_t took_us;
 
     if (rho_node_step(&core->node, initiator) != RHO_OK) {
         return;
     }
+    start_tracks(core, due);
     took_us = clock_us() - start_us;
     rho_node_count_time(&core->node, took_us);
     core->timing.steps++;
@@ -291,12 +306,12 @@ unsigned node_core_sensors(const struct node_core *core,
     return count;
 }
 
-bool node_core_has_twin(const struct node_core *core, int16_t sensor_id)
+bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *source = &core->assembler.sources[i];
 
-        if (source->is_used && source->sensor_id == sensor_id && source->has_twin) {
+        if (source->is_used && source->sensor_id == sensor_id && source->has_two_senders) {
             return true;
         }
     }

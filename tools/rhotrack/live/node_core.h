@@ -94,7 +94,7 @@ unsigned node_core_sensors(const struct node_core *core,
                            struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
 
 /* One of its scans came twice, with different contents. */
-bool node_core_has_twin(const struct node_core *core, int16_t sensor_id);
+bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
 
 /* Scans after which a sensor is believed. */
 int node_core_follow_scans(const struct node_core *core);

@@ -5,7 +5,7 @@
 
 #include "rhotrack/message.h"
 
-/* Its share of the others' tracks is so low only of a sensor that is doubted for it. */
+/* Its share of the others' tracks is so low only of a sensor that is suspect for it. */
 #define SHARE_LOW 0.3f
 #define US_PER_S 1e6
 
@@ -37,11 +37,11 @@ static void print_suspect(const struct rho_message_sensor *sensor, FILE *to)
 {
     if (sensor->seen_share < SHARE_LOW) {
         fprintf(to,
-                "rhotrack: sensor %d is doubted: it sees %.0f %% of the tracks that others see\n",
+                "rhotrack: sensor %d is suspect: it sees %.0f %% of the tracks that others see\n",
                 sensor->sensor_id, 100.0 * (double)sensor->seen_share);
     } else {
         fprintf(to,
-                "rhotrack: sensor %d is doubted: its innovations are %.1f times what its sigmas "
+                "rhotrack: sensor %d is suspect: its innovations are %.1f times what its sigmas "
                 "say\n",
                 sensor->sensor_id, sqrt((double)sensor->innovation_factor));
     }
@@ -88,21 +88,21 @@ void node_sensors_watch(struct node_sensors *sensors, const struct node_core *co
     const unsigned count = node_sensors_established(core, now);
 
     for (unsigned i = 0; i < count; i++) {
-        const bool has_twin = node_core_has_twin(core, now[i].sensor_id);
+        const bool has_two_senders = node_core_has_two_senders(core, now[i].sensor_id);
 
         if (to) {
             struct node_sensor before = find(sensors, &now[i]);
 
             print_changes(&before, &now[i], to);
-            if (has_twin && !before.has_twin) {
+            if (has_two_senders && !before.has_two_senders) {
                 fprintf(to,
                         "rhotrack: sensor %d: a scan came twice with different contents: two "
                         "senders use this number\n",
                         now[i].sensor_id);
             }
         }
-        next.of[next.count++] = (struct node_sensor){now[i].sensor_id, now[i].kind,
-                                                     now[i].is_doubted, now[i].is_silent, has_twin};
+        next.of[next.count++] = (struct node_sensor){
+            now[i].sensor_id, now[i].kind, now[i].is_doubted, now[i].is_silent, has_two_senders};
     }
     *sensors = next;
 }

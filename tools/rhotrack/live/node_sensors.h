@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_sensors: says when a sensor of a live tracker begins to be doubted or falls silent, and when
+ * node_sensors: says when a sensor of a live tracker becomes suspect or falls silent, and when
  * that is over; each change once. A sensor that has sent too few scans to be believed is not spoken
  * of: anybody may send one.
  */
@@ -15,7 +15,7 @@
 struct node_sensor {
     int16_t sensor_id;
     int8_t kind; /* of sensor_t */
-    bool is_doubted, is_silent, has_twin;
+    bool is_doubted, is_silent, has_two_senders;
 };
 
 /* The sensors as they were last; all zero at the start. */
@@ -31,7 +31,7 @@ unsigned node_sensors_established(const struct node_core *core,
 /* One line a change since the last call; NULL: nothing is written. */
 void node_sensors_watch(struct node_sensors *sensors, const struct node_core *core, FILE *to);
 
-/* The last words: one line a sensor that is doubted or silent. */
+/* The last words: one line a sensor that is suspect or silent. */
 void node_sensors_print(const struct node_core *core, FILE *to);
 
 #endif

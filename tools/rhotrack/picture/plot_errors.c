@@ -119,7 +119,7 @@ static struct plot_point led(const struct plot_point *point, int64_t to_us)
     return at;
 }
 
-static struct plot_points lead_tracks(const struct plot_data *data, int64_t most_us)
+static struct plot_points align_tracks(const struct plot_data *data, int64_t most_us)
 {
     struct plot_points truth = in_order_of_time(&data->truth);
     struct plot_points tracks = in_order_of_time(&data->tracks);
@@ -145,7 +145,7 @@ static struct plot_points lead_tracks(const struct plot_data *data, int64_t most
 struct plot_errors plot_errors_find(const struct plot_data *data,
                                     const struct parameters *parameters)
 {
-    struct plot_points leading = lead_tracks(data, alignment_tolerance_us(parameters));
+    struct plot_points leading = align_tracks(data, alignment_tolerance_us(parameters));
     size_t targets = data->truth.count + 1, tracks = leading.count + 1;
     struct error_finder finder = {
         .truth = &data->truth,

@@ -28,8 +28,8 @@ struct maintainer {
     int64_t input_us;       /* its time: of the last plot, its own */
     struct rho_input predicted;
     int64_t predicted_us;
-    bool is_predicted;    /* the newest is `predicted` */
-    bool is_out_of_reach; /* no prediction to the scan's time: the track is to start again */
+    bool is_predicted; /* the newest is `predicted` */
+    bool is_lost;      /* no prediction to the scan's time: the track is to start again */
     /* estimated after the last plot and the one before */
     float newest_mps[AXES], before_mps[AXES];
     unsigned measurements;
@@ -56,6 +56,7 @@ static struct rho_input_config config_of(const struct parameters *parameters,
     config.noise_m = (float)value[PARAMETER_FILTER_NOISE_M];
     config.noise_mps = (float)value[PARAMETER_FILTER_NOISE_MPS];
     config.velocity_variance = v_max_mps * v_max_mps;
+    config.initial_variance = (float)value[PARAMETER_INITIAL_VARIANCE];
     return config;
 }
 
@@ -151,6 +152,9 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
                               sensor);
         return;
     }
+    if (maintainer->config.initial_variance > 0.0f) {
+        rho_kalman_set_covariance(&kalman, maintainer->config.initial_variance);
+    }
     must_succeed(rho_input_start(&maintainer->input, &maintainer->config, &kalman), "start");
     maintainer->is_predicted = false;
     maintainer->measurements = 0;
@@ -177,16 +181,16 @@ static bool predict_to(const struct maintainer *maintainer, int64_t time_us,
 
 void maintainer_predict(struct maintainer *maintainer, int64_t time_us)
 {
-    bool was_out_of_reach = maintainer->is_out_of_reach;
+    bool was_lost = maintainer->is_lost;
 
     if (maintainer->best) {
-        maintainer->is_out_of_reach = !maintainer_best_predict(maintainer->best, time_us);
+        maintainer->is_lost = !maintainer_best_predict(maintainer->best, time_us);
     } else {
         maintainer->is_predicted = true;
         maintainer->predicted_us = time_us;
-        maintainer->is_out_of_reach = !predict_to(maintainer, time_us, &maintainer->predicted);
+        maintainer->is_lost = !predict_to(maintainer, time_us, &maintainer->predicted);
     }
-    maintainer->refused += maintainer->is_out_of_reach && !was_out_of_reach;
+    maintainer->refused += maintainer->is_lost && !was_lost;
 }
 
 void maintainer_where(const struct maintainer *maintainer, double place_m[3])
@@ -419,7 +423,7 @@ int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan
     double place_m[AXES];
 
     keep_sensor(maintainer, sensor);
-    if (maintainer->is_out_of_reach) {
+    if (maintainer->is_lost) {
         return start_again(maintainer, scan, sensor);
     }
     if (!maintainer->best) {

@@ -81,7 +81,7 @@ void maintainer_best_where(const struct maintainer_best *best, double place_m[3]
     }
 }
 
-static void weigh_all(struct maintainer_best *best, const struct rho_scan *scan,
+static void score_all(struct maintainer_best *best, const struct rho_scan *scan,
                       const struct rho_sensor *sensor, double log_density, double pd)
 {
     /* the density is one of all that is measured */
@@ -118,7 +118,7 @@ int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *
     if (sensor) {
         best->sensor = *sensor;
     }
-    weigh_all(best, scan, sensor, log_density, pd);
+    score_all(best, scan, sensor, log_density, pd);
     must_succeed(rho_hypotheses_commit(&best->pool, best->slot, &seen, &outcome), "commit");
     estimate_now(best);
     return outcome.row;

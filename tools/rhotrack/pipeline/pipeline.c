@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/common.h"
 #include "settings/method.h"
@@ -33,19 +34,52 @@ void pipeline_free(struct pipeline *pipeline)
     }
     free(pipeline->initiators);
     free(pipeline->passive);
+    free(pipeline->starts);
+    free(pipeline->paper);
     free(pipeline->tracker);
     free(pipeline->report);
     free(pipeline->plots);
 }
 
-void pipeline_set_gate(struct parameters *parameters, const char *gate)
+static enum method method_of(const struct parameters *parameters)
 {
-    if (gate) {
-        parameters_set_gate(parameters, gate);
+    return (enum method)(METHOD_KERNEL + (int)parameters->value[PARAMETER_METHOD]);
+}
+
+static enum method bearings_method_of(const struct parameters *parameters)
+{
+    return (enum method)(METHOD_PASSIVE + (int)parameters->value[PARAMETER_BEARINGS_METHOD]);
+}
+
+static void suggest_pipeline(struct parameters *parameters, const char *name)
+{
+    if (strcmp(name, "paper") != 0) {
+        fail(EXIT_USAGE, "--pipeline '%s' is not paper", name);
+    }
+    parameters_suggest(parameters, PARAMETER_METHOD, METHOD_NHT - METHOD_KERNEL);
+    parameters_suggest(parameters, PARAMETER_BEARINGS_METHOD,
+                       METHOD_PASSIVE_PAPER - METHOD_PASSIVE);
+    parameters_suggest(parameters, PARAMETER_GATE, RHO_TRACKER_HOUGH);
+    parameters_suggest(parameters, PARAMETER_INPUT_ESTIMATION, 1);
+}
+
+void pipeline_set_options(struct parameters *parameters, const struct pipeline_options *options)
+{
+    if (options->pipeline) {
+        suggest_pipeline(parameters, options->pipeline);
+    }
+    if (options->method) {
+        parameters_set_method(parameters, options->method);
+    }
+    if (options->gate) {
+        parameters_set_gate(parameters, options->gate);
     }
     if (parameters->value[PARAMETER_GATE] >= RHO_NUM_TRACKER_GATES) {
         fail(EXIT_USAGE, "gate none draws plots at random: that is for `maintain`; there are best, "
                          "hough and nearest");
+    }
+    if (method_of(parameters) != METHOD_KERNEL) {
+        method_suggest(method_of(parameters), parameters);
     }
 }
 
@@ -136,6 +170,28 @@ struct rho_initiator *pipeline_initiator_of(struct pipeline *pipeline, const str
                                                             : scan->sensor_id);
 }
 
+/* Plots may come from anywhere within the sensors' range. */
+static void open_starts(struct pipeline *pipeline, const struct parameters *parameters)
+{
+    struct parameters fitted = *parameters;
+    struct rho_paper_starts_config config;
+    const double range_m = parameters->value[PARAMETER_RANGE_MAX_M];
+
+    if (method_of(parameters) == METHOD_KERNEL) {
+        return;
+    }
+    method_fit_cells(&fitted, range_m);
+    config = (struct rho_paper_starts_config){
+        .hough = method_hough(method_of(parameters), &fitted, range_m),
+        .scans = (uint16_t)parameters->value[PARAMETER_SCANS],
+        .scans_min = (uint16_t)parameters->value[PARAMETER_MIN_SCANS]};
+    if (!pipeline->starts) {
+        pipeline->starts = must_alloc(sizeof *pipeline->starts);
+    }
+    must_succeed(rho_paper_starts_init(pipeline->starts, sizeof *pipeline->starts, &config),
+                 "method");
+}
+
 void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters)
 {
     struct rho_tracker_config maintain;
@@ -152,6 +208,21 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
     pipeline->initiator = add_initiator(pipeline, 0)->initiator;
     must_succeed(rho_tracker_init(pipeline->tracker, sizeof *pipeline->tracker, &maintain),
                  "tracker");
+    open_starts(pipeline, parameters);
+}
+
+static void open_paper(struct pipeline *pipeline, const struct parameters *parameters)
+{
+    struct parameters customary = *parameters;
+    struct rho_passive_paper_config config;
+
+    method_suggest(METHOD_PASSIVE_PAPER, &customary);
+    config = method_passive_paper(&customary);
+    if (!pipeline->paper) {
+        pipeline->paper = must_alloc(sizeof *pipeline->paper);
+    }
+    must_succeed(rho_passive_paper_init(pipeline->paper, sizeof *pipeline->paper, &config),
+                 "passive-paper");
 }
 
 void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *parameters)
@@ -165,18 +236,60 @@ void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *p
     }
     must_succeed(rho_passive_init(pipeline->passive, sizeof *pipeline->passive, &config),
                  "passive");
+    if (bearings_method_of(parameters) == METHOD_PASSIVE_PAPER) {
+        open_paper(pipeline, parameters);
+    }
+}
+
+static const struct rho_sensor *sensor_of(const struct rho_tracker *tracker, int32_t sensor_id)
+{
+    for (uint32_t i = 0; i < tracker->num_sensors; i++) {
+        if (tracker->sensors[i].sensor_id == sensor_id) {
+            return &tracker->sensors[i];
+        }
+    }
+    return NULL;
+}
+
+void pipeline_reopen_paper(struct pipeline *pipeline)
+{
+    if (pipeline->paper) {
+        const struct rho_passive_paper_config config = pipeline->paper->config;
+
+        must_succeed(rho_passive_paper_init(pipeline->paper, sizeof *pipeline->paper, &config),
+                     "passive-paper");
+    }
+}
+
+void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
+                           const struct rho_frame *frame)
+{
+    if (scan && pipeline->starts) {
+        must_succeed(rho_paper_starts_step(pipeline->starts, pipeline->tracker, scan,
+                                           sensor_of(pipeline->tracker, scan->sensor_id),
+                                           pipeline->report),
+                     "method");
+    } else if (frame && pipeline->paper &&
+               rho_passive_paper_step(pipeline->paper, pipeline->tracker, frame,
+                                      pipeline->report) != RHO_OK) {
+        pipeline_reopen_paper(pipeline); /* sensors that do not go with those of its batch */
+    }
 }
 
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
 {
-    must_succeed(rho_tracker_step(pipeline->tracker, pipeline_initiator_of(pipeline, scan), scan,
-                                  pipeline->report),
-                 "step");
+    struct rho_initiator *initiator =
+        pipeline->starts ? NULL : pipeline_initiator_of(pipeline, scan);
+
+    must_succeed(rho_tracker_step(pipeline->tracker, initiator, scan, pipeline->report), "step");
+    pipeline_start_tracks(pipeline, scan, NULL);
 }
 
 void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame)
 {
-    must_succeed(
-        rho_tracker_step_frame(pipeline->tracker, pipeline->passive, frame, pipeline->report),
-        "step");
+    struct rho_passive *passive = pipeline->paper ? NULL : pipeline->passive;
+
+    must_succeed(rho_tracker_step_frame(pipeline->tracker, passive, frame, pipeline->report),
+                 "step");
+    pipeline_start_tracks(pipeline, NULL, frame);
 }

@@ -6,6 +6,7 @@
 #ifndef RHOTRACK_TOOL_PIPELINE_H
 #define RHOTRACK_TOOL_PIPELINE_H
 
+#include "rhotrack/paper_starts.h"
 #include "settings/parameters.h"
 
 /* Which sensors' plots start tracks together: the parameter initiators. */
@@ -28,6 +29,9 @@ struct pipeline {
     size_t num_named;
     struct rho_initiator_config start;
     struct rho_passive *passive; /* NULL before pipeline_open_passive */
+    /* the papers' methods where the parameters ask for them; else NULL */
+    struct rho_paper_starts *starts;
+    struct rho_passive_paper *paper;
     struct rho_tracker *tracker;
     struct rho_report *report;
     struct rho_plot *plots; /* RHO_MAX_PLOTS, for the caller's scans */
@@ -36,8 +40,17 @@ struct pipeline {
 struct pipeline pipeline_start(void);
 void pipeline_free(struct pipeline *pipeline);
 
-/* The parameter gate from --gate, where that was given; gates that the tracker has not: exit 2. */
-void pipeline_set_gate(struct parameters *parameters, const char *gate);
+/* What options say of the methods; each may be NULL. */
+struct pipeline_options {
+    const char *gate, *method;
+    const char *pipeline; /* "paper": the papers' methods from bearings and plots to tracks */
+};
+
+/*
+ * The parameters gate, method and bearings_method from options, and what is customary with the
+ * methods. Values that the tracker has not: exit 2.
+ */
+void pipeline_set_options(struct parameters *parameters, const struct pipeline_options *options);
 
 /* Ready for a first scan. */
 void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters);
@@ -56,6 +69,16 @@ int32_t pipeline_window_of(const struct pipeline *pipeline, const struct rho_sca
 
 /* Where a scan's plots start tracks: before its step, after its sensor was described. */
 struct rho_initiator *pipeline_initiator_of(struct pipeline *pipeline, const struct rho_scan *scan);
+
+/* Bearings of another clock are none of the batch's: as pipeline_open leaves the initiators. */
+void pipeline_reopen_paper(struct pipeline *pipeline);
+
+/*
+ * After a step of the tracker without an initiator (NULL): the papers' methods start tracks. One of
+ * scan and frame. Nothing where the parameters ask for the default ones.
+ */
+void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
+                           const struct rho_frame *frame);
 
 /* One step; the report is the pipeline's. */
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan);

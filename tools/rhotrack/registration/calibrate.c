@@ -159,7 +159,7 @@ static struct calibrate_segments track_and_cut(struct register_data *data, size_
     return calibrate_cut(data, radar, is_round);
 }
 
-static double worth_of(const struct calibrate_segments *segments)
+static double num_usable(const struct calibrate_segments *segments)
 {
     return (double)segments->num_segments - (double)segments->num_left_out;
 }
@@ -180,7 +180,7 @@ static struct calibrate_segments begin(struct register_data *data, size_t number
 
         scale_noise(radar, tried / factor);
         segments = track_and_cut(data, number, is_round, pipeline);
-        if (worth_of(&segments) > TRY_BETTER * fmax(worth_of(&best), 1.0)) {
+        if (num_usable(&segments) > TRY_BETTER * fmax(num_usable(&best), 1.0)) {
             calibrate_segments_free(&best);
             best = segments;
             factor = tried;

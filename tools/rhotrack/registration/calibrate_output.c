@@ -17,9 +17,9 @@ static const struct {
     const char *what, *unit, *json, *why_not;
 } kinds[NUM_CALIBRATE_KINDS] = {
     {"range noise", "m", "sigma_range_m",
-     "fewer than four pieces of tracks, or most are no parabolas"},
+     "fewer than four segments of tracks, or most are no parabolas"},
     {"azimuth noise", "rad", "sigma_azimuth_rad",
-     "fewer than four pieces of tracks, or most are no parabolas"},
+     "fewer than four segments of tracks, or most are no parabolas"},
     {"pd", "", "pd", "tracks were looked at fewer than 100 times"},
     {"clutter a turn", "plots", "clutter_plots", "fewer than six turns"},
     {"turn", "s", "turn_s", "fewer than seven turns"},
@@ -72,7 +72,7 @@ void calibrate_print(const struct calibrate_result *result, FILE *out)
         const struct calibrate_radar *of = &result->radars[i];
 
         fprintf(out,
-                "radar %d: %zu plots in %zu turns, %zu tracks, %zu pieces of them (%zu more left "
+                "radar %d: %zu plots in %zu turns, %zu tracks, %zu segments of them (%zu more left "
                 "out as no parabolas)",
                 (int)of->sensor_id, of->plots, of->turns, of->tracks, of->segments,
                 of->segments_left_out);

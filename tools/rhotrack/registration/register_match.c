@@ -20,7 +20,7 @@
  */
 #define CLOSE_MEAN_D2 6.0
 #define FAR_D2 25.0
-#define DOUBT_M 20000.0 /* root of the sum: the rest of the way is not looked at */
+#define FAR_M 20000.0 /* root of the sum: the rest of the way is not looked at */
 
 struct comparison {
     size_t count;
@@ -121,7 +121,7 @@ static struct comparison compare(const struct course *of, const struct course *b
             between->at[k + 1].t_s > between->at[k].t_s &&
             between->at[k + 1].t_s - between->at[k].t_s <= GAP_MAX_S) {
             compare_at(of, i, between, k, &sum);
-            if (sum.sum_m2 > DOUBT_M * DOUBT_M) {
+            if (sum.sum_m2 > FAR_M * FAR_M) {
                 break;
             }
         }

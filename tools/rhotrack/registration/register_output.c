@@ -90,12 +90,12 @@ void register_print(const struct register_result *result, FILE *out)
         put_row(&grid, result, i);
     }
     grid_print(&grid, out);
-    fprintf(
-        out,
-        "\n%zu targets in common, %zu plots in %zu pieces of their paths (%zu more left out as no "
-        "parabolas); the plots' noise is %.2f of what their sigmas say\n",
-        result->targets, result->plots, result->segments, result->segments_left_out,
-        result->misfit);
+    fprintf(out,
+            "\n%zu targets in common, %zu plots in %zu segments of their paths (%zu more left out "
+            "as no "
+            "parabolas); the plots' noise is %.2f of what their sigmas say\n",
+            result->targets, result->plots, result->segments, result->segments_left_out,
+            result->misfit);
     fprintf(out,
             "the time of radar %d counts as right: plots tell differences of time alone; azimuths "
             "counter-clockwise\n",

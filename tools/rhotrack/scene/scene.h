@@ -38,7 +38,7 @@ struct scene_coverage {
 };
 
 /* The description of a sensor that a tracker is given, where it is not the truth. */
-struct scene_told {
+struct scene_stated {
     double x_m, y_m, pd;
     double sigma_m, sigma_mps, sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps, sigma_rad;
     double range_bias_m, azimuth_bias_rad, time_bias_s;
@@ -67,7 +67,7 @@ struct scene_sensor {
     double late_share, late_s;                          /* so many scans arrive so much late */
     double false_bearings;                              /* of a passive sensor: mean a scan, */
     double false_from_rad, false_to_rad;                /* in this sector */
-    struct scene_told told;
+    struct scene_stated told;
 };
 
 enum clutter_kind {

@@ -264,7 +264,7 @@ static void write_truth(const struct scene_run *run, const char *folder)
 
 static void write_sensor(const struct scene_sensor *sensor, FILE *file)
 {
-    const struct scene_told *told = &sensor->told;
+    const struct scene_stated *told = &sensor->told;
 
     fprintf(file, "\n[sensor %d]\nx_m = %.3f\ny_m = %.3f\npd = %.9g\n", sensor->sensor_id,
             told->x_m, told->y_m, told->pd);

@@ -59,7 +59,7 @@ static bool is_inside_at(const struct sky *sky, double t_s)
     return is_inside(sky, at.x_m, at.y_m);
 }
 
-/* ---- one flight by chance ---- */
+/* ---- one random flight ---- */
 
 static void open_flight(struct sky *sky, double start_s, double x_m, double y_m, double speed_mps,
                         double heading_rad)

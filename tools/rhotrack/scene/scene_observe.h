@@ -5,8 +5,8 @@
  *
  * Times are the true ones; a sensor's own clock is its time_bias_s ahead.
  */
-#ifndef RHOTRACK_TOOL_SCENE_WATCH_H
-#define RHOTRACK_TOOL_SCENE_WATCH_H
+#ifndef RHOTRACK_TOOL_SCENE_OBSERVE_H
+#define RHOTRACK_TOOL_SCENE_OBSERVE_H
 
 #include "scene/scene.h"
 

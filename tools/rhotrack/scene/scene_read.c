@@ -106,21 +106,21 @@ static struct scene_curve read_curve(struct json_object *object, const char *key
 /* ---- sensors ---- */
 
 /* By default a tracker is told the truth about a sensor, but for its biases. */
-static void read_told(struct json_object *object, struct scene_sensor *sensor)
+static void read_stated(struct json_object *object, struct scene_sensor *sensor)
 {
-    struct scene_told *told = &sensor->told;
+    struct scene_stated *told = &sensor->told;
     struct json_object below;
 
-    *told = (struct scene_told){.x_m = sensor->x_m,
-                                .y_m = sensor->y_m,
-                                .pd = fmin(0.999, fmax(0.01, sensor->pd.value[0])),
-                                .sigma_m = sensor->sigma_m,
-                                .sigma_mps = sensor->sigma_mps,
-                                .sigma_range_m = sensor->sigma_range_m,
-                                .sigma_azimuth_rad = sensor->sigma_azimuth_rad,
-                                .sigma_range_rate_mps = sensor->sigma_range_rate_mps,
-                                .sigma_rad = sensor->sigma_rad,
-                                .coverage = sensor->coverage};
+    *told = (struct scene_stated){.x_m = sensor->x_m,
+                                  .y_m = sensor->y_m,
+                                  .pd = fmin(0.999, fmax(0.01, sensor->pd.value[0])),
+                                  .sigma_m = sensor->sigma_m,
+                                  .sigma_mps = sensor->sigma_mps,
+                                  .sigma_range_m = sensor->sigma_range_m,
+                                  .sigma_azimuth_rad = sensor->sigma_azimuth_rad,
+                                  .sigma_range_rate_mps = sensor->sigma_range_rate_mps,
+                                  .sigma_rad = sensor->sigma_rad,
+                                  .coverage = sensor->coverage};
     if (!json_below(object, "told", &below)) {
         return;
     }
@@ -252,7 +252,7 @@ static void read_sensor(struct scene *scene, struct json_object *object, bool is
         sensor->coverage = (struct scene_coverage){.range_m = {0, 4 * RANGE_MAX_M}};
     }
     sensor->pd = read_curve(object, "pd", 0.9);
-    read_told(object, sensor);
+    read_stated(object, sensor);
     json_end(object);
     if (!is_passive && scene->num_sensors > 0 &&
         scene->sensors[0].is_cartesian != sensor->is_cartesian) {

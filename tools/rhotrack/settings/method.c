@@ -87,6 +87,17 @@ static double cell_for(double range_m)
     return cell_m;
 }
 
+void method_fit_cells(struct parameters *parameters, double range_m)
+{
+    const double *value = parameters->value;
+    const double eps_cells = value[PARAMETER_EPS_RHO_M] / value[PARAMETER_D_RHO_M];
+
+    if (2.0 * count_cells(range_m, value[PARAMETER_D_RHO_M]) > RHO_MAX_RHO_CELLS) {
+        parameters_suggest(parameters, PARAMETER_D_RHO_M, cell_for(range_m));
+        parameters_suggest(parameters, PARAMETER_EPS_RHO_M, eps_cells * cell_for(range_m));
+    }
+}
+
 static double cells_for(double range_m, double cell_m)
 {
     double cells = count_cells(range_m, cell_m);
@@ -101,8 +112,8 @@ static double cells_for(double range_m, double cell_m)
 }
 
 /* 2 eps spans at most so many cells. */
-static void check_reach(const struct parameters *parameters, enum parameter_id eps,
-                        enum parameter_id cell)
+static void check_cells_in_eps(const struct parameters *parameters, enum parameter_id eps,
+                               enum parameter_id cell)
 {
     if (2.0 * parameters->value[eps] > RHO_HOUGH_REACH_MAX * parameters->value[cell]) {
         fail(EXIT_USAGE, "2 %s is more than %u cells of %s %.9g", parameters_name(eps),
@@ -117,8 +128,8 @@ struct rho_hough_config method_hough(enum method method, const struct parameters
     struct rho_hough_config config;
 
     parameters_check(parameters);
-    check_reach(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
-    check_reach(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
+    check_cells_in_eps(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
+    check_cells_in_eps(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
     rho_hough_config_default(&config, hough_of(method, parameters));
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.rho_max_m = (float)cells_for(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;

@@ -36,6 +36,12 @@ enum method method_find(const char *name);
 void method_suggest(enum method method, struct parameters *parameters);
 
 /*
+ * Suggests cells of rho, and epsilon with them, that hold plots so far from the origin, where the
+ * customary ones do not.
+ */
+void method_fit_cells(struct parameters *parameters, double range_m);
+
+/*
  * The config of ht, mht, iht and nht, for plots at most so far from the origin. Exit 2 where that
  * takes more cells of rho than there are.
  */

@@ -35,6 +35,10 @@ static const char *choices_of(enum parameter_id id)
         return "safe|literal|none";
     case PARAMETER_INITIATORS:
         return "pairs|sensor|one";
+    case PARAMETER_METHOD:
+        return "kernel|ht|mht|iht|nht";
+    case PARAMETER_BEARINGS_METHOD:
+        return "passive|passive-paper";
     case PARAMETER_GATE:
         return "best|hough|nearest|none";
     case PARAMETER_INPUT_MODEL:
@@ -403,6 +407,17 @@ void parameters_set_gate(struct parameters *parameters, const char *gate)
     char reason[PARAMETER_REASON_BYTES];
 
     if (!parameters_assign(parameters, "gate", gate, SOURCE_SET, reason)) {
+        fail(EXIT_USAGE, "--%s", reason);
+    }
+}
+
+void parameters_set_method(struct parameters *parameters, const char *method)
+{
+    char reason[PARAMETER_REASON_BYTES];
+    const bool is_of_bearings = strncmp(method, "passive", strlen("passive")) == 0;
+
+    if (!parameters_assign(parameters, is_of_bearings ? "bearings_method" : "method", method,
+                           SOURCE_SET, reason)) {
         fail(EXIT_USAGE, "--%s", reason);
     }
 }

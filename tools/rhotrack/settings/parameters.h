@@ -129,6 +129,10 @@
       "ht, passive-paper: a cell's votes are distinct scans, or plots")                            \
     X(PRUNE, "prune", "-", 0, 0, 2, 1, 1,                                                          \
       "passive, passive-paper: which crossings of bearings are left out as ghosts")                \
+    X(METHOD, "method", "-", 0, 0, 4, 1, 1,                                                        \
+      "track, node: how plots start tracks; --method goes before it")                              \
+    X(BEARINGS_METHOD, "bearings_method", "-", 0, 0, 1, 1, 1,                                      \
+      "track, node: how bearings start tracks; --method goes before it")                           \
     X(GATE, "gate", "-", 0, 0, 3, 1, 1,                                                            \
       "how tracks choose their plots; --gate goes before it; none: maintain alone")                \
     X(INPUT_ESTIMATION, "input_estimation", "-", 0, 0, 1, 1, 1,                                    \
@@ -144,8 +148,12 @@
     X(FILTER_NOISE_M, "filter_noise_m", "m", 1, 0, 1e5, 0, 1,                                      \
       "hough, nearest: process noise a scan, each axis; root of Q")                                \
     X(FILTER_NOISE_MPS, "filter_noise_mps", "m/s", 1, 0, 1e4, 0, 1, "the same of velocities")      \
+    X(INITIAL_VARIANCE, "initial_variance", "-", 0, 0, 1e12, 0, 1,                                 \
+      "hough, nearest: P(0|0) is this times I; 0: by the plots' noise and v_max_mps")              \
     X(PLANES, "planes", "-", 7, 1, 7, 1, 1, "hough: planes of velocity space that count")          \
     X(GATE_THETA_DEG, "gate_theta_deg", "deg", 5, 0.1, 90, 0, 1, "hough: cell of theta")           \
+    X(GATE_WINDOW_M, "gate_window_m", "m", 0, 0, 2e7, 0, 1,                                        \
+      "hough: plots so near to the prediction are candidates; 0: as accel_max_mps2 needs")         \
     X(GOSPA_CUTOFF_M, "gospa_cutoff_m", "m", 1000, 0.001, 1e6, 0, 1,                               \
       "distance beyond which a track and a target are not paired")                                 \
     X(TURNING_MPS2, "turning_mps2", "m/s^2", 0.02, 0, 1e4, 0, 1,                                   \
@@ -285,6 +293,9 @@ const char *parameters_name(enum parameter_id id);
 
 /* The parameter gate from --gate; exit 2 where it is none. */
 void parameters_set_gate(struct parameters *parameters, const char *gate);
+
+/* The parameter method or bearings_method from --method; exit 2 where it is none. */
+void parameters_set_method(struct parameters *parameters, const char *method);
 
 /*
  * One assignment from any source, "key" or "sensor.N.key". A value from a source of higher

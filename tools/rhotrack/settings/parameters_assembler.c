@@ -48,7 +48,7 @@ void parameters_to_assembler(const struct parameters *parameters,
         .follow_scans = (uint16_t)value[PARAMETER_FOLLOW_SCANS],
         .stranger_plots_per_s = (uint32_t)value[PARAMETER_STRANGER_PLOTS_PER_S],
         .num_allowed = parameters->num_allowed,
-        .is_told = parameters_to_sensor(parameters, NO_SENSOR, &any),
+        .gives_other = parameters_to_sensor(parameters, NO_SENSOR, &any),
         .other = describe(parameters, NO_SENSOR),
     };
     enum rho_status status;

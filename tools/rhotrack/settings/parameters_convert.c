@@ -74,6 +74,7 @@ static void parameters_to_input(const struct parameters *parameters,
     config->noise_m = has_own_noise ? (float)value[PARAMETER_FILTER_NOISE_M] : 0.0f;
     config->noise_mps = has_own_noise ? (float)value[PARAMETER_FILTER_NOISE_MPS] : 0.0f;
     config->velocity_variance = (float)(value[PARAMETER_V_MAX_MPS] * value[PARAMETER_V_MAX_MPS]);
+    config->initial_variance = (float)value[PARAMETER_INITIAL_VARIANCE];
 }
 
 static bool is_asked_for(const struct parameters *parameters, enum parameter_id id)
@@ -126,6 +127,7 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->gate = (uint8_t)value[PARAMETER_GATE];
     config->planes = (uint8_t)value[PARAMETER_PLANES];
     config->theta_cell_rad = (float)(value[PARAMETER_GATE_THETA_DEG] * (3.141592653589793 / 180.0));
+    config->hough_window_m = (float)value[PARAMETER_GATE_WINDOW_M];
     parameters_to_input(parameters, &config->input);
 }
 

@@ -74,7 +74,7 @@ int board_open(void)
     return lan9118_open(host.mac);
 }
 
-/* Switches forget who wants the group's datagrams where nobody says so again. */
+/* Switches forget the members of a multicast group that do not report again. */
 static void join(void)
 {
     static uint8_t frame[UDP_FRAME_JOIN];

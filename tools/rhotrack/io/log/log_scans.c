@@ -231,7 +231,7 @@ static void say_counters(const char *path, const struct rho_scan_assembler_count
 }
 
 struct log_scans *log_scans_open(const char *path, const struct parameters *parameters,
-                                 bool keep_going, bool is_told, bool is_held)
+                                 bool keep_going, bool is_reported, bool is_held)
 {
     struct log_scans *scans = must_calloc(1, sizeof *scans);
 
@@ -241,7 +241,7 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     scans->assembler = must_alloc(sizeof *scans->assembler);
     start(scans);
     look_through(scans, file_bytes(path), keep_going);
-    if (is_told) {
+    if (is_reported) {
         const struct scan_losses losses =
             sequence_counts_losses(&scans->order, &scans->assembler->counters);
 

@@ -22,8 +22,8 @@ unsigned log_scans_kinds(const char *path);
 
 /*
  * A log's scans one by one, in the order in which the tracker would step them, in memory that does
- * not grow with the log: opening looks at all of them once. With is_told, what was skipped goes to
- * standard error, and in one line every counter of the assembler that tells of a fault. Exit 2
+ * not grow with the log: opening looks at all of them once. With is_reported, what was skipped goes
+ * to standard error, and in one line every counter of the assembler that tells of a fault. Exit 2
  * where there is no scan, or the sensors' common clock starts anew at a time before (two recordings
  * in one): with keep_going what came before is left out instead. Where it goes on at a later time
  * (a long pause) so do the scans, but for the follow_scans - 1 that it takes to be believed. With
@@ -31,7 +31,7 @@ unsigned log_scans_kinds(const char *path);
  */
 struct log_scans;
 struct log_scans *log_scans_open(const char *path, const struct parameters *parameters,
-                                 bool keep_going, bool is_told, bool is_held);
+                                 bool keep_going, bool is_reported, bool is_held);
 
 /* The next one, valid until the next call. Returns false after the last. */
 bool log_scans_next(struct log_scans *scans, struct rho_scan_assembler_item *item);

@@ -21,7 +21,7 @@ static void collect(struct lcm_log_reader *log, const char *path,
 }
 
 struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
-                             bool is_told)
+                             bool is_reported)
 {
     struct rows_collection collection;
     struct lcm_log_reader *log = lcm_log_open(path);
@@ -29,7 +29,7 @@ struct table *log_table_read(const char *path, const struct rows_kind *kind, boo
 
     rows_collect_start(&collection, kind);
     collect(log, path, &collection, keep_going);
-    if (is_told) {
+    if (is_reported) {
         lcm_log_report(log);
     }
     if (collection.messages_bad > 0) {

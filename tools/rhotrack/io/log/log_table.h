@@ -10,11 +10,11 @@
 
 /*
  * The table, or NULL where the log has no message of the kind. Bad messages: exit 2, or skipped and
- * counted on standard error with keep_going. is_told: damaged places of the log are, too; once will
- * do for all kinds.
+ * counted on standard error with keep_going. is_reported: damaged places of the log are, too; once
+ * will do for all kinds.
  */
 struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
-                             bool is_told);
+                             bool is_reported);
 
 /* A CSV file's table, or a log's of the kind; exit 2 where it has none. */
 struct table *log_table_or_csv(const char *path, const struct rows_kind *kind, bool keep_going);

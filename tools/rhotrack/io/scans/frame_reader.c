@@ -15,7 +15,7 @@
 #include "io/scans/scan_files.h"
 
 /* Scans of one time: whose, and where. */
-struct twins {
+struct scans_of_time {
     int64_t time_us;
     size_t count;
     struct {
@@ -31,13 +31,13 @@ struct frame_reader {
     struct scan_files files;
     struct known_sensors known;
     struct frame_sensor sensors[RHO_MAX_SENSORS]; /* the same, sorted */
-    struct twins twins;
+    struct scans_of_time before;
     struct rho_frame frame; /* handed out, of */
     struct rho_bearing_scan scans[RHO_MAX_SENSORS];
     struct sensor_scan next; /* the first scan behind it */
     bool has_next;
     uint64_t skip; /* frames before this one are left out */
-    uint64_t twins_skipped;
+    uint64_t duplicates_skipped;
     struct frame_reader_counts counts; /* so far */
     struct frame_reader_counts total;
 };
@@ -66,15 +66,15 @@ bool frame_reader_is_bearings(const char *path)
 /* ---- Scans in order ---- */
 
 /* Fails, or counts the scan and lets it go. */
-static void refuse_twin(struct frame_reader *reader, struct sensor_scan *scan, size_t twin)
+static void refuse_duplicate(struct frame_reader *reader, struct sensor_scan *scan, size_t earlier)
 {
     if (!reader->keep_going) {
         fail(EXIT_USAGE, "%s:%u: sensor %d has another scan at %.6f s: line %u of %s", scan->path,
              (unsigned)scan->line, (int)scan->bearings.sensor_id,
-             (double)scan->bearings.time_us * 1e-6, (unsigned)reader->twins.list[twin].line,
-             reader->twins.list[twin].path);
+             (double)scan->bearings.time_us * 1e-6, (unsigned)reader->before.list[earlier].line,
+             reader->before.list[earlier].path);
     }
-    reader->twins_skipped += scan->bearings.num_bearings ? scan->bearings.num_bearings : 1;
+    reader->duplicates_skipped += scan->bearings.num_bearings ? scan->bearings.num_bearings : 1;
     sensor_scan_free(scan);
 }
 
@@ -82,23 +82,23 @@ static void refuse_twin(struct frame_reader *reader, struct sensor_scan *scan, s
  * A sensor's scan at the time of another one of its own, of another file: which of them was before
  * cannot be told.
  */
-static bool has_twin(struct frame_reader *reader, struct sensor_scan *scan)
+static bool is_duplicate(struct frame_reader *reader, struct sensor_scan *scan)
 {
-    struct twins *twins = &reader->twins;
+    struct scans_of_time *before = &reader->before;
 
-    if (twins->time_us != scan->bearings.time_us) {
-        twins->time_us = scan->bearings.time_us;
-        twins->count = 0;
+    if (before->time_us != scan->bearings.time_us) {
+        before->time_us = scan->bearings.time_us;
+        before->count = 0;
     }
-    for (size_t i = 0; i < twins->count; i++) {
-        if (twins->list[i].sensor_id == scan->bearings.sensor_id) {
-            refuse_twin(reader, scan, i);
+    for (size_t i = 0; i < before->count; i++) {
+        if (before->list[i].sensor_id == scan->bearings.sensor_id) {
+            refuse_duplicate(reader, scan, i);
             return true;
         }
     }
-    twins->list[twins->count].sensor_id = scan->bearings.sensor_id;
-    twins->list[twins->count].path = scan->path;
-    twins->list[twins->count++].line = scan->line;
+    before->list[before->count].sensor_id = scan->bearings.sensor_id;
+    before->list[before->count].path = scan->path;
+    before->list[before->count++].line = scan->line;
     return false;
 }
 
@@ -108,7 +108,7 @@ static bool read_scan(struct frame_reader *reader, struct sensor_scan *scan)
         if (!scan_files_next(&reader->files, scan)) {
             return false;
         }
-    } while (has_twin(reader, scan));
+    } while (is_duplicate(reader, scan));
     reader->counts.scans++;
     reader->counts.bearings += scan->bearings.num_bearings;
     return true;
@@ -196,8 +196,8 @@ static void rewind_files(struct frame_reader *reader)
     for (int i = 0; i < reader->files.count; i++) {
         scan_source_rewind(reader->files.list[i].source);
     }
-    reader->twins.count = 0;
-    reader->twins_skipped = 0;
+    reader->before.count = 0;
+    reader->duplicates_skipped = 0;
     reader->counts = (struct frame_reader_counts){.frames = 0};
 }
 
@@ -218,7 +218,8 @@ static void look_through(struct frame_reader *reader, uint64_t bytes)
     for (size_t i = 0; i < reader->known.count; i++) {
         reader->total.frames_incomplete += frames_of[i];
     }
-    reader->total.rows_skipped = reader->twins_skipped + scan_files_rows_skipped(&reader->files);
+    reader->total.rows_skipped =
+        reader->duplicates_skipped + scan_files_rows_skipped(&reader->files);
     reader->known.is_closed = true;
     sort_sensors(reader);
 }

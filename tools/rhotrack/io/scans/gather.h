@@ -92,7 +92,7 @@ bool gather_check_time(const struct gather *gather, const struct gathered *scan,
 /* Begins a scan with what is set of this one: sensor, number, bias, sector, line. */
 struct gathered *gather_begin(struct gather *gather, const struct gathered *scan, int64_t time_us);
 
-/* The row has an element; or it saw nothing. */
+/* A row of the scan: a plot or bearing, or one that says that the sensor saw nothing. */
 void gather_add(struct gather *gather, struct gathered *scan, int64_t time_us, const void *element);
 void gather_add_nothing(struct gather *gather, struct gathered *scan, int64_t time_us);
 

@@ -46,7 +46,8 @@ final class GridLayer {
         double right = width / 2.0 - originX;
         double down = height / 2.0 - originY;
         if (originVisible) {
-            // One of four diagonals, south-east while in doubt: labels must not wander with each little move.
+            // One of four diagonals, south-east while in doubt: labels must not wander with each
+            // little move.
             right = right < -0.15 * width ? -1 : 1;
             down = down < -0.15 * height ? -1 : 1;
         }

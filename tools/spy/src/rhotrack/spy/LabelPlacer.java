@@ -8,11 +8,17 @@ import java.awt.geom.Rectangle2D;
 import java.util.ArrayList;
 import java.util.List;
 
-/** Finds room for labels beside their marks, for the important ones first; those that find none are left out. */
+/**
+ * Finds room for labels beside their marks, for the important ones first; those that find none are
+ * left out.
+ */
 final class LabelPlacer {
     /** More would be neither read nor placed in reasonable time. */
     private static final int MAX_LABELS = 200;
-    /** Which corner or side of the mark is tried, in this order: right above, right below, left above, ... */
+    /**
+     * Which corner or side of the mark is tried, in this order: right above, right below, left
+     * above, ...
+     */
     private static final int[][] SIDES = {{1, -1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}};
 
     /** Where there is no room close by, a place further off will do. */
@@ -31,7 +37,9 @@ final class LabelPlacer {
         taken.add(new Rectangle2D.Double(x, y, width, height));
     }
 
-    /** Where a label of this size goes, `gap` pixels beside the mark; null where there is no room. */
+    /**
+     * Where a label of this size goes, `gap` pixels beside the mark; null where there is no room.
+     */
     Rectangle2D place(double markX, double markY, double gap, double width, double height) {
         if (placed >= MAX_LABELS || !screen.contains(markX, markY)) {
             return null;

@@ -11,7 +11,10 @@ import java.util.TreeMap;
 import rhotrack.spy.scene.Scene;
 import rhotrack.spy.scene.TrackMark;
 
-/** One row at the foot of the plan view that says what its marks mean; of sensors, truth and clutter those that there are. */
+/**
+ * One row at the foot of the plan view that says what its marks mean; of sensors, truth and clutter
+ * those that there are.
+ */
 final class Legend {
     static final int HEIGHT = 26;
 

@@ -10,7 +10,10 @@ import java.awt.Stroke;
 
 import rhotrack.spy.scene.TrackMark;
 
-/** Colours, strokes and fonts: bright is what the tracker says, muted what it was told, faint what helps to read. */
+/**
+ * Colours, strokes and fonts: bright is what the tracker says, muted what it was told, faint what
+ * helps to read.
+ */
 final class Palette {
     static final Color BACKGROUND = new Color(0x0c1117);
     static final Color PANEL = new Color(0x141b23);

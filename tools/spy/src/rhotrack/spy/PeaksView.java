@@ -18,7 +18,10 @@ import rhotrack.spy.scene.LookHistory;
 import rhotrack.spy.scene.Scene;
 import rhotrack.spy.scene.TrackMark;
 
-/** The parameter space: the candidates of the last searches, theta against rho, and the lines of the tracks. */
+/**
+ * The parameter space: the candidates of the last searches, theta against rho, and the lines of the
+ * tracks.
+ */
 @SuppressWarnings("serial") // nobody stores views
 final class PeaksView extends JComponent {
     private static final int LEFT = 66;

@@ -128,7 +128,10 @@ final class PlanView extends JComponent {
                 Math.hypot(x, y) / 1000, Geometry.compassDegrees(x, y)), 12, 18);
     }
 
-    /** Fits anew only when something leaves the view or it has become much too large, so that it stands still. */
+    /**
+     * Fits anew only when something leaves the view or it has become much too large, so that it
+     * stands still.
+     */
     private void followScene() {
         Bounds wanted = follows ? extent() : null;
         if (wanted == null) {

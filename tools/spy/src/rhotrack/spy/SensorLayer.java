@@ -12,7 +12,10 @@ import rhotrack.spy.scene.LookHistory;
 import rhotrack.spy.scene.Place;
 import rhotrack.spy.scene.Scene;
 
-/** What the sensors saw: plots and bearings that fade, clutter that comes back, and where the sensors stand. */
+/**
+ * What the sensors saw: plots and bearings that fade, clutter that comes back, and where the
+ * sensors stand.
+ */
 final class SensorLayer {
     private SensorLayer() {
     }

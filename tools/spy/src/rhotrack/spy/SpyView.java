@@ -15,7 +15,10 @@ import rhotrack.spy.scene.Feed;
 import rhotrack.spy.scene.LcmUrl;
 import rhotrack.spy.scene.Model;
 
-/** The plug-in that lcm-spy finds on its class path: any channel of rhotrack opens the one window that shows all. */
+/**
+ * The plug-in that lcm-spy finds on its class path: any channel of rhotrack opens the one window
+ * that shows all.
+ */
 public final class SpyView implements SpyPlugin {
     private ViewerWindow window;
 

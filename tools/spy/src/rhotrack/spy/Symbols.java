@@ -10,7 +10,10 @@ import java.awt.geom.Rectangle2D;
 
 import rhotrack.spy.scene.TrackMark;
 
-/** The marks of the views, the same in pictures, tables and legends. Shapes differ too, not colours alone. */
+/**
+ * The marks of the views, the same in pictures, tables and legends. Shapes differ too, not colours
+ * alone.
+ */
 final class Symbols {
     private Symbols() {
     }

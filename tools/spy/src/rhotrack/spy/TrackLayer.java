@@ -107,7 +107,10 @@ final class TrackLayer {
         g.draw(line);
     }
 
-    /** A few small boxes along the vector: one box about all of a slanting line would take too much room. */
+    /**
+     * A few small boxes along the vector: one box about all of a slanting line would take too much
+     * room.
+     */
     private static void blockVector(TrackMark track, ViewTransform view, double seconds, LabelPlacer labels) {
         for (double share : new double[] {0.35, 0.65, 1}) {
             double x = view.screenX(track.place().x() + share * seconds * track.vx());

@@ -3,7 +3,9 @@ package rhotrack.spy;
 
 import rhotrack.spy.scene.Bounds;
 
-/** Between the local frame (metres, y up) and the screen (pixels, y down); one scale for both axes. */
+/**
+ * Between the local frame (metres, y up) and the screen (pixels, y down); one scale for both axes.
+ */
 final class ViewTransform {
     private static final double MIN_METRES_PER_PIXEL = 0.01;
     private static final double MAX_METRES_PER_PIXEL = 2e4;

@@ -13,7 +13,9 @@ public record Bounds(double west, double south, double east, double north) {
         return of(places, 0);
     }
 
-    /** Without the outermost 2 % on each side: one wild plot must not shrink all others to a dot. */
+    /**
+     * Without the outermost 2 % on each side: one wild plot must not shrink all others to a dot.
+     */
     public static Bounds ofMost(List<Place> places) {
         return of(places, places.size() < ENOUGH_TO_TRIM ? 0 : places.size() / 50);
     }

@@ -22,8 +22,9 @@ import rhotrack.truth_list_t;
 import rhotrack.work_t;
 
 /**
- * Messages into the model. A message that is not one of ours to the last byte (another version's fingerprint, counts
- * or numbers out of bounds, bytes missing or left over) is counted as ignored and changes nothing.
+ * Messages into the model. A message that is not one of ours to the last byte (another version's
+ * fingerprint, counts or numbers out of bounds, bytes missing or left over) is counted as ignored
+ * and changes nothing.
  */
 public final class Decoder {
     private final Model model;
@@ -46,7 +47,8 @@ public final class Decoder {
         try {
             good = data.length >= Long.BYTES && dispatch(channel, data, ByteBuffer.wrap(data).getLong());
         } catch (IOException | RuntimeException e) {
-            // Whatever came was not ours, or was cut; RuntimeException is what generated code makes of a bad count.
+            // Whatever came was not ours, or was cut; RuntimeException is what generated code makes
+            // of a bad count.
             good = false;
         }
         model.countMessage(good);
@@ -264,7 +266,10 @@ public final class Decoder {
         return part >= 0 && part < numParts;
     }
 
-    /** A sensor has its number in its channel's name; anything else would be drawn in another one's colour. */
+    /**
+     * A sensor has its number in its channel's name; anything else would be drawn in another one's
+     * colour.
+     */
     private static boolean isOf(int sensorId, String channel) {
         return channel.endsWith("_" + sensorId);
     }

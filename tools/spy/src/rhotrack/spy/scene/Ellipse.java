@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 package rhotrack.spy.scene;
 
-/** The ellipse of a two-dimensional covariance: semi-axes of one sigma, and where the long one points. */
+/**
+ * The ellipse of a two-dimensional covariance: semi-axes of one sigma, and where the long one
+ * points.
+ */
 public record Ellipse(double major, double minor, double angle) {
     /**
-     * Of the lower triangle xx, yx, yy. Null where that is no covariance, beyond what rounding to float does to one:
-     * a tracker of another make must not make the view draw nonsense.
+     * Of the lower triangle xx, yx, yy. Null where that is no covariance, beyond what rounding to
+     * float does to one: a tracker of another make must not make the view draw nonsense.
      */
     public static Ellipse of(double xx, double yx, double yy) {
         double mean = (xx + yy) / 2;

@@ -11,7 +11,10 @@ public final class Feed implements LCMSubscriber {
     private final LCM lcm;
     private final Decoder decoder;
 
-    /** A URL of null is LCM's default: the environment's LCM_DEFAULT_URL, or its usual multicast group. */
+    /**
+     * A URL of null is LCM's default: the environment's LCM_DEFAULT_URL, or its usual multicast
+     * group.
+     */
     public Feed(String url, Model model) throws IOException {
         decoder = new Decoder(model);
         try {

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 package rhotrack.spy.scene;
 
-/** The little geometry that the views share. Angles are counter-clockwise from east unless they say otherwise. */
+/**
+ * The little geometry that the views share. Angles are counter-clockwise from east unless they say
+ * otherwise.
+ */
 public final class Geometry {
-    /** The line through a track's place along its velocity: x cos(theta) + y sin(theta) = rho, theta in [0, pi). */
+    /**
+     * The line through a track's place along its velocity: x cos(theta) + y sin(theta) = rho, theta
+     * in [0, pi).
+     */
     public record Line(double rho, double theta) {
     }
 

@@ -20,7 +20,10 @@ public final class LcmUrl {
         return null;
     }
 
-    /** lcm-spy tells its plug-ins neither its LCM object nor its URL, but the process has its own arguments. */
+    /**
+     * lcm-spy tells its plug-ins neither its LCM object nor its URL, but the process has its own
+     * arguments.
+     */
     public static String ofThisProcess() {
         return from(ProcessHandle.current().info().arguments().orElse(new String[0]));
     }

@@ -15,9 +15,14 @@ public final class ListAssembler<T> {
     private record Key(int epoch, int scan) {
     }
 
-    /** So many lists back a late part is known as such. A log that is played in a loop must count as new. */
+    /**
+     * So many lists back a late part is known as such. A log that is played in a loop must count as
+     * new.
+     */
     private static final int REMEMBERED = 2;
-    /** As many items as a list may have by its own count; a sender of endless parts fills no memory. */
+    /**
+     * As many items as a list may have by its own count; a sender of endless parts fills no memory.
+     */
     private static final int MAX_ITEMS = 32767;
 
     private final Deque<Key> done = new ArrayDeque<>();
@@ -27,8 +32,8 @@ public final class ListAssembler<T> {
     private int items;
 
     /**
-     * Takes a part. Returns the lists that are now to be shown, oldest first: the one before without what is missing,
-     * when a new one begins; and the new one once it is whole.
+     * Takes a part. Returns the lists that are now to be shown, oldest first: the one before
+     * without what is missing, when a new one begins; and the new one once it is whole.
      */
     public List<Assembled<T>> add(int epoch, int scan, int part, int numParts, List<T> content) {
         List<Assembled<T>> ready = new ArrayList<>();

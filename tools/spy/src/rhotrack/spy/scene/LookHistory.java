@@ -63,7 +63,10 @@ public final class LookHistory<T> {
         }
     }
 
-    /** A number that is not here is a new look, whatever it is: the view has no quarrel with a sensor's counting. */
+    /**
+     * A number that is not here is a new look, whatever it is: the view has no quarrel with a
+     * sensor's counting.
+     */
     private Look<T> find(int scan) {
         Iterator<Look<T>> newestFirst = looks.descendingIterator();
         while (newestFirst.hasNext()) {

@@ -4,7 +4,10 @@ package rhotrack.spy.scene;
 import java.util.List;
 import java.util.Map;
 
-/** What is to be drawn: an immutable copy of the model, so that painting needs no lock and a pause is to keep one. */
+/**
+ * What is to be drawn: an immutable copy of the model, so that painting needs no lock and a pause
+ * is to keep one.
+ */
 public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
         List<LookHistory.Faded<Peaks>> peaks, List<TrackMark> tracks, List<List<Place>> trails, List<Truth> truth,
         List<Echo> echoes, Map<Integer, Place> sensors, Health health) {
@@ -35,7 +38,10 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
             double stepMaxUs, double clutterPerKm2) {
     }
 
-    /** RHO_WORK: work of the last step as a share of what it may be, negative where any is allowed; what was left out. */
+    /**
+     * RHO_WORK: work of the last step as a share of what it may be, negative where any is allowed;
+     * what was left out.
+     */
     public record Work(double share, long partialSteps, long notPrinted, long notLogged) {
     }
 

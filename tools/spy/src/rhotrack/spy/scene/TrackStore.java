@@ -26,7 +26,10 @@ public final class TrackStore {
     private final Map<Integer, Entry> entries = new LinkedHashMap<>();
     private Integer epoch;
 
-    /** A list with parts missing says nothing of the tracks that it does not name: these stay, so nothing flickers. */
+    /**
+     * A list with parts missing says nothing of the tracks that it does not name: these stay, so
+     * nothing flickers.
+     */
     public void apply(ListAssembler.Assembled<TrackMark> list) {
         if (epoch != null && epoch != list.epoch()) {
             entries.clear(); // another tracker, or it was restarted: its numbers mean other tracks

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A feed that takes what a script says: good messages, damaged ones, any bytes, steps of the
+ * A assembler that takes what a script says: good messages, damaged ones, any bytes, steps of the
  * reception clock, and calls for what is due. After each step its promises are checked: fates add
  * up, scans are within their capacities and in the order of time, and there is always room after
  * two calls.
@@ -19,7 +19,7 @@
 #define SLOT_FREE 0 /* of a slot's private state */
 #define SLOT_GIVEN 3
 
-static struct rho_scan_assembler feed;
+static struct rho_scan_assembler assembler;
 static struct rho_scan_assembler_item item;
 static uint64_t given;
 
@@ -57,7 +57,7 @@ static unsigned in_slots(void)
     unsigned count = 0;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        count += feed.slots[i].state != SLOT_FREE && feed.slots[i].state != SLOT_GIVEN;
+        count += assembler.slots[i].state != SLOT_FREE && assembler.slots[i].state != SLOT_GIVEN;
     }
     return count;
 }
@@ -67,15 +67,15 @@ static uint64_t parts_in_slots(void)
     uint64_t count = 0;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
-        count += feed.slots[i].state != SLOT_FREE ? feed.slots[i].parts_here : 0u;
-        CHECK(feed.slots[i].parts_here <= feed.slots[i].num_parts);
+        count += assembler.slots[i].state != SLOT_FREE ? assembler.slots[i].parts_here : 0u;
+        CHECK(assembler.slots[i].parts_here <= assembler.slots[i].num_parts);
     }
     return count;
 }
 
 static uint64_t refusals(void)
 {
-    const struct rho_scan_assembler_counters *counters = &feed.counters;
+    const struct rho_scan_assembler_counters *counters = &assembler.counters;
 
     return (uint64_t)counters->messages_bad + counters->messages_wrong_type +
            counters->messages_flooded + counters->scans_late + counters->scans_duplicate +
@@ -91,10 +91,10 @@ static void check_scans(void)
 {
     uint64_t there = given + in_slots();
 
-    CHECK(feed.counters.scans_accepted >= there);
-    CHECK(feed.counters.scans_accepted - there <=
-          (uint64_t)feed.counters.scans_late + feed.counters.sensors_no_room);
-    CHECK(feed.counters.scans_incomplete <= feed.counters.scans_accepted);
+    CHECK(assembler.counters.scans_accepted >= there);
+    CHECK(assembler.counters.scans_accepted - there <=
+          (uint64_t)assembler.counters.scans_late + assembler.counters.sensors_no_room);
+    CHECK(assembler.counters.scans_incomplete <= assembler.counters.scans_accepted);
 }
 
 static void check_item(void)
@@ -102,7 +102,7 @@ static void check_item(void)
     int is_bearings = item.kind == RHO_SCAN_ASSEMBLER_BEARINGS;
     int64_t time_us = is_bearings ? item.bearings.time_us : item.scan.time_us;
 
-    CHECK(item.kind < RHO_NUM_FEED_KINDS);
+    CHECK(item.kind < RHO_NUM_SCAN_ASSEMBLER_KINDS);
     CHECK(time_us >= -RHO_LIMIT_TIME_US && time_us <= RHO_LIMIT_TIME_US);
     CHECK(item.is_restart == 0 || item.is_restart == 1);
     if (is_bearings) {
@@ -120,7 +120,7 @@ static void check_item(void)
 
 static int next(int64_t now_us)
 {
-    int is_there = rho_scan_assembler_next(&feed, now_us, &item);
+    int is_there = rho_scan_assembler_next(&assembler, now_us, &item);
 
     if (is_there) {
         given++;
@@ -144,7 +144,7 @@ static void drain(int64_t now_us)
 
 static void take(const char *channel, const uint8_t *data, size_t size, int64_t now_us)
 {
-    struct rho_scan_assembler_counters before = feed.counters;
+    struct rho_scan_assembler_counters before = assembler.counters;
     uint64_t refused = refusals(), parts = parts_in_slots();
     uint8_t *exact = malloc(size > 0 ? size : 1);
     enum rho_status status;
@@ -152,20 +152,20 @@ static void take(const char *channel, const uint8_t *data, size_t size, int64_t 
 
     CHECK(exact);
     memcpy(exact, data, size);
-    status = rho_scan_assembler_take(&feed, channel, exact, size, now_us);
+    status = rho_scan_assembler_take(&assembler, channel, exact, size, now_us);
     while (status == RHO_ERROR_CAPACITY) {
-        CHECK(memcmp(&before, &feed.counters, sizeof before) == 0);
+        CHECK(memcmp(&before, &assembler.counters, sizeof before) == 0);
         CHECK(++tries <= 2);
         (void)next(now_us);
-        before = feed.counters;
+        before = assembler.counters;
         refused = refusals();
         parts = parts_in_slots();
-        status = rho_scan_assembler_take(&feed, channel, exact, size, now_us);
+        status = rho_scan_assembler_take(&assembler, channel, exact, size, now_us);
     }
     if (status == RHO_OK) {
         CHECK(refusals() > refused || parts_in_slots() > parts);
     } else {
-        CHECK(status == RHO_ERROR_TYPE && memcmp(&before, &feed.counters, sizeof before) == 0);
+        CHECK(status == RHO_ERROR_TYPE && memcmp(&before, &assembler.counters, sizeof before) == 0);
     }
     free(exact);
 }
@@ -281,7 +281,7 @@ static int begin(struct script *script)
     config.late_max_us =
         (int64_t)(config.follow_scans % 3) * 20000000; /* no byte of its own: old inputs stay */
     given = 0;
-    return rho_scan_assembler_init(&feed, sizeof feed, &config) == RHO_OK;
+    return rho_scan_assembler_init(&assembler, sizeof assembler, &config) == RHO_OK;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -309,7 +309,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         } else {
             drain(now_us);
         }
-        (void)rho_scan_assembler_due_us(&feed);
+        (void)rho_scan_assembler_due_us(&assembler);
         check_scans();
     }
     drain(INT64_MAX);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Where tracks die young, a new one is believed only when it is seen as targets are; elsewhere at
+ * Where tracks end early, a new one is confirmed only when it is seen as targets are; elsewhere at
  * once.
  */
 #include "tracker_setup.h"
@@ -8,7 +8,7 @@
 #define SIGMA_M 20.0
 #define SPEED_MPS 150.0
 #define TURN_S 4.0
-#define GROWN 4 /* targets, seen all the time */
+#define TARGETS 4 /* targets, seen all the time */
 
 static int turn;
 
@@ -25,7 +25,7 @@ static void see_sky(void)
         const double x_m = uniform(-40000.0, 80000.0);
         (void)add(x_m, uniform(-60000.0, 60000.0), SIGMA_M);
     }
-    for (int i = 0; i < GROWN; i++) {
+    for (int i = 0; i < TARGETS; i++) {
         add_noisy(-30000.0 + SPEED_MPS * TURN_S * (turn % 100), 40000.0 + 5000.0 * i, SIGMA_M);
     }
 }
@@ -71,8 +71,8 @@ static void a_track_that_lasts_is_believed_at_its_third_plot(void **state)
     for (int n = 0; n < 8; n++) {
         assert_true(show(-20000.0, somewhere(n), 20) >= 18);
     }
-    assert_true(tracker.died_young < 1.0f);
-    assert_true(tracker.grown > 8.0f);
+    assert_true(tracker.ended_early < 1.0f);
+    assert_true(tracker.established > 8.0f);
 }
 
 static void a_few_deaths_are_chance(void **state)
@@ -99,7 +99,7 @@ static void where_tracks_die_young_hits_are_counted(void **state)
         first += n < 4 ? reported : 0;
         last += n >= 20 ? reported : 0;
     }
-    assert_true(tracker.died_young > 10.0f);
+    assert_true(tracker.ended_early > 10.0f);
     assert_true(first > 8);    /* each for some turns */
     assert_int_equal(last, 0); /* none any more */
     const int reported = show(-20000.0, -30000.0, 20);
@@ -107,7 +107,7 @@ static void where_tracks_die_young_hits_are_counted(void **state)
     for (int n = 0; n < 6; n++) {
         (void)show(-20000.0, somewhere(n), 20);
     }
-    assert_true(tracker.grown > 8.0f);
+    assert_true(tracker.established > 8.0f);
 }
 
 static void what_died_is_forgotten(void **state)
@@ -117,11 +117,11 @@ static void what_died_is_forgotten(void **state)
     for (int n = 0; n < 12; n++) {
         (void)show(-20000.0, somewhere(n), 4);
     }
-    assert_true(tracker.died_young > 6.0f);
+    assert_true(tracker.ended_early > 6.0f);
     for (int k = 0; k < 1200; k++) {
         take_turn();
     }
-    assert_true(tracker.died_young < 1.0f);
+    assert_true(tracker.ended_early < 1.0f);
     assert_true(show(-20000.0, -30000.0, 20) >= 18);
 }
 

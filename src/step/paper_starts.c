@@ -1,0 +1,334 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * paper_starts: tracks start by the papers' Hough transforms, between two steps of a tracker.
+ *
+ * What no track has claimed is kept, searched, and each line that is fresh and seen in enough scans
+ * becomes a track.
+ */
+#include "rhotrack/paper_starts.h"
+
+#include <string.h>
+
+#include "bearing_frame.h"
+#include "phases.h"
+#include "rhotrack/detail/approx.h"
+
+#define STARTS_MAGIC 0x50535431u
+
+/* A line's plots are within so many standard deviations of the motion fitted to its voters. */
+#define GATE_SIGMAS 3.0f
+
+/* ---- configuration --------------------------------------------------------------------------- */
+
+void rho_paper_starts_config_default(struct rho_paper_starts_config *config,
+                                     enum rho_hough_method method)
+{
+    if (config) {
+        *config = (struct rho_paper_starts_config){.scans = 4};
+        rho_hough_config_default(&config->hough, method);
+    }
+}
+
+static int is_usable(const struct rho_paper_starts_config *config)
+{
+    return config->scans >= 3 && config->scans <= RHO_MAX_SCANS &&
+           (config->scans_min == 0 ||
+            (config->scans_min >= 2 && config->scans_min <= config->scans));
+}
+
+enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t size,
+                                      const struct rho_paper_starts_config *config)
+{
+    if (!starts || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *starts) {
+        return RHO_ERROR_SIZE;
+    }
+    const struct rho_paper_starts_config kept = *config; /* it may lie within *starts */
+    if (!is_usable(&kept)) {
+        return RHO_ERROR_CONFIG;
+    }
+    starts->magic = 0;
+    enum rho_status status = rho_hough_init(&starts->hough, sizeof starts->hough, &kept.hough);
+    if (status != RHO_OK) {
+        return status;
+    }
+    memset(&starts->result, 0, sizeof starts->result);
+    memset(&starts->work, 0, sizeof starts->work);
+    starts->config = kept;
+    starts->magic = STARTS_MAGIC;
+    return rho_window_init(&starts->window, sizeof starts->window, kept.scans, 0, 0.0f);
+}
+
+/* ---- what is kept ---------------------------------------------------------------------------- */
+
+/* A step of the tracker that a search goes on from, as its phases have it. */
+static struct step step_of(struct rho_tracker *tracker, struct rho_report *report)
+{
+    return (struct step){.tracker = tracker,
+                         .report = report,
+                         .time_us = report->time_us,
+                         .num_inputs = report->num_plots,
+                         .num_gated =
+                             report->num_plots < RHO_MAX_PLOTS ? report->num_plots : RHO_MAX_PLOTS};
+}
+
+static int has_stepped(const struct rho_tracker *tracker)
+{
+    return rho_tracker_is_ready(tracker) && tracker->has_time;
+}
+
+/* The step counted inputs that nobody held. They are held now. */
+static void count_held(const struct step *step, uint32_t held)
+{
+    uint32_t *fates = step->tracker->counters.fates;
+    step->report->fates_total[RHO_FATE_NO_ROOM] -= held;
+    step->report->fates_total[RHO_FATE_HELD] += held;
+    fates[RHO_FATE_HELD] = rho_count(fates[RHO_FATE_HELD], held);
+    fates[RHO_FATE_NO_ROOM] -= held < fates[RHO_FATE_NO_ROOM] ? held : fates[RHO_FATE_NO_ROOM];
+}
+
+/* Inputs that no track has claimed are offered to the window or the batch. */
+static void offer(uint8_t *fates, uint32_t num)
+{
+    for (uint32_t i = 0; i < num; i++) {
+        fates[i] = fates[i] == RHO_FATE_NO_ROOM ? (uint8_t)RHO_FATE_HELD : fates[i];
+    }
+}
+
+static uint32_t count_of(const uint8_t *fates, uint32_t num, enum rho_fate fate)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < num; i++) {
+        count += fates[i] == fate;
+    }
+    return count;
+}
+
+/* ---- plots ----------------------------------------------------------------------------------- */
+
+static enum rho_status keep_plots(struct rho_paper_starts *starts, const struct step *step,
+                                  const struct rho_scan *scan, const struct rho_sensor *sensor)
+{
+    struct rho_scan held = *scan;
+    uint8_t *fates = step->report->fates;
+    held.num_plots = held.num_plots < step->num_gated ? held.num_plots : step->num_gated;
+    const uint32_t before = count_of(fates, held.num_plots, RHO_FATE_NO_ROOM);
+    offer(fates, held.num_plots);
+    enum rho_status status = rho_window_push(&starts->window, &held, sensor, fates,
+                                             &step->tracker->counters.plots_clutter);
+    count_held(step, before - count_of(fates, held.num_plots, RHO_FATE_NO_ROOM));
+    return status;
+}
+
+/* The window in the transform's arrays, but for the plots that have started tracks. */
+static struct rho_hough_points gather_points(struct rho_paper_starts *starts)
+{
+    struct rho_window *window = &starts->window;
+    const int64_t newest_us = rho_window_scan_at(window, window->num_scans - 1u)->time_us;
+    uint32_t num = 0;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        const float scan_s = -rho_seconds_between(scan->time_us, newest_us);
+        for (unsigned i = 0; i < scan->num_plots; i++) {
+            if (!(scan->marks[i] & RHO_WINDOW_INITIATED)) {
+                starts->x_m[num] = scan->plots[i].x_m;
+                starts->y_m[num] = scan->plots[i].y_m;
+                starts->t_s[num++] = scan_s + scan->plots[i].offset_s;
+            }
+        }
+        starts->scan_end[m] = num;
+    }
+    return (struct rho_hough_points){
+        .at = {starts->x_m, starts->y_m, window->num_scans, starts->scan_end}, .t_s = starts->t_s};
+}
+
+/* The plots of a line: of each scan the nearest to the motion that was fitted to its voters. */
+static unsigned find_plots(struct rho_paper_starts *starts, const struct rho_hough_track *line,
+                           struct rho_candidate *candidate)
+{
+    struct rho_window *window = &starts->window;
+    const struct rho_window_scan *newest = rho_window_scan_at(window, window->num_scans - 1u);
+    struct rho_window_work work = {0};
+    const float cell_m = starts->hough.config.rho_cell_m;
+    candidate->mask = 0;
+    candidate->hits = 0;
+    for (unsigned m = 0; m < window->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        const float t_s = rho_seconds_between(newest->time_us, scan->time_us);
+        const struct rho_window_query query = {
+            .x_m = line->x_m + t_s * line->vx_mps,
+            .y_m = line->y_m + t_s * line->vy_mps,
+            .vx_mps = line->vx_mps,
+            .vy_mps = line->vy_mps,
+            .variance_m2 = cell_m * cell_m,
+            .sigma_factor = 1.0f,
+            .gate_chi2 = GATE_SIGMAS * GATE_SIGMAS,
+            .gate_radius_m = GATE_SIGMAS * (cell_m + scan->sigma_max_m),
+            .skip_flags = RHO_WINDOW_INITIATED,
+        };
+        const int nearest = rho_window_nearest(scan, &query, &work);
+        if (nearest >= 0) {
+            candidate->plot[m] = (uint16_t)nearest;
+            candidate->mask = (uint16_t)(candidate->mask | 1u << m);
+            candidate->hits++;
+        }
+    }
+    return candidate->hits;
+}
+
+static int is_fresh(unsigned mask, unsigned num_scans)
+{
+    return (mask >> (num_scans - 1u) & 1u) != 0;
+}
+
+/* The plots will start no other track. */
+static void use_plots(struct rho_paper_starts *starts, const struct rho_candidate *candidate,
+                      struct rho_tracker_counters *counters)
+{
+    for (unsigned m = 0; m < starts->window.num_scans; m++) {
+        if ((unsigned)candidate->mask >> m & 1u) {
+            struct rho_window_scan *scan = rho_window_scan_at(&starts->window, m);
+            scan->marks[candidate->plot[m]] |= RHO_WINDOW_INITIATED;
+            scan->num_unused--;
+        }
+    }
+    counters->plots_initiated = rho_count(counters->plots_initiated, candidate->hits);
+}
+
+static void start_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
+                       const struct rho_hough_track *line, unsigned scans_min,
+                       struct rho_report *report)
+{
+    struct rho_candidate candidate;
+    struct rho_track_plot plots[RHO_MAX_SCANS];
+    if (!line->has_velocity || find_plots(starts, line, &candidate) < scans_min ||
+        !is_fresh(candidate.mask, starts->window.num_scans)) {
+        starts->work.short_lines = rho_count(starts->work.short_lines, 1);
+        return;
+    }
+    const unsigned num = rho_tracker_gather_plots(&starts->window, &candidate, plots);
+    if (rho_tracker_start_track(tracker, plots, num, 0, report) == RHO_OK) {
+        use_plots(starts, &candidate, &tracker->counters);
+        starts->work.started = rho_count(starts->work.started, 1);
+    } else {
+        starts->work.refused = rho_count(starts->work.refused, 1);
+    }
+}
+
+static unsigned enough_scans(unsigned scans_min, unsigned scans)
+{
+    return scans_min > 0 ? scans_min : (4u * scans + 4u) / 5u;
+}
+
+enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rho_tracker *tracker,
+                                      const struct rho_scan *scan, const struct rho_sensor *sensor,
+                                      struct rho_report *report)
+{
+    if (!starts || !tracker || !scan || !report) {
+        return RHO_ERROR_NULL;
+    }
+    if (starts->magic != STARTS_MAGIC || !has_stepped(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    struct step step = step_of(tracker, report);
+    memset(&starts->work, 0, sizeof starts->work);
+    if (report->time_us != tracker->time_us ||
+        !rho_window_accepts(&starts->window, scan->time_us)) {
+        return RHO_OK;
+    }
+    enum rho_status status = keep_plots(starts, &step, scan, sensor);
+    const unsigned scans_min = enough_scans(starts->config.scans_min, starts->config.scans);
+    if (status != RHO_OK || starts->window.num_scans < scans_min) {
+        return status;
+    }
+    const struct rho_hough_points points = gather_points(starts);
+    status =
+        rho_hough_find(&starts->hough, &points, starts->peaks, RHO_PAPER_PEAKS, &starts->result);
+    starts->work.peaks = starts->result.num_peaks;
+    for (uint32_t i = 0; status == RHO_OK && i < starts->result.num_peaks; i++) {
+        struct rho_hough_track line;
+        status = rho_hough_track(&starts->hough, &points, starts->peaks[i].theta_cell,
+                                 starts->peaks[i].rho_cell, 0.0f, &line);
+        if (status == RHO_OK) {
+            start_line(starts, tracker, &line, scans_min, report);
+        }
+    }
+    return status;
+}
+
+/* ---- bearings -------------------------------------------------------------------------------- */
+
+/* The fit is of x, y, vx and vy, each axis by itself. */
+static struct rho_kalman estimate_of(const struct rho_passive_paper_line *line)
+{
+    struct rho_kalman estimate;
+    const float state[4] = {line->x_m, line->y_m, line->vx_mps, line->vy_mps};
+    rho_kalman_init(&estimate);
+    for (int axis = 0; axis < 2; axis++) {
+        estimate.state[axis] = state[axis];
+        estimate.state[3 + axis] = state[2 + axis];
+        estimate.covariance[RHO_AT(axis, axis)] = line->place_m2;
+        estimate.covariance[RHO_AT(3 + axis, axis)] = line->place_velocity_m2ps;
+        estimate.covariance[RHO_AT(3 + axis, 3 + axis)] = line->velocity_m2ps2;
+    }
+    return estimate;
+}
+
+static void start_lines(struct rho_passive_paper *paper, struct rho_tracker *tracker,
+                        struct rho_report *report)
+{
+    for (unsigned i = 0; i < paper->num_lines; i++) {
+        const struct rho_passive_paper_line *line = &paper->lines[i];
+        if (line->has_state && is_fresh(line->scans, paper->batch.num_scans)) {
+            const struct rho_kalman estimate = estimate_of(line);
+            /* a refusal is the line's: the tracker has no room, or the fit is no estimate */
+            (void)!rho_tracker_start_estimate(tracker, &estimate, paper->batch.sensors[0].sensor_id,
+                                              (uint16_t)rho_count_bits(line->scans), 0, report);
+        }
+    }
+}
+
+static uint32_t num_in(const struct held_frame *held)
+{
+    uint32_t num = 0;
+    for (uint32_t i = 0; i < held->frame.num_scans; i++) {
+        num += held->scans[i].num_bearings;
+    }
+    return num;
+}
+
+enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct rho_tracker *tracker,
+                                       const struct rho_frame *frame, struct rho_report *report)
+{
+    if (!paper || !tracker || !frame || !report) {
+        return RHO_ERROR_NULL;
+    }
+    if (!has_stepped(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    struct step step = step_of(tracker, report);
+    struct held_frame held;
+    step.frame = frame;
+    if (report->time_us != tracker->time_us || frame->num_scans > RHO_MAX_PASSIVE_SENSORS) {
+        return RHO_OK;
+    }
+    rho_tracker_hold_frame(&step, &held);
+    const uint32_t num = num_in(&held);
+    const uint32_t before = count_of(held.fates, num, RHO_FATE_NO_ROOM);
+    offer(held.fates, num);
+    enum rho_status status = rho_passive_paper_push(paper, &held.frame, held.fates);
+    if (status != RHO_OK) {
+        return status;
+    }
+    rho_tracker_return_fates(&step, &held);
+    count_held(&step, before - count_of(held.fates, num, RHO_FATE_NO_ROOM));
+    if (paper->batch.num_scans == paper->batch.scans_max) {
+        status = rho_passive_paper_search(paper);
+        if (status == RHO_OK) {
+            start_lines(paper, tracker, report);
+        }
+    }
+    return status;
+}

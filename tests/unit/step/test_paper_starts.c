@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The papers' methods start a tracker's tracks: each Hough transform from plots, the passive one
+ * from bearings; what is held, used, counted and refused.
+ */
+#include "rhotrack/paper_starts.h"
+#include "tracker_setup.h"
+
+#define SCAN_S 2.0
+#define CLUTTER 12
+#define SENSORS 3
+
+static struct rho_paper_starts starts, starts_then;
+static struct rho_passive_paper paper;
+static struct rho_paper_starts_config lines;
+
+static double target_m(int axis, double t_s)
+{
+    return axis ? 1500.0 - 90.0 * t_s : -3000.0 + 220.0 * t_s;
+}
+
+/* Half a metre of noise: what the papers' cells are for. */
+static struct rho_scan scan_at(int k)
+{
+    const double t_s = SCAN_S * k;
+    num_plots = 0;
+    add(target_m(0, t_s) + 0.5 * normal(), target_m(1, t_s) + 0.5 * normal(), 0.5);
+    for (int i = 0; i < CLUTTER; i++) {
+        const double x_m = uniform(-3500.0, 3500.0);
+        add(x_m, uniform(-3500.0, 3500.0), 0.5);
+    }
+    return (struct rho_scan){
+        .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = num_plots, .plots = plots};
+}
+
+static void begin_by(enum rho_hough_method method)
+{
+    draw(5);
+    begin();
+    rho_paper_starts_config_default(&lines, method);
+    lines.hough.rho_max_m = 5000.0f;
+    lines.hough.rho_cell_m = 25.0f; /* half a metre of noise turns a pair by a milliradian */
+    lines.hough.theta_cell_rad = 0.02f;
+    lines.hough.eps_rho_m = 25.0f;
+    lines.hough.eps_theta_rad = 0.02f;
+    assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, &lines), RHO_OK);
+}
+
+static void step_with_starts(int k)
+{
+    const struct rho_scan scan = scan_at(k);
+    assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report), RHO_OK);
+}
+
+static uint32_t counted(enum rho_fate fate)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < report.num_plots; i++) {
+        count += report.fates[i] == fate;
+    }
+    assert_int_equal(count, report.fates_total[fate]);
+    return count;
+}
+
+static const struct rho_track_report *follower(double t_s)
+{
+    for (uint32_t i = 0; i < report.num_tracks; i++) {
+        const struct rho_track_report *track = &report.tracks[i];
+        if (hypot(track->state[0] - target_m(0, t_s), track->state[1] - target_m(1, t_s)) < 20.0) {
+            return track;
+        }
+    }
+    return NULL;
+}
+
+/* Confirmed with the window's fourth scan, and kept under one identity. */
+static void each_transform_starts_the_target(void **state)
+{
+    (void)state;
+    static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO_HOUGH_IHT,
+                                                    RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C};
+    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
+        uint32_t track_id = 0;
+        begin_by(methods[i]);
+        for (int k = 0; k < 14; k++) {
+            step_with_starts(k);
+            const struct rho_track_report *track = follower(SCAN_S * k);
+            if (k == 3) {
+                assert_non_null(track);
+                assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
+                assert_int_equal(track->hits, 4);
+                track_id = track->track_id;
+            }
+            if (k >= 3) {
+                assert_non_null(track);
+                assert_int_equal(track->track_id, track_id);
+            }
+        }
+        assert_float_equal(follower(26.0)->state[3], 220.0f, 3.0f);
+    }
+}
+
+/* What no track claims is held, as by an initiator; fates and counters agree. */
+static void unclaimed_plots_are_held_and_counted(void **state)
+{
+    (void)state;
+    begin_by(RHO_HOUGH_IHT);
+    uint32_t held = 0;
+    for (int k = 0; k < 8; k++) {
+        step_with_starts(k);
+        held += counted(RHO_FATE_HELD);
+        assert_int_equal(counted(RHO_FATE_NO_ROOM), 0);
+        assert_int_equal(counted(RHO_FATE_HELD) + counted(RHO_FATE_CLAIMED), CLUTTER + 1);
+    }
+    assert_int_equal(tracker.counters.fates[RHO_FATE_HELD], held);
+    assert_int_equal(tracker.counters.fates[RHO_FATE_NO_ROOM], 0);
+    assert_in_range(tracker.counters.plots_initiated, 4, 4 * tracker.counters.tracks_started);
+    assert_int_equal(starts.window.num_scans, 4);
+}
+
+/* A line whose newest plot is missing, or of too few scans, starts nothing. */
+static void stale_and_short_lines_start_nothing(void **state)
+{
+    (void)state;
+    begin_by(RHO_HOUGH_IHT);
+    for (int k = 0; k < 4; k++) {
+        struct rho_scan scan = scan_at(k);
+        scan.num_plots = k == 3 ? 0 : 1; /* the target, without clutter, for three scans */
+        assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+        assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report), RHO_OK);
+        assert_int_equal(report.num_tracks, 0);
+    }
+    assert_int_equal(starts.work.peaks, 1);
+    assert_int_equal(starts.work.short_lines, 1);
+    begin_by(RHO_HOUGH_IHT);
+    lines.scans_min = 3;
+    assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, &lines), RHO_OK);
+    for (int k = 0; k < 3; k++) {
+        step_with_starts(k);
+    }
+    assert_non_null(follower(4.0));
+}
+
+static void the_same_plots_give_the_same_bytes(void **state)
+{
+    (void)state;
+    for (int run = 0; run < 2; run++) {
+        memset(&starts, 0x5a * run, sizeof starts); /* whatever lay there before */
+        begin_by(RHO_HOUGH_NHT_C);
+        for (int k = 0; k < 9; k++) {
+            step_with_starts(k);
+        }
+        if (run == 0) {
+            memcpy(&starts_then.result, &starts.result, sizeof starts.result);
+            memcpy(&starts_then.window, &starts.window, sizeof starts.window);
+        }
+    }
+    assert_memory_equal(&starts_then.result, &starts.result, sizeof starts.result);
+    assert_memory_equal(&starts_then.window, &starts.window, sizeof starts.window);
+}
+
+static void bad_calls_are_refused(void **state)
+{
+    (void)state;
+    begin_by(RHO_HOUGH_IHT);
+    const struct rho_scan scan = scan_at(0);
+    assert_int_equal(rho_paper_starts_step(NULL, &tracker, &scan, NULL, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_step(&starts, NULL, &scan, NULL, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, NULL, NULL, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, NULL), RHO_ERROR_NULL);
+    /* no step was made yet */
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report),
+                     RHO_ERROR_STATE);
+    assert_int_equal(rho_paper_starts_init(NULL, sizeof starts, &lines), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_init(&starts, sizeof starts - 1, &lines), RHO_ERROR_SIZE);
+    static const uint16_t bad[][2] = {{2, 0}, {RHO_MAX_SCANS + 1, 0}, {4, 1}, {4, 5}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        struct rho_paper_starts_config wrong = lines;
+        wrong.scans = bad[i][0];
+        wrong.scans_min = bad[i][1];
+        assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, &wrong), RHO_ERROR_CONFIG);
+    }
+    struct rho_paper_starts_config wrong = lines;
+    wrong.hough.rho_cell_m = -1.0f;
+    assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, &wrong), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report),
+                     RHO_ERROR_STATE); /* the last init was refused */
+}
+
+/* ---- bearings -------------------------------------------------------------------------------- */
+
+static const float place_m[SENSORS][2] = {{-20000.0f, 0.0f}, {20000.0f, 0.0f}, {0.0f, -20000.0f}};
+static struct rho_bearing bearings[SENSORS];
+static struct rho_bearing_scan looks[SENSORS];
+
+static struct rho_frame frame_at(int k)
+{
+    const double t_s = 10.0 * k, x_m = -8000.0 + 150.0 * t_s, y_m = 30000.0 + 60.0 * t_s;
+    for (int s = 0; s < SENSORS; s++) {
+        bearings[s] = (struct rho_bearing){
+            .bearing_rad =
+                (float)(atan2(y_m - place_m[s][1], x_m - place_m[s][0]) + 0.0005 * normal()),
+            .sigma_rad = 0.0005f};
+        looks[s] = (struct rho_bearing_scan){.time_us = (int64_t)(1e6 * t_s),
+                                             .sensor_id = s + 1,
+                                             .x_m = place_m[s][0],
+                                             .y_m = place_m[s][1],
+                                             .num_bearings = 1,
+                                             .bearings = &bearings[s]};
+    }
+    return (struct rho_frame){
+        .time_us = (int64_t)(1e6 * t_s), .num_scans = SENSORS, .scans = looks};
+}
+
+/* By all gates: the track has the filter that the tracker is set to. */
+static void lines_of_bearings_start_tracks(void **state)
+{
+    (void)state;
+    for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        struct rho_passive_paper_config of_paper;
+        draw(6);
+        config.gate = (uint8_t)gate;
+        config.input.is_estimated = 1;
+        begin();
+        rho_passive_paper_config_default(&of_paper);
+        assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
+        for (int k = 0; k < 16; k++) {
+            const struct rho_frame frame = frame_at(k);
+            assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+            assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_OK);
+            assert_int_equal(counted(RHO_FATE_NO_ROOM), 0);
+            assert_int_equal(report.num_tracks, k < 7 ? 0 : 1);
+        }
+        assert_int_equal(tracker.counters.tracks_started, 1);
+        assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+        assert_int_equal(tracker.tracks[0].filter,
+                         gate == RHO_TRACKER_BEST ? RHO_TRACK_HYPOTHESES : RHO_TRACK_INPUT);
+        assert_float_equal(report.tracks[0].state[0], -8000.0f + 150.0f * 150.0f, 150.0f);
+        assert_float_equal(report.tracks[0].state[1], 30000.0f + 60.0f * 150.0f, 150.0f);
+        assert_float_equal(report.tracks[0].state[3], 150.0f, 15.0f);
+    }
+}
+
+static void bad_frames_are_refused(void **state)
+{
+    (void)state;
+    const struct rho_frame frame = frame_at(0);
+    draw(6);
+    begin();
+    struct rho_passive_paper_config of_paper;
+    rho_passive_paper_config_default(&of_paper);
+    assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
+    assert_int_equal(rho_passive_paper_step(NULL, &tracker, &frame, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_paper_step(&paper, NULL, &frame, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_paper_step(&paper, &tracker, NULL, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_ERROR_STATE);
+    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+    memset(&paper, 0, sizeof paper);
+    assert_int_equal(rho_passive_paper_step(&paper, &tracker, &frame, &report), RHO_ERROR_STATE);
+}
+
+static void starts_from_estimates_are_checked(void **state)
+{
+    (void)state;
+    struct rho_kalman estimate;
+    const struct rho_frame frame = frame_at(0);
+    draw(6);
+    begin();
+    rho_kalman_init(&estimate);
+    assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, &report),
+                     RHO_ERROR_STATE);
+    assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+    assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, &report),
+                     RHO_ERROR_VALUE); /* no axis is open */
+    for (int axis = 0; axis < 2; axis++) {
+        assert_int_equal(rho_kalman_open_axis(&estimate, axis, 3e4f, 1e4f, 400.0f), RHO_OK);
+    }
+    assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 0, 0, &report),
+                     RHO_ERROR_VALUE); /* no scan saw it */
+    assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, INT32_MIN, &report),
+                     RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_start_estimate(NULL, &estimate, 1, 4, 0, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_start_estimate(&tracker, NULL, 1, 4, 0, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, NULL),
+                     RHO_ERROR_NULL);
+    assert_int_equal(report.num_tracks, 0);
+    assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, &report), RHO_OK);
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_transform_starts_the_target),
+        cmocka_unit_test(unclaimed_plots_are_held_and_counted),
+        cmocka_unit_test(stale_and_short_lines_start_nothing),
+        cmocka_unit_test(the_same_plots_give_the_same_bytes),
+        cmocka_unit_test(bad_calls_are_refused),
+        cmocka_unit_test(lines_of_bearings_start_tracks),
+        cmocka_unit_test(bad_frames_are_refused),
+        cmocka_unit_test(starts_from_estimates_are_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
