@@ -108,73 +108,8 @@ expect_exit 2 "a picture of a file that is not there" "$RHOTRACK" plot scans "$f
 check "and no picture is left" sh -c "! ls '$folder'/nothing.svg* 2>/dev/null"
 
 # --- experiment, bench, demo
-passive="$folder/passive"
-run experiment passive --runs 3 -o "$passive"
-check "experiment passive ends with its score" sh -c \
-    "tail -1 stdout | grep -Eq '^[0-9]+ bars held, [0-9]+ missed\$'"
-cp stdout passive.txt
-run experiment passive --runs 3 --json -o "$passive"
-check "experiment passive --json is JSON with its score" json stdout '(
-    o["experiment"] == "passive" and o["method"] == "all" and len(o["pruning"]) == 30 and
-    len(o["paper"]) == 15 and len(o["default"]) == 28 and len(o["figures"]) == 6 and
-    o["pruning_runs"] == o["paper_runs"] == o["default_runs"] == 3 and
-    o["bars_held"] + o["bars_missed"] == len(o["bars"]) > 60 and
-    o["bars_held"] == sum(bar["held"] for bar in o["bars"]))'
-check "at so few runs no time is judged" json stdout \
-    'not any(" ms " in bar["what"] for bar in o["bars"])'
-check "the default finds nearly all, about as well as the fit that knows" json stdout \
-    '(all(c["rms_over_fit"] is None or c["rms_over_fit"] < 3 for c in o["default"]) and
-    sum(c["targets"] > 0 and c["found"] > 0.8 for c in o["default"]) >= 24)'
-check "its figures have as many lines as the paper's" json stdout \
-    '[(f["target_lines"], f["ghost_lines"] > 0) for f in o["figures"]][:2] == [(2, True), (2, False)]'
-for number in 2 3 4 5 6 7 8 9; do
-    check "the page shows figure-$number.svg" grep -q "src=\"figure-$number.svg\"" \
-        "$passive/index.html"
-    check "figure-$number.svg is well-formed" python3 -c \
-        "import xml.dom.minidom as m; m.parse('$passive/figure-$number.svg')"
-    check "figure-$number.svg is neither empty nor too large" sh -c "
-        size=\$(stat -c %s '$passive/figure-$number.svg'); test \$size -gt 15000 && test \$size -lt 400000"
-done
-# cells of its tables, in the page and on the terminal: all of the page's but the times and what the
-# header says
-check "every figure of the page's tables is printed, too" python3 - passive.txt "$passive/index.html" <<'PYTHON'
-import html, re, sys
-printed = open(sys.argv[1]).read()
-rows = re.findall(r'<tr>(.*?)</tr>', open(sys.argv[2]).read())
-cells = [[html.unescape(cell) for cell in re.findall(r'<t[dh][^>]*>(.*?)</t[dh]>', row)] for row in rows]
-lines = {' '.join(line.split()) for line in printed.splitlines()}
-short = {' '.join(line.split()[:-1]) for line in printed.splitlines()}
-missing = [row for row in cells if ' '.join(' '.join(row).split()) not in lines
-           and ' '.join(' '.join(row[:-1]).split()) not in short]
-sys.exit(f'{missing[:3]}' if missing or len(cells) < 100 else 0)
-PYTHON
-cp stdout first.json
-run experiment passive --runs 3 --json -o "$passive"
-check "the same seed gives the same figures, but for times" sh -c "
-    grep -v 'search_ms\|frame_us' first.json >a; grep -v 'search_ms\|frame_us' stdout >b; cmp a b"
-run experiment passive --runs 3 --seed 2 --json -o "$passive"
-check "another seed gives others" sh -c "grep -v 'search_ms\|frame_us' stdout >b; ! cmp -s a b"
-run experiment passive --runs 1 --method passive --json -o "$folder/passive-default"
-check "experiment passive --method passive has pruning and the default" json stdout \
-    'o["method"] == "passive" and "paper" not in o and "figures" not in o and len(o["default"]) == 28'
-check "and draws none of the paper's figures" sh -c "
-    grep -q 'The default' '$folder/passive-default/index.html' && ! ls '$folder/passive-default' | grep svg"
-run experiment passive --runs 1 --method passive-paper --json -o "$folder/passive-paper"
-check "experiment passive --method passive-paper has pruning and the paper's" json stdout \
-    'o["method"] == "passive-paper" and "default" not in o and len(o["paper"]) == 15 and len(o["figures"]) == 6'
-run experiment passive --runs 1 --method kernel -o "$folder/refused"
-check "experiment passive knows no method of plots" says 2 \
-    "*passive knows the methods passive, passive-paper*kernel*"
-run experiment passive --set sigma_rad=1 -o "$folder/refused"
-check "nor parameters" says 2 "*--set*"
-run experiment passive --runs 1 --method nonsense -o "$folder/refused"
-check "experiment passive knows no other method" says 2 "*passive*knows the method*nonsense*"
-check "a refused experiment writes nothing" test ! -e "$folder/refused"
-run experiment nothing
-check "an unknown experiment names all there are" says 2 "*nothing*passive*maneuver*"
-run experiment real-skies
-check "experiment real-skies says where it is" says 2 \
-    "*real-skies*make experiments*tools/lab/real_skies.py"
+run experiment polar
+check "experiment says where experiments are" says 2 "*tools/lab/NAME.py*tools/lab/README.md*"
 check "bench kalman --json is JSON" sh -c \
     "'$RHOTRACK' bench kalman --json | python3 -m json.tool >/dev/null"
 check "bench initiate" "$RHOTRACK" bench initiate

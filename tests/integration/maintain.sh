@@ -151,14 +151,14 @@ check 'polar plots' json stdout 'o["completeness"] > 0.9 and o["rmse_m"] < 200'
 
 # ---- what it refuses ----
 run maintain popup/plots.csv --gate hough -o none_left.csv
-check 'hough without velocities' says 2 "rhotrack: --gate hough looks at velocities, and the scan at 0.000000 s has none: columns 'vx_mps' and 'vy_mps' are wanted"
+check 'hough without velocities' says 2 "rhotrack: gate hough looks at velocities, and the scan at 0.000000 s has none: columns 'vx_mps' and 'vy_mps' are wanted"
 check 'and no output is left' test ! -e none_left.csv
 cut -d, -f1-4,6-8,10 sharp/plots.csv >level.csv
 run maintain level.csv --gate hough
 check 'hough without heights' exits 0
 run maintain level.csv --gate hough --set planes=xz+yz
 check 'and without a plane left' says 2 \
-    'rhotrack: --gate hough: the scan at 0.000000 s has no heights, so that planes must hold xy'
+    'rhotrack: gate hough: the scan at 0.000000 s has no heights, so that planes must hold xy'
 run maintain popup/plots.csv --gate nearest
 check 'places alone and the literal model: it says so' grep -q \
     '^rhotrack: places alone do not show the inputs of input_model literal' stderr

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The package writes the bytes that the program writes: every `track` and `initiate` of the golden
-cases (tests/regression/golden.py) whose output is CSV, and its tables read back."""
+"""The package writes the bytes that the program writes: every `track`, `maintain` and `initiate` of
+the golden cases (tests/regression/golden.py) whose output is CSV, and its tables read back."""
 import os
 import shlex
 import sys
@@ -43,6 +43,7 @@ class Line:
         words = shlex.split(text)
         self.command, self.inputs, self.sets = words[0], [], {}
         self.config, self.output, self.method, self.covariance = [], None, None, False
+        self.alone = {}  # of a track alone
         rest = iter(words[1:])
         for word in rest:
             if word == "--config":
@@ -57,20 +58,30 @@ class Line:
                 self.output = next(rest)
             elif word == "--covariance":
                 self.covariance = True
+            elif word == "--no-input-estimation":
+                self.alone["input_estimation"] = False
+            elif word == "--seed":
+                self.alone["seed"] = int(next(rest))
             elif not word.startswith("--"):
                 self.inputs.append(word)
-        self.is_compared = (self.command in ("track", "initiate") and not LEFT_OUT & set(words)
+        self.is_compared = (self.command in ("track", "maintain", "initiate")
+                            and not LEFT_OUT & set(words)
                             and (self.output or "").endswith(".csv"))
 
     def settings(self):
         return rhotrack.Settings(*self.config, **self.sets)
 
-    def result(self):
+    def tracker(self, settings):
         if self.command == "track":
+            return rhotrack.Tracker(settings, covariance=self.covariance)
+        return rhotrack.Maintainer(settings, covariance=self.covariance, **self.alone)
+
+    def result(self):
+        if self.command != "initiate":
             settings = self.settings()
             scans = rhotrack.read(*self.inputs, settings=settings, keep_going=True)
-            rows = rhotrack.Tracker(settings, covariance=self.covariance).run(scans)
-            again = rhotrack.Tracker(settings, covariance=self.covariance).run(scans[:])
+            rows = self.tracker(settings).run(scans)
+            again = self.tracker(settings).run(scans[:])
             for name in rows.dtype.names:
                 np.testing.assert_array_equal(rows[name], again[name], err_msg=name)
             return csv_of(rows, TRACKS + (rhotrack.scans.COVARIANCE if self.covariance else []))

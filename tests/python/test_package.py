@@ -143,6 +143,76 @@ def test_frames_of_pandas_and_polars_go_both_ways():
     assert rhotrack.to_polars(run).filter(polars.col("status") == "confirmed").height > 10
 
 
+# ---- A track alone ----
+
+def test_tracks_alone_step_side_by_side_as_each_by_itself():
+    clutter = np.random.default_rng(2).uniform(-60, 60, (2, 15, 2))
+    runs = [[scan(i, (100.0 * i, 50.0 * run), (100 * i, 0) + clutter[run, i], z_m=[7, 7])
+             for i in range(15)] for run in range(2)]
+    both = rhotrack.Maintainer(tracks=2, covariance=True, **SETTINGS)
+    rows = both.run([one for pair in zip(*runs) for one in pair], np.full(30, -18.0))
+    for run in range(2):
+        alone = rhotrack.Maintainer(covariance=True, **SETTINGS)
+        stepped = []
+        for i, one in enumerate(runs[run]):
+            places, predicted = alone.predict(float(i))
+            assert np.isnan(places).all() == (i == 0) and len(predicted) == (i > 0)
+            stepped.append(alone.run([one], [-18.0]))
+        for name in rows.dtype.names:
+            if name != "track_id":
+                np.testing.assert_array_equal(rows[run::2][name], np.concatenate(stepped)[name])
+        assert both.hypotheses[run] == alone.hypotheses[0] >= 1
+    assert rows["track_id"].tolist() == [1, 2] * 15 and both.refused.tolist() == [0, 0]
+    places, predicted = both.predict(15.0)
+    assert abs(places[0, 0] - 1500) < 60 and abs(predicted["x_m"][0] - 1500) < 60
+    assert (predicted["cov_x_x"] > rows["cov_x_x"][-2:]).all()
+
+
+def test_a_track_that_starts_again_leaves_its_neighbour_alone():
+    """After a gap too long for any prediction."""
+    gone = [scan(t_s, (100.0 * i, 0)) for i, t_s in enumerate((0, 1, 2, 1e6, 1e6 + 1, 1e6 + 2))]
+    stays = [scan(i, (50.0 * i, 900), (50.0 * i, 960)) for i in range(6)]
+    both = rhotrack.Maintainer(tracks=2, **SETTINGS)
+    rows = both.run([one for pair in zip(gone, stays) for one in pair])
+    for i, scans in enumerate((gone, stays)):
+        alone = rhotrack.Maintainer(**SETTINGS)
+        np.testing.assert_array_equal(rows[i::2]["x_m"], alone.run(scans)["x_m"])
+        assert both.refused[i] == alone.refused[0] == (1 - i)
+
+
+def test_a_density_of_clutter_that_is_told_decides():
+    scans = [scan(i, (100 * i, 0)) for i in range(10)] + [scan(10, (1060, 60))]
+    taken = [rhotrack.Maintainer(**SETTINGS).run(scans, density)["plot"][-1]
+             for density in (-30.0, 10.0)]
+    assert taken == [0, -1]
+
+
+def test_a_gate_of_none_draws_from_its_seed():
+    scans = [scan(0, (0, 0)), *(scan(i, *[(100 * i, y) for y in range(9)]) for i in range(1, 30))]
+    a, b, other = (rhotrack.Maintainer(gate="none", seed=seed, **SETTINGS).run(scans)["plot"]
+                   for seed in (3, 3, 4))
+    assert (a == b).all() and (a != other).any() and set(a) > {0, 5, 8}
+
+
+@pytest.mark.parametrize("make, told", [
+    (lambda: rhotrack.Maintainer(tracks=0), "tracks"),
+    (lambda: rhotrack.Maintainer().predict(math.nan), "t_s"),
+    (lambda: rhotrack.Maintainer(gate="hough").step(scan(0, (1, 2))), "vx_mps"),
+    (lambda: rhotrack.Maintainer(gate="hough", planes="xz").step(
+        scan(0, (1, 2), vx_mps=1, vy_mps=1)), "planes"),
+    (lambda: rhotrack.Scans(scan(0, (1, 2), (3, 4)), counts=[1]), "counts")])
+def test_what_a_track_alone_cannot_take_is_named(make, told):
+    with pytest.raises(rhotrack.Error, match=told):
+        make()
+
+
+def test_rows_are_divided_by_counts():
+    rows = np.concatenate(one_target(5))
+    scans = rhotrack.Scans(rows, counts=[2, 2, 4, 2])
+    assert [len(one) for one in scans] == [2, 2, 4, 2]
+    np.testing.assert_array_equal(scans.rows["x_m"], rows["x_m"])
+
+
 # ---- Files ----
 
 def test_files_are_read_as_the_program_reads_them(scene, tmp_path):
@@ -254,6 +324,30 @@ def test_the_papers_lines_are_where_all_pairs_of_sensors_vote(scene):
             j = np.abs(plane.rho_m - rho).argmin()
             votes.append(plane.votes[i - 1:i + 2, j - 1:j + 2].max())
         assert min(votes) == line["score"]
+
+
+def test_a_tracks_covariance_is_that_of_the_bearings_it_claims(scene):
+    folder = scene("passive-three")
+    settings = rhotrack.Settings(folder / "scenario.ini")
+    frames = rhotrack.read(folder / "bearings.csv", settings=settings)[-8:]
+    passive = rhotrack.Passive(settings)
+    tracks = passive.find(frames)
+    assert len(tracks) == 2 and passive.claims.shape == (2, 8, 3)
+    for track, claims, covariance in zip(tracks, passive.claims, passive.covariances):
+        information = np.zeros((4, 4))
+        for k, i in np.argwhere(claims >= 0):
+            look = frames[k][frames[k]["sensor_id"] == i + 1]
+            row = look[~np.isnan(look["bearing_rad"])][claims[k, i]]
+            dt = row["t_s"] - track["t_s"]
+            dx = track["x_m"] + dt * track["vx_mps"] - row["sensor_x_m"]
+            dy = track["y_m"] + dt * track["vy_mps"] - row["sensor_y_m"]
+            assert abs(math.atan2(dy, dx) - row["bearing_rad"]) < 5 * row["sigma_rad"]
+            by_state = np.array([-dy, dx, -dt * dy, dt * dx]) / (dx**2 + dy**2)
+            information += np.outer(by_state, by_state) / row["sigma_rad"]**2
+        np.testing.assert_allclose(covariance, covariance.T)
+        np.testing.assert_allclose(covariance @ information, np.eye(4), atol=0.1)
+    with pytest.raises(rhotrack.Error, match="passive-paper"):
+        rhotrack.Passive(settings, "passive-paper").claims
 
 
 def test_rows_of_many_frames_are_split_into_frames(scene):

@@ -484,10 +484,6 @@ CASES = {
         ! simulate crossing --set targets.7.count=2 -o none
         """,
 }
-# Pages and pictures with times in them are left out.
-CASES |= {f"experiment-{name}": f"""
-        experiment {name} --runs 1 --json -o out"""
-          for name in ("passive", "maneuver")}
 CASES |= {f"harbour-{number}": harbour_case(number) for number in (2, 16)}
 CASES |= {f"scene-{path.stem}": scene_case(path.stem)
           for path in sorted((ROOT / "tools/scenes").glob("*/*.json"))}

@@ -19,6 +19,7 @@
 #include "io/scans/frame_reader.h"
 #include "io/scans/inputs.h"
 #include "live/node_core.h"
+#include "pipeline/maintainer.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/measurement.h"
 #include "settings/method.h"
@@ -769,9 +770,12 @@ void program_table_free(struct program_table *table)
 
 /* ---- The tracker ---- */
 
-static void add_tracks(struct program_tracks *tracks, const struct rho_report *report)
+static void add_track(struct program_tracks *tracks, int64_t time_us,
+                      const struct rho_track_report *track)
 {
-    while (tracks->capacity < tracks->count + report->num_tracks) {
+    const char *status = rho_track_status_name(track->status);
+
+    if (tracks->count == tracks->capacity) {
         tracks->capacity = 2 * tracks->capacity + 64;
         tracks->list = must_realloc(tracks->list, tracks->capacity * sizeof *tracks->list);
         if (tracks->has_covariances) {
@@ -779,38 +783,41 @@ static void add_tracks(struct program_tracks *tracks, const struct rho_report *r
                 must_realloc(tracks->covariances, tracks->capacity * sizeof *tracks->covariances);
         }
     }
-    for (unsigned i = 0; i < report->num_tracks; i++) {
-        const struct rho_track_report *track = &report->tracks[i];
-        const char *status = rho_track_status_name(track->status);
-        struct program_track *row = &tracks->list[tracks->count];
+    struct program_track *row = &tracks->list[tracks->count];
 
-        *row = (struct program_track){.t_s = seconds(report->time_us),
-                                      .track_id = track->track_id,
-                                      .x_m = track->state[RHO_X],
-                                      .y_m = track->state[RHO_Y],
-                                      .z_m = track->state[RHO_Z],
-                                      .vx_mps = track->state[RHO_VX],
-                                      .vy_mps = track->state[RHO_VY],
-                                      .vz_mps = track->state[RHO_VZ],
-                                      .ax_mps2 = track->accel_mps2[0],
-                                      .ay_mps2 = track->accel_mps2[1],
-                                      .az_mps2 = track->accel_mps2[2],
-                                      .sigma_m = track->sigma_m,
-                                      .sigma_mps = track->sigma_mps,
-                                      .hits = track->hits,
-                                      .misses = track->misses,
-                                      .sensor_id = track->sensor_id,
-                                      .plot = track->plot,
-                                      .update_age_us = track->update_age_us,
-                                      .score_nat = track->score_nat,
-                                      .maneuver_probability = track->maneuver_probability};
-        for (size_t k = 0; status[k] && k < sizeof row->status / sizeof *row->status; k++) {
-            row->status[k] = (unsigned char)status[k];
-        }
-        if (tracks->has_covariances) {
-            memcpy(tracks->covariances[tracks->count], track->covariance, sizeof track->covariance);
-        }
-        tracks->count++;
+    *row = (struct program_track){.t_s = seconds(time_us),
+                                  .track_id = track->track_id,
+                                  .x_m = track->state[RHO_X],
+                                  .y_m = track->state[RHO_Y],
+                                  .z_m = track->state[RHO_Z],
+                                  .vx_mps = track->state[RHO_VX],
+                                  .vy_mps = track->state[RHO_VY],
+                                  .vz_mps = track->state[RHO_VZ],
+                                  .ax_mps2 = track->accel_mps2[0],
+                                  .ay_mps2 = track->accel_mps2[1],
+                                  .az_mps2 = track->accel_mps2[2],
+                                  .sigma_m = track->sigma_m,
+                                  .sigma_mps = track->sigma_mps,
+                                  .hits = track->hits,
+                                  .misses = track->misses,
+                                  .sensor_id = track->sensor_id,
+                                  .plot = track->plot,
+                                  .update_age_us = track->update_age_us,
+                                  .score_nat = track->score_nat,
+                                  .maneuver_probability = track->maneuver_probability};
+    for (size_t k = 0; status[k] && k < sizeof row->status / sizeof *row->status; k++) {
+        row->status[k] = (unsigned char)status[k];
+    }
+    if (tracks->has_covariances) {
+        memcpy(tracks->covariances[tracks->count], track->covariance, sizeof track->covariance);
+    }
+    tracks->count++;
+}
+
+static void add_tracks(struct program_tracks *tracks, const struct rho_report *report)
+{
+    for (unsigned i = 0; i < report->num_tracks; i++) {
+        add_track(tracks, report->time_us, &report->tracks[i]);
     }
 }
 
@@ -936,6 +943,106 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
         if (collects_tracks) {
             add_tracks(&made->tracks, made->report);
         }
+    }
+    return true;
+}
+
+/* ---- Tracks alone ---- */
+
+struct program_maintainer {
+    struct maintainer *maintainer;
+    struct random random; /* for the gate none */
+};
+
+struct program_maintainers *program_maintainers(const struct parameters *settings, size_t count,
+                                                bool has_input_estimation, uint64_t seed,
+                                                bool has_covariances)
+{
+    RETURN_ON_FAILURE(NULL)
+    parameters_check(settings);
+    struct program_maintainers *made = must_calloc(1, sizeof *made);
+    const enum maintainer_gate gate = (enum maintainer_gate)settings->value[PARAMETER_GATE];
+
+    made->count = count;
+    made->list = must_calloc(count, sizeof *made->list);
+    made->refused = must_calloc(count, sizeof *made->refused);
+    made->hypotheses = must_calloc(count, sizeof *made->hypotheses);
+    made->tracks.has_covariances = has_covariances;
+    for (size_t i = 0; i < count; i++) {
+        const size_t first = i - i % MAINTAINERS_BESIDE;
+
+        made->list[i] = (struct program_maintainer){
+            .maintainer = i == first ? maintainer_new(gate, has_input_estimation, settings)
+                                     : maintainer_new_beside(made->list[first].maintainer),
+            .random = random_start(seed, 0, i)};
+    }
+    return made;
+}
+
+void program_maintainers_free(struct program_maintainers *made)
+{
+    for (size_t i = made->count; i-- > 0;) { /* the first of a pool last */
+        maintainer_free(made->list[i].maintainer);
+    }
+    program_tracks_free(&made->tracks);
+    free(made->hypotheses);
+    free(made->refused);
+    free(made->list);
+    free(made);
+}
+
+/* Nothing, of a track that has not started. */
+static void tell(struct program_maintainers *made, size_t index, int64_t time_us)
+{
+    struct maintainer *maintainer = made->list[index].maintainer;
+    struct maintainer_estimate estimate;
+
+    if (maintainer_is_started(maintainer)) {
+        struct rho_track_report track = *maintainer_report(maintainer);
+
+        track.track_id = (uint32_t)index + 1;
+        add_track(&made->tracks, time_us, &track);
+        maintainer_estimate(maintainer, &estimate);
+        made->hypotheses[index] = estimate.num_hypotheses;
+        made->refused[index] = maintainer_refused(maintainer);
+    }
+}
+
+bool program_maintainers_predict(struct program_maintainers *made, double t_s, double *places_m)
+{
+    RETURN_ON_FAILURE(false)
+    made->tracks.count = 0;
+    if (!(fabs(t_s) <= 1e-6 * (double)RHO_LIMIT_TIME_US)) {
+        fail(EXIT_USAGE, "t_s is not a time");
+    }
+    for (size_t i = 0; i < made->count; i++) {
+        double *place_m = &places_m[3 * i];
+
+        place_m[0] = place_m[1] = place_m[2] = NAN;
+        if (maintainer_is_started(made->list[i].maintainer)) {
+            maintainer_predict(made->list[i].maintainer, microseconds(t_s));
+            maintainer_where(made->list[i].maintainer, place_m);
+            tell(made, i, microseconds(t_s));
+        }
+    }
+    return true;
+}
+
+bool program_maintainers_run(struct program_maintainers *made, const struct program_scans *scans,
+                             const double *log_densities)
+{
+    RETURN_ON_FAILURE(false)
+    made->tracks.count = 0;
+    for (size_t i = 0; i < scans->count; i++) {
+        const struct program_scan *scan = &scans->list[i];
+        struct program_maintainer *one = &made->list[i % made->count];
+
+        if (scan->is_frame) {
+            fail(EXIT_USAGE, "scan %zu: a track alone takes plots, and these are bearings", i);
+        }
+        (void)maintainer_step(one->maintainer, &scan->scan, scan->has_sensor ? &scan->sensor : NULL,
+                              log_densities ? log_densities[i] : NAN, &one->random);
+        tell(made, i % made->count, scan->scan.time_us);
     }
     return true;
 }

@@ -135,6 +135,29 @@ void program_pipeline_free(struct program_pipeline *pipeline);
 bool program_pipeline_run(struct program_pipeline *pipeline, const struct program_scans *scans,
                           bool collects_tracks);
 
+/* ---- Tracks alone, each with scans of its own, as `maintain` steps one ---- */
+
+struct program_maintainers {
+    size_t count;
+    uint64_t *refused;            /* of each: updates that were refused */
+    uint32_t *hypotheses;         /* of each */
+    struct program_tracks tracks; /* of the last call, of those that have started */
+    struct program_maintainer *list;
+};
+
+struct program_maintainers *program_maintainers(const struct parameters *settings, size_t count,
+                                                bool has_input_estimation, uint64_t seed,
+                                                bool has_covariances);
+void program_maintainers_free(struct program_maintainers *maintainers);
+
+/* Moves all to a time. places_m, 3 each: where a beam should look; NaN: has not started. */
+bool program_maintainers_predict(struct program_maintainers *maintainers, double t_s,
+                                 double *places_m);
+
+/* Scans of the first track, the second, ... in turn. log_densities: of each scan; NULL: estimated. */
+bool program_maintainers_run(struct program_maintainers *maintainers,
+                             const struct program_scans *scans, const double *log_densities);
+
 /* ---- Initiation: the configs of its methods, by name ---- */
 
 bool program_initiator_config(const struct parameters *settings,

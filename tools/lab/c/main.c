@@ -11,11 +11,8 @@
 
 static const struct command commands[] = {
     {"experiment", command_experiment, "NAME [--runs N] [--seed S] [--method M] [-o DIR]", 1, 1,
-     "orSmj", "a Monte Carlo experiment with tables and figures",
-     "Runs an experiment on all cores and writes its tables, figures and index.html to DIR "
-     "(default\n"
-     "build/experiment/NAME). Experiments: passive, maneuver; passive takes --method passive or\n"
-     "passive-paper, without it it runs both. The others are scripts, tools/lab/NAME.py.\n"},
+     "orSmj", "says where the experiments are",
+     "Experiments are scripts: tools/lab/NAME.py; tools/lab/README.md lists them.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
 };

@@ -10,13 +10,11 @@
 
 #define PI 3.141592653589793
 #define START_FAR_M 78000.0
+#define END_X_MIN_M 2000.0
 #define STREAM 11 /* of random numbers, beside the scenarios' */
 
-const struct scenario_region scenario_ahead = {.x_min_m = 20000.0,
-                                               .x_max_m = 75000.0,
-                                               .y_min_m = -50000.0,
-                                               .y_max_m = 50000.0,
-                                               .end_x_min_m = 2000.0};
+static const struct scenario_box starts = {
+    .x_min_m = 20000.0, .x_max_m = 75000.0, .y_min_m = -50000.0, .y_max_m = 50000.0};
 
 static const double places_m[SCENARIO_SENSORS_MAX][2] = {
     {0, -10000}, {0, 10000}, {10000, 0}, {-10000, 0}};
@@ -24,12 +22,10 @@ static const double places_m[SCENARIO_SENSORS_MAX][2] = {
 /* ---- targets --------------------------------------------------------------------------------- */
 
 /* Within 45 degrees of the way to the origin. */
-static struct scenario_state draw_state(const struct parameters *parameters,
-                                        const struct scenario_region *region, struct random *random)
+static struct scenario_state draw_state(const struct parameters *parameters, struct random *random)
 {
-    double x_m = random_between(random, region->x_min_m, region->x_max_m);
-    double y_m = random_between(random, region->y_min_m, region->y_max_m);
-    y_m = region->is_on_both_sides && random_bits(random) >> 63 ? -y_m : y_m;
+    double x_m = random_between(random, starts.x_min_m, starts.x_max_m);
+    double y_m = random_between(random, starts.y_min_m, starts.y_max_m);
     double heading_rad = atan2(-y_m, -x_m) + random_between(random, -PI / 4.0, PI / 4.0);
     double speed_mps = random_between(random, parameters->value[PARAMETER_V_MIN_MPS],
                                       parameters->value[PARAMETER_V_MAX_MPS]);
@@ -40,14 +36,13 @@ static struct scenario_state draw_state(const struct parameters *parameters,
 }
 
 /* Drawn again until it starts near enough and does not reach the sensors. */
-static struct scenario_state approach(const struct parameters *parameters,
-                                      const struct scenario_region *region, double duration_s,
+static struct scenario_state approach(const struct parameters *parameters, double duration_s,
                                       struct random *random)
 {
     for (int i = 0; i < 10000; i++) {
-        struct scenario_state state = draw_state(parameters, region, random);
+        struct scenario_state state = draw_state(parameters, random);
         if (hypot(state.x_m, state.y_m) <= START_FAR_M &&
-            state.x_m + state.vx_mps * duration_s >= region->end_x_min_m) {
+            state.x_m + state.vx_mps * duration_s >= END_X_MIN_M) {
             return state;
         }
     }
@@ -55,16 +50,15 @@ static struct scenario_state approach(const struct parameters *parameters,
                      "take fewer scans or slower targets");
 }
 
-struct scenario_plan plan_passive(const struct scenario_region *region,
-                                  const struct scenario_bearings *of,
-                                  const struct parameters *parameters, struct random *random)
+static struct scenario_plan plan_passive(const struct scenario_bearings *of,
+                                         const struct parameters *parameters, struct random *random)
 {
     const double *value = parameters->value;
     struct scenario_plan plan = plan_start(
         of->num_targets, (size_t)(value[PARAMETER_NUM_SCANS] + 0.5), value[PARAMETER_INTERVAL_S]);
     double duration_s = plan.interval_s * ((double)plan.num_scans - 1.0);
     for (size_t target = 0; target < plan.num_targets; target++) {
-        plan_straight(&plan, target, approach(parameters, region, duration_s, random));
+        plan_straight(&plan, target, approach(parameters, duration_s, random));
     }
     plan.passive = (struct scenario_passive){
         .is_used = true,
@@ -101,7 +95,7 @@ struct simulation *simulate_passive(const struct scenario_bearings *of,
                                     uint64_t run)
 {
     struct random random = random_start(seed, STREAM, run);
-    struct scenario_plan plan = plan_passive(&scenario_ahead, of, parameters, &random);
+    struct scenario_plan plan = plan_passive(of, parameters, &random);
     struct simulation *simulation;
 
     plan.pd = parameters->value[PARAMETER_TRUE_PD];

@@ -70,14 +70,6 @@ struct scenario_plan plan_crossing_angle(const struct parameters *parameters,
 struct scenario_plan plan_formation(const struct parameters *parameters, struct random *random);
 struct scenario_plan plan_traffic(const struct parameters *parameters, struct random *random);
 
-/* Where the targets of passive sensors start; they are drawn anew where they end at a lower x. */
-struct scenario_region {
-    double x_min_m, x_max_m, y_min_m, y_max_m;
-    bool is_on_both_sides; /* of the x axis, each as often */
-    double end_x_min_m;    /* -INFINITY: anywhere */
-};
-extern const struct scenario_region scenario_ahead; /* of the passive scenes */
-
 /*
  * How many, at most SCENARIO_SENSORS_MAX sensors, and the mean of false bearings a sensor and scan.
  */
@@ -86,12 +78,10 @@ struct scenario_bearings {
     double false_mean;
 };
 
-/* Targets that come towards the origin, and sensors. scenario_bearings.c */
-struct scenario_plan plan_passive(const struct scenario_region *region,
-                                  const struct scenario_bearings *of,
-                                  const struct parameters *parameters, struct random *random);
-
-/* The same ahead, drawn: eight scans with misses, where the parameters are those suggested. */
+/*
+ * Targets that come towards the origin, and what sensors there see: eight scans with misses, where
+ * the parameters are those suggested. scenario_bearings.c
+ */
 void suggest_passive(struct parameters *parameters);
 struct simulation *simulate_passive(const struct scenario_bearings *of,
                                     const struct parameters *parameters, uint64_t seed,

@@ -16,10 +16,10 @@ from .initiation import Accumulator, Initiator, Passive
 from .pictures import plot
 from .scans import Scans, read, to_pandas, to_polars
 from .settings import Settings, parameters
-from .tracking import Node, Tracker
+from .tracking import Maintainer, Node, Tracker
 
 __version__ = "0.1.0"
 __all__ = [
     "Accumulator", "Error", "Ghosts", "HoughGate", "Imm", "Initiator", "InputEstimation", "Kalman",
-    "Node", "Passive", "Scans", "Settings", "Tracker", "ghosts", "parameters", "plot", "read",
+    "Maintainer", "Node", "Passive", "Scans", "Settings", "Tracker", "ghosts", "parameters", "plot", "read",
     "to_pandas", "to_polars"]

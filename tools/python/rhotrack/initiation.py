@@ -222,9 +222,34 @@ class Passive:
         rows = self._lines() if self.method == "passive-paper" else self._tracks()
         return np.array([(i + 1, time_s, *row) for i, row in enumerate(rows)], FOUND)
 
+    @property
+    def covariances(self) -> np.ndarray:
+        """Of the tracks of the last find, method "passive": (tracks, 4, 4), of x, y, vx, vy."""
+        found = self._found()
+        whole = np.empty((len(found), 4, 4))
+        row, column = np.tril_indices(4)
+        for one, covariance in zip(found, whole):
+            covariance[row, column] = covariance[column, row] = list(one.covariance)
+        return whole
+
+    @property
+    def claims(self) -> np.ndarray:
+        """The bearings of the tracks of the last find, method "passive": (tracks, frames, sensors),
+        the bearing's number among its sensor's of the frame, from 0; -1: none."""
+        found, batch = self._found(), self._search.batch
+        claims = np.empty((len(found), batch.num_scans, batch.num_sensors), int)
+        for one, claim in zip(found, claims):
+            claim[...] = [list(frame)[:batch.num_sensors] for frame in one.claim[0:batch.num_scans]]
+        return claims - 1
+
+    def _found(self) -> Any:
+        if self.method == "passive-paper":
+            raise Error("method 'passive-paper' finds lines: no covariances, no claims")
+        return self._search.tracks[0:self._search.num_tracks]
+
     def _tracks(self) -> list[tuple]:
         rows = []
-        for one in self._search.tracks[0:self._search.num_tracks]:
+        for one in self._found():
             line = lib.rho_angle_line(one.x_m, one.y_m, one.vx_mps, one.vy_mps)
             rows.append((one.x_m, one.y_m, one.vx_mps, one.vy_mps, line.rho_m, line.theta_rad,
                          bin(one.scans).count("1"),

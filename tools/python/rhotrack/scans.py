@@ -38,16 +38,22 @@ class Scans(Sequence):
 
     data is a list of such arrays, or one array or data frame of many scans: rows of one sensor_id
     and t_s (or of one field scan) that stand together are a scan, and scans of bearings within
-    frame_tolerance_s a frame.
+    frame_tolerance_s a frame. counts, one a scan, says instead how many rows of one array each has.
 
     Times are taken as they are, and bearings; of polar rows the range and azimuth biases of the
     settings are subtracted.
     """
 
-    def __init__(self, data: Any, settings: Settings | None = None) -> None:
+    def __init__(self, data: Any, settings: Settings | None = None, counts: Any = None) -> None:
         settings = settings or Settings()
-        arrays = data if _is_list(data) else _split(records(data), settings)
-        rows, counts, are_frames = _flat(arrays)
+        if counts is None:
+            rows, counts, are_frames = _flat(
+                data if _is_list(data) else _split(records(data), settings))
+        else:
+            array, counts = records(data), np.asarray(counts, "u4")
+            rows, are_frames = _full(array), np.full(len(counts), "bearing_rad" in array.dtype.names)
+            if counts.sum() != len(rows):
+                raise Error(f"counts of {counts.sum()} rows, and there are {len(rows)}")
         handle = lib.program_scans(
             pointer_to(rows, "struct program_row *"), pointer_to(counts, "uint32_t *"),
             pointer_to(are_frames, "bool *"), len(counts), settings.handle)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The tracker, and the node that is fed with messages."""
+"""The tracker, a track alone, and the node that is fed with messages."""
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
 
-from ._core import FATES, array_of, ffi, lib, must, plain
+from ._core import FATES, NULL, Error, array_of, ffi, lib, must, plain, pointer_to
 from .scans import COVARIANCE, TRACK, as_scans
 from .settings import Settings, settings_of
 
@@ -102,6 +102,62 @@ class Tracker:
             if lib.rho_tracker_known_of(tracker, sensor_id, known) == lib.RHO_OK:
                 found[sensor_id] = plain(known[0])
         return found
+
+
+class Maintainer:
+    """One track alone, from its first plot on, never dropped, as `rhotrack maintain` does it.
+
+    Settings' gate says how it takes its plot: "best" keeps hypotheses, "hough" looks at measured
+    velocities, "nearest", or "none": at random, from seed. All but best estimate the target's input
+    unless input_estimation=False. tracks=n are n such tracks, each with scans of its own.
+
+    Tracks are rows as Tracker gives them; track_id is 1 .. n.
+    """
+
+    def __init__(self, settings: Settings | None = None, input_estimation: bool = True,
+                 seed: int = 1, covariance: bool = False, tracks: int = 1,
+                 **parameters: Any) -> None:
+        self.settings = settings_of(settings, parameters)
+        if tracks < 1 or seed < 0:
+            raise Error("tracks is 1 at least, seed 0")
+        self._all = ffi.gc(
+            must(lib.program_maintainers(self.settings.handle, tracks, input_estimation, seed,
+                                         covariance)), lib.program_maintainers_free)
+
+    def run(self, scans: Any, log_densities: Any = None) -> np.ndarray:
+        """Takes scans in their order of time, each of the first track, the second, ... in turn;
+        returns the track after each.
+
+        log_densities, (number of scans,): ln of the clutter's density, plots per m (m^2, m^3) and,
+        where velocities are measured, (m/s)^3; if None, best estimates it from its scans.
+        """
+        scans = as_scans(scans, self.settings)
+        told = None if log_densities is None else np.broadcast_to(
+            np.asarray(log_densities, "f8"), len(scans)).copy()
+        must(lib.program_maintainers_run(
+            self._all, scans.handle, NULL if told is None else pointer_to(told, "double *")))
+        return _array(self._all.tracks)
+
+    def step(self, scan: np.ndarray) -> np.ndarray:
+        """Takes one scan; returns the track at its time, no row before the first plot."""
+        return self.run([scan])
+
+    def predict(self, t_s: float) -> tuple[np.ndarray, np.ndarray]:
+        """Moves to t_s; returns (n, 3) places in m where a beam should look, NaN before the first
+        plot, and the tracks as predicted. The next scan may be of that time."""
+        places = np.empty((self._all.count, 3))
+        must(lib.program_maintainers_predict(self._all, t_s, pointer_to(places, "double *")))
+        return places, _array(self._all.tracks)
+
+    @property
+    def hypotheses(self) -> np.ndarray:
+        """(n,): how many each track has; 1 but for best."""
+        return array_of(self._all.hypotheses, self._all.count, "u4")
+
+    @property
+    def refused(self) -> np.ndarray:
+        """(n,): updates that the filter refused; the track coasted."""
+        return array_of(self._all.refused, self._all.count, "u8")
 
 
 @ffi.def_extern()

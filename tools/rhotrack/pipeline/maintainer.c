@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/common.h"
 #include "pipeline/maintainer_best.h"
@@ -12,6 +13,7 @@
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/input.h"
 #include "rhotrack/measurement.h"
+#include "rhotrack/track.h"
 
 #define DEG_RAD 0.017453292519943295
 #define AXES 3
@@ -36,6 +38,9 @@ struct maintainer {
     unsigned long refused;
     bool has_sensor; /* that looked last */
     struct rho_sensor sensor;
+    double pd;       /* of sensors that are not described */
+    bool is_started; /* by maintainer_step */
+    struct rho_track_report track;
 };
 
 /* ---- What the parameters say ---- */
@@ -71,8 +76,27 @@ struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_esti
     maintainer->config = config_of(parameters, has_input_estimation);
     maintainer->planes = (uint8_t)parameters->value[PARAMETER_PLANES];
     maintainer->theta_cell_rad = (float)(parameters->value[PARAMETER_GATE_THETA_DEG] * DEG_RAD);
+    maintainer->pd = parameters->value[PARAMETER_PD];
+    maintainer->track.track_id = 1;
     if (gate == MAINTAIN_BEST) {
         maintainer->best = maintainer_best_new(parameters);
+    }
+    return maintainer;
+}
+
+struct maintainer *maintainer_new_beside(const struct maintainer *first)
+{
+    struct maintainer *maintainer = must_calloc(1, sizeof *maintainer);
+
+    maintainer->gate = first->gate;
+    maintainer->density = scan_density_new();
+    maintainer->config = first->config;
+    maintainer->planes = first->planes;
+    maintainer->theta_cell_rad = first->theta_cell_rad;
+    maintainer->pd = first->pd;
+    maintainer->track.track_id = 1;
+    if (first->best) {
+        maintainer->best = maintainer_best_new_beside(first->best);
     }
     return maintainer;
 }
@@ -140,6 +164,7 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
     struct rho_kalman kalman;
 
     keep_sensor(maintainer, sensor);
+    maintainer->is_predicted = false;
     rho_kalman_init(&kalman);
     rho_measurement_open(plot, measures, sensor, &seen);
     must_succeed(rho_kalman_update_position(&kalman, &seen, maintainer->config.velocity_variance),
@@ -156,7 +181,6 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
         rho_kalman_set_covariance(&kalman, maintainer->config.initial_variance);
     }
     must_succeed(rho_input_start(&maintainer->input, &maintainer->config, &kalman), "start");
-    maintainer->is_predicted = false;
     maintainer->measurements = 0;
     maintainer->input_us = time_us + plot->offset_us;
     maintainer->predicted = maintainer->input;
@@ -183,11 +207,11 @@ void maintainer_predict(struct maintainer *maintainer, int64_t time_us)
 {
     bool was_lost = maintainer->is_lost;
 
+    maintainer->is_predicted = true;
+    maintainer->predicted_us = time_us;
     if (maintainer->best) {
         maintainer->is_lost = !maintainer_best_predict(maintainer->best, time_us);
     } else {
-        maintainer->is_predicted = true;
-        maintainer->predicted_us = time_us;
         maintainer->is_lost = !predict_to(maintainer, time_us, &maintainer->predicted);
     }
     maintainer->refused += maintainer->is_lost && !was_lost;
@@ -430,6 +454,7 @@ int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan
         return take(maintainer, scan, sensor, choose(maintainer, scan, sensor, random));
     }
     maintainer_where(maintainer, place_m);
+    maintainer->is_predicted = false;
     if (isnan(log_density)) {
         log_density = scan_density_log(maintainer->density, scan, place_m, pd);
     }
@@ -458,6 +483,97 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
     for (int i = 0; i < AXES; i++) {
         estimate->accel_mps2[i] = now.present & (1u << i) ? now.input_mps2[i] : 0.0f;
     }
+}
+
+/* ---- Scan by scan ---- */
+
+static void check_usable(const struct maintainer *maintainer, const struct rho_scan *scan)
+{
+    if (maintainer->gate != MAINTAIN_HOUGH || scan->num_plots == 0) {
+        return;
+    }
+    if (!(scan->measures & RHO_MEASURES_VELOCITY)) {
+        fail(EXIT_USAGE,
+             "gate hough looks at velocities, and the scan at %.6f s has none: columns 'vx_mps' "
+             "and 'vy_mps' are wanted",
+             (double)scan->time_us * 1e-6);
+    }
+    if (planes_of(maintainer, scan->measures) == 0) {
+        fail(EXIT_USAGE,
+             "gate hough: the scan at %.6f s has no heights, so that planes must hold xy",
+             (double)scan->time_us * 1e-6);
+    }
+}
+
+static void count_look(struct rho_track_report *track, const struct rho_scan *scan, int row)
+{
+    uint16_t *count = row >= 0 ? &track->hits : &track->misses;
+
+    *count = (uint16_t)(*count + (*count < UINT16_MAX));
+    track->status = row >= 0 ? RHO_TRACK_CONFIRMED : RHO_TRACK_COASTING;
+    if (row >= 0) {
+        track->sensor_id = scan->sensor_id;
+    }
+}
+
+static int update_if_covered(struct maintainer *maintainer, const struct rho_scan *scan,
+                             const struct rho_sensor *sensor, double log_density,
+                             struct random *random)
+{
+    double place_m[AXES];
+    int row;
+
+    if (!maintainer->is_predicted || maintainer->predicted_us != scan->time_us) {
+        maintainer_predict(maintainer, scan->time_us);
+    }
+    maintainer_where(maintainer, place_m);
+    if (!rho_measurement_covers(sensor, scan->sector_from_rad, scan->sector_to_rad,
+                                (float)place_m[0], (float)place_m[1])) {
+        return -1;
+    }
+    row = maintainer_update(maintainer, scan, sensor, log_density,
+                            sensor ? (double)sensor->pd : maintainer->pd, random);
+    count_look(&maintainer->track, scan, row);
+    return row;
+}
+
+int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
+                    const struct rho_sensor *sensor, double log_density, struct random *random)
+{
+    int row = -1;
+
+    check_usable(maintainer, scan);
+    if (maintainer->is_started) {
+        row = update_if_covered(maintainer, scan, sensor, log_density, random);
+    } else if (scan->num_plots > 0) {
+        row = 0;
+        maintainer->is_started = true;
+        maintainer_start(maintainer, scan->time_us, &scan->plots[0], scan->measures, sensor);
+        count_look(&maintainer->track, scan, row);
+    }
+    maintainer->track.plot = row;
+    return row;
+}
+
+bool maintainer_is_started(const struct maintainer *maintainer)
+{
+    return maintainer->is_started;
+}
+
+const struct rho_track_report *maintainer_report(struct maintainer *maintainer)
+{
+    struct rho_track_report *track = &maintainer->track;
+    struct rho_track sigmas = {.track_id = 1};
+    struct maintainer_estimate estimate;
+
+    maintainer_estimate(maintainer, &estimate);
+    memcpy(track->state, estimate.kalman.state, sizeof track->state);
+    memcpy(track->covariance, estimate.kalman.covariance, sizeof track->covariance);
+    memcpy(track->accel_mps2, estimate.accel_mps2, sizeof track->accel_mps2);
+    sigmas.kalman = estimate.kalman;
+    track->sigma_m = rho_track_sigma_m(&sigmas);
+    track->sigma_mps = rho_track_sigma_mps(&sigmas);
+    return track;
 }
 
 unsigned long maintainer_refused(const struct maintainer *maintainer)

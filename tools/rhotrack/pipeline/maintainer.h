@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * maintainer: one track that is never dropped, through one of the library's gates: what `maintain`
- * and `experiment maneuver` step. hough, nearest and none (a plot drawn at random) are the
- * library's input and gate modules, best its hypotheses.
+ * and the Python package step. hough, nearest and none (a plot drawn at random) are the library's
+ * input and gate modules, best its hypotheses.
  */
 #ifndef RHOTRACK_TOOL_MAINTAINER_H
 #define RHOTRACK_TOOL_MAINTAINER_H
@@ -11,7 +11,9 @@
 #include <stddef.h>
 
 #include "base/random.h"
+#include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/kalman.h"
+#include "rhotrack/track.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 
@@ -35,8 +37,31 @@ struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_esti
                                   const struct parameters *parameters);
 void maintainer_free(struct maintainer *maintainer);
 
+/*
+ * Another track with the same parameters, which shares the memory of hypotheses of the first: at
+ * most MAINTAINERS_BESIDE with the first, which is freed last.
+ */
+#define MAINTAINERS_BESIDE (RHO_MAX_HYPOTHESES / RHO_HYPOTHESES_OF_TRACK)
+struct maintainer *maintainer_new_beside(const struct maintainer *first);
+
 /* Of the library's objects that hold the track. */
 size_t maintainer_state_bytes(const struct maintainer *maintainer);
+
+/* ---- Scan by scan, as `maintain` does it ---- */
+
+/*
+ * The first plot of all scans starts the track; a scan that does not cover its predicted place says
+ * nothing of it. Returns the row of the plot that was taken, -1 for none; other arguments as those
+ * of maintainer_update. A scan that the gate cannot use is an error of usage.
+ */
+int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
+                    const struct rho_sensor *sensor, double log_density, struct random *random);
+
+/* The track as it is now, of no meaning before it started: state, hits, misses, the last row. */
+bool maintainer_is_started(const struct maintainer *maintainer);
+const struct rho_track_report *maintainer_report(struct maintainer *maintainer);
+
+/* ---- The parts of a step ---- */
 
 /*
  * The first plot starts the track: its place and, where measured, its velocity, with their noise.

@@ -9,13 +9,17 @@
 #include "pipeline/plot_distance.h"
 #include "rhotrack/detail/hypotheses.h"
 
+#define NO_SLOT RHO_HYPOTHESES_SLOTS
+
 struct maintainer_best {
-    uint16_t slot;
+    uint16_t slot;                      /* in the pool; NO_SLOT: nothing is there */
     int64_t time_us;                    /* of the last scan, or the start */
     struct rho_hypotheses_estimate now; /* predicted, or updated */
     bool has_sensor;
     struct rho_sensor sensor;
-    struct rho_hypotheses pool;
+    unsigned long refused;
+    bool is_first; /* whose pool it is */
+    struct rho_hypotheses *pool;
 };
 
 struct maintainer_best *maintainer_best_new(const struct parameters *parameters)
@@ -25,12 +29,27 @@ struct maintainer_best *maintainer_best_new(const struct parameters *parameters)
 
     rho_imm_model_default(&model, (float)parameters->value[PARAMETER_ACCEL_MAX_MPS2],
                           (float)parameters->value[PARAMETER_V_MAX_MPS]);
-    must_succeed(rho_hypotheses_init(&best->pool, sizeof best->pool, &model), "hypotheses");
+    best->is_first = true;
+    best->slot = NO_SLOT;
+    best->pool = must_alloc(sizeof *best->pool);
+    must_succeed(rho_hypotheses_init(best->pool, sizeof *best->pool, &model), "hypotheses");
+    return best;
+}
+
+struct maintainer_best *maintainer_best_new_beside(const struct maintainer_best *first)
+{
+    struct maintainer_best *best = must_calloc(1, sizeof *best);
+
+    best->pool = first->pool;
+    best->slot = NO_SLOT;
     return best;
 }
 
 void maintainer_best_free(struct maintainer_best *best)
 {
+    if (best && best->is_first) {
+        free(best->pool);
+    }
     free(best);
 }
 
@@ -41,7 +60,7 @@ size_t maintainer_best_bytes(void)
 
 static void estimate_now(struct maintainer_best *best)
 {
-    must_succeed(rho_hypotheses_estimate(&best->pool, best->slot, best->time_us, &best->now),
+    must_succeed(rho_hypotheses_estimate(best->pool, best->slot, best->time_us, &best->now),
                  "estimate");
 }
 
@@ -52,15 +71,17 @@ void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_
     if (sensor) {
         best->sensor = *sensor;
     }
-    rho_hypotheses_close(&best->pool, best->slot); /* where it starts again */
-    must_succeed(rho_hypotheses_open(&best->pool, kalman, time_us, &best->slot), "start");
+    rho_hypotheses_close(best->pool, best->slot); /* where it starts again */
+    must_succeed(rho_hypotheses_open(best->pool, kalman, time_us, &best->slot), "start");
     best->time_us = scan_us;
     estimate_now(best);
 }
 
 bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us)
 {
-    if (rho_hypotheses_predict(&best->pool, best->slot, time_us) != RHO_OK) {
+    if (rho_hypotheses_predict(best->pool, best->slot, time_us) != RHO_OK) {
+        rho_hypotheses_close(best->pool, best->slot);
+        best->slot = NO_SLOT; /* the old one may be another track's from now on */
         return false;
     }
     best->time_us = time_us;
@@ -70,7 +91,7 @@ bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us)
 
 void maintainer_best_where(const struct maintainer_best *best, double place_m[3])
 {
-    const struct rho_hypothesis *heaviest = rho_hypotheses_at(&best->pool, best->slot, 0);
+    const struct rho_hypothesis *heaviest = rho_hypotheses_at(best->pool, best->slot, 0);
     struct rho_kalman kalman = best->now.kalman; /* where none is left */
 
     if (heaviest) {
@@ -89,15 +110,15 @@ static void score_all(struct maintainer_best *best, const struct rho_scan *scan,
     struct rho_hypotheses_box reach;
     float log_pd = (float)log(pd), gain_nat;
 
-    rho_hypotheses_begin_scan(&best->pool, best->slot, &reach);
+    rho_hypotheses_begin_scan(best->pool, best->slot, &reach);
     for (uint32_t i = 0; i < scan->num_plots && i <= MAINTAINER_ROW_MAX; i++) {
         const struct rho_plot *plot = &scan->plots[i];
         struct rho_imm_plot seen;
 
         if (rho_measurement_is_valid(plot, scan->measures) &&
-            rho_hypotheses_is_in_box(&best->pool, best->slot, &reach, plot, scan->measures)) {
+            rho_hypotheses_is_in_box(best->pool, best->slot, &reach, plot, scan->measures)) {
             rho_imm_open_plot(&seen, plot, scan->measures, sensor);
-            (void)rho_hypotheses_score_plot(&best->pool, best->slot, &seen,
+            (void)rho_hypotheses_score_plot(best->pool, best->slot, &seen,
                                             scan->time_us + plot->offset_us, (int16_t)i, log_pd,
                                             &clutter, &gain_nat);
         }
@@ -113,13 +134,16 @@ int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *
                                        .sensor = sensor,
                                        .log_miss = (float)log1p(-pd)};
     struct rho_hypotheses_outcome outcome;
+    uint32_t before;
 
     best->has_sensor = sensor;
     if (sensor) {
         best->sensor = *sensor;
     }
     score_all(best, scan, sensor, log_density, pd);
-    must_succeed(rho_hypotheses_commit(&best->pool, best->slot, &seen, &outcome), "commit");
+    before = best->pool->updates_refused;
+    must_succeed(rho_hypotheses_commit(best->pool, best->slot, &seen, &outcome), "commit");
+    best->refused += best->pool->updates_refused - before;
     estimate_now(best);
     return outcome.row;
 }
@@ -130,7 +154,7 @@ void maintainer_best_estimate(const struct maintainer_best *best,
     *estimate = (struct maintainer_estimate){
         .kalman = best->now.kalman,
         .maneuver_probability = best->now.maneuver_probability,
-        .num_hypotheses = rho_hypotheses_count(&best->pool, best->slot),
+        .num_hypotheses = rho_hypotheses_count(best->pool, best->slot),
     };
     for (int i = 0; i < 3; i++) {
         estimate->accel_mps2[i] = best->now.accel_mps2[i];
@@ -149,5 +173,5 @@ double maintainer_best_nis(const struct maintainer_best *best, const struct rho_
 
 unsigned long maintainer_best_refused(const struct maintainer_best *best)
 {
-    return best->pool.updates_refused;
+    return best->refused;
 }

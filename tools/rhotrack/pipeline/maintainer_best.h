@@ -15,6 +15,7 @@ struct maintainer_best;
  * log_density is a number.
  */
 struct maintainer_best *maintainer_best_new(const struct parameters *parameters);
+struct maintainer_best *maintainer_best_new_beside(const struct maintainer_best *first);
 void maintainer_best_free(struct maintainer_best *best);
 size_t maintainer_best_bytes(void);
 void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_t scan_us,
