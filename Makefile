@@ -178,6 +178,15 @@ python-dist:
 	@tools/setup.sh python
 	@BUILD=$(BUILD) tools/python/dist.sh
 
+.PHONY: docs
+## Set up what is missing, and write the documentation as pages (build/docs/html/index.html)
+docs: python
+	@tools/setup.sh docs
+	@rm -rf $(BUILD)/docs && /usr/bin/python3 tools/docs/pages.py $(BUILD)/docs/source $(BUILD)
+	@PYTHONPATH=$(python_site) /usr/bin/python3 -m sphinx -q -n -W --keep-going -c tools/docs \
+	    -d $(BUILD)/docs/doctrees $(BUILD)/docs/source $(BUILD)/docs/html
+	@/usr/bin/python3 tools/docs/links.py $(BUILD)/docs/html
+
 # The installed config.h says which capacities the library was built with, so that no application can have others by
 # mistake. RHO_CONFIG_FILE itself is installed as rhotrack/config_file.h; it must include nothing but system headers.
 installed_library := $(library)

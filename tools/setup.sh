@@ -3,7 +3,8 @@
 # Installs the Debian packages that rhotrack is built and tested with, those that are missing. Quick
 # when none is. `setup.sh firmware`: the compilers and emulators for other processors instead;
 # `setup.sh spy`: what the viewer for lcm-spy (make spy) needs; `setup.sh lab`: what the experiments
-# in Python (make experiments) import; `setup.sh python`: what the package for Python is built with.
+# in Python (make experiments) import; `setup.sh docs`: what the documentation (make docs) is written
+# with; `setup.sh python`: what the package for Python is built with.
 set -eu
 
 packages='
@@ -61,6 +62,17 @@ python3-scipy       # ... pairing of tracks and targets
 python3-matplotlib  # ... pictures
 python3-cffi-backend # ... the package rhotrack (make python)
 '
+docs_packages='
+python3-sphinx          # make docs
+python3-myst-parser     # ... reads the documents
+python3-sphinx-gallery  # ... runs the examples
+furo                    # ... looks well on a phone, too
+python3-numpy           # what the examples import
+python3-scipy
+python3-pandas
+python3-matplotlib
+python3-cffi-backend
+'
 python_packages='
 python3-venv        # environments of their own: pip brings cffi, numpy and the build
 python3-pip         # make python
@@ -71,9 +83,10 @@ case ${1:-} in
 firmware) packages=$firmware_packages ;;
 spy) packages=$spy_packages ;;
 lab) packages=$lab_packages ;;
+docs) packages=$docs_packages ;;
 python) packages=$python_packages ;;
 *)
-    echo "setup: unknown: $1 (there is: firmware, spy, lab, python)" >&2
+    echo "setup: unknown: $1 (there is: firmware, spy, lab, docs, python)" >&2
     exit 2
     ;;
 esac

@@ -48,6 +48,7 @@ extern "C" {
 
 enum rho_message_type {
     RHO_MESSAGE_TYPE_ECHO = 0,
+    RHO_MESSAGE_TYPE_LEARNED,
     RHO_MESSAGE_TYPE_PEAK,
     RHO_MESSAGE_TYPE_PLOT,
     RHO_MESSAGE_TYPE_POLAR_PLOT,
@@ -118,6 +119,41 @@ RHO_MUST_CHECK enum rho_status rho_message_echo_decode(
 RHO_MUST_CHECK enum rho_status rho_message_echo_validate(
     const struct rho_message_echo *message, struct rho_message_place *place);
 const char *rho_message_echo_field(const struct rho_message_place *place);
+
+/* ---- learned_t ---- */
+
+/*
+ * Noise and detection probability of one described sensor, as the tracker has learned and uses
+ * them.
+ */
+/* One message a second, of each sensor in turn, with status_t. Channel RHO_LEARNED. */
+
+#define RHO_MESSAGE_LEARNED_CHANNEL "RHO_LEARNED"
+#define RHO_MESSAGE_LEARNED_FINGERPRINT UINT64_C(0x267a29e3c0e96835)
+#define RHO_MESSAGE_LEARNED_MAX_SIZE 72u
+
+struct rho_message_learned {
+    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
+    int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int16_t sensor_id;
+    int16_t innovations; /* that the factors come from; 0: none is learned; 0 .. 32767 */
+    float sigma_range_factor; /* on the stated sigma of range; 0 .. 100 */
+    float sigma_cross_factor; /* on the stated sigma across; 0 .. 100 */
+    int32_t looks; /* that they come from, of all rings; 0 .. 2147483647 */
+    float range_max_m; /* outer edge of the last ring, m; 0 .. 1e9 */
+    float pd_stated; /* 0 .. 1 */
+    /* from the innermost ring outwards; below pd_stated where targets are seen less; 0 .. 1 */
+    float pd[6];
+};
+RHO_MUST_CHECK enum rho_status rho_message_learned_encode(
+    const struct rho_message_learned *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_learned_decode(
+    const uint8_t *data, size_t size, struct rho_message_learned *message);
+RHO_MUST_CHECK enum rho_status rho_message_learned_validate(
+    const struct rho_message_learned *message, struct rho_message_place *place);
+const char *rho_message_learned_field(const struct rho_message_place *place);
 
 /* ---- peak_t ---- */
 

@@ -133,8 +133,9 @@ struct rho_node {
     uint8_t is_making_room;
     uint8_t is_forgetting;
     uint8_t has_closed;
-    uint8_t due;                                    /* enum rho_node_due */
-    uint8_t stepped;                                /* likewise, of the last step */
+    uint8_t due;          /* enum rho_node_due */
+    uint8_t stepped;      /* likewise, of the last step */
+    uint8_t next_learned; /* place of the sensor that rho_node_learned tells of next */
     uint8_t refused_scans[RHO_MAX_PASSIVE_SENSORS]; /* in a row, of each of the frames' sensors */
 };
 
@@ -217,6 +218,13 @@ void rho_node_status(struct rho_node *node, const struct rho_initiator *initiato
  * Constant cost. Stack: 120 bytes.
  */
 void rho_node_work(const struct rho_node *node, struct rho_message_work *work);
+
+/*
+ * Fills learned_t of one described sensor: at each call of the next one.
+ * Returns 0 where no sensor is described; *learned is unchanged then. Cost: that of
+ * rho_publish_learned. Stack: 240 bytes.
+ */
+int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned);
 
 #ifdef __cplusplus
 }

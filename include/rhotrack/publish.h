@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS,
- * RHO_WORK, RHO_SENSORS and RHO_CLUTTER.
+ * RHO_WORK, RHO_SENSORS, RHO_LEARNED and RHO_CLUTTER.
  *
  *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
  *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
@@ -102,6 +102,16 @@ RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_scan_assembl
                                                    const struct rho_tracker *tracker,
                                                    int64_t now_us, uint16_t part,
                                                    struct rho_message_sensor_list *list);
+
+/*
+ * What the tracker has learned of one described sensor, and uses. scan and epoch are 0: they are the
+ * caller's. sensor_id beyond int16_t becomes -1.
+ *   place  among the tracker's sensors: 0 .. num_sensors - 1
+ * Returns 0 where there is no sensor at this place, or tracker or learned is NULL; *learned is
+ * unchanged then. Cost: RHO_MAX_SENSORS. Stack: 200 bytes.
+ */
+int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
+                        struct rho_message_learned *learned);
 
 /*
  * Messages that the known echoes of the tracker's clutter map take; 1 where there are none. Cost:

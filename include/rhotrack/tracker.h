@@ -272,9 +272,8 @@ struct rho_tracker {
      * hour
      */
     float ended_early, established;
-    float straight_s,
-        turning_s;         /* of those that had, likelier than not; of the last half an hour, too */
-    float wanted_per_hour; /* false tracks, by the last initiator */
+    float straight_s, turning_s; /* of those that had, surely; of the last half an hour, too */
+    float wanted_per_hour;       /* false tracks, by the last initiator */
     int64_t counted_us;
     uint32_t num_paces;
     struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
@@ -390,8 +389,9 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
  *              unclaimed ones are not held, but NO_ROOM. A scan older than the newest
  *              accepted one is late. By late_max_s at most, tracks are moved back to its time,
  *              claim its plots and are missed as at any scan (of a sector: where all of the gate is
- *              in it); no track starts from it: the other plots are STALE. Beyond that all its
- *              plots are, and but for counters nothing else changes.
+ *              in it). Tracks start from it where it is the newest that the initiator was given;
+ *              else the other plots are STALE. Beyond that all its plots are, and but for counters
+ *              nothing else changes.
  *   report     filled whole, whatever it held before; of a late scan that updates tracks at the
  *              newest scan's time
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator

@@ -182,7 +182,8 @@ struct rho_sensor {
     float range_bias_m, azimuth_bias_rad, time_bias_s;
     /*
      * per cent of the plots' sigmas that count, along the line of sight and across it; 0 counts as
-     * 100. The tracker overwrites both: by the noise that it has learned, and by sensor health
+     * 100. The tracker overwrites both: by the noise that it has learned, and by sensor health. A
+     * build with neither (RHO_SIGMAS_VARY) does not read them
      */
     uint16_t sigma_range_percent, sigma_cross_percent;
     /*

@@ -64,27 +64,16 @@ static int factor_row(int i, const float *a, float *l)
     return is_positive(pivot);
 }
 
-/*
- * p := p - row row^T / s, off the diagonal. Unrolled, as is the code below: a loop would take twice
- * the time.
- */
+/* p := p - row row^T / s, off the diagonal. */
 static inline void lower_covariances(float p[21], const float row[6], const float gain[6])
 {
-    p[RHO_AT(1, 0)] -= gain[1] * row[0];
-    p[RHO_AT(2, 0)] -= gain[2] * row[0];
-    p[RHO_AT(2, 1)] -= gain[2] * row[1];
-    p[RHO_AT(3, 0)] -= gain[3] * row[0];
-    p[RHO_AT(3, 1)] -= gain[3] * row[1];
-    p[RHO_AT(3, 2)] -= gain[3] * row[2];
-    p[RHO_AT(4, 0)] -= gain[4] * row[0];
-    p[RHO_AT(4, 1)] -= gain[4] * row[1];
-    p[RHO_AT(4, 2)] -= gain[4] * row[2];
-    p[RHO_AT(4, 3)] -= gain[4] * row[3];
-    p[RHO_AT(5, 0)] -= gain[5] * row[0];
-    p[RHO_AT(5, 1)] -= gain[5] * row[1];
-    p[RHO_AT(5, 2)] -= gain[5] * row[2];
-    p[RHO_AT(5, 3)] -= gain[5] * row[3];
-    p[RHO_AT(5, 4)] -= gain[5] * row[4];
+    RHO_UNROLL
+    for (int i = 1; i < 6; ++i) {
+        RHO_UNROLL
+        for (int j = 0; j < i; ++j) {
+            p[RHO_AT(i, j)] -= gain[i] * row[j];
+        }
+    }
 }
 
 /* The allowance covers the rounding of covariances: a variance without any needs none. */
@@ -97,12 +86,10 @@ static inline float lowered(float variance, float gain, float covariance)
 
 static inline void lower_variances(float p[21], const float row[6], const float gain[6])
 {
-    p[RHO_AT(0, 0)] = lowered(p[RHO_AT(0, 0)], gain[0], row[0]);
-    p[RHO_AT(1, 1)] = lowered(p[RHO_AT(1, 1)], gain[1], row[1]);
-    p[RHO_AT(2, 2)] = lowered(p[RHO_AT(2, 2)], gain[2], row[2]);
-    p[RHO_AT(3, 3)] = lowered(p[RHO_AT(3, 3)], gain[3], row[3]);
-    p[RHO_AT(4, 4)] = lowered(p[RHO_AT(4, 4)], gain[4], row[4]);
-    p[RHO_AT(5, 5)] = lowered(p[RHO_AT(5, 5)], gain[5], row[5]);
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        p[RHO_AT(i, i)] = lowered(p[RHO_AT(i, i)], gain[i], row[i]);
+    }
 }
 
 enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
@@ -226,51 +213,46 @@ enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *dist
 /* Updates the state; false, and nothing is changed, where a result is not finite. */
 static inline int move_state(float x[6], const float gain[6], float innovation, float inverse)
 {
-    const float x0 = x[0] + gain[0] * innovation, x1 = x[1] + gain[1] * innovation;
-    const float x2 = x[2] + gain[2] * innovation, x3 = x[3] + gain[3] * innovation;
-    const float x4 = x[4] + gain[4] * innovation, x5 = x[5] + gain[5] * innovation;
+    float next[6], sum = 0.0f;
 
-    if (!(is_finite(innovation * inverse * innovation) && is_finite(x0 + x1 + x2 + x3 + x4 + x5))) {
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        next[i] = x[i] + gain[i] * innovation;
+        sum = i > 0 ? sum + next[i] : next[i];
+    }
+    if (!(is_finite(innovation * inverse * innovation) && is_finite(sum))) {
         return 0;
     }
-    x[0] = x0;
-    x[1] = x1;
-    x[2] = x2;
-    x[3] = x3;
-    x[4] = x4;
-    x[5] = x5;
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        x[i] = next[i];
+    }
     return 1;
 }
 
 /* Row i of a packed matrix, from its begin. */
 static inline void read_row(float row[6], const float p[21], const uint8_t place[6])
 {
-    row[0] = p[place[0]];
-    row[1] = p[place[1]];
-    row[2] = p[place[2]];
-    row[3] = p[place[3]];
-    row[4] = p[place[4]];
-    row[5] = p[place[5]];
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        row[i] = p[place[i]];
+    }
 }
 
 static inline void write_row(float p[21], const uint8_t place[6], const float row[6], float factor)
 {
-    p[place[0]] = row[0] * factor;
-    p[place[1]] = row[1] * factor;
-    p[place[2]] = row[2] * factor;
-    p[place[3]] = row[3] * factor;
-    p[place[4]] = row[4] * factor;
-    p[place[5]] = row[5] * factor;
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        p[place[i]] = row[i] * factor;
+    }
 }
 
 static inline void scale_row(float scaled[6], const float row[6], float factor)
 {
-    scaled[0] = row[0] * factor;
-    scaled[1] = row[1] * factor;
-    scaled[2] = row[2] * factor;
-    scaled[3] = row[3] * factor;
-    scaled[4] = row[4] * factor;
-    scaled[5] = row[5] * factor;
+    RHO_UNROLL
+    for (int i = 0; i < 6; ++i) {
+        scaled[i] = row[i] * factor;
+    }
 }
 
 /* Places of an element's covariances with the other two axes. */
@@ -358,8 +340,9 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && seen.inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
-    if (!(is_apart(p, other_axes[index]) ? update_apart(x, p, index, &seen)
-                                         : update_coupled(x, p, row_places[index], &seen))) {
+    if (!(RHO_FAST_UPDATES && is_apart(p, other_axes[index])
+              ? update_apart(x, p, index, &seen)
+              : update_coupled(x, p, row_places[index], &seen))) {
         return RHO_ERROR_VALUE;
     }
     if (nis != NULL) {
@@ -368,18 +351,20 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     return RHO_OK;
 }
 
-/* Some rows are unrolled, as compilers do not unroll loops when they optimise for size. */
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6])
 {
     float variance = 0.0f;
-    int i;
 
-    for (i = 0; i < 6; ++i) {
+    for (int i = 0; i < 6; ++i) {
         const uint8_t *place = row_places[i];
+        float sum = p[place[0]] * row[0];
 
-        projected[i] = p[place[0]] * row[0] + p[place[1]] * row[1] + p[place[2]] * row[2] +
-                       p[place[3]] * row[3] + p[place[4]] * row[4] + p[place[5]] * row[5];
-        variance += projected[i] * row[i];
+        RHO_UNROLL
+        for (int k = 1; k < 6; ++k) {
+            sum += p[place[k]] * row[k];
+        }
+        projected[i] = sum;
+        variance += sum * row[i];
     }
     return variance;
 }

@@ -246,7 +246,7 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
         }
     }
     imm->probability = 0.5f;
-    imm->calm = model->calm_s > 0.0f ? 0.5f : 0.0f;
+    imm->calm = model->calm_s / (model->calm_s + RHO_IMM_CALM_S);
 }
 
 /* ---- mix ------------------------------------------------------------------------------------- */

@@ -19,7 +19,7 @@
  * b).
  */
 #define DIAGONAL(i) RHO_AT(i, i)
-#define VELOCITY_POSITION(a, b) RHO_AT(NUM_AXES + (a), (b))
+#define VELOCITY_POSITION(a, b) (RHO_TRIANGLE(NUM_AXES + (a)) + (b))
 
 /* One predicted axis: all axes are computed and checked before any is written. */
 struct prediction {
@@ -81,11 +81,11 @@ static inline int predict_axis(struct prediction *next, const struct rho_kalman 
  */
 static inline void predict_pair(float *p, int a, int b, float dt_s)
 {
-    const float moved = dt_s * p[RHO_AT(NUM_AXES + a, NUM_AXES + b)];
+    const float moved = dt_s * p[VELOCITY_POSITION(a, NUM_AXES + b)];
     const float mixed_ab = p[VELOCITY_POSITION(a, b)] + moved;
     const float mixed_ba = p[VELOCITY_POSITION(b, a)];
 
-    p[RHO_AT(a, b)] += dt_s * (mixed_ab + mixed_ba);
+    p[RHO_TRIANGLE(a) + b] += dt_s * (mixed_ab + mixed_ba);
     p[VELOCITY_POSITION(a, b)] = mixed_ab;
     p[VELOCITY_POSITION(b, a)] = mixed_ba + moved;
 }
@@ -108,12 +108,10 @@ static inline void keep_floor(float *variance)
 
 static void keep_floors(struct rho_kalman *kalman)
 {
-    keep_floor(&kalman->covariance[DIAGONAL(RHO_X)]);
-    keep_floor(&kalman->covariance[DIAGONAL(RHO_Y)]);
-    keep_floor(&kalman->covariance[DIAGONAL(RHO_Z)]);
-    keep_floor(&kalman->covariance[DIAGONAL(RHO_VX)]);
-    keep_floor(&kalman->covariance[DIAGONAL(RHO_VY)]);
-    keep_floor(&kalman->covariance[DIAGONAL(RHO_VZ)]);
+    RHO_UNROLL
+    for (int i = 0; i < RHO_KALMAN_STATES; ++i) {
+        keep_floor(&kalman->covariance[DIAGONAL(i)]);
+    }
 }
 
 void rho_kalman_init(struct rho_kalman *kalman)
@@ -161,7 +159,7 @@ void rho_kalman_set_covariance(struct rho_kalman *kalman, float variance)
 enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float noise_density)
 {
     const float noise = dt_s > 0.0f ? noise_density * dt_s : 0.0f;
-    struct prediction x, y, z;
+    struct prediction next[NUM_AXES];
 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
@@ -173,17 +171,22 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
     if (!(dt_s > 0.0f || dt_s < 0.0f)) {
         return RHO_OK; /* dt 0: the state stays bit for bit */
     }
-    if (!(predict_axis(&x, kalman, RHO_X, dt_s, noise) &&
-          predict_axis(&y, kalman, RHO_Y, dt_s, noise) &&
-          predict_axis(&z, kalman, RHO_Z, dt_s, noise))) {
-        return RHO_ERROR_VALUE;
+    for (int axis = 0; axis < NUM_AXES; ++axis) {
+        if (!predict_axis(&next[axis], kalman, axis, dt_s, noise)) {
+            return RHO_ERROR_VALUE;
+        }
     }
-    predict_pair(kalman->covariance, RHO_Y, RHO_X, dt_s);
-    predict_pair(kalman->covariance, RHO_Z, RHO_X, dt_s);
-    predict_pair(kalman->covariance, RHO_Z, RHO_Y, dt_s);
-    accept_axis(kalman, RHO_X, &x);
-    accept_axis(kalman, RHO_Y, &y);
-    accept_axis(kalman, RHO_Z, &z);
+    RHO_UNROLL
+    for (int axis = 1; axis < NUM_AXES; ++axis) {
+        RHO_UNROLL
+        for (int other = 0; other < axis; ++other) {
+            predict_pair(kalman->covariance, axis, other, dt_s);
+        }
+    }
+    RHO_UNROLL
+    for (int axis = 0; axis < NUM_AXES; ++axis) {
+        accept_axis(kalman, axis, &next[axis]);
+    }
     return RHO_OK;
 }
 

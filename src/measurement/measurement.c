@@ -253,10 +253,10 @@ static float up_factor(const struct rho_sigma_factors *factors)
 struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *sensor)
 {
     struct rho_sigma_factors factors = {1.0f, 1.0f};
-    if (sensor && sensor->sigma_range_percent > 0) {
+    if (RHO_SIGMAS_VARY && sensor && sensor->sigma_range_percent > 0) {
         factors.range = 0.01f * (float)sensor->sigma_range_percent;
     }
-    if (sensor && sensor->sigma_cross_percent > 0) {
+    if (RHO_SIGMAS_VARY && sensor && sensor->sigma_cross_percent > 0) {
         factors.cross = 0.01f * (float)sensor->sigma_cross_percent;
     }
     return factors;

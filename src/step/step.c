@@ -53,6 +53,14 @@ static void open_scan(struct step *step)
     step->range_rates_mps = rho_exp(step->log_range_rates);
 }
 
+/* Of the scans that an initiator was given, an out-of-sequence one may still be the newest: a radar
+ * that is always late has a window of its own. */
+static int starts_tracks(const struct step *step)
+{
+    return !step->is_late ||
+           (step->initiator && rho_initiator_accepts(step->initiator, step->time_us));
+}
+
 enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiator *initiator,
                                  const struct rho_scan *scan, struct rho_report *report)
 {
@@ -78,10 +86,14 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_update(&step);
         }
         rho_tracker_age(&step);
-        if (RHO_SECTORS && step.is_late) {
-            rho_tracker_end_late(&step); /* no track starts from it */
-        } else {
+        if (starts_tracks(&step)) {
             rho_tracker_initiate(&step);
+        } else if (RHO_SECTORS) {
+            rho_tracker_refuse_stale(&step);
+        }
+        if (RHO_SECTORS && step.is_late) {
+            rho_tracker_end_late(&step);
+        } else {
             rho_tracker_merge_estimates(&step);
         }
         rho_tracker_end_work(&step);

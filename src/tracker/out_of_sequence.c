@@ -60,15 +60,19 @@ static int return_track(struct step *step, struct rho_track *track)
     return 1;
 }
 
-/* Unclaimed plots start no track: the initiation has gone on. The report is of the newest time. */
-void rho_tracker_end_late(struct step *step)
+void rho_tracker_refuse_stale(struct step *step)
 {
-    struct rho_tracker *tracker = step->tracker;
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD) {
             step->report->fates[i] = RHO_FATE_STALE;
         }
     }
+}
+
+/* The report is of the newest time. */
+void rho_tracker_end_late(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         if (!return_track(step, &tracker->tracks[i])) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);

@@ -106,7 +106,7 @@ void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_
 
 void rho_tracker_set_noise(struct step *step, float suspicion)
 {
-    if (step->learned) {
+    if (RHO_SIGMAS_VARY && step->learned) {
         rho_tracker_use_noise(step, suspicion,
                               &step->tracker->sensors[step->learned - step->tracker->learned]);
     }

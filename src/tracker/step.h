@@ -102,7 +102,9 @@ void rho_tracker_count_late(struct step *step);
 /* Remembers the time that an out-of-sequence scan moves the track back from. */
 void rho_tracker_note_ahead(struct rho_track *track);
 int rho_tracker_is_sound_ahead(const struct rho_track *track);
-/* Ends such a scan: tracks return to the newest time, its unclaimed plots are stale. */
+/* Unclaimed plots of such a scan that start no track are stale. */
+void rho_tracker_refuse_stale(struct step *step);
+/* Ends such a scan: tracks return to the newest time. */
 void rho_tracker_end_late(struct step *step);
 
 /*

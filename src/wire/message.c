@@ -29,6 +29,30 @@ static const struct message_rules echo_rules = {
     &echo_format,
     {echo_ints, echo_floats, 2, 4}, {0, 0, 0, 0}};
 
+static const struct message_run learned_runs[] = {
+    {offsetof(struct rho_message_learned, utime), 8, 1},
+    {offsetof(struct rho_message_learned, scan), 4, 2},
+    {offsetof(struct rho_message_learned, sensor_id), 2, 2},
+    {offsetof(struct rho_message_learned, sigma_range_factor), 4, 11},
+};
+static const struct message_int_rule learned_ints[] = {
+    {offsetof(struct rho_message_learned, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_learned, innovations), 2, 1, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_learned, looks), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+};
+static const struct message_float_rule learned_floats[] = {
+    {offsetof(struct rho_message_learned, sigma_range_factor), 2, 0.0f, 100.0f},
+    {offsetof(struct rho_message_learned, range_max_m), 1, 0.0f, 1000000000.0f},
+    {offsetof(struct rho_message_learned, pd_stated), 7, 0.0f, 1.0f},
+};
+static const struct message_format learned_format = {
+    RHO_MESSAGE_LEARNED_FINGERPRINT,
+    {learned_runs, 4, 64}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules learned_rules = {
+    &learned_format,
+    {learned_ints, learned_floats, 3, 3}, {0, 0, 0, 0}};
+
 static const struct message_run peak_runs[] = {
     {offsetof(struct rho_message_peak, rho_m), 4, 4},
     {offsetof(struct rho_message_peak, scans_hit), 2, 2},
@@ -417,6 +441,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
 {
     static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {
         RHO_MESSAGE_ECHO_FINGERPRINT,
+        RHO_MESSAGE_LEARNED_FINGERPRINT,
         RHO_MESSAGE_PEAK_FINGERPRINT,
         RHO_MESSAGE_PLOT_FINGERPRINT,
         RHO_MESSAGE_POLAR_PLOT_FINGERPRINT,
@@ -472,6 +497,24 @@ enum rho_status rho_message_echo_validate(
     const struct rho_message_echo *message, struct rho_message_place *place)
 {
     return rho_message_validate(&echo_rules, message, place);
+}
+
+enum rho_status rho_message_learned_encode(
+    const struct rho_message_learned *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&learned_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_learned_decode(
+    const uint8_t *data, size_t size, struct rho_message_learned *message)
+{
+    return rho_message_decode(&learned_format, data, size, message);
+}
+
+enum rho_status rho_message_learned_validate(
+    const struct rho_message_learned *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&learned_rules, message, place);
 }
 
 enum rho_status rho_message_peak_encode(

@@ -34,6 +34,20 @@ static const struct name echo_names[] = {
     {offsetof(struct rho_message_echo, chance), "chance"},
 };
 
+static const struct name learned_names[] = {
+    {offsetof(struct rho_message_learned, utime), "utime"},
+    {offsetof(struct rho_message_learned, scan), "scan"},
+    {offsetof(struct rho_message_learned, epoch), "epoch"},
+    {offsetof(struct rho_message_learned, sensor_id), "sensor_id"},
+    {offsetof(struct rho_message_learned, innovations), "innovations"},
+    {offsetof(struct rho_message_learned, sigma_range_factor), "sigma_range_factor"},
+    {offsetof(struct rho_message_learned, sigma_cross_factor), "sigma_cross_factor"},
+    {offsetof(struct rho_message_learned, looks), "looks"},
+    {offsetof(struct rho_message_learned, range_max_m), "range_max_m"},
+    {offsetof(struct rho_message_learned, pd_stated), "pd_stated"},
+    {offsetof(struct rho_message_learned, pd), "pd"},
+};
+
 static const struct name peak_names[] = {
     {offsetof(struct rho_message_peak, rho_m), "rho_m"},
     {offsetof(struct rho_message_peak, theta_rad), "theta_rad"},
@@ -266,6 +280,7 @@ const char *rho_message_type_name(enum rho_message_type type)
 {
     static const char type_names[RHO_NUM_MESSAGE_TYPES][15] = {
         "echo_t",
+        "learned_t",
         "peak_t",
         "plot_t",
         "polar_plot_t",
@@ -290,6 +305,11 @@ const char *rho_message_type_name(enum rho_message_type type)
 const char *rho_message_echo_field(const struct rho_message_place *place)
 {
     return place ? find(echo_names, 10, place->offset) : "unknown";
+}
+
+const char *rho_message_learned_field(const struct rho_message_place *place)
+{
+    return place ? find(learned_names, 11, place->offset) : "unknown";
 }
 
 const char *rho_message_peak_field(const struct rho_message_place *place)

@@ -608,3 +608,18 @@ void rho_node_work(const struct rho_node *node, struct rho_message_work *work)
         work->num_steps = node->counters.steps;
     }
 }
+
+int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned)
+{
+    const struct rho_tracker *tracker = is_ready(node) ? node->config.tracker : NULL;
+    const unsigned place =
+        tracker && node->next_learned < tracker->num_sensors ? node->next_learned : 0;
+
+    if (!rho_publish_learned(tracker, place, learned)) {
+        return 0;
+    }
+    node->next_learned = (uint8_t)(place + 1u);
+    learned->scan = node->step;
+    learned->epoch = node->epoch;
+    return 1;
+}

@@ -195,7 +195,8 @@ enum scan_verdict rho_scan_assembler_classify(const struct rho_scan_assembler *a
             return SCAN_RESTARTS_SENSOR;
         }
     }
-    return verdict == SCAN_TOO_LATE && is_usable_out_of_sequence(assembler, source, place)
+    return TAKES_LATE && verdict == SCAN_TOO_LATE &&
+                   is_usable_out_of_sequence(assembler, source, place)
                ? SCAN_OUT_OF_SEQUENCE
                : verdict;
 }
@@ -322,7 +323,7 @@ int rho_scan_assembler_is_proven(const struct rho_scan_assembler_config *config,
 
 /* ---- Newcomers ---- */
 
-#define PRESENT_INTERVALS 3ull
+#define PRESENT_INTERVALS 3u
 
 static int is_live(const struct rho_scan_assembler *assembler,
                    const struct rho_scan_assembler_source *source, int64_t now_us)
@@ -332,18 +333,20 @@ static int is_live(const struct rho_scan_assembler *assembler,
 }
 
 /*
- * The sensor still sends. One that has fallen silent must make no other one a newcomer: its clock
- * would hold their scans for ever.
+ * The sensor still sends: its next scan is not overdue, or it was heard not long ago. One that has
+ * fallen silent must make no other one a newcomer: its clock would hold their scans for ever.
  */
 static int is_still_sending(const struct rho_scan_assembler *assembler,
                             const struct rho_scan_assembler_source *source, int64_t now_us)
 {
     uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
     uint64_t jump_max_us = (uint64_t)assembler->config.jump_max_us;
+    uint64_t interval_us = source->interval_us;
 
-    return is_live(assembler, source, now_us) && silent_us <= jump_max_us / 2 &&
-           (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
-            silent_us <= PRESENT_INTERVALS * source->interval_us);
+    return is_live(assembler, source, now_us) &&
+           (silent_us <= interval_us + interval_us / 4 ||
+            (silent_us <= jump_max_us / 2 && (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
+                                              silent_us <= PRESENT_INTERVALS * interval_us)));
 }
 
 uint32_t rho_scan_assembler_longest_known_us(const struct rho_scan_assembler *assembler,
@@ -395,11 +398,13 @@ static int64_t clock_reaches_us(const struct rho_scan_assembler *assembler,
 int64_t rho_scan_assembler_newcomer_release_us(const struct rho_scan_assembler *assembler,
                                                const struct rho_scan_assembler_slot *slot)
 {
-    uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, slot->heard_us);
+    uint32_t eldest_us =
+        HAS_OTHERS ? rho_scan_assembler_longest_known_us(assembler, slot->heard_us) : 0u;
     int64_t first_us = INT64_MAX, until_us;
     int is_asked = 0;
 
-    if (!rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us, eldest_us)) {
+    if (!HAS_OTHERS ||
+        !rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us, eldest_us)) {
         return INT64_MIN;
     }
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -503,7 +508,7 @@ static int has_majority(const struct rho_scan_assembler *assembler,
 /* Sensors whose scans have the new time are on the common clock from now on, all others off it. */
 static void set_common_clock(struct rho_scan_assembler *assembler, int64_t time_us, int64_t now_us)
 {
-    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+    for (unsigned i = 0; HAS_OTHERS && i < RHO_MAX_SENSORS; i++) {
         struct rho_scan_assembler_source *source = &assembler->sources[i];
 
         if (!disagrees_on_time(&assembler->config, source, time_us, now_us)) {
@@ -525,7 +530,7 @@ enum scan_clock rho_scan_assembler_check_clock(struct rho_scan_assembler *assemb
 
     if (assembler->has_clock &&
         (!is_near(time_us, assembler->clock_us, assembler->config.jump_max_us) ||
-         is_contradicted(assembler, source, time_us, now_us))) {
+         (HAS_OTHERS && is_contradicted(assembler, source, time_us, now_us)))) {
         /*
          * The scans that made the sensor's new numbering accepted have shown its new time as well.
          */
@@ -535,14 +540,14 @@ enum scan_clock rho_scan_assembler_check_clock(struct rho_scan_assembler *assemb
             source->off_clock++;
         }
         if (source->off_clock < assembler->config.follow_scans ||
-            !has_majority(assembler, source, time_us, now_us)) {
+            (HAS_OTHERS && !has_majority(assembler, source, time_us, now_us))) {
             return CLOCK_OTHER;
         }
         set_common_clock(assembler, time_us, now_us);
         clock = CLOCK_SET;
     }
     source->off_clock = 0;
-    if (!assembler->has_clock ||
+    if (!assembler->has_clock || !HAS_OTHERS ||
         !rho_scan_assembler_is_newcomer(source->known_us,
                                         rho_scan_assembler_longest_known_us(assembler, now_us))) {
         assembler->clock_us = time_us;

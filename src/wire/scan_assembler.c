@@ -256,12 +256,31 @@ static void accept_scan(struct rho_scan_assembler *assembler,
     rho_scan_assembler_add_part(assembler, slot, heading, message, now_us);
 }
 
-/* The config names it. */
-static int is_named(const struct rho_scan_assembler *assembler, const struct scan_heading *heading)
+/* A sensor of another kind has this number, and sends: it is the one that the config names. */
+static int is_of_other_kind(const struct rho_scan_assembler *assembler,
+                            const struct scan_heading *heading, int64_t now_us)
 {
-    return assembler->config.num_allowed > 0 ||
-           rho_scan_assembler_description_of(assembler, heading->sensor_id) !=
-               &assembler->config.other;
+    for (unsigned i = 0; HAS_OTHERS && i < RHO_MAX_SENSORS; i++) {
+        const struct rho_scan_assembler_source *source = &assembler->sources[i];
+
+        if (source->is_used && source->sensor_id == heading->sensor_id &&
+            source->kind != heading->kind &&
+            rho_scan_assembler_is_proven(&assembler->config, source) &&
+            rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)assembler->config.jump_max_us) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The config names it. */
+static int is_named(const struct rho_scan_assembler *assembler, const struct scan_heading *heading,
+                    int64_t now_us)
+{
+    return (assembler->config.num_allowed > 0 ||
+            rho_scan_assembler_description_of(assembler, heading->sensor_id) !=
+                &assembler->config.other) &&
+           !is_of_other_kind(assembler, heading, now_us);
 }
 
 /*
@@ -472,7 +491,7 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
         rho_scan_assembler_count_one(&assembler->counters.scans_bad);
         return RHO_OK;
     }
-    heading.is_new = (uint8_t)(is_new && !is_named(assembler, &heading));
+    heading.is_new = (uint8_t)(is_new && !is_named(assembler, &heading, now_us));
     if (heading.is_new &&
         !rho_scan_assembler_take_tokens(&assembler->stranger_plots, heading.num_inputs,
                                         assembler->config.stranger_plots_per_s, now_us)) {

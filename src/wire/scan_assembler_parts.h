@@ -80,6 +80,15 @@ void rho_scan_assembler_mark_received(struct rho_scan_assembler_source *source, 
 int rho_scan_assembler_awaits_previous(const struct rho_scan_assembler_source *source,
                                        int32_t scan);
 
+/* Where there is one sensor at a time, none is heard for longer, and none votes on its clock. */
+#define HAS_OTHERS (RHO_MAX_SENSORS > 1)
+
+/*
+ * A scan that comes after a newer one is of use to a tracker that takes it, or while the newer one
+ * waits.
+ */
+#define TAKES_LATE ((RHO_SECTORS) || RHO_MAX_OPEN_SCANS > 1)
+
 /* Longest time for which any live and proven sensor was heard. */
 uint32_t rho_scan_assembler_longest_known_us(const struct rho_scan_assembler *assembler,
                                              int64_t now_us);

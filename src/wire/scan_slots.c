@@ -95,7 +95,8 @@ static int is_held_as_newcomer(const struct rho_scan_assembler *assembler,
 static int is_of_no_newcomer(const struct rho_scan_assembler *assembler,
                              const struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
-    return !rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us,
+    return !HAS_OTHERS ||
+           !rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us,
                                            rho_scan_assembler_longest_known_us(assembler, now_us));
 }
 
@@ -367,7 +368,7 @@ rho_scan_assembler_find_releasable(struct rho_scan_assembler *assembler, int64_t
 {
     struct rho_scan_assembler_slot *spare = find_first(assembler, SLOT_COMPLETE, now_us),
                                    *weak = NULL;
-    uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, now_us);
+    uint32_t eldest_us = HAS_OTHERS ? rho_scan_assembler_longest_known_us(assembler, now_us) : 0u;
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];

@@ -34,7 +34,7 @@ import lcm
 sys.path.insert(0, "bindings")
 import rhotrack
 types = {"RHO_TRACKS": rhotrack.track_list_t, "RHO_PEAKS": rhotrack.peak_list_t, "RHO_STATUS": rhotrack.status_t,
-         "RHO_WORK": rhotrack.work_t}
+         "RHO_WORK": rhotrack.work_t, "RHO_LEARNED": rhotrack.learned_t}
 counts, last, ended = collections.Counter(), None, []
 def take(channel, data):
     global last
@@ -106,15 +106,15 @@ same_tracks() {
         [ -s stock.tracks ] && cmp stock.tracks expected.tracks
 }
 
-# lists of tracks as many as in the log, peaks as scans, states and work of the node; up to the last
-# scan
+# lists of tracks as many as in the log, peaks as scans, states and work of the node, what it has
+# learned of its radar; up to the last scan
 heard_all() {
-    local tracks peaks states works last
-    read -r tracks peaks states works last < <(tail -n 1 heard)
-    echo "heard: $tracks $peaks $states $works $last"
+    local tracks peaks states works learned last
+    read -r tracks peaks states works learned last < <(tail -n 1 heard)
+    echo "heard: $tracks $peaks $states $works $learned $last"
     [ "$tracks" -eq "$(wc -l <stock.tracks)" ] && [ "$peaks" -eq "$scans" ] && [ "$states" -ge 2 ] \
         &&
-        [ "$works" -ge 2 ] && [ "$last" -eq "$scans" ]
+        [ "$works" -ge 2 ] && [ "$learned" -ge 2 ] && [ "$last" -eq "$scans" ]
 }
 
 for core in m4 m7; do

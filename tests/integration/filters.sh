@@ -1,17 +1,21 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # RHO_FILTERS: a build with some filters refuses what asks for the others, and gives the full
-# build's bytes of what it has. Runs beside others.
+# build's bytes of what it has. RHO_FAST_UPDATES=0 gives the same bytes. Runs beside others.
 root=$(realpath "$(dirname "$0")/../..")
 build=$(realpath "${BUILD:-$root/build}")
 # shellcheck source=tests/integration/checks.bash
 . "$root/tests/integration/checks.bash"
 
-lines() { # filters: what such a build says
-    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_FILTERS="$1" -Wall -Wextra \
-        -Werror -o filters \
-        "$root/tests/integration/filters.c" "$root"/src/{tracker,step}/*.c \
+lines() { # filters, option...: what such a build says
+    ${CC:-gcc} -std=c11 -O1 -ffp-contract=off -I"$root/include" -DRHO_FILTERS="$1" "${@:2}" \
+        -Wall -Wextra -Werror -o filters \
+        "$root/tests/integration/filters.c" "$root"/src/{base,estimation,tracker,step}/*.c \
         "$build/librhotrack.a" && ./filters
+}
+
+is_the_same_in_loops() {
+    lines 7 -DRHO_FAST_UPDATES=0 >loops && diff all loops
 }
 
 takes() { # filters, gates it has as a pattern, outcome of frames that start tracks
@@ -39,4 +43,5 @@ check 'a Kalman filter, and input estimation' takes 3 '[12] input .' ok
 check 'input estimation and hypotheses' takes 6 '0 input .|[12] input 1' config
 check 'hypotheses and a Kalman filter' takes 5 '0 input .|2 input 0' ok
 check 'a filter that does not exist' refuses 8
+check 'updates without straight code' is_the_same_in_loops
 finish

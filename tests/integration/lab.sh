@@ -107,9 +107,21 @@ expect_exit 2 "a picture of a file that is not there" "$RHOTRACK" plot scans "$f
     -o "$folder/nothing.svg"
 check "and no picture is left" sh -c "! ls '$folder'/nothing.svg* 2>/dev/null"
 
-# --- experiment, bench, demo
-run experiment polar
-check "experiment says where experiments are" says 2 "*tools/lab/NAME.py*tools/lab/README.md*"
+# --- experiment: the lab's script of that name
+run experiment rotating --help
+check 'experiment calls the script' grep -q '^usage: rotating.py .*--runs' stdout
+run experiment nothing
+check 'an unknown experiment names all there are' says 2 \
+    '*nothing*air-traffic*false-alarms*initiation*maneuver*papers-initiation*passive*polar*real-skies*'
+run experiment
+check 'and so does none' exits 2
+mkdir -p elsewhere/bin && cp "$RHOTRACK" elsewhere/bin/rhotrack
+status=0
+elsewhere/bin/rhotrack experiment two-radars >stdout 2>stderr || status=$?
+check 'without its sources the program says where the script is' says 1 \
+    'rhotrack: experiment two-radars is the script tools/lab/two_radars.py of the source (No such file or directory)'
+
+# --- bench, demo
 check "bench kalman --json is JSON" sh -c \
     "'$RHOTRACK' bench kalman --json | python3 -m json.tool >/dev/null"
 check "bench initiate" "$RHOTRACK" bench initiate

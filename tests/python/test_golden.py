@@ -10,30 +10,14 @@ import numpy as np
 import pytest
 
 import rhotrack
+from rhotrack.files import csv_of
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "regression"))
 import golden  # noqa: E402
 
 TRACKS = ("t_s,track_id,status,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,sigma_m,"
           "sigma_mps,hits,misses,sensor_id,plot").split(",")
-FOUND = "track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score".split(",")
 LEFT_OUT = {"--follow", "--clutter-map", "<", "-"}
-
-
-def number(value):
-    """As the program writes a float: the fewest digits, 6 at least, that keep it."""
-    value = np.float32(value) + np.float32(0)
-    if np.isnan(value):
-        return ""
-    return next(text for digits in range(6, 10)
-                if np.float32(text := f"{float(value):.{digits}g}") == value or digits == 9)
-
-
-def csv_of(rows, names):
-    columns = [[f"{time:.6f}" for time in rows[name]] if name == "t_s"
-               else [number(one) for one in rows[name]] if rows.dtype[name].kind == "f"
-               else [str(one) for one in rows[name]] for name in names]
-    return "".join(",".join(line) + "\n" for line in [names, *zip(*columns)])
 
 
 class Line:
@@ -84,13 +68,13 @@ class Line:
             again = self.tracker(settings).run(scans[:])
             for name in rows.dtype.names:
                 np.testing.assert_array_equal(rows[name], again[name], err_msg=name)
-            return csv_of(rows, TRACKS + (rhotrack.scans.COVARIANCE if self.covariance else []))
+            return csv_of(rows[TRACKS + (rhotrack.scans.COVARIANCE if self.covariance else [])])
         scans = rhotrack.read(*self.inputs, settings=self.settings())
         is_passive = "bearing_rad" in scans[0].dtype.names
         method = self.method or ("passive" if is_passive else "kernel")
         initiator = (rhotrack.Passive if is_passive else rhotrack.Initiator)(
             self.settings(), method=method)
-        return csv_of(initiator.find(scans), FOUND)
+        return csv_of(initiator.find(scans))
 
 
 LINES = {name: [line for line in (" ".join(one.split()) for one in

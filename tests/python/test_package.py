@@ -25,6 +25,9 @@ def scan(time_s, *places, **fields):
     return rows
 
 
+COLUMNS = {"t_s": [0.0, 0.0], "sensor_id": [1, 1], "x_m": [1.0, 2.0], "y_m": [3.0, 4.0]}
+
+
 def one_target(count=20):
     clutter = np.random.default_rng(1).uniform(-2e4, 2e4, (count, 2))
     return [scan(4 * i, (1000 + 400 * i, 2000), clutter[i]) for i in range(count)]
@@ -104,6 +107,15 @@ def test_a_scan_that_saw_nothing_counts_as_a_miss():
     assert last["status"].tolist() == ["coasting"] and last["misses"].tolist() == [1]
 
 
+def polar_targets():
+    """A target as sensor 7 sees it from x 500 m."""
+    fields = [("t_s", "f8"), ("sensor_id", "i4"), ("sensor_x_m", "f4"), ("sensor_y_m", "f4"),
+              ("sensor_z_m", "f4"), ("range_m", "f4"), ("azimuth_rad", "f4")]
+    places = [(500 + 400 * i, 2000) for i in range(20)]
+    return [np.array([(4.0 * i, 7, 500, 0, 0, math.hypot(*place), math.atan2(*place[::-1]))], fields)
+            for i, place in enumerate(places)]
+
+
 def test_polar_rows_are_the_same_track():
     polar = [np.array([(one["t_s"][0], 1, math.hypot(*place), math.atan2(place[1], place[0]), 10)],
                       [("t_s", "f8"), ("sensor_id", "i4"), ("range_m", "f4"),
@@ -118,6 +130,36 @@ def test_polar_rows_are_the_same_track():
     np.testing.assert_allclose(again["x_m"], run["x_m"], atol=5)
 
 
+def test_rows_that_go_back_in_time_are_named_and_scans_are_late():
+    scans = one_target()
+    with pytest.raises(rhotrack.Error, match="row 2: t_s 0.0 is before 4.0: sort the rows"):
+        rhotrack.Tracker().run(np.concatenate([scans[1], scans[0]]))
+    tracker = rhotrack.Tracker()
+    tracker.run([scans[1], scans[0]])
+    assert tracker.counters["scans_retrodicted"] == 1
+
+
+def test_dictionaries_of_columns_and_rows_are_the_same():
+    rows = [dict(zip(COLUMNS, row)) for row in zip(*COLUMNS.values())]
+    for data in (COLUMNS, rows):
+        found = rhotrack.Scans(data)
+        assert len(found) == 1 and found[0]["y_m"].tolist() == [3, 4]
+
+
+@pytest.mark.parametrize("given", ["radar.ini", {"sigma_m": 5}])
+def test_settings_of_another_type_are_named(given):
+    with pytest.raises(rhotrack.Error, match="settings: .* not (str|dict)"):
+        rhotrack.Tracker(given)
+
+
+def test_presets_are_those_of_the_header():
+    marine = rhotrack.Settings.preset("marine", pd=0.7)
+    assert (marine.sigma_azimuth_rad, marine.v_max_mps, marine.pd) == (0.009, 50, 0.7)
+    assert rhotrack.Settings.preset("approach").v_min_mps == 20
+    with pytest.raises(rhotrack.Error, match="preset 'ship' is none of en_route"):
+        rhotrack.Settings.preset("ship")
+
+
 @pytest.mark.parametrize("make, told", [
     (lambda: scan(0, (1, 2))[["t_s", "x_m", "y_m"]], "sensor_id"),
     (lambda: scan(0, (1, 2))[["t_s", "sensor_id", "y_m"]], "x_m"),
@@ -125,6 +167,14 @@ def test_polar_rows_are_the_same_track():
     (lambda: scan(0, (1, 2), sigma_m=-1.0), "scan 0, row 0: .*sigma"),
     (lambda: scan(0, (1, 2), (3, 4), z_m=[5, np.nan]), "row 1: z_m"),
     (lambda: scan(0, (1, 2))[:0], "no row"),
+    (lambda: scan(0, (1, np.nan)), "scan 0, row 0: y_m is missing"),
+    (lambda: scan(0, (1, 3e6)), r"row 0: y_m 3e\+06 is outside"),
+    (lambda: scan(0, (1, 2), range_m=[np.nan], sigma_m=[-3]), "sigma_m -3 is outside"),
+    (lambda: scan(0, (1, 2)).astype([("t_s", "U9"), *scan(0, (1, 2)).dtype.descr[1:]]),
+     "t_s: numbers are wanted, not <U9"),
+    (lambda: {**COLUMNS, "sensor_id": [1.0, np.nan]}, "row 1: sensor_id nan"),
+    (lambda: {**COLUMNS, "y_m": [1.0]}, "other lengths"),
+    (lambda: rhotrack.Tracker(**SETTINGS).run(one_target()), "track_id"),
     (lambda: np.zeros(3), "named fields"),
     (lambda: 7, "int")])
 def test_a_wrong_scan_is_named(make, told):
@@ -241,6 +291,95 @@ def test_a_bad_file_is_named_with_its_line_and_left_closed(tmp_path):
             rhotrack.read(path)
     assert len(os.listdir("/proc/self/fd")) == before
     assert len(rhotrack.read(path, keep_going=True)) == 1
+
+
+def test_a_file_of_csv_comes_back(tmp_path):
+    rhotrack.write(tmp_path / "plots.csv", one_target())
+    for one, again in zip(rhotrack.read(tmp_path / "plots.csv"), one_target()):
+        np.testing.assert_array_equal(one["x_m"], again["x_m"])
+    polar = polar_targets()
+    rhotrack.write(tmp_path / "polar.csv", rhotrack.Scans(polar))
+    back = rhotrack.read(tmp_path / "polar.csv")
+    for one, made in zip(back, rhotrack.Scans(polar)):
+        np.testing.assert_allclose(one["x_m"], made["x_m"], atol=0.1)
+        np.testing.assert_allclose(one["sigma_cross_m"], made["sigma_cross_m"], rtol=1e-3)
+    with pytest.raises(rhotrack.Error, match="plots.txt: one table"):
+        rhotrack.write(tmp_path / "plots.txt", one_target())
+
+
+def test_matlab_files_hold_plots_and_tracks(tmp_path):
+    io, path = pytest.importorskip("scipy.io"), tmp_path / "day.mat"
+    run = rhotrack.Tracker(**SETTINGS).run(one_target())
+    rhotrack.write(path, one_target(), run)
+    raw = io.loadmat(path)  # as MATLAB sees it: columns, and text as cells
+    assert raw["plots"]["x_m"][0, 0].shape == (40, 1)
+    assert raw["tracks"]["status"][0, 0][0, 0].item() == run["status"][0]
+    np.testing.assert_array_equal(
+        rhotrack.Tracker(**SETTINGS).run(rhotrack.read(path, **SETTINGS)), run)
+    tracks = rhotrack.read(path, kind="tracks")
+    for name in run.dtype.names:
+        np.testing.assert_array_equal(tracks[name], run[name], err_msg=name)
+    with pytest.raises(rhotrack.Error, match="day.mat: no struct .* holds truth"):
+        rhotrack.read(path, kind="truth")
+
+
+def test_matlab_structs_of_other_shapes_are_read(tmp_path):
+    io = pytest.importorskip("scipy.io")
+    columns = {name: np.array(column, float)[:, None] for name, column in COLUMNS.items()}
+    rows = np.array([(0.0, 1.0, 1.0, 3.0), (0.0, 1.0, 2.0, 4.0)],
+                    [(name, "O") for name in COLUMNS])
+    for number, variables in enumerate([columns, {"detections": columns}, {"s": rows}]):
+        io.savemat(tmp_path / f"{number}.mat", variables)
+        assert rhotrack.read(tmp_path / f"{number}.mat")[0]["y_m"].tolist() == [3, 4]
+
+
+def test_mcap_is_read_by_the_public_readers(tmp_path):
+    reader = pytest.importorskip("mcap.reader")
+    ros = pytest.importorskip("mcap_ros2.decoder").DecoderFactory()
+    proto = pytest.importorskip("mcap_protobuf.decoder").DecoderFactory()
+    path, scans = tmp_path / "day.mcap", polar_targets()
+    run = rhotrack.Tracker(covariance=True, **SETTINGS).run(scans)
+    rhotrack.write(path, scans, run)
+    found = {}
+    with open(path, "rb") as stream:
+        for schema, channel, message, decoded in reader.make_reader(
+                stream, decoder_factories=[ros, proto]).iter_decoded_messages():
+            found.setdefault(schema.name, []).append((channel.topic, message.log_time, decoded))
+    topic, time_ns, first = found["radar_msgs/msg/RadarScan"][0]
+    assert topic == "/radar_7/scan" and first.header.frame_id == "radar_7" and time_ns == 0
+    assert [one[2].returns[0].range for one in found["radar_msgs/msg/RadarScan"]] == [
+        one["range_m"][0] for one in scans]
+    topic, time_ns, last = found["radar_msgs/msg/RadarTracks"][-1]
+    rows = run[run["t_s"] == time_ns / 1e9]
+    assert topic == "/tracks" and len(last.tracks) == len(rows)
+    assert last.tracks[0].position.x == rows["x_m"][0]
+    assert last.tracks[0].position_covariance[:2] == [rows["cov_x_x"][0], rows["cov_y_x"][0]]
+    place = found["foxglove.FrameTransform"][0][2]
+    assert (place.child_frame_id, place.translation.x) == ("radar_7", 500)
+    entities = [one for _, _, update in found["foxglove.SceneUpdate"] for one in update.entities]
+    track = [one for one in entities if one.id == f"track {rows['track_id'][0]}"][-1]
+    assert track.spheres[0].pose.position.x == track.lines[0].points[-1].x == rows["x_m"][0]
+    seen = next(one for one in entities if one.id == "plots of 7")
+    assert seen.frame_id == "radar_7" and seen.spheres[0].pose.position.x == pytest.approx(
+        scans[0]["range_m"][0] * math.cos(scans[0]["azimuth_rad"][0]))
+
+
+def test_mcap_comes_back(tmp_path):
+    pytest.importorskip("mcap_ros2.decoder"), pytest.importorskip("mcap_protobuf.decoder")
+    path, scans = tmp_path / "day.mcap", polar_targets()
+    run = rhotrack.Tracker(**SETTINGS).run(scans)
+    rhotrack.write(path, scans, run)
+    read = rhotrack.read(path, **SETTINGS)
+    assert len(read) == len(scans) and read[0]["sensor_id"][0] == 7
+    np.testing.assert_array_equal(rhotrack.Tracker(**SETTINGS).run(read)["x_m"], run["x_m"])
+    tracks = rhotrack.read(path, kind="tracks")
+    for name in tracks.dtype.names:
+        kept = np.testing.assert_array_equal if name[:3] != "sig" else np.testing.assert_allclose
+        kept(tracks[name], run[name], err_msg=name)
+    rhotrack.convert(path, tmp_path / "tracks.csv", kind="tracks")
+    assert len(rhotrack.read(tmp_path / "tracks.csv")) == len(run)
+    with pytest.raises(rhotrack.Error, match="t_s -1.0: times of MCAP"):
+        rhotrack.write(path, [scan(-1, (1, 2))])
 
 
 # ---- Initiation ----
@@ -473,6 +612,15 @@ def test_a_picture_shows_plots_and_confirmed_tracks(scene):
     matplotlib.pyplot.close()
     axes = rhotrack.plot(one_target(), rhotrack.Tracker(**SETTINGS).run(one_target()))
     assert len(axes.lines) == 2 and len(axes.lines[0].get_xdata()) == 40
+
+
+def test_a_notebook_shows_scans_and_tracks():
+    pytest.importorskip("matplotlib")
+    run = rhotrack.Tracker(**SETTINGS).run(one_target())
+    shown = run._repr_html_()
+    assert "data:image/png" in shown and f"<td>{run['x_m'][-1]:.1f}</td>" in shown
+    assert run[:0]._repr_html_() is None and type(run["x_m"]) is np.ndarray
+    assert rhotrack.Scans(one_target())._repr_png_().startswith(b"\x89PNG")
 
 
 def test_the_package_is_typed():

@@ -700,8 +700,8 @@ def events(log):
         at = start + size
 
 
-PERIODIC = {"RHO_STATUS", "RHO_WORK", "RHO_SENSORS", "RHO_CLUTTER"}
-OF_A_NODE = {"RHO_TRACKS", "RHO_PEAKS", "RHO_STATUS", "RHO_WORK", "RHO_SENSORS", "RHO_CLUTTER"}
+PERIODIC = {"RHO_STATUS", "RHO_WORK", "RHO_SENSORS", "RHO_LEARNED", "RHO_CLUTTER"}
+OF_A_NODE = PERIODIC | {"RHO_TRACKS", "RHO_PEAKS"}
 
 
 def without_run(log, is_live=False):

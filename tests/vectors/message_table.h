@@ -7,7 +7,7 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(echo, ECHO) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK)
+#define MESSAGES_WITHOUT_LIST(X) X(echo, ECHO) X(learned, LEARNED) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK)
 #define MESSAGES_WITH_LIST(X) X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH")
 #endif
 
@@ -22,6 +22,20 @@ static const struct message_member MESSAGE_TABLE(echo)[] = {
     {"sigma_range_m", offsetof(MESSAGE_STRUCT(echo), sigma_range_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e6)},
     {"sigma_cross_m", offsetof(MESSAGE_STRUCT(echo), sigma_cross_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e6)},
     {"chance", offsetof(MESSAGE_STRUCT(echo), chance), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+};
+
+static const struct message_member MESSAGE_TABLE(learned)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(learned), utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(learned), scan), 0, 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(learned), epoch), 0, 4, 1, .rule = MEMBER_ANY},
+    {"sensor_id", offsetof(MESSAGE_STRUCT(learned), sensor_id), 0, 2, 1, .rule = MEMBER_ANY},
+    {"innovations", offsetof(MESSAGE_STRUCT(learned), innovations), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"sigma_range_factor", offsetof(MESSAGE_STRUCT(learned), sigma_range_factor), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(100)},
+    {"sigma_cross_factor", offsetof(MESSAGE_STRUCT(learned), sigma_cross_factor), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(100)},
+    {"looks", offsetof(MESSAGE_STRUCT(learned), looks), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"range_max_m", offsetof(MESSAGE_STRUCT(learned), range_max_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
+    {"pd_stated", offsetof(MESSAGE_STRUCT(learned), pd_stated), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"pd", offsetof(MESSAGE_STRUCT(learned), pd), 0, 4, 6, .is_float = true, .low = (float)(0), .high = (float)(1)},
 };
 
 static const struct message_member MESSAGE_TABLE(peak)[] = {
@@ -241,6 +255,7 @@ static const struct message_member MESSAGE_TABLE(truth_list)[] = {
 
 static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"echo_t", MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), .element_members = NULL},
+    {"learned_t", MESSAGE_TABLE(learned), 11, sizeof(MESSAGE_STRUCT(learned)), .element_members = NULL},
     {"peak_t", MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), .element_members = NULL},
     {"plot_t", MESSAGE_TABLE(plot), 10, sizeof(MESSAGE_STRUCT(plot)), .element_members = NULL},
     {"polar_plot_t", MESSAGE_TABLE(polar_plot), 6, sizeof(MESSAGE_STRUCT(polar_plot)), .element_members = NULL},

@@ -73,6 +73,7 @@ static void publish_state(void)
 {
     struct rho_message_status state;
     struct rho_message_work work;
+    struct rho_message_learned learned;
     size_t head, size = 0;
     uint8_t *message = begin(RHO_MESSAGE_STATUS_CHANNEL, &head);
     enum rho_status status;
@@ -86,6 +87,11 @@ static void publish_state(void)
     rho_node_work(&node, &work);
     status = rho_message_work_encode(&work, message, sizeof buffer - head, &size);
     send(status, head + size);
+    if (rho_node_learned(&node, &learned)) {
+        message = begin(RHO_MESSAGE_LEARNED_CHANNEL, &head);
+        status = rho_message_learned_encode(&learned, message, sizeof buffer - head, &size);
+        send(status, head + size);
+    }
 }
 
 /* ---- Steps ---- */

@@ -11,8 +11,9 @@
  *     }
  *
  * Every byte is static: one node a program. What the messages do wrong is counted (RHO_STATUS and
- * RHO_WORK, once a second) and nothing of it stops the node. It takes passive sensors, too, where
- * RHO_SCAN_KINDS has them. What becomes of the messages is the library's node (rhotrack/node.h).
+ * RHO_WORK, once a second, with RHO_LEARNED of each sensor in turn) and nothing of it stops the
+ * node. It takes passive sensors, too, where RHO_SCAN_KINDS has them. What becomes of the messages
+ * is the library's node (rhotrack/node.h).
  */
 #ifndef NODE_H
 #define NODE_H

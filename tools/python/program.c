@@ -459,6 +459,56 @@ static _Noreturn void refuse(const struct making *making, const struct program_r
     fail(EXIT_USAGE, "scan %zu, row %td: %s", making->scan, row - making->first, why);
 }
 
+/* What a plot's fields may hold; the library refuses a plot without saying which field it is. */
+#define FIELD(name, min, max)                                                                      \
+    {                                                                                              \
+#name, offsetof(struct program_row, name), min, max                                        \
+    }
+#define SIGMA(name) FIELD(name, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX)
+#define ANGLE_SIGMA(name) FIELD(name, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX)
+#define PLACE(name) FIELD(name, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M)
+#define SPEED(name) FIELD(name, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS)
+static const struct {
+    const char *name;
+    size_t offset;
+    float min, max;
+} limits[] = {
+    PLACE(x_m),
+    PLACE(y_m),
+    PLACE(z_m),
+    FIELD(range_m, 1e-30f, RHO_LIMIT_POSITION_M),
+    FIELD(azimuth_rad, -3.1415927f, 3.1415927f),
+    FIELD(elevation_rad, -1.5707964f, 1.5707964f),
+    SPEED(vx_mps),
+    SPEED(vy_mps),
+    SPEED(vz_mps),
+    SPEED(range_rate_mps),
+    SIGMA(sigma_m),
+    SIGMA(sigma_range_m),
+    SIGMA(sigma_cross_m),
+    SIGMA(sigma_up_m),
+    SIGMA(sigma_mps),
+    SIGMA(sigma_range_rate_mps),
+    ANGLE_SIGMA(sigma_azimuth_rad),
+    ANGLE_SIGMA(sigma_elevation_rad),
+};
+
+static _Noreturn void refuse_plot(const struct making *making, const struct program_row *row,
+                                  const char *why)
+{
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+        float value;
+
+        memcpy(&value, (const char *)row + limits[i].offset, sizeof value);
+        if (value < limits[i].min || value > limits[i].max) {
+            fail(EXIT_USAGE, "scan %zu, row %td: %s %g is outside %g .. %g", making->scan,
+                 row - making->first, limits[i].name, (double)value, (double)limits[i].min,
+                 (double)limits[i].max);
+        }
+    }
+    refuse(making, row, why);
+}
+
 static bool is_polar(const struct program_row *row)
 {
     return !isnan(row->range_m);
@@ -549,8 +599,11 @@ static void polar_plot(const struct making *making, const struct program_row *ro
         .snr_db = said(row->snr_db, 0.0)};
 
     seen_from.time_bias_s = 0.0f;
+    if (isnan(row->azimuth_rad)) {
+        refuse(making, row, "azimuth_rad is missing or not a number");
+    }
     if (rho_measurement_from_polar(&polar, scan->measures, &seen_from, plot) != RHO_OK) {
-        refuse(making, row, "range_m, azimuth_rad, elevation_rad or a sigma is out of range");
+        refuse_plot(making, row, "range_m, azimuth_rad, elevation_rad or a sigma is out of range");
     }
 }
 
@@ -578,8 +631,13 @@ static void cartesian_plot(const struct making *making, const struct program_row
             said(row->sigma_range_rate_mps, of_sensor(making, id, SENSOR_SIGMA_RANGE_RATE_MPS,
                                                       PARAMETER_SIGMA_RANGE_RATE_MPS)),
         .snr_db = said(row->snr_db, 0.0)};
+    if (isnan(row->x_m) || isnan(row->y_m)) {
+        refuse(making, row,
+               isnan(row->x_m) ? "x_m is missing or not a number"
+                               : "y_m is missing or not a number");
+    }
     if (!rho_measurement_is_valid(plot, measures_of(row))) {
-        refuse(making, row, "x_m, y_m, z_m, a velocity or a sigma is out of range");
+        refuse_plot(making, row, "x_m, y_m, z_m, a velocity or a sigma is out of range");
     }
 }
 

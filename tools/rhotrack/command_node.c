@@ -416,6 +416,7 @@ static bool is_output(const char *channel)
            strcmp(channel, RHO_MESSAGE_STATUS_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_WORK_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_SENSOR_LIST_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_LEARNED_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_CLUTTER_MAP_CHANNEL) == 0;
 }
 

@@ -130,8 +130,9 @@ int rho_imm_model_is_usable(const struct rho_imm_model *model);
 void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *model, float dt_s);
 
 /*
- * Both models start from an estimate with probability 1/2 each; calm and agile likewise, if the
- * model has calm targets; acceleration 0 with the model's sd.
+ * Both models start from an estimate with probability 1/2 each, acceleration 0 with the model's sd.
+ * A new target is calm with probability calm_s / (calm_s + RHO_IMM_CALM_S): 1/2 where nothing is
+ * known.
  */
 void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
                    const struct rho_kalman *estimate);

@@ -12,6 +12,7 @@
 #ifndef RHOTRACK_LINALG_H
 #define RHOTRACK_LINALG_H
 
+#include "rhotrack/config.h"
 #include "rhotrack/status.h"
 
 #ifdef __cplusplus
@@ -21,6 +22,13 @@ extern "C" {
 #define RHO_LINALG_MAX 12
 #define RHO_TRIANGLE(n) ((n) * ((n) + 1) / 2)
 #define RHO_AT(i, j) ((i) >= (j) ? (i) * ((i) + 1) / 2 + (j) : (j) * ((j) + 1) / 2 + (i))
+
+/* The loop that follows is straight code, also where compilers optimise for size. */
+#if RHO_FAST_UPDATES && defined(__GNUC__)
+#define RHO_UNROLL _Pragma("GCC unroll 6")
+#else
+#define RHO_UNROLL
+#endif
 
 /*
  * Cholesky factor L of a positive definite matrix, a = L L^T, into l (row-wise triangle; may be a

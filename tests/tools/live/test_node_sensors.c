@@ -37,6 +37,7 @@ struct live {
     struct random random;
     struct rho_message_sensor_list list; /* the last one */
     unsigned lists;
+    struct rho_message_learned learned; /* the last one */
 };
 
 static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
@@ -47,6 +48,9 @@ static void on_send(void *context, const char *channel, const uint8_t *data, siz
         assert_int_equal(rho_message_sensor_list_decode(data, size, &live->list), RHO_OK);
         assert_int_equal(rho_message_sensor_list_validate(&live->list, NULL), RHO_OK);
         live->lists++;
+    } else if (strcmp(channel, RHO_MESSAGE_LEARNED_CHANNEL) == 0) {
+        assert_int_equal(rho_message_learned_decode(data, size, &live->learned), RHO_OK);
+        assert_int_equal(rho_message_learned_validate(&live->learned, NULL), RHO_OK);
     }
 }
 
@@ -291,6 +295,28 @@ static void a_single_scan_is_not_spoken_of(void **state)
     end(live);
 }
 
+/* Tracks that two radars have seen teach nothing of noise; of P_D they do. */
+static void what_is_learned_is_told_of_each_in_turn(void **state)
+{
+    struct live *live = start();
+    const struct node_core_losses none = {.reports_not_printed = 0};
+    const struct rho_message_learned *learned = &live->learned;
+
+    (void)state;
+    fly(live, 0, 40, WELL);
+    for (int call = 1; call < 7; call++) {
+        node_core_status(live->core, &none);
+        assert_int_equal(learned->sensor_id, 1 + call % SENSORS);
+        assert_int_equal(learned->scan, live->list.scan);
+        assert_int_equal(learned->epoch, live->list.epoch);
+        assert_true(learned->looks > 0);
+        assert_float_equal(learned->pd_stated, 0.9f, 0.0f);
+        assert_float_equal(learned->pd[0], 0.9f, 0.0f);
+        assert_float_equal(learned->sigma_range_factor, 1.0f, 0.0f);
+    }
+    end(live);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +326,7 @@ int main(void)
         cmocka_unit_test(one_that_sees_nothing_is_named),
         cmocka_unit_test(one_that_stops_is_silent_after_a_while),
         cmocka_unit_test(a_single_scan_is_not_spoken_of),
+        cmocka_unit_test(what_is_learned_is_told_of_each_in_turn),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

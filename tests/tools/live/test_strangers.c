@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A radar that is heard for two minutes, and datagrams of somebody else, live: its track goes on,
- * and a new target is found when it would have been. The time that a step takes is taken from the
+ * A radar that is heard for minutes, and datagrams of somebody else, live: its track goes on, and a
+ * new target is found when it would have been. The time that a step takes is taken from the
  * node.
  */
 #include <math.h>
@@ -24,12 +24,10 @@
 
 #define START_US INT64_C(1790000000000000) /* since 1970: 2026 */
 #define SECOND_US INT64_C(1000000)
-#define ATTACK_S 120 /* from here on, and so does the new target */
-#define END_S 180
 #define DELAY_US INT64_C(5000)
 #define CLUTTER 10
 #define STRANGERS 8
-#define DATAGRAMS 4000
+#define DATAGRAMS 6000
 #define SIGMA_M 20.0
 #define NEAR_M 1000.0
 
@@ -37,11 +35,14 @@
  * ---- the scene --------------------------------------------------------------------------------
  */
 
+static int64_t attack_s, end_s; /* of the attack and of the new target */
+
 struct datagram {
     int64_t received_us, time_us;
     int32_t scan;
     int16_t sensor_id, part, num_parts, num_plots; /* num_plots 0: the radar's scan of this time */
     float sigma_m, half_m;
+    int is_polar; /* without plots */
 };
 
 struct live {
@@ -57,12 +58,12 @@ struct live {
 
 static double x_of(int target, double t_s)
 {
-    return target == 0 ? -20000.0 + 100.0 * t_s : 30000.0 - 120.0 * (t_s - ATTACK_S);
+    return target == 0 ? -20000.0 + 100.0 * t_s : 30000.0 - 120.0 * (t_s - attack_s);
 }
 
 static double y_of(int target, double t_s)
 {
-    return target == 0 ? 10000.0 - 50.0 * t_s : -20000.0 + 60.0 * (t_s - ATTACK_S);
+    return target == 0 ? 10000.0 - 50.0 * t_s : -20000.0 + 60.0 * (t_s - attack_s);
 }
 
 static void put_plot(struct rho_message_plot_scan *scan, double x_m, double y_m, double sigma_m)
@@ -75,7 +76,7 @@ static void put_radar(struct rho_message_plot_scan *scan, struct random *random)
 {
     const double t_s = (double)(scan->utime - START_US) / 1e6;
 
-    for (int i = 0; i < (t_s < ATTACK_S ? 1 : 2); i++) {
+    for (int i = 0; i < (t_s < attack_s ? 1 : 2); i++) {
         const double dx_m = SIGMA_M * random_normal(random), dy_m = SIGMA_M * random_normal(random);
 
         put_plot(scan, x_of(i, t_s) + dx_m, y_of(i, t_s) + dy_m, SIGMA_M);
@@ -87,6 +88,31 @@ static void put_radar(struct rho_message_plot_scan *scan, struct random *random)
     }
 }
 
+static void take(struct live *live, const char *channel, int16_t sensor_id, const uint8_t *message,
+                 size_t size)
+{
+    char name[32];
+    int64_t start_us;
+
+    snprintf(name, sizeof name, "%s%d", channel, sensor_id);
+    start_us = clock_us();
+    node_core_take(live->core, name, message, size, live->now_us);
+    live->now_us += clock_us() - start_us;
+}
+
+static void send_polar(struct live *live, const struct datagram *datagram)
+{
+    const struct rho_message_polar_scan nothing = {.utime = datagram->time_us,
+                                                   .scan = datagram->scan,
+                                                   .sensor_id = datagram->sensor_id,
+                                                   .num_parts = 1};
+    uint8_t buffer[RHO_MESSAGE_POLAR_SCAN_MAX_SIZE];
+    size_t size;
+
+    assert_int_equal(rho_message_polar_scan_encode(&nothing, buffer, sizeof buffer, &size), RHO_OK);
+    take(live, RHO_MESSAGE_POLAR_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
+}
+
 /* The same plots whenever they are sent. */
 static void send(struct live *live, const struct datagram *datagram)
 {
@@ -94,10 +120,12 @@ static void send(struct live *live, const struct datagram *datagram)
     struct random random = random_start(1, (uint64_t)datagram->sensor_id,
                                         (uint64_t)(datagram->scan * 1000 + datagram->part));
     uint8_t buffer[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE];
-    char channel[32];
     size_t size;
-    int64_t start_us;
 
+    if (datagram->is_polar) {
+        send_polar(live, datagram);
+        return;
+    }
     scan = (struct rho_message_plot_scan){.utime = datagram->time_us,
                                           .scan = datagram->scan,
                                           .sensor_id = datagram->sensor_id,
@@ -114,10 +142,7 @@ static void send(struct live *live, const struct datagram *datagram)
         put_plot(&scan, x_m, random_between(&random, -half_m, half_m), datagram->sigma_m);
     }
     assert_int_equal(rho_message_plot_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
-    snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_PLOT_SCAN_CHANNEL, datagram->sensor_id);
-    start_us = clock_us();
-    node_core_take(live->core, channel, buffer, size, live->now_us);
-    live->now_us += clock_us() - start_us;
+    take(live, RHO_MESSAGE_PLOT_SCAN_CHANNEL, datagram->sensor_id, buffer, size);
 }
 
 static void add(struct live *live, struct datagram datagram)
@@ -129,7 +154,7 @@ static void add(struct live *live, struct datagram datagram)
 
 static void add_radar(struct live *live, int64_t interval_us)
 {
-    for (int32_t i = 0; i * interval_us < END_S * SECOND_US; i++) {
+    for (int32_t i = 0; i * interval_us < end_s * SECOND_US; i++) {
         const int64_t time_us = START_US + i * interval_us;
 
         add(live,
@@ -168,7 +193,7 @@ static void judge(void *context, const struct rho_report *report)
     const struct rho_track_report *track = nearest(report, 0);
     const int64_t gap_us = live->now_us - live->updated_us;
 
-    if (live->now_us >= START_US + ATTACK_S * SECOND_US && gap_us > live->gap_us) {
+    if (live->now_us >= START_US + attack_s * SECOND_US && gap_us > live->gap_us) {
         live->gap_us = gap_us;
     }
     if (track && track->hits != live->hits) {
@@ -211,7 +236,7 @@ static void run(struct live *live)
 
     live->core = node_core_open(&live->parameters, 1, &events);
     qsort(live->datagrams, live->count, sizeof live->datagrams[0], by_reception);
-    live->updated_us = START_US + ATTACK_S * SECOND_US;
+    live->updated_us = START_US + attack_s * SECOND_US;
     for (unsigned i = 0; i < live->count; i++) {
         const int64_t received_us = live->datagrams[i].received_us;
         int64_t due_us;
@@ -302,14 +327,48 @@ static void eight_an_hour_ahead(struct live *live, int64_t from_us)
     }
 }
 
+/* As a sensor of another kind, in the number of the radar, which the config names. */
+static void polar_scans_in_its_number(struct live *live, int64_t from_us)
+{
+    char reason[PARAMETER_REASON_BYTES];
+
+    assert_true(parameters_assign(&live->parameters, "sensor.1.range_max_m", "100000",
+                                  SOURCE_CONFIG, reason));
+    for (int16_t i = 0; i < 120; i++) {
+        add(live, (struct datagram){.received_us = from_us + i * 5000,
+                                    .time_us = from_us + i * 5000,
+                                    .scan = i,
+                                    .sensor_id = 1,
+                                    .is_polar = 1});
+    }
+}
+
+/* Until the end. */
+static void an_empty_one_after_each_of_its(struct live *live, int64_t from_us)
+{
+    const int64_t interval_us = live->datagrams[1].time_us - live->datagrams[0].time_us;
+
+    for (int32_t i = 0; i * interval_us < (end_s - attack_s) * SECOND_US; i++) {
+        const int64_t time_us = from_us + i * interval_us + DELAY_US;
+
+        add(live, (struct datagram){.received_us = time_us + DELAY_US,
+                                    .time_us = time_us,
+                                    .scan = i,
+                                    .sensor_id = 9,
+                                    .num_plots = 1,
+                                    .sigma_m = 20.0f,
+                                    .half_m = 100.0f});
+    }
+}
+
 static void try(struct live *live, int64_t interval_us, attacker *attack, const char *what)
 {
     start(live, interval_us);
-    attack(live, START_US + ATTACK_S * SECOND_US);
+    attack(live, START_US + attack_s * SECOND_US);
     run(live);
     print_message("  %-24s gap %.2f s, found after %.2f s, longest step %.3f s\n", what,
                   (double)live->gap_us / 1e6,
-                  live->found_us ? (double)(live->found_us - START_US) / 1e6 - ATTACK_S
+                  live->found_us ? (double)(live->found_us - START_US) / 1e6 - attack_s
                                  : (double)NAN,
                   node_core_max_us(live->core) / 1e6);
     node_core_close(live->core);
@@ -324,7 +383,9 @@ static void nobody_is_harmed(int64_t interval_us)
     } attacks[] = {{crowds_in_120_datagrams, "120 datagrams, crowds"},
                    {scans_in_120_datagrams, "120 datagrams, empty"},
                    {one_ahead_each_3_s, "1 datagram each 3 s"},
-                   {eight_an_hour_ahead, "8 datagrams"}};
+                   {eight_an_hour_ahead, "8 datagrams"},
+                   {polar_scans_in_its_number, "120 polar, in its number"},
+                   {an_empty_one_after_each_of_its, "1 after each, empty"}};
     static struct live alone, live;
 
     print_message("a scan each %.2f s\n", (double)interval_us / 1e6);
@@ -340,13 +401,26 @@ static void nobody_is_harmed(int64_t interval_us)
 static void a_fast_radar_tracks_on(void **state)
 {
     (void)state;
+    attack_s = 120;
+    end_s = 180;
     nobody_is_harmed(50000);
 }
 
 static void a_slow_radar_tracks_on(void **state)
 {
     (void)state;
+    attack_s = 120;
+    end_s = 180;
     nobody_is_harmed(2500000);
+}
+
+/* Between two of its scans it was not heard for more than half of jump_max_s. */
+static void a_radar_of_20_s_tracks_on(void **state)
+{
+    (void)state;
+    attack_s = 600;
+    end_s = 900;
+    nobody_is_harmed(20000000);
 }
 
 /* Said once, however often it happens. */
@@ -359,6 +433,8 @@ static void two_senders_of_one_number_are_told(void **state)
     FILE *to = open_memstream(&said, &size);
 
     (void)state;
+    attack_s = 120;
+    end_s = 180;
     start(&live, SECOND_US);
     for (int32_t scan = 1; scan < 120; scan += 40) {
         const int64_t time_us = START_US + scan * SECOND_US;
@@ -387,6 +463,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_fast_radar_tracks_on),
         cmocka_unit_test(a_slow_radar_tracks_on),
+        cmocka_unit_test(a_radar_of_20_s_tracks_on),
         cmocka_unit_test(two_senders_of_one_number_are_told),
     };
 

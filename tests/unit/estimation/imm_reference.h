@@ -417,7 +417,7 @@ static inline void reference_start(struct reference *r, const struct rho_imm_mod
     r->has_z = estimate->covariance[RHO_AT(2, 2)] > 0.0f;
     r->is_apart = 1;
     r->probability = 0.5;
-    r->calm = model->calm_s > 0.0f ? 0.5 : 0.0;
+    r->calm = (double)model->calm_s / ((double)model->calm_s + 300.0);
     for (int which = 0; which < 2; ++which) {
         struct wide_model *m = &r->models[which];
 

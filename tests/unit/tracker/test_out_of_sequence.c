@@ -215,6 +215,55 @@ static void a_double_is_stale(void **state)
     assert_int_equal(tracker.counters.scans_late, 1);
 }
 
+/* Scans of sensor 2 until its target, which no other sensor sees, is confirmed; 0: it never is. */
+static int scans_to_confirm(uint8_t gate, int is_late)
+{
+    const struct rho_sensor blind = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 100.0f};
+    static struct rho_initiator own;
+    struct rho_initiator_config config;
+
+    start(gate, 20.0f);
+    rho_initiator_config_default(&config);
+    config.v_max_mps = 400.0f;
+    assert_int_equal(rho_initiator_init(&own, sizeof own, &config), RHO_OK);
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &blind), RHO_OK);
+    for (int k = 0; k < 20; k++) {
+        const struct rho_plot plot = {.x_m = 800.0f * (float)k + 5.0f * sinf((float)k),
+                                      .y_m = 1000.0f,
+                                      .sigma_range_m = 10.0f,
+                                      .sigma_cross_m = 10.0f};
+        const struct rho_scan seen = {
+            .time_us = k * INTERVAL_US, .sensor_id = 2, .num_plots = 1, .plots = &plot};
+        const struct rho_scan other = {.time_us = seen.time_us + 3 * INTERVAL_US / 4,
+                                       .sensor_id = 1};
+
+        if (!is_late) {
+            assert_int_equal(rho_tracker_step(&tracker, &own, &seen, &report), RHO_OK);
+        }
+        assert_int_equal(rho_tracker_step(&tracker, &initiator, &other, &report), RHO_OK);
+        if (is_late) {
+            assert_int_equal(rho_tracker_step(&tracker, &own, &seen, &report), RHO_OK);
+            assert_true(report.time_us == other.time_us);
+        }
+        if (report.num_tracks == 1 && report.tracks[0].status == RHO_TRACK_CONFIRMED) {
+            assert_float_equal(report.tracks[0].state[0], 800.0f * ((float)k + 0.75f), 40.0f);
+            assert_int_equal(tracker.counters.fates[RHO_FATE_STALE], 0);
+            return k + 1;
+        }
+    }
+    return 0;
+}
+
+static void a_radar_that_is_always_late_starts_tracks(void **state)
+{
+    (void)state;
+    for (uint8_t gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
+        const int in_time = scans_to_confirm(gate, 0), late = scans_to_confirm(gate, 1);
+        print_message("gate %d: %d scans in time, %d late\n", gate, in_time, late);
+        assert_true(in_time > 0 && late == in_time);
+    }
+}
+
 static void none_are_taken_where_the_limit_is_0(void **state)
 {
     (void)state;
@@ -372,6 +421,7 @@ int main(void)
         cmocka_unit_test(a_late_scan_elsewhere_moves_no_track),
         cmocka_unit_test(an_initiator_that_is_none_is_refused),
         cmocka_unit_test(a_double_is_stale),
+        cmocka_unit_test(a_radar_that_is_always_late_starts_tracks),
         cmocka_unit_test(none_are_taken_where_the_limit_is_0),
         cmocka_unit_test(limits_beyond_a_minute_are_refused),
         cmocka_unit_test(late_scans_are_worth_nearly_as_much_as_others),

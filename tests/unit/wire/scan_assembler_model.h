@@ -293,13 +293,15 @@ static inline int model_is_proven(const struct model_source *source)
     return source->believed >= model.config.follow_scans;
 }
 
-/* Three of its intervals, an eighth to half of jump_max_us. */
+/* Three of its intervals, an eighth to half of jump_max_us; one and a quarter of them anyhow. */
 static inline int model_is_present(const struct model_source *source, int64_t now_us)
 {
     wide least_us = model.config.jump_max_us / 8, most_us = model.config.jump_max_us / 2;
     wide silent_us = 3 * (wide)source->interval_us;
+    wide next_us = (wide)source->interval_us + source->interval_us / 4;
 
     silent_us = silent_us < least_us ? least_us : silent_us > most_us ? most_us : silent_us;
+    silent_us = silent_us < next_us ? next_us : silent_us;
     return model_is_live(source, now_us) && model_past(source->heard_us, now_us) <= silent_us;
 }
 

@@ -252,6 +252,29 @@ static void the_state_is_told_with_step_times(void **state)
     assert_int_equal(work.work_max, tracker.config.work_max);
 }
 
+static void sensors_are_told_of_in_turn(void **state)
+{
+    struct rho_message_learned learned = {.sensor_id = 77};
+
+    (void)state;
+    start(WAITING);
+    assert_int_equal(rho_node_learned(&node, &learned), 0);
+    assert_int_equal(rho_node_learned(NULL, &learned), 0);
+    assert_int_equal(learned.sensor_id, 77);
+    for (int32_t sensor = 5; sensor < 8; sensor++) {
+        const struct rho_sensor described = {
+            .sensor_id = sensor, .pd = 0.8f, .range_max_m = 50000.0f};
+        assert_int_equal(rho_tracker_set_sensor(&tracker, &described), RHO_OK);
+    }
+    for (int call = 0; call < 7; call++) {
+        assert_int_equal(rho_node_learned(&node, &learned), 1);
+        assert_int_equal(learned.sensor_id, 5 + call % 3);
+        assert_int_equal(learned.epoch, EPOCH);
+        assert_int_equal(learned.scan, node.step);
+    }
+    assert_int_equal(rho_node_learned(&node, NULL), 0);
+}
+
 /* Scans without their last part fill the assembler: the oldest goes out, before it has waited. */
 static void a_message_without_room_waits_for_one_scan(void **state)
 {
@@ -441,6 +464,7 @@ int main(void)
         cmocka_unit_test(what_is_missing_is_refused),
         cmocka_unit_test(scans_become_steps_and_messages),
         cmocka_unit_test(the_state_is_told_with_step_times),
+        cmocka_unit_test(sensors_are_told_of_in_turn),
         cmocka_unit_test(a_message_without_room_waits_for_one_scan),
         cmocka_unit_test(silent_sensors_make_room),
         cmocka_unit_test(a_scan_of_a_sensor_without_room_is_refused),

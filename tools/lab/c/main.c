@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* rhotrack-lab: the experiments and benches. `rhotrack experiment` and `rhotrack bench` run it. */
+/* rhotrack-lab: the benches. `rhotrack bench` runs it. */
 #include <cjson/cJSON.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -10,9 +10,6 @@
 #include "lab_commands.h"
 
 static const struct command commands[] = {
-    {"experiment", command_experiment, "NAME [--runs N] [--seed S] [--method M] [-o DIR]", 1, 1,
-     "orSmj", "says where the experiments are",
-     "Experiments are scripts: tools/lab/NAME.py; tools/lab/README.md lists them.\n"},
     {"bench", command_bench, "[NAME...]", 0, INT_MAX, "jrSsC", "speed, memory, cost a scan",
      "Measures speed and memory; without a name everything there is.\n"},
 };
@@ -24,7 +21,7 @@ static const struct command *find_command(const char *name)
             return &commands[i];
         }
     }
-    fail(EXIT_USAGE, "rhotrack-lab has the commands experiment and bench, not `%s`", name);
+    fail(EXIT_USAGE, "rhotrack-lab has the command bench, not `%s`", name);
 }
 
 int main(int argc, char **argv)

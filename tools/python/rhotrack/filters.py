@@ -203,6 +203,8 @@ class HoughGate:
     def __init__(self, before_mps: Any, newest_mps: Any, planes: str = "xy+xz+yz",
                  gate_theta_deg: float = 5.0) -> None:
         bits = {"xy": 1, "xz": 2, "yz": 4}
+        if np.shape(before_mps) != (3,) or np.shape(newest_mps) != (3,):
+            raise Error("before_mps and newest_mps: three components are wanted")
         if not set(planes.split("+")) <= set(bits):
             raise Error(f"planes {planes!r}: xy, xz and yz, joined by +")
         self.struct = ffi.new("struct rho_gate_hough *")
@@ -214,6 +216,8 @@ class HoughGate:
     def residuals_mps(self, velocities_mps: Any) -> np.ndarray:
         """(n,), m/s, of (n, 3) velocities: the least is the target's."""
         velocities = np.ascontiguousarray(np.atleast_2d(velocities_mps), "f4")
+        if velocities.ndim != 2 or velocities.shape[1] != 3:
+            raise Error(f"velocities_mps: (n, 3) is wanted, not {velocities.shape}")
         return np.array([lib.rho_gate_hough_residual_mps(self.struct, pointer_to(one, "float *"))
                          for one in velocities], "f4")
 

@@ -8,6 +8,7 @@ from typing import Any, Iterable
 
 import numpy as np
 
+from . import pictures
 from ._core import Error, array_of, dtype_of, ffi, lib, must, pointer_to
 from .settings import Settings, settings_of
 
@@ -28,7 +29,7 @@ class Scans(Sequence):
     Fields of a row (float32 but t_s, float64, and sensor_id, int32; NaN or no field: not said):
     t_s, sensor_id; x_m, y_m[, z_m][, vx_mps, vy_mps, vz_mps], or range_m, azimuth_rad (or
     azimuth_deg, clockwise from north)[, elevation_rad], or bearing_rad; range_rate_mps; their
-    sigma_...; sector_from_rad, sector_to_rad; sensor_x_m, sensor_y_m, sensor_z_m; snr_db. Noise of
+    sigmas; sector_from_rad, sector_to_rad; sensor_x_m, sensor_y_m, sensor_z_m; snr_db. Noise of
     places is sigma_m, or sigma_range_m, sigma_cross_m and sigma_up_m along the line of sight,
     across it and upwards. Metres, seconds, radians counter-clockwise from east.
 
@@ -36,9 +37,11 @@ class Scans(Sequence):
     nothing. Else the first row's t_s is. The rows of a frame are the bearings of several sensors,
     those of a sensor together.
 
-    data is a list of such arrays, or one array or data frame of many scans: rows of one sensor_id
-    and t_s (or of one field scan) that stand together are a scan, and scans of bearings within
+    data is a list of such arrays, or one array, data frame, dictionary of columns or list of
+    dictionaries with the rows of many scans in the order of time: rows of one sensor_id and t_s (or
+    of one field scan) that stand together are a scan, and scans of bearings within
     frame_tolerance_s a frame. counts, one a scan, says instead how many rows of one array each has.
+    Other fields are ignored.
 
     Times are taken as they are, and bearings; of polar rows the range and azimuth biases of the
     settings are subtracted.
@@ -46,6 +49,8 @@ class Scans(Sequence):
 
     def __init__(self, data: Any, settings: Settings | None = None, counts: Any = None) -> None:
         settings = settings or Settings()
+        if isinstance(data, list) and data and isinstance(data[0], dict):
+            data = of_dicts(data)
         if counts is None:
             rows, counts, are_frames = _flat(
                 data if _is_list(data) else _split(records(data), settings))
@@ -108,6 +113,9 @@ class Scans(Sequence):
     def __repr__(self) -> str:
         return f"<{len(self)} scans>"
 
+    def _repr_png_(self) -> bytes | None:
+        return pictures.png_of(self) if len(self) else None
+
 
 def as_scans(data: Any, settings: Settings) -> Scans:
     """Scans as they are, all else made into scans."""
@@ -118,14 +126,23 @@ def read(*paths: str | os.PathLike, settings: Settings | None = None, kind: str 
          keep_going: bool = False, **parameters: Any) -> Any:
     """Reads what the program reads: CSV files, LCM logs, ASTERIX recordings; several are merged.
 
+    Also MATLAB's .mat (a struct of columns, see write) and the radar_msgs of .mcap, one at a time.
     Plots and bearings give Scans. A file of tracks or truth gives one structured array, a row each
-    track or target and time; of an LCM log where kind is "tracks" or "truth". The settings say what
+    track or target and time; of other files where kind is "tracks" or "truth". The settings say what
     files leave open: sigmas, places and biases of sensors, scan_interval_s, the origin. keep_going
     skips bad rows. Error names file, line and column.
     """
     if not paths:
         raise Error("read: no file is named")
     given = settings_of(settings, parameters)
+    suffixes = {os.path.splitext(path)[1] for path in paths}
+    if suffixes & {".mat", ".mcap"}:
+        if len(paths) > 1:
+            raise Error("of .mat and .mcap files one is read at a time")
+        from . import files, mcap
+        found = (files.read_mat if ".mat" in suffixes else mcap.read)(paths[0], kind)
+        is_table = isinstance(found, np.ndarray) and files.kind_of(found.dtype.names) != "scans"
+        return found if is_table else Scans(found, given)
     names = [os.fsencode(path) for path in paths]
     kind = kind or ffi.string(must(lib.program_kind(names[0]))).decode()
     if kind == "scans":
@@ -162,19 +179,35 @@ def _format(name: str) -> Any:
 
 
 def records(data: Any) -> np.ndarray:
-    """A structured array of an array, or a pandas or polars frame."""
-    if isinstance(data, np.ndarray):
+    """A structured array of an array, a dictionary of columns, or a pandas or polars frame."""
+    if isinstance(data, (np.ndarray, np.void)):
         if data.dtype.names is None:
             raise Error("an array without named fields: t_s, sensor_id, x_m, y_m, ...")
         return np.atleast_1d(data)
-    if not hasattr(data, "columns"):
+    if not isinstance(data, dict) and not hasattr(data, "columns"):
         raise Error(f"{type(data).__name__} is neither a structured array nor a data frame")
-    columns = {str(name): np.asarray(data[name]) for name in data.columns}
-    numbers = {name: column for name, column in columns.items() if column.dtype.kind in "fiub"}
-    rows = np.empty(len(data), [(name, column.dtype) for name, column in numbers.items()])
-    for name, column in numbers.items():
+    names = data if isinstance(data, dict) else data.columns
+    columns = {str(name): _column(data[name]) for name in names}
+    lengths = {name: len(column) for name, column in columns.items()}
+    if len(set(lengths.values())) > 1:
+        raise Error(f"columns of other lengths: {lengths}")
+    rows = np.empty(max(lengths.values(), default=0),
+                    [(name, column.dtype) for name, column in columns.items()])
+    for name, column in columns.items():
         rows[name] = column
     return rows
+
+
+def _column(data: Any) -> np.ndarray:
+    """Numbers as they are; those that pandas holds as objects (with missing ones) as floats."""
+    column = np.atleast_1d(np.asarray(data))
+    if column.dtype.kind == "O":
+        try:
+            import pandas
+            return np.asarray(pandas.to_numeric(data), float)
+        except (ImportError, TypeError, ValueError):
+            return column.astype(str)
+    return column
 
 
 def to_pandas(data: Any) -> Any:
@@ -190,8 +223,42 @@ def to_polars(data: Any) -> Any:
 
 
 def _columns(data: Any) -> dict[str, np.ndarray]:
-    rows = data.rows if isinstance(data, Scans) else data
+    rows = rows_of(data)
     return {name: np.ascontiguousarray(rows[name]) for name in rows.dtype.names}
+
+
+def field(rows: np.ndarray, name: str) -> np.ndarray:
+    """A column, NaN where there is none."""
+    return rows[name] if name in rows.dtype.names else np.full(len(rows), np.nan, "f4")
+
+
+def polar_of(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Range, azimuth and elevation from the sensor, of Cartesian rows too; NaN: no plot, or no
+    height. Plots that were made of polar ones, which their noise tells, have been moved outwards by
+    the mean of the noise's curvature (rho_measurement_from_polar), and are moved back."""
+    x, y, z = (field(rows, f"{axis}_m") - np.nan_to_num(field(rows, f"sensor_{axis}_m"))
+               for axis in "xyz")
+    ground, cross = np.hypot(x, y), field(rows, "sigma_cross_m")
+    was_polar = ~np.isnan(cross) & (cross != field(rows, "sigma_range_m"))
+    ground /= np.where(was_polar, _gain(cross / ground), 1)
+    range_m = np.hypot(ground, np.nan_to_num(z))
+    range_m /= np.where(was_polar & ~np.isnan(z), _gain(field(rows, "sigma_up_m") / range_m), 1)
+    made = range_m, np.arctan2(y, x), np.arctan2(z, ground)
+    said = (field(rows, name) for name in ("range_m", "azimuth_rad", "elevation_rad"))
+    return tuple(np.where(np.isnan(one), other, one) for one, other in zip(said, made))
+
+
+def _gain(sigma_rad: np.ndarray) -> np.ndarray:
+    return np.exp(sigma_rad**2 / 2)
+
+
+def rows_of(data: Any) -> np.ndarray:
+    """All rows of scans, a list of them, or a table; those given as they are."""
+    if isinstance(data, (list, tuple)):
+        arrays = [records(one) for one in data]
+        is_one_kind = len({one.dtype for one in arrays}) == 1
+        return np.concatenate(arrays) if is_one_kind else Scans(arrays).rows
+    return data.rows if isinstance(data, Scans) else np.asarray(records(data))
 
 
 def _is_list(data: Any) -> bool:
@@ -212,9 +279,17 @@ def _full(array: np.ndarray) -> np.ndarray:
     names = array.dtype.names
     for name in ("t_s", "sensor_id"):
         if name not in names:
-            raise Error(f"the field {name} is missing")
+            raise Error(f"the field {name} is missing; there is: {', '.join(names)}")
+    if "track_id" in names or "target_id" in names:
+        raise Error("track_id or target_id: these are tracks or truth, not plots")
     if not {"x_m", "range_m", "bearing_rad"} & set(names):
         raise Error("one of the fields x_m, range_m and bearing_rad is missing")
+    for name in set(names) & {*ROW.names, "azimuth_deg", "elevation_deg"}:
+        if array.dtype[name].kind not in "fiub" or array.dtype[name].shape:
+            raise Error(f"{name}: numbers are wanted, not {array.dtype[name]}"
+                        + ("; seconds are (t - t[0]) / np.timedelta64(1, 's')"
+                           if array.dtype[name].kind == "M" else ""))
+    _check_ids(array["sensor_id"])
     rows = np.full(len(array), _BLANK).view(ROW)
     for name in names:
         if name in ROW.names:
@@ -225,6 +300,14 @@ def _full(array: np.ndarray) -> np.ndarray:
     if "elevation_deg" in names:
         rows["elevation_rad"] = np.deg2rad(array["elevation_deg"].astype("f8"))
     return rows
+
+
+def _check_ids(ids: np.ndarray) -> None:
+    if ids.dtype.kind == "f" or ids.dtype.itemsize > 4:
+        is_wrong = ~(np.abs(ids) < 2**31) | (ids != np.round(ids))
+        if is_wrong.any():
+            row = is_wrong.argmax()
+            raise Error(f"row {row}: sensor_id {ids[row]} is not a whole number of 32 bits")
 
 
 def _flat(scans: Iterable[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -241,6 +324,12 @@ def _flat(scans: Iterable[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return np.concatenate([_full(array) for array in arrays], out=rows), counts, are_frames
 
 
+def of_dicts(rows: list[dict[str, Any]]) -> dict[str, list[Any]]:
+    """Columns of rows."""
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: [row.get(name, np.nan) for row in rows] for name in names}
+
+
 def _split(rows: np.ndarray, settings: Settings) -> list[np.ndarray]:
     """Rows of many scans, scan by scan or frame by frame."""
     names = rows.dtype.names
@@ -248,6 +337,11 @@ def _split(rows: np.ndarray, settings: Settings) -> list[np.ndarray]:
         _full(rows)  # says which one is missing
     if "bearing_rad" in names:
         return _split_frames(rows, settings.frame_tolerance_s)
+    went_back = rows["t_s"][1:] < rows["t_s"][:-1]
+    if "scan" not in names and went_back.any():
+        row = went_back.argmax() + 1
+        raise Error(f"row {row}: t_s {rows['t_s'][row]} is before {rows['t_s'][row - 1]}: sort the "
+                    "rows, or give a list of scans in the order of their arrival")
     keys = ["sensor_id", *([name for name in ("epoch", "scan") if name in names]
                            if "scan" in names else ["t_s"])]
     is_new = np.zeros(len(rows), bool)

@@ -8,6 +8,9 @@ from typing import Any, Iterator
 from ._core import NULL, Error, ffi, lib, must
 
 
+PRESETS = ("en_route", "approach", "marine", "coastal_harbour", "drone_defence", "traffic")
+
+
 class Settings:
     """All parameters of `rhotrack config`, by their names.
 
@@ -24,6 +27,20 @@ class Settings:
         for name, value in parameters.items():
             self[name] = value
         self.check()
+
+    @classmethod
+    def preset(cls, kind: str, **parameters: Any) -> Settings:
+        """Those of a kind of radar, to begin with: "en_route", "approach", "marine",
+        "coastal_harbour", "drone_defence" or "traffic" (rhotrack/settings.h has the table; the
+        interval of the scans, which says how rows of a file are grouped, is not set)."""
+        if kind not in PRESETS:
+            raise Error(f"preset {kind!r} is none of {', '.join(PRESETS)}")
+        of_kind = ffi.new("struct rho_settings *")
+        lib.rho_settings_preset(of_kind, getattr(lib, f"RHO_PRESET_{kind.upper()}"))
+        known = [ffi.string(one.name).decode() for one in _parameters(_handle(NULL))]
+        return cls(**{**{name: float(f"{getattr(of_kind, name):.7g}")
+                         for name, _ in ffi.typeof(of_kind[0]).fields
+                         if name in known and name != "scan_interval_s"}, **parameters})
 
     def check(self) -> None:
         """Raises Error where parameters contradict one another, as v_min_mps above v_max_mps."""
@@ -84,6 +101,8 @@ def parameters(settings: Settings | None = None) -> dict[str, dict[str, Any]]:
 
 def settings_of(settings: Settings | None, given: dict[str, Any]) -> Settings:
     """What a call was given: settings, parameters or both."""
+    if settings is not None and not isinstance(settings, Settings):
+        raise Error(f"settings: Settings(...) is wanted, not {type(settings).__name__}")
     return (settings or Settings()).copy(**given)
 
 

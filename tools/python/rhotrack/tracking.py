@@ -6,12 +6,31 @@ from typing import Any
 
 import numpy as np
 
+from . import pictures
 from ._core import FATES, NULL, Error, array_of, ffi, lib, must, plain, pointer_to
-from .scans import COVARIANCE, TRACK, as_scans
+from .scans import COVARIANCE, TRACK, as_scans, records
 from .settings import Settings, settings_of
 
 
-def _array(tracks: Any) -> np.ndarray:
+class Tracks(np.ndarray):
+    """The structured array of tracks; a notebook shows it as a picture and a table."""
+
+    def __getitem__(self, key: Any) -> Any:
+        found = super().__getitem__(key)  # columns are plain arrays
+        is_column = isinstance(found, Tracks) and found.dtype.names is None
+        return found.view(np.ndarray) if is_column else found
+
+    def _repr_html_(self) -> str | None:
+        if self.dtype.names is None or "track_id" not in self.dtype.names or not self.size:
+            return None
+        return pictures.html_of(self.view(np.ndarray))
+
+
+def _array(tracks: Any) -> Tracks:
+    return _plain_array(tracks).view(Tracks)
+
+
+def _plain_array(tracks: Any) -> np.ndarray:
     rows = array_of(tracks.list, tracks.count, TRACK)
     if not tracks.has_covariances:
         return rows
@@ -44,7 +63,7 @@ class Tracker:
 
     def step(self, scan: np.ndarray) -> np.ndarray:
         """Takes one scan, or one frame of bearings (see Scans); returns the tracks at its time."""
-        return self.run([scan])
+        return self.run([scan if isinstance(scan, np.ndarray) else records(scan)])
 
     def run(self, scans: Any) -> np.ndarray:
         """Takes many scans in one call of C; returns the tracks of all steps, one after the other.
@@ -193,7 +212,7 @@ class Node:
         return self._do(ffi.NULL, b"", 2**63 - 1)
 
     def status(self) -> list[tuple[str, bytes]]:
-        """The messages RHO_STATUS, RHO_WORK and RHO_SENSORS of now."""
+        """The messages RHO_STATUS, RHO_WORK, RHO_SENSORS and RHO_LEARNED of now."""
         self._sent.clear()
         must(lib.program_node_status(self._node))
         return list(self._sent)

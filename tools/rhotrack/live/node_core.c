@@ -257,6 +257,19 @@ static void send_work(const struct node_core *core, const struct node_core_losse
     }
 }
 
+/* One sensor's at each call. */
+static void send_learned(struct node_core *core)
+{
+    struct rho_message_learned learned;
+    uint8_t buffer[RHO_MESSAGE_LEARNED_MAX_SIZE];
+    size_t size;
+
+    if (rho_node_learned(&core->node, &learned) &&
+        rho_message_learned_encode(&learned, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_LEARNED_CHANNEL, buffer, size);
+    }
+}
+
 void node_core_status(struct node_core *core, const struct node_core_losses *losses)
 {
     const uint64_t refused = losses->datagrams_refused;
@@ -274,6 +287,7 @@ void node_core_status(struct node_core *core, const struct node_core_losses *los
     }
     send_work(core, losses);
     send_sensors(core);
+    send_learned(core);
 }
 
 void node_core_send_clutter(const struct node_core *core)

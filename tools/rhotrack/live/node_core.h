@@ -74,7 +74,7 @@ struct node_core_losses {
     uint64_t events_not_logged;   /* the log took no more */
 };
 
-/* Publishes RHO_STATUS, RHO_WORK and RHO_SENSORS. */
+/* Publishes RHO_STATUS, RHO_WORK, RHO_SENSORS and of one sensor in turn RHO_LEARNED. */
 void node_core_status(struct node_core *core, const struct node_core_losses *losses);
 
 const struct rho_report *node_core_report(const struct node_core *core); /* of the last step */

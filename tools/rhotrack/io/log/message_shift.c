@@ -36,6 +36,7 @@ static bool has_scan(const uint8_t *data, size_t size)
     case RHO_MESSAGE_TYPE_STATUS:
     case RHO_MESSAGE_TYPE_WORK:
     case RHO_MESSAGE_TYPE_SENSOR_LIST:
+    case RHO_MESSAGE_TYPE_LEARNED:
     case RHO_MESSAGE_TYPE_CLUTTER_MAP:
         return size >= SCAN_AT + NUMBER_BYTES;
     default:

@@ -12,6 +12,7 @@ import lcm.lcm.LCMEncodable;
 import rhotrack.bearing_scan_t;
 import rhotrack.clutter_map_t;
 import rhotrack.echo_t;
+import rhotrack.learned_t;
 import rhotrack.peak_list_t;
 import rhotrack.peak_t;
 import rhotrack.polar_plot_t;
@@ -134,6 +135,17 @@ final class MessageTest {
         return message;
     }
 
+    private static learned_t learned(int id, double range, double cross, double pd) {
+        learned_t message = new learned_t();
+        message.sensor_id = (short) id;
+        message.sigma_range_factor = (float) range;
+        message.sigma_cross_factor = (float) cross;
+        message.pd_stated = 0.9f;
+        Arrays.fill(message.pd, 0.9f);
+        message.pd[5] = (float) pd;
+        return message;
+    }
+
     private static void good(Checks check) throws IOException {
         Model model = new Model();
         Decoder decoder = new Decoder(model);
@@ -165,6 +177,13 @@ final class MessageTest {
         check.equal("none any more", List.of(), model.scene().health().sensorFaults());
         decoder.decode("RHO_SENSORS", bytes(sensors(64, 32767, 5, 1, 0)));
         check.equal("no more parts than sensors", List.of(), model.scene().health().sensorFaults());
+        decoder.decode("RHO_LEARNED", bytes(learned(3, 2.1, 1, 0.6)));
+        decoder.decode("RHO_LEARNED", bytes(learned(4, 1, 1, 0.9)));
+        check.equal("what of a sensor is not as stated",
+                List.of("S3 noise 2.1, across 1.0 times as stated", "S3 pd down to 0.60"),
+                model.scene().health().sensorFaults());
+        decoder.decode("RHO_LEARNED", bytes(learned(3, 1, 1, 0.9)));
+        check.equal("it is again", List.of(), model.scene().health().sensorFaults());
         decoder.decode("RHO_CLUTTER", bytes(echoes(7, 0, 2, 300)));
         check.equal("half of a clutter map", List.of(), model.scene().echoes());
         decoder.decode("RHO_CLUTTER", bytes(echoes(7, 1, 2, 400)));
@@ -205,9 +224,12 @@ final class MessageTest {
         sure.echoes[0].chance = 1.5f;
         decoder.decode("RHO_CLUTTER", bytes(sure));
         decoder.decode("RHO_WORK", bytes(work(-1, 1000, 0)));
+        decoder.decode("RHO_LEARNED", bytes(learned(3, Double.NaN, 1, 0.6)));
+        decoder.decode("RHO_LEARNED", bytes(learned(3, 2, 1, 1.5)));
+        check.equal("nothing learned", List.of(), model.scene().health().sensorFaults());
         check.equal("no work", null, model.scene().health().work());
         check.equal("no echoes", List.of(), model.scene().echoes());
-        check.equal("all refused", 13L, model.scene().health().ignored());
+        check.equal("all refused", 15L, model.scene().health().ignored());
         check.equal("nothing shown", 0, model.scene().tracks().size());
         track_list_t vague = trackList(1, track_t.CONFIRMED);
         vague.tracks[0].covariance[0] = Float.NaN;
@@ -221,7 +243,8 @@ final class MessageTest {
         Decoder decoder = new Decoder(model);
         byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)), bytes(bearings()),
             bytes(peaks()), bytes(new status_t()),
-            bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3))};
+            bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3)),
+            bytes(learned(3, 2, 1, 0.6))};
         int rounds = 20000;
         for (int i = 0; i < rounds; i++) {
             byte[] message = originals[i % originals.length].clone();

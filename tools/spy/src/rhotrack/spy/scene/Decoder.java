@@ -7,9 +7,11 @@ import java.io.IOException;
 import java.nio.ByteBuffer;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Locale;
 import rhotrack.bearing_scan_t;
 import rhotrack.clutter_map_t;
 import rhotrack.echo_t;
+import rhotrack.learned_t;
 import rhotrack.peak_list_t;
 import rhotrack.plot_scan_t;
 import rhotrack.polar_scan_t;
@@ -39,7 +41,8 @@ public final class Decoder {
                 || fingerprint == bearing_scan_t.LCM_FINGERPRINT || fingerprint == track_list_t.LCM_FINGERPRINT
                 || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
                 || fingerprint == sensor_list_t.LCM_FINGERPRINT || fingerprint == status_t.LCM_FINGERPRINT
-                || fingerprint == clutter_map_t.LCM_FINGERPRINT || fingerprint == work_t.LCM_FINGERPRINT;
+                || fingerprint == clutter_map_t.LCM_FINGERPRINT || fingerprint == work_t.LCM_FINGERPRINT
+                || fingerprint == learned_t.LCM_FINGERPRINT;
     }
 
     public void decode(String channel, byte[] data) {
@@ -76,6 +79,9 @@ public final class Decoder {
         }
         if (fingerprint == sensor_list_t.LCM_FINGERPRINT) {
             return take(new sensor_list_t(in), in);
+        }
+        if (fingerprint == learned_t.LCM_FINGERPRINT) {
+            return take(new learned_t(in), in);
         }
         if (fingerprint == clutter_map_t.LCM_FINGERPRINT) {
             return take(new clutter_map_t(in), in);
@@ -239,6 +245,29 @@ public final class Decoder {
             }
         }
         model.setSensorFaults(list.part, list.num_parts, faults);
+        return true;
+    }
+
+    private boolean take(learned_t learned, DataInputStream in) throws IOException {
+        double range = learned.sigma_range_factor, cross = learned.sigma_cross_factor, least = learned.pd_stated;
+        if (in.available() > 0 || !(range >= 0 && range <= 100) || !(cross >= 0 && cross <= 100)) {
+            return false;
+        }
+        for (float pd : learned.pd) {
+            if (!(pd >= 0 && pd <= 1)) {
+                return false;
+            }
+            least = Math.min(least, pd);
+        }
+        List<String> notes = new ArrayList<>();
+        if (range != 1 || cross != 1) {
+            notes.add(String.format(Locale.ROOT, "S%d noise %.1f, across %.1f times as stated", learned.sensor_id, range,
+                    cross));
+        }
+        if (least < learned.pd_stated) {
+            notes.add(String.format(Locale.ROOT, "S%d pd down to %.2f", learned.sensor_id, least));
+        }
+        model.setLearned(learned.sensor_id, notes);
         return true;
     }
 

@@ -27,6 +27,8 @@ public final class Model {
     private final Map<Integer, Place> sensors = new TreeMap<>();
     /** RHO_SENSORS: what is wrong with sensors, of each part of the list. */
     private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
+    /** RHO_LEARNED: what of a sensor is not as stated. */
+    private final TreeMap<Integer, List<String>> learned = new TreeMap<>();
     private Scene.Status status;
     private Scene.Work work;
     private long statusNanos;
@@ -91,6 +93,12 @@ public final class Model {
         sensorFaults.tailMap(numParts).clear();
     }
 
+    public synchronized void setLearned(int sensorId, List<String> notes) {
+        if (learned.containsKey(sensorId) || learned.size() < MAX_CHANNELS) {
+            learned.put(sensorId, List.copyOf(notes));
+        }
+    }
+
     public synchronized void countMessage(boolean good) {
         received++;
         ignored += good ? 0 : 1;
@@ -108,6 +116,7 @@ public final class Model {
         bearings.clear();
         sensors.clear();
         sensorFaults.clear();
+        learned.clear();
         peaks = new LookHistory<>(PEAK_LISTS);
         trackParts = new ListAssembler<>();
         truthParts = new ListAssembler<>();
@@ -125,6 +134,7 @@ public final class Model {
         bearings.values().forEach(history -> allBearings.addAll(history.fading()));
         List<String> faults = new ArrayList<>();
         sensorFaults.values().forEach(faults::addAll);
+        learned.values().forEach(faults::addAll);
         Scene.Health health =
                 new Scene.Health(status, work, faults, age(statusNanos), age(tracksNanos), received, ignored);
         return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,

@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""The full node's limit of work loses targets in the densest window alone, and the table says so.
+Program in $RHOTRACK."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import harness
+
+import dense_windows
+
+PROGRAM = os.environ.get("RHOTRACK", str(harness.ROOT / "build" / "rhotrack"))
+SCRIPT = harness.ROOT / "tools" / "lab" / "dense_windows.py"
+HERE = {"t_s": 12.0, "x_m": 100.0, "y_m": 200.0}
+
+
+class DenseWindows(unittest.TestCase):
+    def test_distance_by_hand(self):
+        self.assertEqual(dense_windows.off_m({"x_m": 103.0, "y_m": 196.0}, HERE), 5.0)
+
+    def test_loss(self):
+        """100 runs: .28 of the targets in the densest one, where .86 are found without a limit; all
+        in the paper's."""
+        with tempfile.TemporaryDirectory() as folder:
+            run = [dense_windows.means(PROGRAM, pathlib.Path(folder) / str(per_km2), per_km2, hits,
+                                       4, 3) for per_km2, hits in [(10, 5), (30, 6)]]
+        (paper, paper_free), (densest, densest_free) = run
+        self.assertEqual(paper, paper_free)
+        self.assertGreater(paper[0], 0.9)
+        self.assertEqual(paper[2], 0.0)
+        self.assertLess(densest[0], densest_free[0] - 0.2)
+        self.assertGreater(densest[2], 0.1)
+        self.assertEqual(densest_free[2], 0.0)
+
+    def test_one_run_is_refused(self):
+        done = subprocess.run([SCRIPT, "--runs", "1"], capture_output=True, check=False)
+        self.assertEqual(done.returncode, 2)
+
+
+if __name__ == "__main__":
+    harness.main()
