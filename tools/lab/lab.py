@@ -70,6 +70,12 @@ def quotient_of(top, bottom):
     return quotient, abs(quotient) * math.hypot(top[1] / top[0], bottom[1] / bottom[0])
 
 
+def poisson_limits(count):
+    """The 95 % limits of the mean of a Poisson count."""
+    from scipy.stats import chi2
+    return (chi2.ppf(0.025, 2 * count) / 2 if count else 0.0), chi2.ppf(0.975, 2 * count + 2) / 2
+
+
 def values_of(figures):
     """Figures without their standard errors, for fact()."""
     return {key: value[0] if isinstance(value, tuple) else value for key, value in figures.items()}
