@@ -4,24 +4,23 @@
  *
  * The probability that a calm target begins to turn (imm.h) is weighed at every plot of every
  * straight track. Where no target turns for hours, it makes covariances too large and estimates
- * worse than necessary; where targets turn all the time, covariances too small. Over all
- * established tracks of the last half an hour, while they were seen, with Y the seconds in which
- * they surely manoeuvred and X the others, the mean time between manoeuvres is
+ * worse than necessary. Over all established tracks of the last half an hour, while they were seen,
+ * with Y the seconds in which they surely manoeuvred and X the others, the mean time between
+ * manoeuvres is
  *
  *      (4 300 s + X) / (4 + Y / maneuver_s)
  *
- * as if four manoeuvres had been seen at the default of 300 s. A manoeuvre that is only likelier than
- * not does not count: noise above the stated one looks so, and would not be learned any more. calm_s
- * is doubled where that is twice as long, up to 2400 s, so that the first manoeuvre is still followed
- * in a sky without any. It is halved where that is less than three quarters, down to 75 s. With such
- * coarse steps a few tracks change nothing for the others. After a silence it is 300 s again: nothing
- * was learned meanwhile.
+ * as if four manoeuvres had been seen at the default of 300 s. A manoeuvre that is only likelier
+ * than not does not count: noise above the stated one looks so. calm_s is doubled where that is
+ * twice as long, up to 2400 s, so that the first manoeuvre is still followed in a sky without any.
+ * It is halved where that is less than three quarters, down to 300 s: noise above the stated one is
+ * not learned where tracks are taken to manoeuvre all the time. With such coarse steps a few tracks
+ * change nothing for the others. After a silence it is 300 s again: nothing was learned meanwhile.
  */
 #include "step.h"
 
 #define PRIOR 4.0f
 #define LONGEST_S (8.0f * RHO_IMM_CALM_S)
-#define SHORTEST_S (0.25f * RHO_IMM_CALM_S)
 #define SURELY 0.9f
 
 /* Longer gaps between steps teach nothing. */
@@ -54,7 +53,7 @@ void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s)
                          (PRIOR + tracker->turning_s / model->maneuver_s);
     if (calm_s >= 2.0f * model->calm_s && model->calm_s < LONGEST_S) {
         rho_hypotheses_set_calm(&tracker->hypotheses, 2.0f * model->calm_s);
-    } else if (calm_s < 0.75f * model->calm_s && model->calm_s > SHORTEST_S) {
+    } else if (calm_s < 0.75f * model->calm_s && model->calm_s > RHO_IMM_CALM_S) {
         rho_hypotheses_set_calm(&tracker->hypotheses, 0.5f * model->calm_s);
     }
 }
