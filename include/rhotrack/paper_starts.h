@@ -76,9 +76,8 @@ void rho_paper_starts_config_default(struct rho_paper_starts_config *config,
  * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(starts) bytes cleared.
  * Stack: 250 bytes.
  */
-RHO_MUST_CHECK enum rho_status
-rho_paper_starts_init(struct rho_paper_starts *starts, size_t size,
-                      const struct rho_paper_starts_config *config);
+RHO_MUST_CHECK enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t size,
+                                                     const struct rho_paper_starts_config *config);
 
 /*
  * Takes the plots of the tracker's last step whose fate is NO_ROOM: they become HELD, in the report

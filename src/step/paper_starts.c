@@ -180,7 +180,7 @@ static unsigned find_plots(struct rho_paper_starts *starts, const struct rho_hou
 
 static int is_fresh(unsigned mask, unsigned num_scans)
 {
-    return (mask >> (num_scans - 1u) & 1u) != 0;
+    return num_scans > 0 && (mask >> (num_scans - 1u) & 1u) != 0;
 }
 
 /* The plots will start no other track. */

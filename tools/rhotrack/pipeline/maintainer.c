@@ -362,7 +362,7 @@ static bool update_velocity(struct rho_input *input, const struct rho_input_conf
     const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     float variance = plot->sigma_mps * plot->sigma_mps;
 
-    for (int i = 0; i < axes; i++) {
+    for (int i = 0; i < axes && i < AXES; i++) {
         if (rho_kalman_is_open(&input->bare, i) &&
             rho_input_update(input, config, i + 3, velocity_mps[i], variance) != RHO_OK) {
             return false;
