@@ -12,7 +12,7 @@
 #   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local); BINDIR=, LIBDIR=, INCLUDEDIR=, DOCDIR=
 #                     single folders
 #   PROFILE=workstation  installs the library of that profile (default embedded)
-#   LAB='--runs 5'    options of `make experiments` (tools/lab/README.md)
+#   LAB='--runs 5'    options of all experiments of `make experiments` (tools/lab/README.md)
 
 VERSION := 0.1.0
 BUILD := build
@@ -151,12 +151,14 @@ demo-live:
 	@$(MAKE) --no-print-directory $(jobs) all
 	@RHOTRACK=$(abspath $(program)) tools/demo_live.sh $(BUILD)/demo-live
 
-## Set up what is missing, build, and run the lab's experiments: real skies (build/experiment/real-skies; LAB=options)
+experiment_names := air_traffic dense_windows doppler false_alarms initiation maneuver papers_initiation \
+                    passive polar real_skies rotating several_radars two_radars
+## Set up what is missing, build, and run all experiments of the lab (build/experiment; LAB=options; hours)
 experiments:
 	@tools/setup.sh
 	@tools/setup.sh lab
-	@$(MAKE) --no-print-directory $(jobs) all
-	@tools/lab/real_skies.py --program $(program) -o $(BUILD)/experiment/real-skies $(LAB)
+	@$(MAKE) --no-print-directory $(jobs) all python
+	@for name in $(experiment_names); do BUILD=$(abspath $(BUILD)) tools/lab/$$name.py $(LAB) || exit; done
 
 # --- what packagers use ----------------------------------------------------------------------
 

@@ -1,6 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What a limit of a step's work costs in the densest windows of the literature.
+"""Experiment dense-windows: what a limit of a step's work costs in the densest windows of the
+literature.
 
 Scene crossing (Table 1 of Fan et al.: three targets, seven scans, P_D .99) in more and more clutter,
 one batch (`rhotrack initiate`): once with the work_max of the shipped full node, once without a
@@ -8,7 +9,6 @@ limit. A target is found where a track is within 30 m of it at the last scan. `n
 share of the plots of which not all pairs were tried. Thresholds are those of experiment initiation.
 The node's scans hold 256 plots, so that the densest window is beyond it anyhow.
 """
-import argparse
 import csv
 import json
 import math
@@ -16,7 +16,8 @@ import pathlib
 import subprocess
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+import lab
+
 CLUTTER_PER_KM2 = {5: 5, 10: 5, 15: 5, 20: 5, 24: 6, 30: 6}  # and the hits that are asked
 AREA_KM2 = 10
 FULL_NODE_WORK = 500000  # RHO_WORK_MAX of the embedded profile
@@ -57,30 +58,40 @@ def means(program, folder, per_km2, min_scans, runs, seed):
         [program, "simulate", "crossing", "--runs", str(runs), "--seed", str(seed),
          f"--set=clutter.0.plots_per_km2={per_km2}", "-o", folder],
         check=True)
+    some = sorted(folder.glob("run-*")) or [folder]
     return [[sum(column) / runs for column in zip(*(
-        searched(program, run, min_scans, limit) for run in sorted(folder.glob("run-*"))))]
+        searched(program, run, min_scans, limit) for run in some))]
             for limit in (FULL_NODE_WORK, 0)]
 
 
+def window(job):
+    """One density: plots a scan, and both limits' means."""
+    program, per_km2, min_scans, runs, seed = job
+    with tempfile.TemporaryDirectory() as folder:
+        return per_km2 * AREA_KM2, *means(program, pathlib.Path(folder) / "runs", per_km2,
+                                          min_scans, runs, seed)
+
+
+def add_options(parser):
+    parser.add_argument("--program", default=lab.ROOT / "build" / "rhotrack")
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default=ROOT / "build" / "rhotrack")
-    parser.add_argument("--runs", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=1)
-    options = parser.parse_args()
-    if options.runs < 2:
-        parser.error("--runs is 2 at least")
-    print(f"Scene crossing, seven scans in one batch, {options.runs} runs, seed {options.seed}; "
-          f"work_max {FULL_NODE_WORK} | none\n")
-    heads = ["plots a scan", "found", "without", "loss", "false", "without", "not tried"]
-    print("  ".join(f"{head:>12}" for head in heads))
-    for per_km2, min_scans in CLUTTER_PER_KM2.items():
-        with tempfile.TemporaryDirectory() as folder:
-            limited, free = means(options.program, pathlib.Path(folder) / "runs", per_km2,
-                                  min_scans, options.runs, options.seed)
-        figures = [limited[0], free[0], free[0] - limited[0], limited[1], free[1], limited[2]]
-        print("  ".join([f"{per_km2 * AREA_KM2:12d}", *(f"{figure:12.3f}" for figure in figures)]))
+    options = lab.options_of(__doc__, 100, add_options)
+    report = lab.Report(f"Scene crossing, seven scans in one batch, work_max {FULL_NODE_WORK} "
+                        "and none", options)
+    windows = report.map(window, [
+        (options.program, per_km2, min_scans, options.runs, options.seed)
+        for per_km2, min_scans in CLUTTER_PER_KM2.items()])
+    report.table(
+        ["plots a scan", "found", "without", "loss", "false", "without", "not tried"],
+        [[plots, *(f"{figure:.3f}" for figure in (
+            limited[0], free[0], free[0] - limited[0], limited[1], free[1], limited[2]))]
+         for plots, limited, free in windows])
+    report.fact("windows", [{
+        "plots": plots, "found": limited[0], "found_without_limit": free[0], "false": limited[1],
+        "false_without_limit": free[1], "not_tried": limited[2]} for plots, limited, free in windows])
+    report.close()
 
 
 if __name__ == "__main__":

@@ -364,14 +364,19 @@ def add_run_options(parser):
                         help="the first one (default 1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
                         help="runs side by side (default: processors)")
+    parser.add_argument("--json", action="store_true",
+                        help="one object on standard output instead of the tables")
+    add_program_options(parser)
+
+
+def add_program_options(parser):
+    """Of experiments that run the program."""
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
                         help="a parameter of `rhotrack track`")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "rhotrack",
                         metavar="PATH", help="default: build/rhotrack")
     parser.add_argument("--simulator", type=pathlib.Path, metavar="PATH",
                         help="another build that simulates; default: the same")
-    parser.add_argument("--json", action="store_true",
-                        help="one object on standard output instead of the tables")
 
 
 def parse_options():

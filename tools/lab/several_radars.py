@@ -8,16 +8,12 @@ Of each sky and seed: `rhotrack simulate`, then `rhotrack track` of all plots, a
 alone. tools/lab/README.md says what the figures mean. Exit codes: 0, also where the bar is missed;
 1: the program failed; 2: bad usage.
 """
-import argparse
 import json
-import multiprocessing
-import os
 import pathlib
 import sys
 import tempfile
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")  # runs go side by side
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+import lab  # before numpy, whose threads it limits
 
 import numpy as np
 
@@ -174,57 +170,47 @@ def figures_of(name, runs):
     }
 
 
-def line(found):
-    others = "        -       -" if found[
-        "others_s"] is None else f"{found['others_s']:9.1f} {found['others_first_s']:7.1f}"
-    return (
-        f"{found['sky']:29}{found['together_s']:9.1f}  {' '.join(f'{one:.1f}' for one in found['alone_s']):16}"
-        f"{found['later_s']:+7.2f} +- {found['later_error_s']:.2f}{others}{found['duplicates']:12.5f}"
-        f"  {'ok' if found['held'] else 'MISSED'}")
+def told(value, form):
+    return "" if value is None else form.format(value)
 
 
-def parse_options():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
+def row_of(found):
+    return [found["sky"], f"{found['together_s']:.1f}",
+            " ".join(f"{one:.1f}" for one in found["alone_s"]), f"{found['later_s']:+.2f}",
+            f"{found['later_error_s']:.2f}", told(found["others_s"], "{:.1f}"),
+            told(found["others_first_s"], "{:.1f}"), f"{found['duplicates']:.5f}"]
+
+
+def add_options(parser):
     parser.add_argument("--sky", action="append", choices=list(SKIES),
                         help="this one alone (repeatable)")
-    real_skies.add_run_options(parser)
-    options = parser.parse_args()
-    if options.runs < 2 or options.jobs < 1:
-        parser.error("--runs is 2 at least, --jobs 1")
-    return options
+    real_skies.add_program_options(parser)
 
 
 def main():
-    options = parse_options()
+    options = lab.options_of(__doc__, 20, add_options)
     common = {
         "program": str(options.program), "simulator": str(options.simulator or options.program),
         "set": options.set
     }
     names = options.sky or list(SKIES)
-    if not options.json:
-        print(
-            f"{'':29} together  each alone      later, of the better  others  earliest  duplicates")
-    work = [(name, options.seed + i, common) for name in names for i in range(options.runs)]
-    done = {name: [] for name in names}
-    found = []
+    report = lab.Report("Several radars together, and each alone", options)
     try:
-        with multiprocessing.get_context("fork").Pool(options.jobs) as pool:
-            for name, result in pool.imap(run, work):
-                done[name].append(result)
-                if len(done[name]) == options.runs:
-                    found.append(figures_of(name, done[name]))
-                    if not options.json:
-                        print(line(found[-1]), flush=True)
+        results = report.map(run, [(name, options.seed + i, common) for name in names
+                                   for i in range(options.runs)])
     except (real_skies.Failed, OSError, ValueError) as error:
         sys.stderr.write(f"{pathlib.Path(__file__).name}: {error}\n")
         sys.exit(1)
-    if options.json:
-        print(
-            json.dumps(
-                {
-                    "experiment": "several-radars", "runs": options.runs, "seed": options.seed,
-                    "skies": found
-                }, indent=1))
+    skies = [figures_of(name, [result for of, result in results if of == name]) for name in names]
+    report.table(["sky", "together s", "each alone s", "later than the better", "+-", "others s",
+                  "earliest s", "duplicates"], map(row_of, skies))
+    report.fact("skies", skies)
+    for found in skies:
+        report.at_most(f"{found['sky']}: later than the better one alone, s", found["later_s"], 0,
+                       found["later_error_s"])
+        report.at_most(f"{found['sky']}: duplicate tracks a target and scan", found["duplicates"],
+                       DUPLICATES_MAX)
+    report.close()
 
 
 if __name__ == "__main__":
