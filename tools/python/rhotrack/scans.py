@@ -280,8 +280,8 @@ def _full(array: np.ndarray) -> np.ndarray:
     for name in ("t_s", "sensor_id"):
         if name not in names:
             raise Error(f"the field {name} is missing; there is: {', '.join(names)}")
-    if "track_id" in names or "target_id" in names:
-        raise Error("track_id or target_id: these are tracks or truth, not plots")
+    if "track_id" in names:
+        raise Error("track_id: these are tracks, not plots")
     if not {"x_m", "range_m", "bearing_rad"} & set(names):
         raise Error("one of the fields x_m, range_m and bearing_rad is missing")
     for name in set(names) & {*ROW.names, "azimuth_deg", "elevation_deg"}:
