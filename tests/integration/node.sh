@@ -175,8 +175,8 @@ run track plots.csv bearings.csv --config sharp/scenario.ini --pipeline paper
 cp stdout paper.csv
 check 'plots and bearings start tracks' test "$(awk -F, 'NR > 1 { print $2, $17 == 9 }' paper.csv |
     sort -u | cut -d' ' -f2 | sort -u | wc -l)" = 2
-run publish plots.csv bearings.csv --speed 0 --lcm 'file://papers.lcm?mode=w'
-run node --lcm 'file://papers.lcm?speed=0' --print --config sharp/scenario.ini --pipeline paper
+run publish plots.csv bearings.csv --speed 0 --lcm 'file://played-papers.lcm?mode=w'
+run node --lcm 'file://played-papers.lcm?speed=0' --print --config sharp/scenario.ini --pipeline paper
 check 'the node starts the same from a log' writes_same_as paper.csv
 start papers --config sharp/scenario.ini --pipeline paper
 run publish plots.csv bearings.csv --speed 100

@@ -42,12 +42,19 @@ class Line:
                 self.output = next(rest)
             elif word == "--covariance":
                 self.covariance = True
+            elif word == "--pipeline":
+                self.sets = {"method": "nht", "bearings_method": "passive-paper", "gate": "hough",
+                             "input_estimation": 1, **self.sets}
+                next(rest)
             elif word == "--no-input-estimation":
                 self.alone["input_estimation"] = False
             elif word == "--seed":
                 self.alone["seed"] = int(next(rest))
             elif not word.startswith("--"):
                 self.inputs.append(word)
+        if self.command == "track" and self.method:
+            is_passive = self.method.startswith("passive")
+            self.sets["bearings_method" if is_passive else "method"] = self.method
         self.is_compared = (self.command in ("track", "maintain", "initiate")
                             and not LEFT_OUT & set(words)
                             and (self.output or "").endswith(".csv"))

@@ -22,7 +22,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("BUILD", ROOT / "build"))
+BUILD = ROOT / os.environ.get("BUILD", "build")  # relative: of the repository
 sys.path.append(str(BUILD / "python" / "site"))  # the package rhotrack: make python
 
 STANDARD_ERRORS = 2  # a value this near its bar is told as undecided
