@@ -340,7 +340,7 @@ RHO_MUST_CHECK enum rho_status rho_scan_assembler_take(struct rho_scan_assembler
  * now_us INT64_MAX: all that is there goes out.
  * Returns 0 where nothing is due, or assembler is not initialised. Cost: RHO_MAX_OPEN_SCANS times
  * RHO_MAX_SENSORS.
- * Stack: 280 bytes.
+ * Stack: 290 bytes.
  */
 int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us,
                             struct rho_scan_assembler_item *item);
@@ -348,7 +348,7 @@ int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us
 /*
  * When rho_scan_assembler_next should be called though no message comes; INT64_MAX: not before one
  * does.
- * Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 170 bytes.
+ * Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS. Stack: 180 bytes.
  */
 int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler);
 

@@ -171,6 +171,7 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
     if (!(dt_s > 0.0f || dt_s < 0.0f)) {
         return RHO_OK; /* dt 0: the state stays bit for bit */
     }
+    RHO_UNROLL
     for (int axis = 0; axis < NUM_AXES; ++axis) {
         if (!predict_axis(&next[axis], kalman, axis, dt_s, noise)) {
             return RHO_ERROR_VALUE;
