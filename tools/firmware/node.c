@@ -87,7 +87,8 @@ static void publish_state(void)
     rho_node_work(&node, &work);
     status = rho_message_work_encode(&work, message, sizeof buffer - head, &size);
     send(status, head + size);
-    if (rho_node_learned(&node, &learned)) {
+    /* without hypotheses nothing is learned */
+    if (((RHO_FILTERS)&4) != 0 && rho_node_learned(&node, &learned)) {
         message = begin(RHO_MESSAGE_LEARNED_CHANNEL, &head);
         status = rho_message_learned_encode(&learned, message, sizeof buffer - head, &size);
         send(status, head + size);
