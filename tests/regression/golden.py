@@ -701,20 +701,18 @@ def events(log):
 
 
 PERIODIC = {"RHO_STATUS", "RHO_WORK", "RHO_SENSORS", "RHO_LEARNED", "RHO_CLUTTER"}
-OF_A_NODE = PERIODIC | {"RHO_TRACKS", "RHO_PEAKS"}
+OF_A_STEP = {"RHO_TRACKS", "RHO_PEAKS"}
 
 
 def without_run(log, is_live=False):
-    """A log without what a run puts into it: the node's boot number, which is the time of day, the
-    times of its steps, and of a log that is written live the times of events."""
+    """A log without what a run puts into it: the node's boot number, which is the time of day, and of
+    a log that is written live the times of events."""
     log = bytearray(log)
-    for at, start, end, channel in events(log):
+    for at, start, _, channel in events(log):
         if is_live:
             log[at + 12:at + 20] = bytes(8)
-        if channel in OF_A_NODE:  # after fingerprint, utime and scan
+        if channel in OF_A_STEP:  # after fingerprint, utime and scan
             log[start + 20:start + 24] = bytes(4)
-        if channel == "RHO_STATUS":  # step_us, step_max_us; clutter and the origin are behind
-            log[end - 24:end - 16] = bytes(8)
     return without_periodic(bytes(log))
 
 
