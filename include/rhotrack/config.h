@@ -247,12 +247,20 @@
  * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2
  * input estimation with its gate hough, 4 hypotheses. Code of the other filters is left out of the
  * program: a radar with the gate best needs 4 alone (10 KB less on a Cortex-M4), one with the gate
- * nearest 1. Frames that start tracks need 1, too. Configurations that ask for another filter are
- * refused (CONFIG). RAM does not change: without 4, set RHO_MAX_HYPOTHESES to 1. Default: all. 1 ..
- * 7.
+ * nearest 1. Configurations that ask for another filter are refused (CONFIG). RAM does not change:
+ * without 4, set RHO_MAX_HYPOTHESES to 1. Default: all. 1 .. 7.
  */
 #ifndef RHO_FILTERS
 #define RHO_FILTERS 7
+#endif
+
+/*
+ * 1: tracks start by the library's searches, rho_initiator and rho_passive. 0: left out of the
+ * program (25 KB less on a Cortex-M4), a tracker that is given one refuses it (CONFIG), and the
+ * caller starts tracks: by paper_starts.h, or its own.
+ */
+#ifndef RHO_SEARCHES
+#define RHO_SEARCHES 1
 #endif
 
 /*
@@ -454,6 +462,9 @@
 #endif
 #if RHO_STROBE_BINS < 8 || RHO_STROBE_BINS > 4096
 #error "RHO_STROBE_BINS must be 8 .. 4096"
+#endif
+#if RHO_SEARCHES != 0 && RHO_SEARCHES != 1
+#error "RHO_SEARCHES must be 0 or 1"
 #endif
 #if RHO_SECTORS != 0 && RHO_SECTORS != 1
 #error "RHO_SECTORS must be 0 or 1"

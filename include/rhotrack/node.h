@@ -77,14 +77,15 @@ struct rho_node_config {
     struct rho_tracker *tracker;
     struct rho_report *report; /* of the last step */
     struct rho_frames *frames; /* NULL: scans of bearings are refused; then passive is NULL, too */
+    /*
+     * NULL: after rho_node_step the caller starts tracks from the frame that rho_frames_closed
+     * shows, as rho_passive_paper_step does; sensors farther apart than apart_max_m (of its
+     * batch) are refused
+     */
     struct rho_passive *passive;
+    float apart_max_m;                /* above 0 with frames and without passive; else not used */
     struct rho_node_waiting *waiting; /* waiting_max of them; NULL where that is 0 */
     uint16_t waiting_max;
-    /*
-     * 1: frames are stepped without `passive`: after rho_node_step the caller starts tracks from
-     * the frame that rho_frames_closed shows, as rho_passive_paper_step does
-     */
-    uint16_t has_own_starts;
     /* Range of passive sensors of which no range is known (2 RHO_LIMIT_POSITION_M); 0: that one. */
     float passive_range_max_m;
     int32_t epoch; /* boot number, in the messages */

@@ -394,9 +394,9 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
  *              nothing else changes.
  *   report     filled whole, whatever it held before; of a late scan that updates tracks at the
  *              newest scan's time
- * Errors: NULL (tracker, scan, report, plots of a scan that has some), STATE (tracker or initiator
- * not initialised), VALUE (a sector beyond one turn either way, a time beyond RHO_LIMIT_TIME_US);
- * nothing is changed, *report neither.
+ * Errors: NULL (tracker, scan, report, plots of a scan that has some), CONFIG (initiator, without
+ * RHO_SEARCHES), STATE (tracker or initiator not initialised), VALUE (a sector beyond one turn
+ * either way, a time beyond RHO_LIMIT_TIME_US); nothing is changed, *report neither.
  * Cost: live tracks x plots gate tests, the assignment, updates, and one rho_initiator_search of
  * the newest scan.
  * Stack: 3.8 KB (embedded profile).
@@ -453,10 +453,10 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tr
  *            are those of the last bearing that it claimed
  * A track has one hit or one miss a frame; its score counts every sensor. Frames and scans of plots
  * may be mixed: they update the same tracks.
- * Errors: NULL, STATE (tracker or passive not initialised), CONFIG (passive, where RHO_FILTERS has
- * no Kalman filter), VALUE (a place that is no coordinate, a sector beyond one turn
- * either way, a time beyond RHO_LIMIT_TIME_US, a scan farther than RHO_LIMIT_OFFSET_US from its
- * frame), and those of rho_passive_accepts; nothing is changed, *report neither.
+ * Errors: NULL, STATE (tracker or passive not initialised), CONFIG (passive, without RHO_SEARCHES),
+ * VALUE (a place that is no coordinate, a sector beyond one turn either way, a time beyond
+ * RHO_LIMIT_TIME_US, a scan farther than RHO_LIMIT_OFFSET_US from its frame), and those of
+ * rho_passive_accepts; nothing is changed, *report neither.
  * Cost: live tracks x bearings gate tests, an assignment a scan, updates, and one
  * rho_passive_search.
  * Stack: 4.2 KB (embedded profile).

@@ -337,8 +337,8 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (passive && !RHO_HAS_FILTER(RHO_TRACK_KALMAN)) {
-        return RHO_ERROR_CONFIG; /* it could start no track */
+    if (!RHO_SEARCHES && passive) {
+        return RHO_ERROR_CONFIG;
     }
     enum rho_status status = check_frame(frame);
     if (status == RHO_OK && passive && !rho_tracker_is_late(tracker, frame->time_us)) {

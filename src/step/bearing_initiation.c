@@ -165,7 +165,7 @@ static int is_fresh(const struct rho_passive *passive, const struct rho_passive_
 void rho_tracker_initiate_passive(struct step *step)
 {
     struct rho_passive *passive = step->passive;
-    if (!passive) {
+    if (!RHO_SEARCHES || !passive) {
         rho_tracker_refuse_unclaimed(step);
         return;
     }

@@ -95,7 +95,7 @@ static void start_tracks(struct step *step)
 
 void rho_tracker_initiate(struct step *step)
 {
-    if (step->initiator) {
+    if (RHO_SEARCHES && step->initiator) {
         start_tracks(step);
     } else {
         rho_tracker_refuse_unclaimed(step);

@@ -17,6 +17,9 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
+    if (!RHO_SEARCHES && initiator) {
+        return RHO_ERROR_CONFIG;
+    }
     if (!rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
         !rho_tracker_is_time(scan->time_us)) {
         return RHO_ERROR_VALUE;

@@ -50,13 +50,14 @@ enum rho_status rho_node_init(struct rho_node *node, size_t size,
                               const struct rho_node_config *config)
 {
     if (!node || !config || !config->assembler || !config->tracker || !config->report ||
-        !config->frames != !config->passive || (config->waiting_max > 0 && !config->waiting)) {
+        (config->passive && !config->frames) || (config->waiting_max > 0 && !config->waiting)) {
         return RHO_ERROR_NULL;
     }
     if (size != sizeof *node) {
         return RHO_ERROR_SIZE;
     }
-    if (!rho_is_within(config->passive_range_max_m, 0.0f, RANGE_UNKNOWN_M)) {
+    if (!rho_is_within(config->passive_range_max_m, 0.0f, RANGE_UNKNOWN_M) ||
+        (config->frames && !config->passive && !(config->apart_max_m > 0.0f))) {
         return RHO_ERROR_CONFIG;
     }
     memset(node, 0, sizeof *node);
@@ -144,7 +145,7 @@ static void reset_search(struct rho_node *node)
 {
     struct rho_passive *passive = node->config.passive;
 
-    if (frames_of(node)) {
+    if (frames_of(node) && passive) {
         (void)!rho_passive_init(passive, sizeof *passive, &passive->config);
     }
 }
@@ -172,7 +173,8 @@ static void reset_frames(struct rho_node *node)
 static int is_near_others(const struct rho_node *node, const struct rho_bearing_scan *scan)
 {
     const struct rho_frames *frames = frames_of(node);
-    float apart_max_m = node->config.passive->batch.apart_max_m;
+    const struct rho_passive *passive = node->config.passive;
+    float apart_max_m = passive ? passive->batch.apart_max_m : node->config.apart_max_m;
 
     for (unsigned i = 0; i < frames->num_sensors; i++) {
         float x_m = frames->sensors[i].x_m - scan->x_m, y_m = frames->sensors[i].y_m - scan->y_m;
@@ -491,9 +493,7 @@ static enum rho_status step_frame(struct rho_node *node)
     enum rho_status status;
 
     (void)rho_frames_closed(config->frames, &view);
-    status =
-        rho_tracker_step_frame(config->tracker, config->has_own_starts ? NULL : config->passive,
-                               &view.frame, config->report);
+    status = rho_tracker_step_frame(config->tracker, config->passive, &view.frame, config->report);
     node->counters.frames_refused = rho_count(node->counters.frames_refused, status != RHO_OK);
     return status;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * filters: what a build with RHO_FILTERS takes, and the same bytes as the full build's of it, for
- * filters.sh. Prints a line for each gate, with and without input estimation, and one for frames of
- * bearings that are to start tracks: the outcome of init, and a sum over all reports of a scene.
+ * filters.sh. Prints a line for each gate, with and without input estimation: the outcome of init, and
+ * a sum over all reports of a scene; and one for a scan and a frame that are to start tracks.
  */
 #include <stdio.h>
 #include <string.h>
@@ -88,13 +88,19 @@ static void print_default(void)
     printf("default %s\n", rho_status_name(rho_tracker_init(&tracker, sizeof tracker, &config)));
 }
 
-static void print_frames(void)
+static void print_starts(void)
 {
+    static const struct rho_scan scan = {.time_us = 0};
     static const struct rho_frame frame = {.time_us = 0};
+    struct rho_initiator_config initiation;
     struct rho_passive_config config;
+    rho_initiator_config_default(&initiation);
     rho_passive_config_default(&config);
-    int failed = rho_passive_init(&passive, sizeof passive, &config) != RHO_OK;
-    printf("frames %s\n",
+    const int failed = rho_initiator_init(&initiator, sizeof initiator, &initiation) != RHO_OK ||
+                       rho_passive_init(&passive, sizeof passive, &config) != RHO_OK;
+    printf("starts %s %s\n",
+           failed ? "unusable"
+                  : rho_status_name(rho_tracker_step(&tracker, &initiator, &scan, &report)),
            failed ? "unusable"
                   : rho_status_name(rho_tracker_step_frame(&tracker, &passive, &frame, &report)));
 }
@@ -112,6 +118,6 @@ int main(void)
                (unsigned)sum, status == RHO_OK ? (unsigned)report.num_tracks : 0u);
     }
     print_default();
-    print_frames();
+    print_starts();
     return 0;
 }

@@ -26,7 +26,7 @@ memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 # What any compiler can look at: all but what is the board's.
 firmware_portable := $(wildcard $(firmware_folder)/*.c $(board)/*.c $(board)/host/*.c)
 firmware_scripts := $(wildcard $(board)/mps2/*.ld) $(firmware_folder)/firmware.mk
-firmware_node := $(firmware_folder)/node.c
+firmware_node := $(firmware_folder)/node.c $(firmware_folder)/starts_best.c
 radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/main.c $(board)/udp_frame.c \
                  $(board)/memory.c \
                  $(addprefix $(board)/mps2/,startup.c board_mps2.c lan9118.c)
@@ -36,11 +36,13 @@ replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.
 # --- images: build/firmware/CORE/IMAGE.elf ---------------------------------------------------
 
 # The configurations of nodes/, and whose processor is to take them.
-node_names_m4 := en_route marine smallest
+node_names_m4 := en_route marine smallest paper
 node_names_m7 := traffic
-worst_names_m4 := full $(node_names_m4)
+worst_names_m4 := full $(filter-out paper,$(node_names_m4))
 worst_names_m7 := $(node_names_m7)
-smallest_replay := $(firmware)/m4/nodes/smallest-replay.elf
+# Those that play records, too.
+replay_names := smallest paper
+replays := $(replay_names:%=$(firmware)/m4/nodes/%-replay.elf)
 node_images := $(foreach core,m4 m7,$(node_names_$(core):%=$(firmware)/$(core)/nodes/%.elf))
 worst_images := $(foreach core,m4 m7,$(worst_names_$(core):%=$(firmware)/$(core)/worst/%.elf))
 firmware_images := $(foreach core,m4 m7,$(firmware)/$(core)/radar.elf $(firmware)/$(core)/replay.elf)
@@ -54,7 +56,7 @@ firmware-test:
 	@tools/setup.sh
 	@tools/setup.sh firmware
 	@BUILD=$(BUILD) tools/python.sh
-	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(node_images) $(smallest_replay) $(worst_images) $(replay) $(replay_radar) $(firmware_tests)
+	@$(MAKE) --no-print-directory $(jobs) all $(firmware_images) $(node_images) $(replays) $(worst_images) $(replay) $(replay_radar) $(replay_paper) $(firmware_tests)
 	@BUILD=$(BUILD) tests/run.sh $(firmware_tests) $(sort $(wildcard tests/firmware/*.sh))
 
 firmware_tests := $(addprefix $(BUILD)/tests/firmware/,test_udp_frame test_node_guard)
@@ -84,8 +86,12 @@ $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 worst_sources := $(library_sources) tools/instructions/worst.c \
                  $(addprefix $(board)/mps2/,startup.c semihosting.c library_console.c)
 
+# How tracks of a node start (starts.h).
+starts_of = $(firmware_folder)/starts_$(if $(filter paper,$(1)),paper,best).c
+sources_of = $(filter-out $(firmware_folder)/starts_%.c,$(2)) $(call starts_of,$(1))
+
 define node_of # core, name
-$(firmware)/$(1)/nodes/$(2).elf: $(radar_sources:%.c=$(firmware)/$(1)/nodes/$(2)/%.o) $(firmware_scripts)
+$(firmware)/$(1)/nodes/$(2).elf: $(patsubst %.c,$(firmware)/$(1)/nodes/$(2)/%.o,$(call sources_of,$(2),$(radar_sources))) $(firmware_scripts)
 	$$(call firmware_bind,$$($(1)_flags) $(FIRMWARE_OPT) -nostdlib -T node.ld,$$(filter %.o,$$^) -lgcc)
 $(firmware)/$(1)/nodes/$(2)/%.o: %.c Makefile $(firmware_folder)/firmware.mk
 	$$(call firmware_compile,$$($(1)_flags) $(firmware_flags) -DRHO_CONFIG_FILE='"nodes/$(2).h"' $(FIRMWARE_OPT) $$(part_flags))
@@ -99,11 +105,11 @@ endef
 $(foreach core,m4 m7,$(foreach name,$(node_names_$(core)),$(eval $(call node_of,$(core),$(name)))))
 $(foreach core,m4 m7,$(foreach name,$(worst_names_$(core)),$(eval $(call worst_of,$(core),$(name)))))
 
-# The smallest one also on records.
-smallest_replay_own := $(firmware_folder)/replay.c $(board)/mps2/semihosting.c
-$(smallest_replay): $(filter-out %/main.o %/udp_frame.o %/board_mps2.o %/lan9118.o,$(radar_sources:%.c=$(firmware)/m4/nodes/smallest/%.o)) \
-                    $(smallest_replay_own:%.c=$(firmware)/m4/nodes/smallest/%.o) $(firmware_scripts)
-	$(call firmware_bind,$(m4_flags) $(FIRMWARE_OPT) -nodefaultlibs -T large.ld,$(filter %.o,$^) -lc -lgcc)
+define replay_of # name
+$(firmware)/m4/nodes/$(1)-replay.elf: $(patsubst %.c,$(firmware)/m4/nodes/$(1)/%.o,$(call sources_of,$(1),$(replay_sources))) $(firmware_scripts)
+	$$(call firmware_bind,$$(m4_flags) $(FIRMWARE_OPT) -nodefaultlibs -T large.ld,$$(filter %.o,$$^) -lc -lgcc)
+endef
+$(foreach name,$(replay_names),$(eval $(call replay_of,$(name))))
 
 ## Search for the scans that cost each shipped configuration of the node most (WORST_SKIES=400 WORST_SEED=1); minutes
 worst: $(worst_images)
@@ -138,15 +144,16 @@ replay := $(BUILD)/firmware/replay
 $(replay): $(replay_needs) $(library) $(replay_headers) Makefile
 	$(call compile,$(replay_flags)) $(LDFLAGS) -MF /dev/null -o $@ $(filter %.c %.a,$^)
 
-# With the capacities of the radar: what its image must send.
+# With the capacities of an image: what it must send.
 replay_radar := $(BUILD)/firmware/replay-radar
 $(replay_radar): $(replay_needs) $(library_sources) $(replay_headers) Makefile
 	$(call compile,$(radar_flags)) $(LDFLAGS) -MF /dev/null -o $@ $(filter %.c,$^)
+replay_paper := $(BUILD)/firmware/replay-paper
+$(replay_paper): $(call sources_of,paper,$(replay_needs)) $(library_sources) $(replay_headers) $(firmware_folder)/nodes/paper.h Makefile
+	$(call compile,$(firmware_flags) -DRHO_CONFIG_FILE='"nodes/paper.h"') $(LDFLAGS) -MF /dev/null -o $@ $(filter %.c,$^)
 
 .PHONY: firmware firmware-test job-images worst
 job-images: $(job_images)
 .SECONDARY: $(foreach core,m4 m7,$(job_sources:%.c=$(firmware)/$(core)/jobs/%.o) $(job_parts:%.c=$(firmware)/$(core)/jobs/%.o))
 
--include $(firmware_tests:=.d) $(foreach core,m4 m7,$(radar_sources:%.c=$(firmware)/$(core)/radar/%.d) \
-           $(replay_sources:%.c=$(firmware)/$(core)/replay/%.d) \
-           $(foreach source,$(library_sources) $(job_sources) $(job_parts),$(source:%.c=$(firmware)/$(core)/jobs/%.d)))
+-include $(firmware_tests:=.d) $(shell find $(firmware) -name "*.d" 2>/dev/null)

@@ -5,20 +5,15 @@
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"
-#include "rhotrack/passive.h"
 #include "rhotrack/udpm.h"
+#include "starts.h"
 
 #define STATUS_INTERVAL_US 1000000
-
-/* A node of a library without bearings carries none of their code and memory. */
-#define HAS_BEARINGS RHO_SCAN_ASSEMBLER_HAS(RHO_SCAN_ASSEMBLER_BEARINGS)
 
 static struct node_config settings;
 static struct rho_scan_assembler assembler;
 static struct rho_tracker tracker;
-static struct rho_initiator initiator;
 static struct rho_frames frames;
-static struct rho_passive passive;
 static struct rho_report report;
 static struct rho_node node;
 
@@ -59,7 +54,7 @@ static void publish_step(void)
         size_t head, size = 0;
         uint8_t *message = begin(rho_node_channel(&node, part), &head);
         enum rho_status status =
-            rho_node_publish(&node, &initiator, part, message, sizeof buffer - head, &size);
+            rho_node_publish(&node, starts_initiator(), part, message, sizeof buffer - head, &size);
         send(status, head + size);
     }
 }
@@ -77,7 +72,7 @@ static void publish_state(void)
     size_t head, size = 0;
     uint8_t *message = begin(RHO_MESSAGE_STATUS_CHANNEL, &head);
     enum rho_status status;
-    rho_node_status(&node, &initiator, &state);
+    rho_node_status(&node, starts_initiator(), &state);
     add(&state.fragments_refused, datagrams_refused);
     add(&state.fragments_refused, guard.refused_source);
     add(&state.fragments_refused, guard.refused_mac);
@@ -105,7 +100,7 @@ static enum rho_status open_tracker(void)
     if (status == RHO_OK) {
         tracker.counters = counters;
         tracker.work = work;
-        status = rho_initiator_init(&initiator, sizeof initiator, &settings.initiator);
+        status = starts_open(&settings);
     }
     return status;
 }
@@ -113,7 +108,7 @@ static enum rho_status open_tracker(void)
 static void step(void)
 {
     int64_t start_us = settings.clock_us(settings.context);
-    if (rho_node_step(&node, &initiator) == RHO_OK) {
+    if (starts_step(&node) == RHO_OK) {
         rho_node_count_time(&node, settings.clock_us(settings.context) - start_us);
         if (settings.stepped) {
             settings.stepped(settings.context, &report);
@@ -219,26 +214,19 @@ static enum rho_status open_assembler(const struct node_config *config)
     return status;
 }
 
-static enum rho_status open_bearings(void)
-{
-    struct rho_passive_config search;
-    struct rho_frames_config gather;
-    enum rho_status status;
-    rho_passive_config_default(&search);
-    rho_frames_config_default(&gather);
-    status = rho_passive_init(&passive, sizeof passive, &search);
-    return status == RHO_OK ? rho_frames_init(&frames, sizeof frames, &gather) : status;
-}
-
 static enum rho_status open_node(void)
 {
-    const struct rho_node_config config = {.assembler = &assembler,
-                                           .tracker = &tracker,
-                                           .report = &report,
-                                           .frames = HAS_BEARINGS ? &frames : NULL,
-                                           .passive = HAS_BEARINGS ? &passive : NULL,
-                                           .epoch = epoch()};
-    return rho_node_init(&node, sizeof node, &config);
+    struct rho_node_config config = {
+        .assembler = &assembler, .tracker = &tracker, .report = &report, .epoch = epoch()};
+    enum rho_status status = RHO_OK;
+    if (NODE_HAS_BEARINGS) {
+        struct rho_frames_config gather;
+        rho_frames_config_default(&gather);
+        status = rho_frames_init(&frames, sizeof frames, &gather);
+        config.frames = &frames;
+    }
+    starts_of_bearings(&config);
+    return status == RHO_OK ? rho_node_init(&node, sizeof node, &config) : status;
 }
 
 enum rho_status node_start(const struct node_config *config)
@@ -259,9 +247,6 @@ enum rho_status node_start(const struct node_config *config)
     status = open_assembler(config);
     if (status == RHO_OK) {
         status = open_tracker();
-    }
-    if (status == RHO_OK && HAS_BEARINGS) {
-        status = open_bearings();
     }
     if (status == RHO_OK) {
         status = open_node();

@@ -34,6 +34,9 @@
 #ifndef NODE_ACCEL_MAX_MPS2
 #define NODE_ACCEL_MAX_MPS2 30.0f
 #endif
+#ifndef NODE_GATE
+#define NODE_GATE (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST)
+#endif
 #ifndef NODE_WORK_MAX
 #define NODE_WORK_MAX RHO_WORK_MAX
 #endif
@@ -48,6 +51,7 @@ static inline void node_settings(struct rho_tracker_config *tracker,
     tracker->v_max_mps = initiator->v_max_mps = NODE_V_MAX_MPS;
     tracker->accel_max_mps2 = NODE_ACCEL_MAX_MPS2;
     initiator->turn_mps2 = 0.2f * NODE_ACCEL_MAX_MPS2;
+    tracker->gate = NODE_GATE;
     tracker->work_max = initiator->work_max = NODE_WORK_MAX;
 }
 

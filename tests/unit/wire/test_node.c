@@ -174,8 +174,11 @@ static void what_is_missing_is_refused(void **state)
     config.passive_range_max_m = NAN;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_CONFIG);
     config = config_of(WAITING);
-    config.passive = NULL;
+    config.frames = NULL; /* a search, and no frames */
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
+    config = config_of(WAITING);
+    config.passive = NULL; /* the caller's own, and not said how far its sensors may be apart */
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_CONFIG);
     config = config_of(WAITING);
     config.waiting = NULL;
     assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_ERROR_NULL);
@@ -458,10 +461,32 @@ static void radars_alone_refuse_bearings(void **state)
     assert_int_equal(node.counters.bearings_refused, 1);
 }
 
+/* Frames are stepped and start nothing; a sensor that is too far from the others is refused. */
+static void the_caller_may_start_tracks_from_frames(void **state)
+{
+    struct rho_node_config config = config_of(0);
+
+    (void)state;
+    open_all();
+    config.passive = NULL;
+    config.apart_max_m = 30000.0f;
+    assert_int_equal(rho_node_init(&node, sizeof node, &config), RHO_OK);
+    for (int32_t scan = 0; scan < 3; scan++) {
+        send_bearing(1, -10000.0f, scan, now_us + 10000000 * scan);
+        send_bearing(2, 10000.0f, scan, now_us + 10000000 * scan);
+        send_bearing(3, 40000.0f, scan, now_us + 10000000 * scan);
+        run_until(INT64_MAX);
+    }
+    assert_string_equal(done, "FFF");
+    assert_int_equal(tracker.num_tracks, 0);
+    assert_int_equal(node.counters.bearings_refused, 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_missing_is_refused),
+        cmocka_unit_test(the_caller_may_start_tracks_from_frames),
         cmocka_unit_test(scans_become_steps_and_messages),
         cmocka_unit_test(the_state_is_told_with_step_times),
         cmocka_unit_test(sensors_are_told_of_in_turn),

@@ -62,10 +62,10 @@ static void open_node(struct node_core *core, int32_t epoch)
         .tracker = core->pipeline.tracker,
         .report = core->pipeline.report,
         .frames = &core->frames,
-        .passive = core->pipeline.passive,
+        .passive = core->pipeline.paper ? NULL : core->pipeline.passive,
+        .apart_max_m = core->pipeline.paper ? core->pipeline.paper->batch.apart_max_m : 0.0f,
         .waiting = core->waiting,
         .waiting_max = WAITING_MAX,
-        .has_own_starts = core->pipeline.paper != NULL,
         .passive_range_max_m = (float)core->parameters->value[PARAMETER_RANGE_MAX_M],
         .epoch = epoch};
 

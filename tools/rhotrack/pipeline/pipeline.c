@@ -51,6 +51,9 @@ static enum method bearings_method_of(const struct parameters *parameters)
     return (enum method)(METHOD_PASSIVE + (int)parameters->value[PARAMETER_BEARINGS_METHOD]);
 }
 
+/* The window of rho_paper_starts_config_default. */
+#define PAPER_SCANS 4
+
 static void suggest_pipeline(struct parameters *parameters, const char *name)
 {
     if (strcmp(name, "paper") != 0) {
@@ -79,6 +82,7 @@ void pipeline_set_options(struct parameters *parameters, const struct pipeline_o
                          "hough and nearest");
     }
     if (method_of(parameters) != METHOD_KERNEL) {
+        parameters_suggest(parameters, PARAMETER_SCANS, PAPER_SCANS);
         method_suggest(method_of(parameters), parameters);
     }
 }
