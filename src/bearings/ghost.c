@@ -138,19 +138,117 @@ static unsigned prune(struct rho_ghost_matrix *matrix)
     return removed + prune_beams(&columns, columns_done, rows_done);
 }
 
-static int every_beam_has_one(struct rho_ghost_matrix *matrix)
+/* ---- complete matchings ---------------------------------------------------------------------- */
+
+#define NONE 0xffu
+
+/* Each bearing of a with one of b, as many as there are. */
+struct matching {
+    unsigned count;                   /* bearings of either sensor */
+    uint64_t kept[RHO_MAX_BEARINGS];  /* columns that meet the row */
+    uint8_t column[RHO_MAX_BEARINGS]; /* of a row; NONE: not yet */
+    uint8_t row[RHO_MAX_BEARINGS];    /* of a column */
+};
+
+static void open_matching(struct matching *matching, const struct rho_ghost_matrix *matrix)
 {
-    struct beams both[2] = {{matrix, matrix->rows, matrix->columns, 0},
-                            {matrix, matrix->columns, matrix->rows, 1}};
-    for (unsigned side = 0; side < 2; side++) {
-        for (unsigned beam = 0; beam < both[side].count; beam++) {
-            unsigned only;
-            if (count_kept(&both[side], beam, &only) == 0) {
-                return 0;
+    matching->count = matrix->rows;
+    for (unsigned i = 0; i < matching->count; i++) {
+        matching->column[i] = matching->row[i] = NONE;
+        matching->kept[i] = 0;
+        for (unsigned j = 0; j < matching->count; j++) {
+            matching->kept[i] |= (uint64_t)(matrix->reason[i][j] == RHO_GHOST_KEPT) << j;
+        }
+    }
+}
+
+/* Back along the path by which the column was reached, every row takes the column behind it. */
+static void take_columns(struct matching *matching, const uint8_t *reached_from, unsigned row,
+                         unsigned column)
+{
+    unsigned taker = NONE;
+    while (taker != row) {
+        taker = reached_from[column];
+        const unsigned left = matching->column[taker];
+        matching->column[taker] = (uint8_t)column;
+        matching->row[column] = (uint8_t)taker;
+        column = left;
+    }
+}
+
+/* A row may take a column whose row finds another one, and so on. Returns 0 where there is none. */
+static int match_row(struct matching *matching, unsigned row)
+{
+    uint8_t rows[RHO_MAX_BEARINGS], reached_from[RHO_MAX_BEARINGS];
+    uint64_t reached = 0;
+    unsigned end = 0;
+    rows[end++] = (uint8_t)row;
+    for (unsigned i = 0; i < end; i++) {
+        for (unsigned column = 0; column < matching->count; column++) {
+            if (!((matching->kept[rows[i]] & ~reached) >> column & 1u)) {
+                continue;
+            }
+            reached |= (uint64_t)1 << column;
+            reached_from[column] = rows[i];
+            if (matching->row[column] == NONE) {
+                take_columns(matching, reached_from, row, column);
+                return 1;
+            }
+            rows[end++] = matching->row[column];
+        }
+    }
+    return 0;
+}
+
+static int is_complete(struct matching *matching)
+{
+    unsigned row = 0;
+    while (row < matching->count && match_row(matching, row)) {
+        row++;
+    }
+    return row == matching->count;
+}
+
+/* The rows that are free once each of them has taken the column of the next: from row i a bit k. */
+static void find_ways(const struct matching *matching, uint64_t ways[RHO_MAX_BEARINGS])
+{
+    for (unsigned i = 0; i < matching->count; i++) {
+        ways[i] = 0;
+        for (unsigned k = 0; k < matching->count; k++) {
+            ways[i] |= (matching->kept[i] >> matching->column[k] & 1u) << k;
+        }
+    }
+    for (unsigned k = 0; k < matching->count; k++) {
+        for (unsigned i = 0; i < matching->count; i++) {
+            ways[i] |= ways[i] >> k & 1u ? ways[k] : 0;
+        }
+    }
+}
+
+/*
+ * A crossing is part of a complete matching where the row that has its column finds a way to the
+ * column of the crossing's row.
+ */
+static unsigned prune_unmatched(struct rho_ghost_matrix *matrix)
+{
+    struct matching matching;
+    uint64_t ways[RHO_MAX_BEARINGS];
+    unsigned removed = 0;
+    open_matching(&matching, matrix);
+    if (!is_complete(&matching)) {
+        return 0;
+    }
+    find_ways(&matching, ways);
+    for (unsigned i = 0; i < matching.count; i++) {
+        for (unsigned j = 0; j < matching.count; j++) {
+            if (matrix->reason[i][j] == RHO_GHOST_KEPT && !(ways[matching.row[j]] >> i & 1u)) {
+                matrix->delta_rad[i][j] = 0.0f;
+                matrix->reason[i][j] = RHO_GHOST_UNMATCHED;
+                removed++;
             }
         }
     }
-    return 1;
+    return removed;
 }
 
 unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule)
@@ -158,22 +256,14 @@ unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule ru
     if (rule == RHO_GHOST_LITERAL) {
         return prune(matrix);
     }
-    if (rule != RHO_GHOST_SAFE || matrix->rows != matrix->columns) {
-        return 0;
-    }
-    struct rho_ghost_matrix tried = *matrix;
-    unsigned removed = prune(&tried);
-    if (!every_beam_has_one(&tried)) {
-        return 0;
-    }
-    *matrix = tried;
-    return removed;
+    return rule == RHO_GHOST_SAFE && matrix->rows == matrix->columns ? prune_unmatched(matrix) : 0;
 }
 
 /* Characters, not pointers: nothing to relocate. */
-static const char names[RHO_NUM_GHOST_REASONS][7] = {
-    [RHO_GHOST_KEPT] = "kept",   [RHO_GHOST_SIDES] = "sides", [RHO_GHOST_APART] = "apart",
-    [RHO_GHOST_RANGE] = "range", [RHO_GHOST_ROW] = "row",     [RHO_GHOST_COLUMN] = "column",
+static const char names[RHO_NUM_GHOST_REASONS][10] = {
+    [RHO_GHOST_KEPT] = "kept",           [RHO_GHOST_SIDES] = "sides", [RHO_GHOST_APART] = "apart",
+    [RHO_GHOST_RANGE] = "range",         [RHO_GHOST_ROW] = "row",     [RHO_GHOST_COLUMN] = "column",
+    [RHO_GHOST_UNMATCHED] = "unmatched",
 };
 
 const char *rho_ghost_reason_name(enum rho_ghost_reason reason)

@@ -13,8 +13,11 @@
  *
  * The literal rule assumes one target on a beam at most, and is right if both sensors see every
  * target and nothing else. After a false alarm or a miss, the only crossing of a beam may be a
- * ghost, which then removes a target. The safe rule keeps the literal result only if it is
- * consistent: as many bearings from a as from b, and a crossing left for each.
+ * ghost, which then removes a target. The safe rule acts only where nothing contradicts
+ * that: as many bearings from a as from b, and a complete matching, each bearing with one of the
+ * other sensor's. Then a crossing that is in no complete matching is a ghost. That removes what the
+ * literal rule removes, and more: where two beams of a meet the same two of b and nothing else, no
+ * third one has its target there.
  *
  * Source: passive Hough transform paper (see crossing.h), section 3, steps 1 to 2.6.
  *
@@ -36,18 +39,19 @@ extern "C" {
 /* Fate of a crossing. */
 enum rho_ghost_reason {
     RHO_GHOST_KEPT = 0,
-    RHO_GHOST_SIDES,  /* the bearings look to different sides of the base */
-    RHO_GHOST_APART,  /* they diverge: delta <= 0 (step 1.1) */
-    RHO_GHOST_RANGE,  /* they meet beyond range_max (step 1.2.1) */
-    RHO_GHOST_ROW,    /* the bearing of b is another bearing of a's only one (step 2.3) */
-    RHO_GHOST_COLUMN, /* the bearing of a is another bearing of b's only one (step 2.5) */
+    RHO_GHOST_SIDES,     /* the bearings look to different sides of the base */
+    RHO_GHOST_APART,     /* they diverge: delta <= 0 (step 1.1) */
+    RHO_GHOST_RANGE,     /* they meet beyond range_max (step 1.2.1) */
+    RHO_GHOST_ROW,       /* the bearing of b is another bearing of a's only one (step 2.3) */
+    RHO_GHOST_COLUMN,    /* the bearing of a is another bearing of b's only one (step 2.5) */
+    RHO_GHOST_UNMATCHED, /* the safe rule: in no complete matching */
     RHO_NUM_GHOST_REASONS
 };
 
 enum rho_ghost_rule {
     RHO_GHOST_NO_RULE, /* elimination by side and range alone */
     RHO_GHOST_LITERAL, /* steps 2 to 2.6 of the paper */
-    RHO_GHOST_SAFE     /* the same, where nothing contradicts it */
+    RHO_GHOST_SAFE     /* complete matchings, where there are some */
 };
 
 struct rho_ghost_matrix {
@@ -71,7 +75,7 @@ RHO_MUST_CHECK enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
 
 /*
  * Prunes a filled matrix. Returns how many crossings that removed.
- * Cost: RHO_MAX_BEARINGS^3 at most. Stack: 530 bytes: a matrix, and 210.
+ * Cost: RHO_MAX_BEARINGS^3 at most. Stack: 300 bytes.
  */
 unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule);
 

@@ -58,7 +58,7 @@ static void lay(unsigned rows, unsigned columns, const char *const *text)
 
 static void expect(const char *const *text)
 {
-    static const char letters[RHO_NUM_GHOST_REASONS] = {'1', 's', 'a', '0', 'r', 'c'};
+    static const char letters[RHO_NUM_GHOST_REASONS] = {'1', 's', 'a', '0', 'r', 'c', 'u'};
     for (unsigned i = 0; i < matrix.rows; i++) {
         for (unsigned j = 0; j < matrix.columns; j++) {
             assert_int_equal(letters[matrix.reason[i][j]], text[i][j]);
@@ -119,10 +119,78 @@ static void the_safe_rule_wants_as_many_of_each(void **state)
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
     lay(3, 3, (const char *const[]){"111", "110", "100"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 3);
-    expect((const char *const[]){"rr1", "r10", "100"});
+    expect((const char *const[]){"uu1", "u10", "100"});
     lay(3, 3, (const char *const[]){"111", "110", "100"});
     assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_NO_RULE), 0);
     expect((const char *const[]){"111", "110", "100"});
+}
+
+/* Two beams that meet the same two: no single crossing, and yet the third's is known. */
+static void a_complete_matching_decides_more_than_single_crossings(void **state)
+{
+    (void)state;
+    lay(3, 3, (const char *const[]){"110", "110", "111"});
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 2);
+    expect((const char *const[]){"110", "110", "uu1"});
+    lay(3, 3, (const char *const[]){"110", "110", "110"});
+    assert_int_equal(rho_ghost_prune(&matrix, RHO_GHOST_SAFE), 0);
+}
+
+/* Crossings of all complete matchings that go on from row i with the columns that are left. */
+static unsigned add_matchings(unsigned i, unsigned left, uint16_t found[])
+{
+    unsigned matchings = 0;
+    if (i == matrix.rows) {
+        return 1;
+    }
+    for (unsigned j = 0; j < matrix.columns; j++) {
+        if ((left >> j & 1u) && matrix.reason[i][j] == RHO_GHOST_KEPT) {
+            const unsigned more = add_matchings(i + 1, left & ~(1u << j), found);
+            found[i] |= (uint16_t)((more > 0) << j);
+            matchings += more;
+        }
+    }
+    return matchings;
+}
+
+static void draw_matrix(unsigned size, double share)
+{
+    memset(&matrix, 0, sizeof matrix);
+    matrix.rows = matrix.columns = (uint16_t)size;
+    for (unsigned i = 0; i < size; i++) {
+        for (unsigned j = 0; j < size; j++) {
+            const int meets = uniform(0.0, 1.0) < share;
+            matrix.reason[i][j] = meets ? RHO_GHOST_KEPT : RHO_GHOST_APART;
+            matrix.delta_rad[i][j] = meets ? 0.1f : 0.0f;
+        }
+    }
+}
+
+/* Beside all matchings, enumerated. */
+static void the_safe_rule_leaves_what_a_complete_matching_has(void **state)
+{
+    unsigned without = 0, removed = 0;
+    (void)state;
+    for (unsigned draw = 0; draw < 2000; draw++) {
+        const unsigned size = 1 + draw % (RHO_MAX_BEARINGS < 7 ? RHO_MAX_BEARINGS : 7);
+        uint16_t found[RHO_MAX_BEARINGS] = {0};
+        draw_matrix(size, uniform(0.2, 0.9));
+        const struct rho_ghost_matrix before = matrix;
+        const unsigned matchings = add_matchings(0, (1u << size) - 1u, found);
+        const unsigned now = rho_ghost_prune(&matrix, RHO_GHOST_SAFE);
+        without += matchings == 0;
+        removed += now;
+        for (unsigned i = 0; i < size; i++) {
+            for (unsigned j = 0; j < size; j++) {
+                const int was_kept = before.reason[i][j] == RHO_GHOST_KEPT;
+                const int is_kept = matrix.reason[i][j] == RHO_GHOST_KEPT;
+                assert_int_equal(is_kept,
+                                 matchings > 0 ? was_kept && (found[i] >> j & 1) : was_kept);
+            }
+        }
+    }
+    assert_in_range(without, 200, 1800);
+    assert_true(removed > 500);
 }
 
 /*
@@ -282,6 +350,18 @@ static void false_alarms_and_misses_cost_the_literal_rule_targets(void **state)
     assert_in_range((int)(1000 * safe.ghosts_removed), 450, 550);
 }
 
+/* More targets: more than the literal rule finds, and no target is lost. */
+static void the_safe_rule_finds_more_ghosts_of_more_targets(void **state)
+{
+    (void)state;
+    struct shares literal = shares_of(6, 1.0, 0.0, RHO_GHOST_LITERAL);
+    struct shares safe = shares_of(6, 1.0, 0.0, RHO_GHOST_SAFE);
+    print_message("six targets, ghosts removed: literal %.3f, safe %.3f\n", literal.ghosts_removed,
+                  safe.ghosts_removed);
+    assert_true(safe.ghosts_removed >= literal.ghosts_removed + 0.05);
+    assert_true(safe.targets_lost <= 0.0);
+}
+
 /* ---- refusals -------------------------------------------------------------------------------- */
 
 static void bad_arguments_are_refused(void **state)
@@ -313,7 +393,8 @@ static void bad_arguments_are_refused(void **state)
 static void every_reason_has_a_name(void **state)
 {
     (void)state;
-    static const char *const names[] = {"kept", "sides", "apart", "range", "row", "column"};
+    static const char *const names[] = {"kept", "sides",  "apart",    "range",
+                                        "row",  "column", "unmatched"};
     for (int i = 0; i < RHO_NUM_GHOST_REASONS; i++) {
         assert_string_equal(rho_ghost_reason_name((enum rho_ghost_reason)i), names[i]);
     }
@@ -329,9 +410,12 @@ int main(void)
         cmocka_unit_test(nothing_single_leaves_all),
         cmocka_unit_test(two_beams_that_want_one),
         cmocka_unit_test(the_safe_rule_wants_as_many_of_each),
+        cmocka_unit_test(a_complete_matching_decides_more_than_single_crossings),
+        cmocka_unit_test(the_safe_rule_leaves_what_a_complete_matching_has),
         cmocka_unit_test(the_papers_figure_1),
         cmocka_unit_test(clean_scans_keep_their_targets_and_lose_their_ghosts),
         cmocka_unit_test(false_alarms_and_misses_cost_the_literal_rule_targets),
+        cmocka_unit_test(the_safe_rule_finds_more_ghosts_of_more_targets),
         cmocka_unit_test(bad_arguments_are_refused),
         cmocka_unit_test(every_reason_has_a_name),
     };

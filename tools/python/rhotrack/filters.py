@@ -225,7 +225,7 @@ class HoughGate:
 class Ghosts(NamedTuple):
     """Matrices of the shape (bearings of a, bearings of b): delta_rad, the angle between two, 0 for
     ghosts; reason, "kept" or why the crossing is a ghost: "sides", "apart", "range", "row",
-    "column"; x_m and y_m, where those that are kept cross, else NaN."""
+    "column", "unmatched"; x_m and y_m, where those that are kept cross, else NaN."""
     delta_rad: np.ndarray
     reason: np.ndarray
     x_m: np.ndarray
