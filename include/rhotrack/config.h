@@ -234,6 +234,11 @@
 #define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
 #endif
 
+/* Zones (rhotrack/zones.h). RAM: 8 bytes a zone and track. 1 .. 30. */
+#ifndef RHO_MAX_ZONES
+#define RHO_MAX_ZONES RHO_CONFIG_PICK(16, 30)
+#endif
+
 /*
  * Hypotheses of all tracks together, up to eight a track: a straight track without clutter needs
  * one, a manoeuvring track in clutter eight. More than RHO_MAX_TRACKS where the tracker's gate is
@@ -462,6 +467,9 @@
 #endif
 #if RHO_STROBE_BINS < 8 || RHO_STROBE_BINS > 4096
 #error "RHO_STROBE_BINS must be 8 .. 4096"
+#endif
+#if RHO_MAX_ZONES < 1 || RHO_MAX_ZONES > 30
+#error "RHO_MAX_ZONES must be 1 .. 30"
 #endif
 #if RHO_SEARCHES != 0 && RHO_SEARCHES != 1
 #error "RHO_SEARCHES must be 0 or 1"

@@ -57,6 +57,8 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_TRACK,
     RHO_MESSAGE_TYPE_TRUTH,
     RHO_MESSAGE_TYPE_WORK,
+    RHO_MESSAGE_TYPE_ZONE_EVENT,
+    RHO_MESSAGE_TYPE_ZONE,
     RHO_MESSAGE_TYPE_BEARING_SCAN,
     RHO_MESSAGE_TYPE_CLUTTER_MAP,
     RHO_MESSAGE_TYPE_PEAK_LIST,
@@ -65,6 +67,8 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_SENSOR_LIST,
     RHO_MESSAGE_TYPE_TRACK_LIST,
     RHO_MESSAGE_TYPE_TRUTH_LIST,
+    RHO_MESSAGE_TYPE_ZONE_EVENT_LIST,
+    RHO_MESSAGE_TYPE_ZONE_LIST,
     RHO_NUM_MESSAGE_TYPES /* count of the values above, not a message */
 };
 
@@ -439,6 +443,61 @@ RHO_MUST_CHECK enum rho_status rho_message_work_decode(
 RHO_MUST_CHECK enum rho_status rho_message_work_validate(
     const struct rho_message_work *message, struct rho_message_place *place);
 const char *rho_message_work_field(const struct rho_message_place *place);
+
+/* ---- zone_event_t ---- */
+
+/* A track that has entered or left a zone. */
+
+#define RHO_MESSAGE_ZONE_EVENT_FINGERPRINT UINT64_C(0xebf884c6671cbd66)
+#define RHO_MESSAGE_ZONE_EVENT_MAX_SIZE 26u
+#define RHO_MESSAGE_ZONE_EVENT_ENTERS 0
+#define RHO_MESSAGE_ZONE_EVENT_LEAVES 1
+#define RHO_MESSAGE_ZONE_EVENT_ENDS 2
+
+struct rho_message_zone_event {
+    int32_t zone_id;
+    int32_t track_id;
+    int8_t change; /* one of ENTERS, LEAVES, ENDS */
+    int8_t direction; /* 1: along the zone's heading, -1: against it, 0: neither; -1 .. 1 */
+    float speed_mps; /* m/s; 0 .. 1e6 */
+    float dwell_s; /* since it entered, s; 0 .. 1e9 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_zone_event_encode(
+    const struct rho_message_zone_event *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_zone_event_decode(
+    const uint8_t *data, size_t size, struct rho_message_zone_event *message);
+RHO_MUST_CHECK enum rho_status rho_message_zone_event_validate(
+    const struct rho_message_zone_event *message, struct rho_message_place *place);
+const char *rho_message_zone_event_field(const struct rho_message_place *place);
+
+/* ---- zone_t ---- */
+
+/* What one zone has counted. Counters stay at the largest number that they may have. */
+
+#define RHO_MESSAGE_ZONE_FINGERPRINT UINT64_C(0xaaaa5228616ec1c3)
+#define RHO_MESSAGE_ZONE_MAX_SIZE 52u
+
+struct rho_message_zone {
+    int32_t zone_id;
+    int16_t inside; /* tracks in it now; 0 .. 32767 */
+    int16_t queued; /* of them in its queue; 0 .. 32767 */
+    int32_t entered; /* tracks, since the start; 0 .. 2147483647 */
+    int32_t left; /* 0 .. 2147483647 */
+    int32_t ended; /* whose track ended inside; 0 .. 2147483647 */
+    int32_t along; /* of those that left: along the zone's heading; 0 .. 2147483647 */
+    int32_t against; /* 0 .. 2147483647 */
+    float speed_mps; /* mean of those inside, m/s; 0 of none; 0 .. 1e6 */
+    float queue_m; /* from the first queued track to the last, m; 0 .. 1e9 */
+    float dwell_mean_s; /* of those that left, s; 0 .. 1e9 */
+    float dwell_max_s; /* 0 .. 1e9 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_zone_encode(
+    const struct rho_message_zone *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_zone_decode(
+    const uint8_t *data, size_t size, struct rho_message_zone *message);
+RHO_MUST_CHECK enum rho_status rho_message_zone_validate(
+    const struct rho_message_zone *message, struct rho_message_place *place);
+const char *rho_message_zone_field(const struct rho_message_place *place);
 
 /* ---- bearing_scan_t ---- */
 
@@ -821,6 +880,82 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_list_begin(
     const struct rho_message_truth_list_head *head);
 RHO_MUST_CHECK enum rho_status rho_message_truth_list_add(
     struct rho_message_writer *writer, const struct rho_message_truth *target);
+
+/* ---- zone_event_list_t ---- */
+
+/*
+ * Tracks that have entered and left zones in one step; of a step without any there is no message.
+ */
+/* Channel RHO_ZONE_EVENTS. */
+
+#define RHO_MESSAGE_ZONE_EVENT_LIST_CHANNEL "RHO_ZONE_EVENTS"
+#define RHO_MESSAGE_ZONE_EVENT_LIST_FINGERPRINT UINT64_C(0x4945d33ac51d2c5c)
+#define RHO_MESSAGE_ZONE_EVENT_LIST_MAX_SIZE 1178u
+#define RHO_MESSAGE_ZONE_EVENT_LIST_MAX_EVENTS 64
+
+struct rho_message_zone_event_list {
+    int64_t utime; /* of the step, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int16_t num_events;
+    struct rho_message_zone_event events[RHO_MESSAGE_ZONE_EVENT_LIST_MAX_EVENTS];
+};
+
+struct rho_message_zone_event_list_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+};
+RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_encode(
+    const struct rho_message_zone_event_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_zone_event_list *message);
+RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_validate(
+    const struct rho_message_zone_event_list *message, struct rho_message_place *place);
+const char *rho_message_zone_event_list_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_zone_event_list_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_add(
+    struct rho_message_writer *writer, const struct rho_message_zone_event *event);
+
+/* ---- zone_list_t ---- */
+
+/* What the tracker's zones have counted. Once a second, with status_t. Channel RHO_ZONES. */
+
+#define RHO_MESSAGE_ZONE_LIST_CHANNEL "RHO_ZONES"
+#define RHO_MESSAGE_ZONE_LIST_FINGERPRINT UINT64_C(0xe6266bbc90e0975c)
+#define RHO_MESSAGE_ZONE_LIST_MAX_SIZE 1350u
+#define RHO_MESSAGE_ZONE_LIST_MAX_ZONES 30
+
+struct rho_message_zone_list {
+    int64_t utime; /* of the last step, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    /* of steps with more than zone_event_list_t holds, since the start; 0 .. 2147483647 */
+    int32_t events_dropped;
+    int16_t num_zones;
+    struct rho_message_zone zones[RHO_MESSAGE_ZONE_LIST_MAX_ZONES];
+};
+
+struct rho_message_zone_list_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int32_t events_dropped;
+};
+RHO_MUST_CHECK enum rho_status rho_message_zone_list_encode(
+    const struct rho_message_zone_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_zone_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_zone_list *message);
+RHO_MUST_CHECK enum rho_status rho_message_zone_list_validate(
+    const struct rho_message_zone_list *message, struct rho_message_place *place);
+const char *rho_message_zone_list_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_zone_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_zone_list_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_zone_list_add(
+    struct rho_message_writer *writer, const struct rho_message_zone *zone);
 
 #ifdef __cplusplus
 }

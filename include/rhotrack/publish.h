@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS,
- * RHO_WORK, RHO_SENSORS, RHO_LEARNED and RHO_CLUTTER.
+ * RHO_WORK, RHO_SENSORS, RHO_LEARNED, RHO_CLUTTER, RHO_ZONES and RHO_ZONE_EVENTS.
  *
  *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
  *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
@@ -27,6 +27,7 @@
 #include "rhotrack/scan_assembler.h"
 #include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/zones.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -127,6 +128,15 @@ uint16_t rho_publish_num_clutter_parts(const struct rho_tracker *tracker);
  */
 RHO_MUST_CHECK enum rho_status rho_publish_clutter(const struct rho_tracker *tracker, uint16_t part,
                                                    struct rho_message_clutter_map *list);
+
+/*
+ * What the zones have counted (zone_list_t), and who entered and left in their last step
+ * (zone_event_list_t). scan and epoch are 0: they are the caller's. Zones that are NULL have none;
+ * counters stay at INT32_MAX. Cost: zones, events. Stack: 80 bytes.
+ */
+void rho_publish_zones(const struct rho_zones *zones, struct rho_message_zone_list *list);
+void rho_publish_zone_events(const struct rho_zones *zones,
+                             struct rho_message_zone_event_list *list);
 
 #ifdef __cplusplus
 }

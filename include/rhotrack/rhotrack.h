@@ -31,6 +31,7 @@
 #include "rhotrack/publish.h"
 #include "rhotrack/scan_assembler.h"
 #include "rhotrack/udpm.h"
+#include "rhotrack/zones.h"
 
 /* parts of a tracker, for programs that build their own */
 #include "rhotrack/clutter_map.h"

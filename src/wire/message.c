@@ -227,6 +227,48 @@ static const struct message_rules work_rules = {
     &work_format,
     {work_ints, 0, 2, 0}, {0, 0, 0, 0}};
 
+static const struct message_run zone_event_runs[] = {
+    {offsetof(struct rho_message_zone_event, zone_id), 4, 2},
+    {offsetof(struct rho_message_zone_event, change), 1, 2},
+    {offsetof(struct rho_message_zone_event, speed_mps), 4, 2},
+};
+static const struct message_int_rule zone_event_ints[] = {
+    {offsetof(struct rho_message_zone_event, change), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2},
+    {offsetof(struct rho_message_zone_event, direction), 1, 1, MESSAGE_RANGE, -1, 1},
+};
+static const struct message_float_rule zone_event_floats[] = {
+    {offsetof(struct rho_message_zone_event, speed_mps), 1, 0.0f, 1000000.0f},
+    {offsetof(struct rho_message_zone_event, dwell_s), 1, 0.0f, 1000000000.0f},
+};
+static const struct message_format zone_event_format = {
+    RHO_MESSAGE_ZONE_EVENT_FINGERPRINT,
+    {zone_event_runs, 3, 18}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules zone_event_rules = {
+    &zone_event_format,
+    {zone_event_ints, zone_event_floats, 2, 2}, {0, 0, 0, 0}};
+
+static const struct message_run zone_runs[] = {
+    {offsetof(struct rho_message_zone, zone_id), 4, 1},
+    {offsetof(struct rho_message_zone, inside), 2, 2},
+    {offsetof(struct rho_message_zone, entered), 4, 9},
+};
+static const struct message_int_rule zone_ints[] = {
+    {offsetof(struct rho_message_zone, inside), 2, 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_zone, entered), 4, 5, MESSAGE_RANGE, 0, 2147483647},
+};
+static const struct message_float_rule zone_floats[] = {
+    {offsetof(struct rho_message_zone, speed_mps), 1, 0.0f, 1000000.0f},
+    {offsetof(struct rho_message_zone, queue_m), 3, 0.0f, 1000000000.0f},
+};
+static const struct message_format zone_format = {
+    RHO_MESSAGE_ZONE_FINGERPRINT,
+    {zone_runs, 3, 44}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules zone_rules = {
+    &zone_format,
+    {zone_ints, zone_floats, 2, 2}, {0, 0, 0, 0}};
+
 static const struct message_run bearing_scan_runs[] = {
     {offsetof(struct rho_message_bearing_scan, utime), 8, 1},
     {offsetof(struct rho_message_bearing_scan, scan), 4, 2},
@@ -420,6 +462,41 @@ static const struct message_rules truth_list_rules = {
     &truth_list_format,
     {truth_list_ints, 0, 3, 0}, {0, truth_floats, 0, 2}};
 
+static const struct message_run zone_event_list_runs[] = {
+    {offsetof(struct rho_message_zone_event_list, utime), 8, 1},
+    {offsetof(struct rho_message_zone_event_list, scan), 4, 2},
+};
+static const struct message_int_rule zone_event_list_ints[] = {
+    {offsetof(struct rho_message_zone_event_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
+};
+static const struct message_format zone_event_list_format = {
+    RHO_MESSAGE_ZONE_EVENT_LIST_FINGERPRINT,
+    {zone_event_list_runs, 2, 16}, {zone_event_runs, 3, 18},
+    offsetof(struct rho_message_zone_event_list, num_events),
+    offsetof(struct rho_message_zone_event_list, events),
+    sizeof(struct rho_message_zone_event), RHO_MESSAGE_ZONE_EVENT_LIST_MAX_EVENTS};
+static const struct message_rules zone_event_list_rules = {
+    &zone_event_list_format,
+    {zone_event_list_ints, 0, 1, 0}, {zone_event_ints, zone_event_floats, 2, 2}};
+
+static const struct message_run zone_list_runs[] = {
+    {offsetof(struct rho_message_zone_list, utime), 8, 1},
+    {offsetof(struct rho_message_zone_list, scan), 4, 3},
+};
+static const struct message_int_rule zone_list_ints[] = {
+    {offsetof(struct rho_message_zone_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_zone_list, events_dropped), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+};
+static const struct message_format zone_list_format = {
+    RHO_MESSAGE_ZONE_LIST_FINGERPRINT,
+    {zone_list_runs, 2, 20}, {zone_runs, 3, 44},
+    offsetof(struct rho_message_zone_list, num_zones),
+    offsetof(struct rho_message_zone_list, zones),
+    sizeof(struct rho_message_zone), RHO_MESSAGE_ZONE_LIST_MAX_ZONES};
+static const struct message_rules zone_list_rules = {
+    &zone_list_format,
+    {zone_list_ints, 0, 2, 0}, {zone_ints, zone_floats, 2, 2}};
+
 typedef char bearing_scan_head_fits[offsetof(struct rho_message_bearing_scan, sigma_rad) ==
     offsetof(struct rho_message_bearing_scan_head, sigma_rad) ? 1 : -1];
 typedef char clutter_map_head_fits[offsetof(struct rho_message_clutter_map, num_parts) ==
@@ -436,6 +513,10 @@ typedef char track_list_head_fits[offsetof(struct rho_message_track_list, num_pa
     offsetof(struct rho_message_track_list_head, num_parts) ? 1 : -1];
 typedef char truth_list_head_fits[offsetof(struct rho_message_truth_list, num_parts) ==
     offsetof(struct rho_message_truth_list_head, num_parts) ? 1 : -1];
+typedef char zone_event_list_head_fits[offsetof(struct rho_message_zone_event_list, epoch) ==
+    offsetof(struct rho_message_zone_event_list_head, epoch) ? 1 : -1];
+typedef char zone_list_head_fits[offsetof(struct rho_message_zone_list, events_dropped) ==
+    offsetof(struct rho_message_zone_list_head, events_dropped) ? 1 : -1];
 
 uint64_t rho_message_fingerprint(enum rho_message_type type)
 {
@@ -450,6 +531,8 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_TRACK_FINGERPRINT,
         RHO_MESSAGE_TRUTH_FINGERPRINT,
         RHO_MESSAGE_WORK_FINGERPRINT,
+        RHO_MESSAGE_ZONE_EVENT_FINGERPRINT,
+        RHO_MESSAGE_ZONE_FINGERPRINT,
         RHO_MESSAGE_BEARING_SCAN_FINGERPRINT,
         RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT,
         RHO_MESSAGE_PEAK_LIST_FINGERPRINT,
@@ -458,6 +541,8 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_SENSOR_LIST_FINGERPRINT,
         RHO_MESSAGE_TRACK_LIST_FINGERPRINT,
         RHO_MESSAGE_TRUTH_LIST_FINGERPRINT,
+        RHO_MESSAGE_ZONE_EVENT_LIST_FINGERPRINT,
+        RHO_MESSAGE_ZONE_LIST_FINGERPRINT,
     };
 
     return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? fingerprints[type] : 0;
@@ -659,6 +744,42 @@ enum rho_status rho_message_work_validate(
     const struct rho_message_work *message, struct rho_message_place *place)
 {
     return rho_message_validate(&work_rules, message, place);
+}
+
+enum rho_status rho_message_zone_event_encode(
+    const struct rho_message_zone_event *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&zone_event_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_zone_event_decode(
+    const uint8_t *data, size_t size, struct rho_message_zone_event *message)
+{
+    return rho_message_decode(&zone_event_format, data, size, message);
+}
+
+enum rho_status rho_message_zone_event_validate(
+    const struct rho_message_zone_event *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&zone_event_rules, message, place);
+}
+
+enum rho_status rho_message_zone_encode(
+    const struct rho_message_zone *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&zone_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_zone_decode(
+    const uint8_t *data, size_t size, struct rho_message_zone *message)
+{
+    return rho_message_decode(&zone_format, data, size, message);
+}
+
+enum rho_status rho_message_zone_validate(
+    const struct rho_message_zone *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&zone_rules, message, place);
 }
 
 enum rho_status rho_message_bearing_scan_encode(
@@ -907,4 +1028,66 @@ enum rho_status rho_message_truth_list_add(
     struct rho_message_writer *writer, const struct rho_message_truth *target)
 {
     return rho_message_add(&truth_list_format, writer, target);
+}
+
+enum rho_status rho_message_zone_event_list_encode(
+    const struct rho_message_zone_event_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&zone_event_list_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_zone_event_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_zone_event_list *message)
+{
+    return rho_message_decode(&zone_event_list_format, data, size, message);
+}
+
+enum rho_status rho_message_zone_event_list_validate(
+    const struct rho_message_zone_event_list *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&zone_event_list_rules, message, place);
+}
+
+enum rho_status rho_message_zone_event_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_zone_event_list_head *head)
+{
+    return rho_message_begin(&zone_event_list_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_zone_event_list_add(
+    struct rho_message_writer *writer, const struct rho_message_zone_event *event)
+{
+    return rho_message_add(&zone_event_list_format, writer, event);
+}
+
+enum rho_status rho_message_zone_list_encode(
+    const struct rho_message_zone_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&zone_list_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_zone_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_zone_list *message)
+{
+    return rho_message_decode(&zone_list_format, data, size, message);
+}
+
+enum rho_status rho_message_zone_list_validate(
+    const struct rho_message_zone_list *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&zone_list_rules, message, place);
+}
+
+enum rho_status rho_message_zone_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_zone_list_head *head)
+{
+    return rho_message_begin(&zone_list_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_zone_list_add(
+    struct rho_message_writer *writer, const struct rho_message_zone *zone)
+{
+    return rho_message_add(&zone_list_format, writer, zone);
 }

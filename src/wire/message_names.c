@@ -179,6 +179,30 @@ static const struct name work_names[] = {
     {offsetof(struct rho_message_work, events_not_logged), "events_not_logged"},
 };
 
+static const struct name zone_event_names[] = {
+    {offsetof(struct rho_message_zone_event, zone_id), "zone_id"},
+    {offsetof(struct rho_message_zone_event, track_id), "track_id"},
+    {offsetof(struct rho_message_zone_event, change), "change"},
+    {offsetof(struct rho_message_zone_event, direction), "direction"},
+    {offsetof(struct rho_message_zone_event, speed_mps), "speed_mps"},
+    {offsetof(struct rho_message_zone_event, dwell_s), "dwell_s"},
+};
+
+static const struct name zone_names[] = {
+    {offsetof(struct rho_message_zone, zone_id), "zone_id"},
+    {offsetof(struct rho_message_zone, inside), "inside"},
+    {offsetof(struct rho_message_zone, queued), "queued"},
+    {offsetof(struct rho_message_zone, entered), "entered"},
+    {offsetof(struct rho_message_zone, left), "left"},
+    {offsetof(struct rho_message_zone, ended), "ended"},
+    {offsetof(struct rho_message_zone, along), "along"},
+    {offsetof(struct rho_message_zone, against), "against"},
+    {offsetof(struct rho_message_zone, speed_mps), "speed_mps"},
+    {offsetof(struct rho_message_zone, queue_m), "queue_m"},
+    {offsetof(struct rho_message_zone, dwell_mean_s), "dwell_mean_s"},
+    {offsetof(struct rho_message_zone, dwell_max_s), "dwell_max_s"},
+};
+
 static const struct name bearing_scan_names[] = {
     {offsetof(struct rho_message_bearing_scan, utime), "utime"},
     {offsetof(struct rho_message_bearing_scan, scan), "scan"},
@@ -276,9 +300,26 @@ static const struct name truth_list_names[] = {
     {offsetof(struct rho_message_truth_list, targets), "targets"},
 };
 
+static const struct name zone_event_list_names[] = {
+    {offsetof(struct rho_message_zone_event_list, utime), "utime"},
+    {offsetof(struct rho_message_zone_event_list, scan), "scan"},
+    {offsetof(struct rho_message_zone_event_list, epoch), "epoch"},
+    {offsetof(struct rho_message_zone_event_list, num_events), "num_events"},
+    {offsetof(struct rho_message_zone_event_list, events), "events"},
+};
+
+static const struct name zone_list_names[] = {
+    {offsetof(struct rho_message_zone_list, utime), "utime"},
+    {offsetof(struct rho_message_zone_list, scan), "scan"},
+    {offsetof(struct rho_message_zone_list, epoch), "epoch"},
+    {offsetof(struct rho_message_zone_list, events_dropped), "events_dropped"},
+    {offsetof(struct rho_message_zone_list, num_zones), "num_zones"},
+    {offsetof(struct rho_message_zone_list, zones), "zones"},
+};
+
 const char *rho_message_type_name(enum rho_message_type type)
 {
-    static const char type_names[RHO_NUM_MESSAGE_TYPES][15] = {
+    static const char type_names[RHO_NUM_MESSAGE_TYPES][18] = {
         "echo_t",
         "learned_t",
         "peak_t",
@@ -289,6 +330,8 @@ const char *rho_message_type_name(enum rho_message_type type)
         "track_t",
         "truth_t",
         "work_t",
+        "zone_event_t",
+        "zone_t",
         "bearing_scan_t",
         "clutter_map_t",
         "peak_list_t",
@@ -297,6 +340,8 @@ const char *rho_message_type_name(enum rho_message_type type)
         "sensor_list_t",
         "track_list_t",
         "truth_list_t",
+        "zone_event_list_t",
+        "zone_list_t",
     };
 
     return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? type_names[type] : "unknown";
@@ -350,6 +395,16 @@ const char *rho_message_truth_field(const struct rho_message_place *place)
 const char *rho_message_work_field(const struct rho_message_place *place)
 {
     return place ? find(work_names, 11, place->offset) : "unknown";
+}
+
+const char *rho_message_zone_event_field(const struct rho_message_place *place)
+{
+    return place ? find(zone_event_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_zone_field(const struct rho_message_place *place)
+{
+    return place ? find(zone_names, 12, place->offset) : "unknown";
 }
 
 const char *rho_message_bearing_scan_field(const struct rho_message_place *place)
@@ -414,4 +469,20 @@ const char *rho_message_truth_list_field(const struct rho_message_place *place)
         return find(truth_names, 7, place->offset);
     }
     return place ? find(truth_list_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_zone_event_list_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(zone_event_names, 6, place->offset);
+    }
+    return place ? find(zone_event_list_names, 5, place->offset) : "unknown";
+}
+
+const char *rho_message_zone_list_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(zone_names, 12, place->offset);
+    }
+    return place ? find(zone_list_names, 6, place->offset) : "unknown";
 }

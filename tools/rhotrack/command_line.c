@@ -12,7 +12,7 @@
 #include "io/asterix/asterix_records.h"
 #include "settings/method.h"
 
-enum { NUM_OPTIONS = 24, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 25, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -44,6 +44,7 @@ static const struct {
     {'L', "log", "FILE", "an LCM log of what comes in and goes out"},
     {'M', "clutter-map", "FILE",
      "echoes that come back: read from FILE if it is there, written to it at the end (CSV)"},
+    {'Z', "zone-events", "FILE", "tracks that enter and leave zones ([zone N] of --config), CSV"},
     {'R', "snapshot", "FILE", "goes on with what it holds; written once a minute and at the end"},
     {'x', "speed", "X", "so many times as fast as it was; 0: without waiting (default 1)"},
     {'O', "loop", NULL, "again and again; times and numbers of scans go on"},
@@ -174,6 +175,9 @@ static void take_option(struct command_line *line, char letter, char *argument)
         break;
     case 'M':
         line->clutter_map = argument;
+        break;
+    case 'Z':
+        line->zone_events = argument;
         break;
     case 'f':
         line->follow = true;

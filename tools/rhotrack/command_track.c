@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "io/output/clutter_file.h"
 #include "io/output/tracks_output.h"
+#include "io/output/zones_output.h"
 #include "io/scans/frame_reader.h"
 #include "io/scans/inputs.h"
 #include "io/scans/scan_reader.h"
@@ -23,6 +24,7 @@
 struct tracking {
     struct pipeline pipeline;
     struct clutter_file clutter;
+    struct zones_output zones;
     int64_t sum_us, max_us;
 };
 
@@ -89,6 +91,9 @@ static void step_and_report(struct tracking *tracking, const struct input *input
                             struct tracks_output *tracks)
 {
     step(tracking, input);
+    if (tracking->pipeline.zones) {
+        zones_output_write(&tracking->zones, tracking->pipeline.zones);
+    }
     if (tracks) {
         tracks_output_report(tracks, tracking->pipeline.report);
     }
@@ -376,6 +381,9 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->pipeline.tracker));
     cJSON_AddItemToObject(object, "learned", learned_json(tracking->pipeline.tracker));
     cJSON_AddItemToObject(object, "origin", origin_json(parameters));
+    if (tracking->pipeline.zones) {
+        cJSON_AddItemToObject(object, "zones", zones_json(tracking->pipeline.zones));
+    }
     json_print(object);
 }
 
@@ -426,12 +434,24 @@ static struct tracks_output *open_tracks(const struct command_line *line)
                : tracks_output_open(line->output, &line->parameters, line->covariance);
 }
 
+static struct zones_output open_zone_events(const struct command_line *line)
+{
+    if (line->zone_events && line->parameters.num_zones == 0) {
+        fail(EXIT_USAGE, "--zone-events: no zone is set; a --config file has them as [zone N] with "
+                         "corners_m = x y, x y, x y");
+    }
+    return zones_output_open(line->zone_events);
+}
+
 static void print_results(const struct tracking *tracking, const struct inputs *inputs,
                           const struct command_line *line)
 {
     struct inputs_counts counts = inputs_counts(inputs);
 
     print_summary(tracking, &counts, &line->parameters);
+    if (tracking->pipeline.zones) {
+        zones_print(tracking->pipeline.zones);
+    }
     if (line->json) {
         print_json(tracking, inputs, &counts, &line->parameters);
     }
@@ -453,12 +473,14 @@ int command_track(struct command_line *line)
     tracking.clutter = clutter_file_open(line->clutter_map, &line->parameters,
                                          &tracking.pipeline.tracker->clutter_map);
     tracks = open_tracks(line);
+    tracking.zones = open_zone_events(line);
     if (line->follow) {
         why = follow(&tracking, inputs, tracks, &line->parameters);
     } else {
         step_all(&tracking, inputs, tracks, !line->output && isatty(STDOUT_FILENO));
     }
     tracks_output_close(tracks);
+    zones_output_close(&tracking.zones);
     is_saved = clutter_file_save(&tracking.clutter, &tracking.pipeline.tracker->clutter_map);
     print_results(&tracking, inputs, line);
     inputs_close(inputs);

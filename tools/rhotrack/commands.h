@@ -22,6 +22,7 @@ struct command_line {
     const char *lcm, *log;    /* --lcm, --log; NULL where not given */
     const char *clutter_map;  /* --clutter-map; NULL where not given */
     const char *snapshot;     /* --snapshot; NULL where not given */
+    const char *zone_events;  /* --zone-events; NULL where not given */
     double speed;             /* --speed; default 1; 0: without waiting */
     double seconds;           /* --for; 0 where not given */
     bool print, loop;         /* --print, --loop */

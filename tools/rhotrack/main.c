@@ -26,7 +26,7 @@
 
 static const struct command commands[] = {
     {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest] [--follow]", 1,
-     INT_MAX, "omPgfcMjksC", "the main job: scans in, tracks out",
+     INT_MAX, "omPgfcMZjksC", "the main job: scans in, tracks out",
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"

@@ -122,6 +122,24 @@ static void start_anew(struct node_core *core)
 
 /* ---- Steps ---- */
 
+/* Who has entered and left zones, if anybody has. */
+static void send_zone_events(const struct node_core *core)
+{
+    struct rho_message_zone_event_list list;
+    uint8_t buffer[RHO_MESSAGE_ZONE_EVENT_LIST_MAX_SIZE];
+    size_t size;
+
+    if (!core->pipeline.zones || core->pipeline.zones->num_events == 0) {
+        return;
+    }
+    rho_publish_zone_events(core->pipeline.zones, &list);
+    list.scan = core->node.step;
+    list.epoch = core->node.epoch;
+    if (rho_message_zone_event_list_encode(&list, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_ZONE_EVENT_LIST_CHANNEL, buffer, size);
+    }
+}
+
 static void send_step(const struct node_core *core)
 {
     uint8_t buffer[RHO_UDPM_MAX_DATAGRAM];
@@ -159,6 +177,7 @@ static void step(struct node_core *core, enum rho_node_due due)
         return;
     }
     start_tracks(core, due);
+    pipeline_count_zones(&core->pipeline);
     took_us = clock_us() - start_us;
     rho_node_count_time(&core->node, took_us);
     core->timing.steps++;
@@ -168,6 +187,7 @@ static void step(struct node_core *core, enum rho_node_due due)
         core->events.stepped(core->events.context, core->pipeline.report);
     }
     send_step(core);
+    send_zone_events(core);
 }
 
 static void run(struct node_core *core, int64_t now_us)
@@ -270,6 +290,23 @@ static void send_learned(struct node_core *core)
     }
 }
 
+static void send_zones(const struct node_core *core)
+{
+    struct rho_message_zone_list list;
+    uint8_t buffer[RHO_MESSAGE_ZONE_LIST_MAX_SIZE];
+    size_t size;
+
+    if (!core->pipeline.zones) {
+        return;
+    }
+    rho_publish_zones(core->pipeline.zones, &list);
+    list.scan = core->node.step;
+    list.epoch = core->node.epoch;
+    if (rho_message_zone_list_encode(&list, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_ZONE_LIST_CHANNEL, buffer, size);
+    }
+}
+
 void node_core_status(struct node_core *core, const struct node_core_losses *losses)
 {
     const uint64_t refused = losses->datagrams_refused;
@@ -288,6 +325,7 @@ void node_core_status(struct node_core *core, const struct node_core_losses *los
     send_work(core, losses);
     send_sensors(core);
     send_learned(core);
+    send_zones(core);
 }
 
 void node_core_send_clutter(const struct node_core *core)

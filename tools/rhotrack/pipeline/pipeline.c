@@ -36,6 +36,7 @@ void pipeline_free(struct pipeline *pipeline)
     free(pipeline->passive);
     free(pipeline->starts);
     free(pipeline->paper);
+    free(pipeline->zones);
     free(pipeline->tracker);
     free(pipeline->report);
     free(pipeline->plots);
@@ -196,6 +197,15 @@ static void open_starts(struct pipeline *pipeline, const struct parameters *para
                  "method");
 }
 
+/* They go on across a clock that was set. */
+static void open_zones(struct pipeline *pipeline, const struct parameters *parameters)
+{
+    if (parameters->num_zones > 0 && !pipeline->zones) {
+        pipeline->zones = must_alloc(sizeof *pipeline->zones);
+        parameters_to_zones(parameters, pipeline->zones);
+    }
+}
+
 void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters)
 {
     struct rho_tracker_config maintain;
@@ -213,6 +223,7 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
     must_succeed(rho_tracker_init(pipeline->tracker, sizeof *pipeline->tracker, &maintain),
                  "tracker");
     open_starts(pipeline, parameters);
+    open_zones(pipeline, parameters);
 }
 
 static void open_paper(struct pipeline *pipeline, const struct parameters *parameters)
@@ -280,6 +291,13 @@ void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *sca
     }
 }
 
+void pipeline_count_zones(struct pipeline *pipeline)
+{
+    if (pipeline->zones) {
+        must_succeed(rho_zones_step(pipeline->zones, pipeline->report), "zones");
+    }
+}
+
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
 {
     struct rho_initiator *initiator =
@@ -287,6 +305,7 @@ void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
 
     must_succeed(rho_tracker_step(pipeline->tracker, initiator, scan, pipeline->report), "step");
     pipeline_start_tracks(pipeline, scan, NULL);
+    pipeline_count_zones(pipeline);
 }
 
 void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *frame)
@@ -296,4 +315,5 @@ void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *fram
     must_succeed(rho_tracker_step_frame(pipeline->tracker, passive, frame, pipeline->report),
                  "step");
     pipeline_start_tracks(pipeline, NULL, frame);
+    pipeline_count_zones(pipeline);
 }

@@ -7,6 +7,7 @@
 #define RHOTRACK_TOOL_PIPELINE_H
 
 #include "rhotrack/paper_starts.h"
+#include "rhotrack/zones.h"
 #include "settings/parameters.h"
 
 /* Which sensors' plots start tracks together: the parameter initiators. */
@@ -32,6 +33,7 @@ struct pipeline {
     /* the papers' methods where the parameters ask for them; else NULL */
     struct rho_paper_starts *starts;
     struct rho_passive_paper *paper;
+    struct rho_zones *zones; /* NULL where the parameters have none */
     struct rho_tracker *tracker;
     struct rho_report *report;
     struct rho_plot *plots; /* RHO_MAX_PLOTS, for the caller's scans */
@@ -79,6 +81,9 @@ void pipeline_reopen_paper(struct pipeline *pipeline);
  */
 void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
                            const struct rho_frame *frame);
+
+/* After a step and its starts: the zones count its tracks. */
+void pipeline_count_zones(struct pipeline *pipeline);
 
 /* One step; the report is the pipeline's. */
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan);

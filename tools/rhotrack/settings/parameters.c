@@ -354,6 +354,9 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
     if (!strncmp(key, prefix, sizeof prefix - 1)) {
         return assign_sensor(parameters, key + sizeof prefix - 1, value, source, reason);
     }
+    if (!strncmp(key, "zone.", strlen("zone."))) {
+        return parameters_assign_zone(parameters, key + strlen("zone."), value, source, reason);
+    }
     id = find_name(key, text_name, reason);
     if (id < 0) {
         return false;

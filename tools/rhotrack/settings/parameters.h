@@ -17,6 +17,7 @@
 #include "rhotrack/scan_assembler.h"
 #include "rhotrack/settings.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/zones.h"
 
 /*
  * X(id, name, unit, default, min, max, is_integer, has_default, text). has_default 0: unset until
@@ -231,6 +232,20 @@ struct sensor_parameters {
         turn_rad; /* of a place on the earth: its azimuths plus this are those of the local frame */
 };
 
+/* A zone's own keys, each from the source that counts most. */
+enum zone_parameter_id {
+    ZONE_CORNERS_M,
+    ZONE_HEADING_RAD,
+    ZONE_MARGIN_M,
+    ZONE_QUEUE_MPS,
+    NUM_ZONE_PARAMETERS
+};
+
+struct zone_parameters {
+    struct rho_zone zone;
+    enum parameter_source source[NUM_ZONE_PARAMETERS];
+};
+
 struct parameters {
     double value[NUM_VALUES];
     enum parameter_source source[NUM_VALUES];
@@ -239,6 +254,8 @@ struct parameters {
     uint16_t num_allowed; /* 0: all sensors may send messages */
     int16_t allowed[RHO_MAX_SENSORS];
     enum parameter_source allowed_source;
+    size_t num_zones;
+    struct zone_parameters zones[RHO_MAX_ZONES];
 };
 
 void parameters_default(struct parameters *parameters);
@@ -247,13 +264,13 @@ void parameters_default(struct parameters *parameters);
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
 
 /*
- * "key=value" or "sensor.N.key=value" from --set. On error prints `rhotrack: --set key=value: what
+ * "key=value", "sensor.N.key=value" or "zone.N.key=value" from --set. On error prints `rhotrack: --set key=value: what
  * is wrong` and exits with 2.
  */
 void parameters_set(struct parameters *parameters, const char *assignment);
 
 /*
- * INI file (no section, [rhotrack], or [sensor N]); errors as `rhotrack: FILE:LINE: what is wrong`,
+ * INI file (no section, [rhotrack], [sensor N] or [zone N]); errors as `rhotrack: FILE:LINE: what is wrong`,
  * exit 2.
  */
 void parameters_load(struct parameters *parameters, const char *path);
@@ -371,5 +388,12 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
  */
 void parameters_to_assembler(const struct parameters *parameters,
                              struct rho_scan_assembler *assembler);
+
+/* key: "N.name", of a zone. false: *reason says why. */
+bool parameters_assign_zone(struct parameters *parameters, const char *key, const char *value,
+                            enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
+
+/* All zones, ready for a first step. Exit 2 where one is none. */
+void parameters_to_zones(const struct parameters *parameters, struct rho_zones *zones);
 
 #endif

@@ -40,20 +40,22 @@ static char *read_line(char *buffer, int size, void *user)
  */
 static bool section_prefix(const char *section, char *prefix, size_t bytes)
 {
-    const char *number = section + strlen("sensor");
+    static const char *const kinds[] = {"sensor", "zone"};
 
     *prefix = '\0';
     if (!*section || !strcmp(section, "rhotrack")) {
         return true;
     }
-    if (strncmp(section, "sensor", strlen("sensor")) != 0 || !isspace((unsigned char)*number)) {
-        return false;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const char *number = section + strlen(kinds[i]);
+
+        if (!strncmp(section, kinds[i], strlen(kinds[i])) && isspace((unsigned char)*number)) {
+            number += strspn(number, " \t");
+            snprintf(prefix, bytes, "%s.%.12s.", kinds[i], number);
+            return true;
+        }
     }
-    while (isspace((unsigned char)*number)) {
-        number++;
-    }
-    snprintf(prefix, bytes, "sensor.%.12s.", number);
-    return true;
+    return false;
 }
 
 static int on_value(void *user, const char *section, const char *name, const char *value)
@@ -62,7 +64,8 @@ static int on_value(void *user, const char *section, const char *name, const cha
     char prefix[32], key[128], reason[PARAMETER_REASON_BYTES];
 
     if (!section_prefix(section, prefix, sizeof prefix)) {
-        fail(EXIT_USAGE, "%s:%u: unknown section [%s]; there are [rhotrack] and [sensor N]",
+        fail(EXIT_USAGE,
+             "%s:%u: unknown section [%s]; there are [rhotrack], [sensor N] and [zone N]",
              loading->path, loading->line, section);
     }
     snprintf(key, sizeof key, "%s%.80s", prefix, name);

@@ -49,6 +49,16 @@ static void print_sensor_keys(FILE *out)
     }
 }
 
+static void print_zone_keys(FILE *out)
+{
+    fputs(
+        "\nA zone's (--set zone.N.key=value, or [zone N] in the --config file), where tracks are "
+        "counted:\n"
+        "corners_m   3 to 8 corners, x y, x y, ...     heading_rad  of a lane\n"
+        "margin_m    so far outside a track has left   queue_mps    slower tracks are its queue\n",
+        out);
+}
+
 static void print_allowed(const struct parameters *parameters, FILE *out)
 {
     const struct parameter_text text = {.name = "sensors_allowed",
@@ -83,4 +93,5 @@ void parameters_print(const struct parameters *parameters, FILE *out)
         print_sensor(out, &parameters->sensors[i]);
     }
     print_sensor_keys(out);
+    print_zone_keys(out);
 }

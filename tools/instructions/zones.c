@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * zones: a step of 16 zones, for tools/gates/instructions.sh to count the instructions of: as many
+ * tracks as there is room for drive along four roads of four zones each, lanes of 100 m by 4 m.
+ */
+#include "rhotrack/zones.h"
+#include "count.h"
+#include "draw.h"
+
+#define STEPS 200
+#define ZONES 16
+#define LANES 4
+
+static struct rho_zones zones;
+static struct rho_report report;
+
+static int open_zones(void)
+{
+    int failed = rho_zones_init(&zones, sizeof zones) != RHO_OK;
+    for (int i = 0; i < ZONES; i++) {
+        const float x_m = 100.0f * (float)(i / LANES), y_m = 4.0f * (float)(i % LANES);
+        const struct rho_zone zone = {.zone_id = i,
+                                      .num_corners = 4,
+                                      .has_heading = 1,
+                                      .x_m = {x_m, x_m + 100.0f, x_m + 100.0f, x_m},
+                                      .y_m = {y_m, y_m, y_m + 4.0f, y_m + 4.0f},
+                                      .margin_m = 1.0f,
+                                      .queue_mps = 2.0f};
+        failed |= rho_zones_add(&zones, &zone) != RHO_OK;
+    }
+    return failed;
+}
+
+/* A twentieth of a second further; who has passed all zones begins anew. */
+static void move(void)
+{
+    report.time_us += 50000;
+    for (int i = 0; i < report.num_tracks; i++) {
+        float *state = report.tracks[i].state;
+        state[RHO_X] += 0.05f * state[RHO_VX];
+        state[RHO_Y] += draw_normal(0.1f);
+        if (state[RHO_X] > 420.0f) {
+            state[RHO_X] = -20.0f;
+        }
+    }
+}
+
+int main(void)
+{
+    int failed = open_zones();
+    report.num_tracks = RHO_MAX_TRACKS;
+    for (int i = 0; i < report.num_tracks; i++) {
+        report.tracks[i].track_id = (uint32_t)i + 1;
+        report.tracks[i].status = RHO_TRACK_CONFIRMED;
+        report.tracks[i].state[RHO_X] = draw_uniform(-20.0f, 420.0f);
+        report.tracks[i].state[RHO_Y] = draw_uniform(0.0f, 16.0f);
+        report.tracks[i].state[RHO_VX] = draw_uniform(0.5f, 30.0f);
+    }
+    for (int k = 0; k < STEPS; k++) {
+        move();
+        count_begin();
+        failed |= rho_zones_step(&zones, &report) != RHO_OK;
+        count_end();
+    }
+    count_report();
+    return failed || zones.counts[0].entered == 0;
+}
