@@ -4,7 +4,9 @@
 row from which a claim counts from 0 to 1, and says which change no test notices.
 
 A constant is a `#define NAME number` or a `static const` number in src/. Constants that are no
-policy (magic numbers, bits, the coefficients of src/base) are left out. A mutant is noticed where
+policy are left out: magic numbers, bits, the coefficients of src/base, numbers of 1e6 and more,
+which only keep arithmetic finite, and the cost models of ALIKE, which choose between two ways to
+the same result. A mutant is noticed where
 it does not compile, or a golden file differs, or a unit test of its room or of another one fails.
 Each is tried in a copy of the sources, in BUILD/mutate.
 
@@ -27,6 +29,11 @@ CONSTANT = re.compile(
 NO_POLICY = re.compile(
     r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|PER_|HALF|OFFSET|PRIME|POLYNOM|ROUND|EPSILON|TURN_(HIGH|MIDDLE|LOW)"
 )
+GUARD_MIN = 1e6
+# file: constants by which only the time of a call changes
+ALIKE = {
+    "src/papers/accumulator_prune.c": r"WORK_|HALVINGS_MAX|_KEPT",
+}
 NO_POLICY_FILES = {
     "src/base/approx.c", "src/base/angle.c", "src/wire/message.c", "src/wire/message_names.c"
 }
@@ -43,11 +50,16 @@ def mutants_of(root):
         for number, line in enumerate(path.read_text().splitlines()):
             found = CONSTANT.match(line)
             constant = found and (found["define"] or found["const"])
-            if found and not NO_POLICY.search(constant) and float(found["number"]) != 0:
+            if found and is_policy(name, constant, float(found["number"])):
                 for value in filter(None, (changed(found, 2), changed(found, 0.5))):
                     yield path, number, constant, found, value
             for found in ROW.finditer(line):
                 yield path, number, found["name"], found, "1"
+
+
+def is_policy(path, constant, number):
+    return (number != 0 and number < GUARD_MIN and not NO_POLICY.search(constant)
+            and not re.match(ALIKE.get(path, "$^"), constant))
 
 
 def changed(found, factor):
