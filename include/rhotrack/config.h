@@ -305,6 +305,14 @@
 #endif
 
 /*
+ * 1: what each track's gate offered stays until the next step, for rho_tracker_evidence_of. 0: left
+ * out of the program.
+ */
+#ifndef RHO_KEEPS_OFFERS
+#define RHO_KEEPS_OFFERS RHO_CONFIG_PICK(0, 1)
+#endif
+
+/*
  * 1: sectors and several radars. Successive sectors are one scan of the initiation window, and a
  * target between two sectors is seen once a revolution; out-of-sequence scans update tracks; sensor
  * health finds the sensor that contradicts the others. 0: left out of the program (5 KB less on a
@@ -473,6 +481,9 @@
 #endif
 #if RHO_SEARCHES != 0 && RHO_SEARCHES != 1
 #error "RHO_SEARCHES must be 0 or 1"
+#endif
+#if RHO_KEEPS_OFFERS != 0 && RHO_KEEPS_OFFERS != 1
+#error "RHO_KEEPS_OFFERS must be 0 or 1"
 #endif
 #if RHO_SECTORS != 0 && RHO_SECTORS != 1
 #error "RHO_SECTORS must be 0 or 1"

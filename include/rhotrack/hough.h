@@ -36,6 +36,7 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/accumulator.h"
+#include "rhotrack/detail/plane.h"
 #include "rhotrack/status.h"
 
 #ifdef __cplusplus
@@ -128,6 +129,33 @@ struct rho_hough_result {
     uint32_t votes_dropped, kernels_dropped;
 };
 
+/*
+ * The memberships of a vote, eq. (14), in parts of a vote; those of NHT alone are not 0.
+ *   truth          of the line as that of the nearest kernel, eq. (27); 0: there is none
+ *   indeterminacy  as the line between the two nearest kernels, in the middle of their plots: which
+ *                  of the two candidate tracks the plots continue is not known; 0: there are not
+ *                  two. Whether the vote counts it, uses_indeterminacy says
+ *   falsity        that two false alarms make the pair, eq. (29), at most a vote
+ * Each is a possibility of its own: (30) cannot hold beside (24).
+ */
+struct rho_hough_memberships {
+    uint32_t truth, indeterminacy, falsity;
+};
+
+/* What a cell has a sum of. */
+enum rho_hough_component {
+    RHO_HOUGH_VOTES,         /* what the method counts, eq. (31): C */
+    RHO_HOUGH_TRUTH,         /* eq. (16): C_T */
+    RHO_HOUGH_INDETERMINACY, /* eq. (17): C_I */
+    RHO_HOUGH_FALSITY,       /* eq. (18): C_F */
+    /*
+     * eq. (24) as printed, the largest of the three. (19) takes the largest of the sums instead,
+     * which is no more in any cell, and equal where the same membership is largest in all votes
+     */
+    RHO_HOUGH_LARGEST,
+    RHO_NUM_HOUGH_COMPONENTS
+};
+
 /* The voters of a cell, and the position and velocity fitted through them. */
 struct rho_hough_track {
     uint32_t votes;     /* parts of a vote; with reading C, to 2 of them a pair */
@@ -136,6 +164,7 @@ struct rho_hough_track {
     uint16_t scans;     /* bits in mask */
     int has_velocity;   /* two scans or more; else the mean position, and velocity 0 */
     float x_m, y_m, vx_mps, vy_mps;
+    struct rho_hough_memberships sums; /* C_T, C_I and C_F in the cell; 0 but for NHT */
 };
 
 struct rho_hough_cell {
@@ -214,6 +243,32 @@ RHO_MUST_CHECK enum rho_status rho_hough_track(struct rho_hough *hough,
                                                const struct rho_hough_points *points,
                                                unsigned theta_cell, unsigned rho_cell, float at_s,
                                                struct rho_hough_track *track);
+
+/*
+ * The plane of a component, as the points make it: those of the last search, its plane.
+ *   plane  the window and its picture, in the caller's memory
+ * Sums are over all candidate pairs, eq. (20), of the third scan and later; with reading C each is
+ * spread as the votes are. The cells of RHO_HOUGH_VOTES are those that rho_hough_find compares.
+ * Errors: as rho_hough_find, those of rho_plane_open, and VALUE (no such component, one of the
+ * memberships with another method than NHT); nothing but *hough's scratch and the picture is
+ * changed. Cost: that of rho_hough_find. Stack: 2.9 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_hough_plane(struct rho_hough *hough,
+                                               const struct rho_hough_points *points,
+                                               enum rho_hough_component component,
+                                               struct rho_plane *plane);
+
+/*
+ * The memberships of one vote: the line through two plots of successive scans. All are 0 where the
+ * pair is no candidate, eq. (20), its scan is the second one, or the method is not NHT.
+ *   first, second  indices among the plots of all scans
+ * Errors: NULL, STATE and VALUE as above, VALUE (no plots of successive scans). Cost: the pairs of
+ * the scans before, near the line. Stack: 2.8 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_hough_vote(const struct rho_hough *hough,
+                                              const struct rho_hough_points *points, uint32_t first,
+                                              uint32_t second,
+                                              struct rho_hough_memberships *memberships);
 
 /*
  * Pairs of plots of successive scans, and the number within the limits of speed; both saturate.

@@ -47,9 +47,13 @@ extern "C" {
 #endif
 
 enum rho_message_type {
-    RHO_MESSAGE_TYPE_ECHO = 0,
+    RHO_MESSAGE_TYPE_ACCUMULATOR_CELL = 0,
+    RHO_MESSAGE_TYPE_ECHO,
+    RHO_MESSAGE_TYPE_GHOST,
+    RHO_MESSAGE_TYPE_HYPOTHESIS,
     RHO_MESSAGE_TYPE_LEARNED,
     RHO_MESSAGE_TYPE_PEAK,
+    RHO_MESSAGE_TYPE_PLANE_ROW,
     RHO_MESSAGE_TYPE_PLOT,
     RHO_MESSAGE_TYPE_POLAR_PLOT,
     RHO_MESSAGE_TYPE_SENSOR,
@@ -59,9 +63,13 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_WORK,
     RHO_MESSAGE_TYPE_ZONE_EVENT,
     RHO_MESSAGE_TYPE_ZONE,
+    RHO_MESSAGE_TYPE_ACCUMULATOR,
     RHO_MESSAGE_TYPE_BEARING_SCAN,
     RHO_MESSAGE_TYPE_CLUTTER_MAP,
+    RHO_MESSAGE_TYPE_GHOST_MATRIX,
+    RHO_MESSAGE_TYPE_HYPOTHESES,
     RHO_MESSAGE_TYPE_PEAK_LIST,
+    RHO_MESSAGE_TYPE_PLANE,
     RHO_MESSAGE_TYPE_PLOT_SCAN,
     RHO_MESSAGE_TYPE_POLAR_SCAN,
     RHO_MESSAGE_TYPE_SENSOR_LIST,
@@ -96,6 +104,31 @@ const char *rho_message_type_name(enum rho_message_type type);
 /* The length of what was begun and added. Errors: NULL, STATE (not begun). Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size);
 
+/* ---- accumulator_cell_t ---- */
+
+/* One of the fullest cells of an accumulator_t: the line x cos(theta) + y sin(theta) = rho. */
+
+#define RHO_MESSAGE_ACCUMULATOR_CELL_FINGERPRINT UINT64_C(0x7dc022df7b25d931)
+#define RHO_MESSAGE_ACCUMULATOR_CELL_MAX_SIZE 30u
+
+struct rho_message_accumulator_cell {
+    float rho_m; /* of the cell's centre, from the accumulator's origin; signed, m */
+    float theta_rad; /* of its centre, rad; 0 .. 6.3 */
+    float votes; /* of the cell; of a neutrosophic transform the sum of memberships; 0 .. 1e9 */
+    /* bit m: scan m of the window voted, 0 the oldest; 0: not known; 0 .. 65535 */
+    int32_t scan_mask;
+    int16_t plots; /* or crossings, that voted; stays at 32767; 0 .. 32767 */
+    /* of the track that the line started in this step; 0: none; 0 .. 2147483647 */
+    int32_t track_id;
+};
+RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_encode(
+    const struct rho_message_accumulator_cell *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_decode(
+    const uint8_t *data, size_t size, struct rho_message_accumulator_cell *message);
+RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_validate(
+    const struct rho_message_accumulator_cell *message, struct rho_message_place *place);
+const char *rho_message_accumulator_cell_field(const struct rho_message_place *place);
+
 /* ---- echo_t ---- */
 
 /* One echo of a clutter_map_t: something that gave clutter plots again and again in its place. */
@@ -123,6 +156,74 @@ RHO_MUST_CHECK enum rho_status rho_message_echo_decode(
 RHO_MUST_CHECK enum rho_status rho_message_echo_validate(
     const struct rho_message_echo *message, struct rho_message_place *place);
 const char *rho_message_echo_field(const struct rho_message_place *place);
+
+/* ---- ghost_t ---- */
+
+/* One element of a ghost_matrix_t: the crossing of two bearings. */
+
+#define RHO_MESSAGE_GHOST_FINGERPRINT UINT64_C(0x164d411032cf217a)
+#define RHO_MESSAGE_GHOST_MAX_SIZE 25u
+#define RHO_MESSAGE_GHOST_KEPT 0
+#define RHO_MESSAGE_GHOST_SIDES 1
+#define RHO_MESSAGE_GHOST_APART 2
+#define RHO_MESSAGE_GHOST_RANGE 3
+#define RHO_MESSAGE_GHOST_ROW 4
+#define RHO_MESSAGE_GHOST_COLUMN 5
+#define RHO_MESSAGE_GHOST_UNMATCHED 6
+
+struct rho_message_ghost {
+    /* bearing of sensor a, among those that no track had claimed, from 0; 0 .. 32767 */
+    int16_t row;
+    int16_t column; /* bearing of sensor b, likewise; 0 .. 32767 */
+    /*
+     * it was pruned for: different sides of the base, diverging, beyond range_max_m, another
+     * bearing's only crossing in its column or row, in no complete matching; one of KEPT, SIDES,
+     * APART, RANGE, ROW, COLUMN, UNMATCHED
+     */
+    int8_t reason;
+    /*
+     * angle between the bearings, before pruning; 0 or less where they diverge, -pi on different
+     * sides; -3.15 .. 3.15
+     */
+    float delta_rad;
+    float x_m; /* of the crossing, east, m; 0 where there is none within range_max_m */
+    float y_m; /* north, m */
+};
+RHO_MUST_CHECK enum rho_status rho_message_ghost_encode(
+    const struct rho_message_ghost *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_ghost_decode(
+    const uint8_t *data, size_t size, struct rho_message_ghost *message);
+RHO_MUST_CHECK enum rho_status rho_message_ghost_validate(
+    const struct rho_message_ghost *message, struct rho_message_place *place);
+const char *rho_message_ghost_field(const struct rho_message_place *place);
+
+/* ---- hypothesis_t ---- */
+
+/* One hypothesis of a hypotheses_t: which plots were the track's, and where its target is then. */
+
+#define RHO_MESSAGE_HYPOTHESIS_FINGERPRINT UINT64_C(0xf01a62a086282722)
+#define RHO_MESSAGE_HYPOTHESIS_MAX_SIZE 38u
+
+struct rho_message_hypothesis {
+    float share; /* of the likelihood of all hypotheses of the track; they add up to 1; 0 .. 1 */
+    float x_m; /* east, m, at the track's last look */
+    float y_m; /* north, m */
+    float vx_mps; /* velocity, m/s */
+    float vy_mps;
+    float maneuver_probability; /* 0 .. 1 */
+    /*
+     * rows of the plots that it took in the track's last three looks, the newest last; -1: none;
+     * -2: not known
+     */
+    int16_t plots[3];
+};
+RHO_MUST_CHECK enum rho_status rho_message_hypothesis_encode(
+    const struct rho_message_hypothesis *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_hypothesis_decode(
+    const uint8_t *data, size_t size, struct rho_message_hypothesis *message);
+RHO_MUST_CHECK enum rho_status rho_message_hypothesis_validate(
+    const struct rho_message_hypothesis *message, struct rho_message_place *place);
+const char *rho_message_hypothesis_field(const struct rho_message_place *place);
 
 /* ---- learned_t ---- */
 
@@ -181,6 +282,28 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_decode(
 RHO_MUST_CHECK enum rho_status rho_message_peak_validate(
     const struct rho_message_peak *message, struct rho_message_place *place);
 const char *rho_message_peak_field(const struct rho_message_place *place);
+
+/* ---- plane_row_t ---- */
+
+/* One row of a plane_t: a range of theta. */
+
+#define RHO_MESSAGE_PLANE_ROW_FINGERPRINT UINT64_C(0x2e90f16ccca051ec)
+#define RHO_MESSAGE_PLANE_ROW_MAX_SIZE 72u
+
+struct rho_message_plane_row {
+    /*
+     * from rho_min_m to rho_max_m: the most votes of a cell in each block of cells, 0 .. 127:
+     * votes_max
+     */
+    int8_t votes[64];
+};
+RHO_MUST_CHECK enum rho_status rho_message_plane_row_encode(
+    const struct rho_message_plane_row *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_plane_row_decode(
+    const uint8_t *data, size_t size, struct rho_message_plane_row *message);
+RHO_MUST_CHECK enum rho_status rho_message_plane_row_validate(
+    const struct rho_message_plane_row *message, struct rho_message_place *place);
+const char *rho_message_plane_row_field(const struct rho_message_place *place);
 
 /* ---- plot_t ---- */
 
@@ -499,6 +622,87 @@ RHO_MUST_CHECK enum rho_status rho_message_zone_validate(
     const struct rho_message_zone *message, struct rho_message_place *place);
 const char *rho_message_zone_field(const struct rho_message_place *place);
 
+/* ---- accumulator_t ---- */
+
+/*
+ * The last search in an accumulator: its plane, and the fullest cells, best first. Sent when asked
+ * for. Channel RHO_ACCUMULATOR.
+ */
+
+#define RHO_MESSAGE_ACCUMULATOR_CHANNEL "RHO_ACCUMULATOR"
+#define RHO_MESSAGE_ACCUMULATOR_FINGERPRINT UINT64_C(0x7786e1b4d8d8a35a)
+#define RHO_MESSAGE_ACCUMULATOR_MAX_SIZE 1132u
+#define RHO_MESSAGE_ACCUMULATOR_MAX_CELLS 48
+#define RHO_MESSAGE_ACCUMULATOR_HT 1
+#define RHO_MESSAGE_ACCUMULATOR_MHT 2
+#define RHO_MESSAGE_ACCUMULATOR_IHT 3
+#define RHO_MESSAGE_ACCUMULATOR_NHT 4
+#define RHO_MESSAGE_ACCUMULATOR_PASSIVE_PAPER 5
+
+struct rho_message_accumulator {
+    /* of the window's newest scan, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
+    int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int8_t method; /* one of HT, MHT, IHT, NHT, PASSIVE_PAPER */
+    int8_t has_pair; /* 1: of the crossings of one pair of sensors; 0: of all; 0 .. 1 */
+    int16_t sensor_a_id; /* of the pair; 0 without one */
+    int16_t sensor_b_id;
+    int16_t num_scans; /* of the window; 1 .. 16 */
+    /* of the window's oldest scan, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t oldest_utime;
+    float origin_x_m; /* rho is the distance from here, m; -2e6 .. 2e6 */
+    float origin_y_m; /* -2e6 .. 2e6 */
+    float rho_min_m; /* edges of the plane, m */
+    float rho_max_m;
+    int16_t rho_cells; /* from rho_min_m to rho_max_m; 1 .. 32767 */
+    int16_t theta_cells; /* from 0 to pi; 1 .. 32767 */
+    float votes_max; /* most votes of a cell; 0 .. 1e9 */
+    float votes_min; /* of a cell that is listed; 0 .. 1e9 */
+    /*
+     * messages of this channel and of RHO_PLANE that were left out for their rate, so far; 0 ..
+     * 2147483647
+     */
+    int32_t not_sent;
+    int16_t num_cells_total; /* found; the list has the best of them; 0 .. 32767 */
+    int16_t num_cells;
+    struct rho_message_accumulator_cell cells[RHO_MESSAGE_ACCUMULATOR_MAX_CELLS];
+};
+
+struct rho_message_accumulator_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int8_t method;
+    int8_t has_pair;
+    int16_t sensor_a_id;
+    int16_t sensor_b_id;
+    int16_t num_scans;
+    int64_t oldest_utime;
+    float origin_x_m;
+    float origin_y_m;
+    float rho_min_m;
+    float rho_max_m;
+    int16_t rho_cells;
+    int16_t theta_cells;
+    float votes_max;
+    float votes_min;
+    int32_t not_sent;
+    int16_t num_cells_total;
+};
+RHO_MUST_CHECK enum rho_status rho_message_accumulator_encode(
+    const struct rho_message_accumulator *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_accumulator_decode(
+    const uint8_t *data, size_t size, struct rho_message_accumulator *message);
+RHO_MUST_CHECK enum rho_status rho_message_accumulator_validate(
+    const struct rho_message_accumulator *message, struct rho_message_place *place);
+const char *rho_message_accumulator_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_accumulator_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_accumulator_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_accumulator_add(
+    struct rho_message_writer *writer, const struct rho_message_accumulator_cell *cell);
+
 /* ---- bearing_scan_t ---- */
 
 /* Bearings of one look of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. */
@@ -592,6 +796,155 @@ RHO_MUST_CHECK enum rho_status rho_message_clutter_map_begin(
 RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
     struct rho_message_writer *writer, const struct rho_message_echo *echoe);
 
+/* ---- ghost_matrix_t ---- */
+
+/*
+ * The ghost matrix of the newest scans of two passive sensors; or a part of it. Sent when asked
+ * for. Channel RHO_GHOSTS.
+ */
+
+#define RHO_MESSAGE_GHOST_MATRIX_CHANNEL "RHO_GHOSTS"
+#define RHO_MESSAGE_GHOST_MATRIX_FINGERPRINT UINT64_C(0xb0ea8488a0c3ed35)
+#define RHO_MESSAGE_GHOST_MATRIX_MAX_SIZE 1389u
+#define RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS 78
+#define RHO_MESSAGE_GHOST_MATRIX_NO_RULE 0
+#define RHO_MESSAGE_GHOST_MATRIX_LITERAL 1
+#define RHO_MESSAGE_GHOST_MATRIX_SAFE 2
+
+struct rho_message_ghost_matrix {
+    int64_t utime; /* of the frame, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int16_t sensor_a_id; /* rows */
+    int16_t sensor_b_id; /* columns */
+    float sensor_a_x_m; /* place, east, m; -2e6 .. 2e6 */
+    float sensor_a_y_m; /* north, m; -2e6 .. 2e6 */
+    float sensor_b_x_m; /* -2e6 .. 2e6 */
+    float sensor_b_y_m; /* -2e6 .. 2e6 */
+    float range_max_m; /* of both sensors, m; 0 .. 1e9 */
+    int8_t rule; /* of pruning; one of NO_RULE, LITERAL, SAFE */
+    int16_t num_rows; /* bearings of sensor a; 0 .. 255 */
+    int16_t num_columns; /* bearings of sensor b; 0 .. 255 */
+    /* messages of this channel that were left out for its rate, so far; 0 .. 2147483647 */
+    int32_t not_sent;
+    int16_t part; /* which part of the matrix this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the matrix; an empty one has one; 1 .. 32767 */
+    int16_t num_elements; /* in this part; row by row */
+    struct rho_message_ghost elements[RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS];
+};
+
+struct rho_message_ghost_matrix_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t sensor_a_id;
+    int16_t sensor_b_id;
+    float sensor_a_x_m;
+    float sensor_a_y_m;
+    float sensor_b_x_m;
+    float sensor_b_y_m;
+    float range_max_m;
+    int8_t rule;
+    int16_t num_rows;
+    int16_t num_columns;
+    int32_t not_sent;
+    int16_t part;
+    int16_t num_parts;
+};
+RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_encode(
+    const struct rho_message_ghost_matrix *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_decode(
+    const uint8_t *data, size_t size, struct rho_message_ghost_matrix *message);
+RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_validate(
+    const struct rho_message_ghost_matrix *message, struct rho_message_place *place);
+const char *rho_message_ghost_matrix_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_ghost_matrix_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_add(
+    struct rho_message_writer *writer, const struct rho_message_ghost *element);
+
+/* ---- hypotheses_t ---- */
+
+/*
+ * Of one track: its score, its motion models, the evidence of its last look, and its hypotheses,
+ * best first. Sent when asked for. Channel RHO_HYPOTHESES.
+ */
+/*
+ * support, shared and clutter are truth, indeterminacy and falsity of neutrosophic sets, and add up
+ * to 1. With evidence PLOTS a
+ */
+/*
+ * plot in the track's gate has the probability p to be the target's, before plots are given to one
+ * track each, and r is how much
+ */
+/*
+ * likelier it is this track's than another's. With evidence LINE they are of the cell by which a
+ * neutrosophic Hough transform
+ */
+/* started the track: shares of its sums C_T, C_I and C_F. */
+
+#define RHO_MESSAGE_HYPOTHESES_CHANNEL "RHO_HYPOTHESES"
+#define RHO_MESSAGE_HYPOTHESES_FINGERPRINT UINT64_C(0xe526c2edcb9c898f)
+#define RHO_MESSAGE_HYPOTHESES_MAX_SIZE 303u
+#define RHO_MESSAGE_HYPOTHESES_MAX_HYPOTHESES 8
+#define RHO_MESSAGE_HYPOTHESES_NO_EVIDENCE 0
+#define RHO_MESSAGE_HYPOTHESES_PLOTS 1
+#define RHO_MESSAGE_HYPOTHESES_LINE 2
+
+struct rho_message_hypotheses {
+    int64_t utime; /* of the step, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int32_t track_id; /* as in RHO_TRACKS */
+    float score_nat;
+    /* probabilities of the motion models, which add up to 1: flies straight for minutes; 0 .. 1 */
+    float calm;
+    float steady; /* flies straight, and may turn soon; 0 .. 1 */
+    float maneuver; /* manoeuvres; 0 .. 1 */
+    /*
+     * PLOTS: of the plots of this step; LINE: of the line by which it started in this step;
+     * NO_EVIDENCE: not looked at, or not known; one of NO_EVIDENCE, PLOTS, LINE
+     */
+    int8_t evidence;
+    float support; /* evidence that is the track's own: sum of p r over its plots; C_T; 0 .. 1 */
+    /* evidence that other tracks or lines claim, too: sum of p (1 - r); C_I; 0 .. 1 */
+    float shared;
+    float clutter; /* that none of it is the target's: 1 - sum of p; C_F; 0 .. 1 */
+    /* messages of this channel that were left out for its rate, so far; 0 .. 2147483647 */
+    int32_t not_sent;
+    int16_t num_hypotheses;
+    struct rho_message_hypothesis hypotheses[RHO_MESSAGE_HYPOTHESES_MAX_HYPOTHESES];
+};
+
+struct rho_message_hypotheses_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int32_t track_id;
+    float score_nat;
+    float calm;
+    float steady;
+    float maneuver;
+    int8_t evidence;
+    float support;
+    float shared;
+    float clutter;
+    int32_t not_sent;
+};
+RHO_MUST_CHECK enum rho_status rho_message_hypotheses_encode(
+    const struct rho_message_hypotheses *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_hypotheses_decode(
+    const uint8_t *data, size_t size, struct rho_message_hypotheses *message);
+RHO_MUST_CHECK enum rho_status rho_message_hypotheses_validate(
+    const struct rho_message_hypotheses *message, struct rho_message_place *place);
+const char *rho_message_hypotheses_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_hypotheses_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_hypotheses_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_hypotheses_add(
+    struct rho_message_writer *writer, const struct rho_message_hypothesis *hypothese);
+
 /* ---- peak_list_t ---- */
 
 /* The best candidates of the last search for new tracks, best first. Channel RHO_PEAKS. */
@@ -625,6 +978,61 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_list_begin(
     const struct rho_message_peak_list_head *head);
 RHO_MUST_CHECK enum rho_status rho_message_peak_list_add(
     struct rho_message_writer *writer, const struct rho_message_peak *peak);
+
+/* ---- plane_t ---- */
+
+/*
+ * The plane of an accumulator_t of the same scan and pair, made small; a part of it. Sent when
+ * asked for. Channel RHO_PLANE.
+ */
+
+#define RHO_MESSAGE_PLANE_CHANNEL "RHO_PLANE"
+#define RHO_MESSAGE_PLANE_FINGERPRINT UINT64_C(0x3c33f233bec2f5b4)
+#define RHO_MESSAGE_PLANE_MAX_SIZE 1064u
+#define RHO_MESSAGE_PLANE_MAX_ROWS 16
+
+struct rho_message_plane {
+    /*
+     * as in the accumulator_t, as all that follow, us; -4000000000000000000 .. 4000000000000000000
+     */
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int8_t method; /* 1 .. 5 */
+    int8_t has_pair; /* 0 .. 1 */
+    int16_t sensor_a_id;
+    int16_t sensor_b_id;
+    float votes_max; /* that 127 in the rows stands for; 0 .. 1e9 */
+    int16_t part; /* which part of the rows this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the rows, at most 64, from theta 0 to pi; 1 .. 32767 */
+    int16_t num_rows; /* in this part */
+    struct rho_message_plane_row rows[RHO_MESSAGE_PLANE_MAX_ROWS];
+};
+
+struct rho_message_plane_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int8_t method;
+    int8_t has_pair;
+    int16_t sensor_a_id;
+    int16_t sensor_b_id;
+    float votes_max;
+    int16_t part;
+    int16_t num_parts;
+};
+RHO_MUST_CHECK enum rho_status rho_message_plane_encode(
+    const struct rho_message_plane *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_plane_decode(
+    const uint8_t *data, size_t size, struct rho_message_plane *message);
+RHO_MUST_CHECK enum rho_status rho_message_plane_validate(
+    const struct rho_message_plane *message, struct rho_message_place *place);
+const char *rho_message_plane_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_plane_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_plane_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_plane_add(
+    struct rho_message_writer *writer, const struct rho_message_plane_row *row);
 
 /* ---- plot_scan_t ---- */
 

@@ -52,6 +52,12 @@ struct rho_paper_starts_work {
     uint32_t refused;     /* the tracker had no room, or could not follow the plots */
 };
 
+/* A peak of the last search: whose plots voted, and the track that it started. */
+struct rho_paper_line {
+    struct rho_hough_track line; /* at the newest scan */
+    uint32_t track_id;           /* 0: none */
+};
+
 struct rho_paper_starts {
     uint32_t magic;
     struct rho_paper_starts_config config;
@@ -59,9 +65,11 @@ struct rho_paper_starts {
     struct rho_hough hough;
     struct rho_hough_result result; /* of the last search */
     struct rho_accumulator_peak peaks[RHO_PAPER_PEAKS];
+    struct rho_paper_line lines[RHO_PAPER_PEAKS]; /* of the peaks: result.num_peaks of them */
     struct rho_paper_starts_work work;
+    uint32_t has_searched; /* 1: the last step did; 0: it had too few scans, or an old one */
     /* the window as the transform takes it; times count from the newest scan */
-    uint32_t scan_end[RHO_MAX_SCANS];
+    uint32_t num_scans, scan_end[RHO_MAX_SCANS];
     float x_m[RHO_MAX_SCANS * RHO_MAX_PLOTS], y_m[RHO_MAX_SCANS * RHO_MAX_PLOTS];
     float t_s[RHO_MAX_SCANS * RHO_MAX_PLOTS];
 };
@@ -94,6 +102,12 @@ RHO_MUST_CHECK enum rho_status rho_paper_starts_step(struct rho_paper_starts *st
                                                      const struct rho_scan *scan,
                                                      const struct rho_sensor *sensor,
                                                      struct rho_report *report);
+
+/*
+ * The points of the last search, for rho_hough_plane and rho_hough_vote: they stay in *starts until
+ * the next step. Without a search so far they have no scans. Constant cost.
+ */
+struct rho_hough_points rho_paper_starts_points(const struct rho_paper_starts *starts);
 
 /*
  * The same for a frame of bearings: unclaimed ones go into the paper's batch, and each line that

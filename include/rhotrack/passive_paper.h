@@ -36,6 +36,7 @@
 #include "rhotrack/detail/accumulator.h"
 #include "rhotrack/detail/batch.h"
 #include "rhotrack/detail/ghost.h"
+#include "rhotrack/detail/plane.h"
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
@@ -72,6 +73,7 @@ struct rho_passive_paper_line {
      * no less than that of a place within the cell; m^2, m^2/s, (m/s)^2
      */
     float place_m2, place_velocity_m2ps, velocity_m2ps2;
+    uint32_t track_id; /* of the track that rho_passive_paper_step started by it; 0: none */
 };
 
 /* Counters of a search, and of what exceeded a capacity. All saturate. */
@@ -155,6 +157,66 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_push(struct rho_passive_paper *
  * lines (also those dropped). Stack: 1.5 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper);
+
+/* Two sensors with scans in the batch: their places among batch.sensors. */
+struct rho_passive_paper_pair {
+    uint8_t a, b;
+};
+
+/*
+ * The pairs of a search, in its order: number from 0. Returns 0 beyond the last one, and *pair is
+ * unchanged. Cost: scans times sensors. Stack: 180 bytes.
+ */
+int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
+                           struct rho_passive_paper_pair *pair);
+
+/* Where the cells of a search are: its rho is measured from the origin. */
+struct rho_passive_paper_space {
+    float origin_x_m, origin_y_m, rho_max_m; /* rho from -rho_max_m to rho_max_m */
+    uint16_t theta_cells, rho_cells;
+};
+
+/*
+ * Errors: NULL, STATE (not initialised, or no sensor in the batch). Cost: scans times sensors.
+ * Stack: 200 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
+                                                       struct rho_passive_paper_space *space);
+
+/*
+ * Step 1 for one scan and pair: the ghost matrix, pruned by the config's rule. It is that of the
+ * last search until the next frame is pushed.
+ *   scan  of the batch, 0 the oldest
+ * Errors: NULL, STATE (not initialised), VALUE (no such scan or pair). Cost: rho_ghost_fill and
+ * rho_ghost_prune. Stack: 1 KB with 8 bearings a scan, 3 KB with 16.
+ */
+RHO_MUST_CHECK enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
+                                                        const struct rho_passive_paper_pair *pair,
+                                                        unsigned scan,
+                                                        struct rho_ghost_matrix *matrix);
+
+/*
+ * Step 2: the votes of a pair's accumulator; of all pairs (NULL) the sums, in the cells that every
+ * pair confirms, and 0 in the others. They are those of the last search until the next frame is
+ * pushed; the lines stay as they are.
+ * Errors: NULL (paper), STATE (not initialised, or too little in the batch to search), VALUE (no
+ * such pair), and those of rho_plane_open. Cost: the voting of rho_passive_paper_search. Stack:
+ * 1.6 KB with 8 bearings a scan, 4 KB with 16.
+ */
+RHO_MUST_CHECK enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
+                                                       const struct rho_passive_paper_pair *pair,
+                                                       struct rho_plane *plane);
+
+/*
+ * Step 3 for one pair: the cells with T votes or more in its accumulator, best first, none near a
+ * better one (step 4). Lifetime, errors and stack as above; NULL also for peaks and num_peaks.
+ *   peaks  room for max_peaks cells, from which they are chosen; their masks are filled
+ * Cost: the voting of a pair, and the crossings a cell.
+ */
+RHO_MUST_CHECK enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
+                                                       const struct rho_passive_paper_pair *pair,
+                                                       struct rho_accumulator_peak *peaks,
+                                                       uint32_t max_peaks, uint32_t *num_peaks);
 
 /*
  * Eq. (3): rho of the line in direction theta through what a sensor at (x_m, y_m) sees at this

@@ -30,6 +30,7 @@
 #include "rhotrack/node.h"
 #include "rhotrack/publish.h"
 #include "rhotrack/scan_assembler.h"
+#include "rhotrack/show.h"
 #include "rhotrack/udpm.h"
 #include "rhotrack/zones.h"
 

@@ -381,6 +381,32 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
                                                    int32_t sensor_id);
 
 /*
+ * Of the last step, for one track: how its evidence divides among what may be true. Each plot that
+ * the track's gate offered has the odds e^gain over none being the target's, the gain that the gate
+ * compares plots by, before plots are given to one track each. So its probability p is e^gain / (1 +
+ * sum of e^gain); r is the share of this e^gain among those of all tracks for the same plot.
+ *
+ *     support = sum of p r      shared = sum of p (1 - r)      clutter = 1 - sum of p
+ *
+ * the truth, indeterminacy and falsity of neutrosophic sets: they add up to 1. Of a frame it is the
+ * last sensor's scan, of a scan in parts (RHO_CLAIMS_BEYOND) the last part.
+ */
+struct rho_tracker_evidence {
+    float support; /* plots that the track alone is likely to have given */
+    float shared;  /* the part of its plots that other tracks claim, too */
+    float clutter; /* that no plot is the target's: those near it are clutter, or there is none */
+};
+
+/*
+ * track: place among the tracker's tracks, which is that in the report. Returns 0 where nothing is
+ * known, and *evidence is unchanged: no such track, started in this step, not looked at, or built
+ * without RHO_KEEPS_OFFERS. Cost: offered plots of the track times
+ * those of all tracks. Stack: 120 bytes.
+ */
+int rho_tracker_evidence_of(const struct rho_tracker *tracker, unsigned track,
+                            struct rho_tracker_evidence *evidence);
+
+/*
  * Takes one scan through all phases above.
  *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held
  *              nowhere (fate NO_ROOM)

@@ -302,3 +302,15 @@ int rho_assignment_column(const struct rho_assignment *assignment, unsigned row)
     }
     return assignment->row_column[row];
 }
+
+void rho_assignment_move_pairs(struct rho_assignment *assignment, unsigned from, unsigned to)
+{
+    if (from == to || from >= assignment->num_rows || to >= assignment->num_rows) {
+        return;
+    }
+    for (unsigned i = 0; i < assignment->num_pairs[from]; i++) {
+        assignment->pairs[to][i] = assignment->pairs[from][i];
+    }
+    assignment->num_pairs[to] = assignment->num_pairs[from];
+    assignment->num_pairs[from] = 0;
+}

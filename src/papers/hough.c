@@ -246,12 +246,14 @@ static uint32_t table_size(uint32_t entries)
 }
 
 static struct rho_hough_pass pass_over(struct rho_hough *hough,
-                                       const struct rho_hough_points *points, int32_t first,
+                                       const struct rho_hough_points *points,
+                                       enum rho_hough_component component, int32_t first,
                                        int32_t count)
 {
     struct rho_hough_pass pass = {.hough = hough,
                                   .points = points,
                                   .wanted = {first, count},
+                                  .component = component,
                                   .table_size = table_size(count_all_pairs(points)),
                                   .stops_when_full = count > 1};
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
@@ -282,14 +284,17 @@ static int32_t rows_after(const struct rho_hough_pass *pass, int32_t rows)
     return has_room && rows < pass->hough->theta_cells ? 2 * rows : rows;
 }
 
-static void find_pairs(struct rho_hough *hough, const struct rho_hough_points *points,
-                       struct rho_peak_list *list, struct rho_hough_result *result)
+/* Into the list, or where there is none into the plane. */
+static void vote_all_rows(struct rho_hough *hough, const struct rho_hough_points *points,
+                          enum rho_hough_component component, struct rho_plane *plane,
+                          struct rho_peak_list *list, struct rho_hough_result *result)
 {
     int32_t all = hough->theta_cells, rows = all;
     *result = (struct rho_hough_result){.pairs = count_all_pairs(points)};
     for (int32_t first = 0; first < all;) {
         int32_t count = all - first < rows ? all - first : rows;
-        struct rho_hough_pass pass = pass_over(hough, points, first, count);
+        struct rho_hough_pass pass = pass_over(hough, points, component, first, count);
+        pass.plane = plane;
         rho_hough_vote_pairs(&pass);
         if (pass.is_full && count > 1) {
             rows = count / 2;
@@ -301,6 +306,12 @@ static void find_pairs(struct rho_hough *hough, const struct rho_hough_points *p
         first += count;
         rows = rows_after(&pass, rows);
     }
+}
+
+static void find_pairs(struct rho_hough *hough, const struct rho_hough_points *points,
+                       struct rho_peak_list *list, struct rho_hough_result *result)
+{
+    vote_all_rows(hough, points, RHO_HOUGH_VOTES, NULL, list, result);
     rho_peak_list_finish(list);
     result->num_peaks = list->num_peaks;
     result->cells_dropped = list->peaks_dropped;
@@ -345,6 +356,92 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
         result->num_peaks = suppress(hough, peaks, result->num_peaks);
     }
     return status;
+}
+
+/* A row of theta: bits of scans, or points. */
+static void vote_row(const struct rho_hough *hough, const struct rho_hough_points *points,
+                     unsigned theta, uint16_t *row)
+{
+    const int has_scans = hough->config.votes == RHO_VOTES_SCANS;
+    memset(row, 0, hough->rho_cells * sizeof row[0]);
+    for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
+        for (uint32_t i = rho_hough_scan_start(points, scan); i < points->at.scan_end[scan]; i++) {
+            const int cell = rho_accumulator_cell(&hough->work.accumulator, theta,
+                                                  points->at.x_m[i], points->at.y_m[i]);
+            if (cell >= 0) {
+                row[cell] = (uint16_t)(has_scans ? row[cell] | 1u << scan
+                                                 : row[cell] + (row[cell] < UINT16_MAX ? 1u : 0u));
+            }
+        }
+    }
+}
+
+/* HT: each row by itself. */
+static enum rho_status note_lines(struct rho_hough *hough, const struct rho_hough_points *points,
+                                  struct rho_plane *plane)
+{
+    const enum rho_status status = start_accumulator(hough);
+    uint16_t *row = hough->work.accumulator.rows[0];
+    for (unsigned theta = 0; status == RHO_OK && theta < hough->theta_cells; theta++) {
+        vote_row(hough, points, theta, row);
+        for (unsigned cell = 0; cell < hough->rho_cells; cell++) {
+            const uint32_t votes =
+                hough->config.votes == RHO_VOTES_SCANS ? rho_count_bits(row[cell]) : row[cell];
+            rho_plane_note(plane, theta, cell, votes * RHO_HOUGH_VOTE);
+        }
+    }
+    return status;
+}
+
+enum rho_status rho_hough_plane(struct rho_hough *hough, const struct rho_hough_points *points,
+                                enum rho_hough_component component, struct rho_plane *plane)
+{
+    struct rho_hough_result result;
+    enum rho_status status = check(hough, points);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if ((unsigned)component >= RHO_NUM_HOUGH_COMPONENTS ||
+        (component != RHO_HOUGH_VOTES && !rho_hough_uses_kernels(hough))) {
+        return RHO_ERROR_VALUE;
+    }
+    status = rho_plane_open(plane, hough->theta_cells, hough->rho_cells);
+    if (status == RHO_OK && hough->config.method == RHO_HOUGH_HT) {
+        status = note_lines(hough, points, plane);
+    } else if (status == RHO_OK) {
+        vote_all_rows(hough, points, component, plane, NULL, &result);
+    }
+    return status;
+}
+
+/* The scan of a plot; num_scans: none. */
+static unsigned scan_of(const struct rho_hough_points *points, uint32_t plot)
+{
+    unsigned scan = 0;
+    while (scan < points->at.num_scans && plot >= points->at.scan_end[scan]) {
+        scan++;
+    }
+    return scan;
+}
+
+enum rho_status rho_hough_vote(const struct rho_hough *hough, const struct rho_hough_points *points,
+                               uint32_t first, uint32_t second,
+                               struct rho_hough_memberships *memberships)
+{
+    const enum rho_status status = check(hough, points);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (!memberships) {
+        return RHO_ERROR_NULL;
+    }
+    const unsigned scan = scan_of(points, second);
+    if (scan == points->at.num_scans || scan_of(points, first) + 1u != scan) {
+        return RHO_ERROR_VALUE;
+    }
+    *memberships =
+        rho_hough_pair_memberships(hough, points, scan, (struct rho_hough_pair){first, second});
+    return RHO_OK;
 }
 
 enum rho_status rho_hough_track(struct rho_hough *hough, const struct rho_hough_points *points,

@@ -203,9 +203,12 @@ static void spread(const struct band *band, int32_t row, struct passing cell, ui
     }
 }
 
-static void list_cell(struct rho_peak_list *list, int32_t row, int32_t column, uint32_t votes)
+static void list_cell(const struct rho_hough_pass *pass, struct rho_peak_list *list, int32_t row,
+                      int32_t column, uint32_t votes)
 {
-    if (votes >= list->min_votes) {
+    if (!list) {
+        rho_plane_note(pass->plane, (unsigned)row, (unsigned)column, votes);
+    } else if (votes >= list->min_votes) {
         rho_peak_list_add(list, (struct rho_accumulator_peak){.votes = votes,
                                                               .theta_cell = (uint16_t)row,
                                                               .rho_cell = (uint16_t)column});
@@ -220,7 +223,7 @@ static void collect_spread(const struct band *band, int32_t row, struct passing 
     for (int32_t i = columns.from; i <= columns.to; i++) {
         if (sums[i] > 0) {
             band->pass->found.cells = rho_count(band->pass->found.cells, 1);
-            list_cell(list, row, i, sums[i]);
+            list_cell(band->pass, list, row, i, sums[i]);
             sums[i] = 0;
         }
     }
@@ -271,7 +274,7 @@ void rho_hough_collect(struct rho_hough_pass *pass, struct rho_peak_list *list)
         return;
     }
     for (uint32_t i = 0; i < num_cells; i++) {
-        list_cell(list, row_of(cells[i].key), column_of(cells[i].key), cells[i].votes);
+        list_cell(pass, list, row_of(cells[i].key), column_of(cells[i].key), cells[i].votes);
     }
     pass->found.cells = num_cells;
 }

@@ -106,6 +106,28 @@ static float indeterminacy(const struct rho_hough *hough, const struct rho_hough
     return distance2 < 0.0f ? 0.0f : rho_exp(-0.5f * distance2);
 }
 
+static uint32_t parts_of(float membership)
+{
+    return (uint32_t)(membership * (float)RHO_HOUGH_VOTE + 0.5f);
+}
+
+static float falsity(const struct rho_hough *hough)
+{
+    return hough->config.lambda_k * hough->config.p_false * hough->config.p_false;
+}
+
+struct rho_hough_memberships rho_hough_memberships_of(const struct rho_hough *hough,
+                                                      const struct rho_hough_points *points,
+                                                      struct rho_line line,
+                                                      const struct rho_hough_nearest *nearest)
+{
+    const float f = falsity(hough);
+    return (struct rho_hough_memberships){
+        .truth = nearest->count > 0 ? parts_of(rho_exp(-0.5f * nearest->distance2[0])) : 0,
+        .indeterminacy = parts_of(indeterminacy(hough, points, line, nearest)),
+        .falsity = parts_of(f < 1.0f ? f : 1.0f)};
+}
+
 uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
                                struct rho_line line, const struct rho_hough_nearest *nearest)
 {
@@ -118,10 +140,7 @@ uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_h
         float i = indeterminacy(hough, points, line, nearest);
         vote = i > vote ? i : vote;
     }
-    if (config->lambda_k * config->p_false * config->p_false > vote) {
-        return 0;
-    }
-    return (uint32_t)(vote * (float)RHO_HOUGH_VOTE + 0.5f);
+    return falsity(hough) > vote ? 0 : parts_of(vote);
 }
 
 /* ---- kernels --------------------------------------------------------------------------------- */
@@ -243,6 +262,27 @@ static int is_held(const struct rho_hough_pass *pass, float dx_m, float dy_m)
     return !pass->can_reject || from * to <= 0.0f;
 }
 
+static uint32_t larger(uint32_t a, uint32_t b)
+{
+    return a > b ? a : b;
+}
+
+/* What the pair adds to its cell. */
+static uint32_t component_of(const struct rho_hough_pass *pass, struct rho_line line,
+                             const struct rho_hough_nearest *nearest)
+{
+    if (pass->component == RHO_HOUGH_VOTES) {
+        return rho_hough_vote_weight(pass->hough, pass->points, line, nearest);
+    }
+    const struct rho_hough_memberships of =
+        rho_hough_memberships_of(pass->hough, pass->points, line, nearest);
+    return pass->component == RHO_HOUGH_TRUTH           ? of.truth
+           : pass->component == RHO_HOUGH_INDETERMINACY ? of.indeterminacy
+           : pass->component == RHO_HOUGH_FALSITY
+               ? of.falsity
+               : larger(of.truth, larger(of.indeterminacy, of.falsity));
+}
+
 static void vote_kernels(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
                          struct rho_hough_pair pair)
 {
@@ -250,7 +290,7 @@ static void vote_kernels(struct rho_hough_pass *pass, unsigned scan, struct rho_
     int32_t row = rho_hough_row(hough, line.theta_rad);
     if (scan > 1 && rho_hough_has_row(hough, pass->voting, row)) {
         struct rho_hough_nearest nearest = nearest_kernels(pass, scan, line);
-        uint32_t votes = rho_hough_vote_weight(hough, pass->points, line, &nearest);
+        uint32_t votes = component_of(pass, line, &nearest);
         if (votes > 0) {
             rho_hough_add_votes(pass, line, votes);
         }

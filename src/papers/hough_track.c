@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* hough_track: the plots that voted for a cell, and the track fitted through them. */
+/*
+ * hough_track: the plots that voted for a cell, and the track fitted through them; the memberships
+ * of a vote.
+ */
 #include "hough_votes.h"
 
 #include "rhotrack/detail/approx.h"
@@ -40,11 +43,10 @@ static int is_on_target(const struct target *target, uint32_t i)
 /* ---- votes of a pair for the cell ------------------------------------------------------------ */
 
 /* The nearest kernels of a line between a scan and the scan before. */
-static struct rho_hough_nearest kernels_of(const struct target *target, unsigned scan,
+static struct rho_hough_nearest kernels_of(const struct rho_hough *hough,
+                                           const struct rho_hough_points *points, unsigned scan,
                                            struct rho_line line)
 {
-    const struct rho_hough *hough = target->hough;
-    const struct rho_hough_points *points = target->points;
     float rho_m = 2.0f * hough->config.eps_rho_m, theta_rad = 2.0f * hough->config.eps_theta_rad;
     struct rho_hough_nearest nearest = {.count = 0};
     uint32_t middle = rho_hough_scan_start(points, scan - 1u), end = points->at.scan_end[scan - 1u];
@@ -60,16 +62,36 @@ static struct rho_hough_nearest kernels_of(const struct target *target, unsigned
     return nearest;
 }
 
-static uint32_t own_votes(const struct target *target, unsigned scan, struct rho_line line)
+/* Of a candidate pair. */
+struct vote {
+    uint32_t weight; /* what the method counts */
+    struct rho_hough_memberships of;
+};
+
+static struct vote own_vote(const struct target *target, unsigned scan, struct rho_line line)
 {
+    struct vote vote = {.weight = 0};
     if (!rho_hough_uses_kernels(target->hough)) {
-        return RHO_HOUGH_VOTE;
+        vote.weight = RHO_HOUGH_VOTE;
+    } else if (scan >= 2) {
+        struct rho_hough_nearest nearest = kernels_of(target->hough, target->points, scan, line);
+        vote.weight = rho_hough_vote_weight(target->hough, target->points, line, &nearest);
+        vote.of = rho_hough_memberships_of(target->hough, target->points, line, &nearest);
     }
-    if (scan < 2) {
-        return 0;
+    return vote;
+}
+
+struct rho_hough_memberships rho_hough_pair_memberships(const struct rho_hough *hough,
+                                                        const struct rho_hough_points *points,
+                                                        unsigned scan, struct rho_hough_pair pair)
+{
+    if (scan < 2 || !rho_hough_uses_kernels(hough) ||
+        rho_hough_speed(hough, points, pair) != RHO_SPEED_WITHIN) {
+        return (struct rho_hough_memberships){0};
     }
-    struct rho_hough_nearest nearest = kernels_of(target, scan, line);
-    return rho_hough_vote_weight(target->hough, target->points, line, &nearest);
+    struct rho_line line = rho_hough_line(points, pair);
+    struct rho_hough_nearest nearest = kernels_of(hough, points, scan, line);
+    return rho_hough_memberships_of(hough, points, line, &nearest);
 }
 
 /*
@@ -86,34 +108,56 @@ static int32_t rows_away(const struct target *target, int32_t row, int32_t *colu
     return away < 0 ? -away : away;
 }
 
-static uint32_t pair_votes(const struct target *target, unsigned scan, struct rho_hough_pair pair)
+static void scale_vote(const struct target *target, int32_t rows, int32_t columns,
+                       struct vote *vote)
+{
+    uint32_t *parts[] = {&vote->weight, &vote->of.truth, &vote->of.indeterminacy,
+                         &vote->of.falsity};
+    for (unsigned i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        *parts[i] = rho_hough_scale(rho_hough_scale(*parts[i], target->theta_shares[rows]),
+                                    target->rho_shares[columns]);
+    }
+}
+
+static struct vote pair_vote(const struct target *target, unsigned scan, struct rho_hough_pair pair)
 {
     const struct rho_hough *hough = target->hough;
+    const struct vote none = {.weight = 0};
     enum rho_hough_speed speed = rho_hough_speed(hough, target->points, pair);
     int takes_all = hough->config.method == RHO_HOUGH_MHT;
     if (speed == RHO_SPEED_NO_LINE || (speed == RHO_SPEED_OUTSIDE && !takes_all)) {
-        return 0;
+        return none;
     }
     struct rho_line line = rho_hough_line(target->points, pair);
     int32_t column = rho_hough_column(hough, line.rho_m);
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     if (column < 0) {
-        return 0;
+        return none;
     }
     int32_t rows = rows_away(target, rho_hough_row(hough, line.theta_rad), &column);
     int32_t columns = column < target->column ? target->column - column : column - target->column;
     if (rows > (is_spread ? hough->theta_reach : 0) ||
         columns > (is_spread ? hough->rho_reach : 0)) {
-        return 0;
+        return none;
     }
-    uint32_t votes = own_votes(target, scan, line);
-    return is_spread ? rho_hough_scale(rho_hough_scale(votes, target->theta_shares[rows]),
-                                       target->rho_shares[columns])
-                     : votes;
+    struct vote vote = own_vote(target, scan, line);
+    if (is_spread) {
+        scale_vote(target, rows, columns, &vote);
+    }
+    return vote;
+}
+
+static void add_memberships(struct rho_hough_memberships *sums,
+                            const struct rho_hough_memberships *of)
+{
+    sums->truth = rho_count(sums->truth, of->truth);
+    sums->indeterminacy = rho_count(sums->indeterminacy, of->indeterminacy);
+    sums->falsity = rho_count(sums->falsity, of->falsity);
 }
 
 /* Votes of the pairs of a plot with the plots of the next scan (is_behind) or the previous one. */
-static uint32_t votes_with(const struct target *target, unsigned scan, uint32_t i, int is_behind)
+static uint32_t votes_with(const struct target *target, unsigned scan, uint32_t i, int is_behind,
+                           struct rho_hough_memberships *sums)
 {
     const struct rho_hough_points *points = target->points;
     unsigned other = is_behind ? scan + 1u : scan - 1u;
@@ -121,7 +165,9 @@ static uint32_t votes_with(const struct target *target, unsigned scan, uint32_t 
     for (uint32_t j = rho_hough_scan_start(points, other); j < points->at.scan_end[other]; j++) {
         if (is_on_target(target, j)) {
             struct rho_hough_pair pair = {is_behind ? i : j, is_behind ? j : i};
-            votes = rho_count(votes, pair_votes(target, is_behind ? other : scan, pair));
+            struct vote vote = pair_vote(target, is_behind ? other : scan, pair);
+            votes = rho_count(votes, vote.weight);
+            add_memberships(sums, &vote.of);
         }
     }
     return votes;
@@ -195,10 +241,11 @@ static int votes_in_pair(const struct target *target, unsigned scan, uint32_t i,
     if (!is_on_target(target, i)) {
         return 0;
     }
-    uint32_t before = scan > 0 ? votes_with(target, scan, i, 0) : 0;
+    struct rho_hough_memberships behind = {0}; /* they count with those plots */
+    uint32_t before = scan > 0 ? votes_with(target, scan, i, 0, &track->sums) : 0;
     track->votes = rho_count(track->votes, before);
-    return before > 0 ||
-           (scan + 1u < target->points->at.num_scans && votes_with(target, scan, i, 1) > 0);
+    return before > 0 || (scan + 1u < target->points->at.num_scans &&
+                          votes_with(target, scan, i, 1, &behind) > 0);
 }
 
 static void look_at_plots(const struct target *target, float at_s, struct rho_hough_track *track)

@@ -6,7 +6,8 @@
  *   hough_plane.c    rows and columns of the plane
  *   hough_cells.c    the hash of cells with votes; the spread of NHT_C over their neighbours
  *   hough_pairs.c    pairs of plots, their lines, and the votes that the kernels of NHT give them
- *   hough_track.c    the plots that voted for a cell, and the track fitted through them
+ *   hough_track.c    the plots that voted for a cell, and the track fitted through them; the
+ *                    memberships of a vote
  *   hough.c          configuration, passes over theta, thresholds and suppression
  */
 #ifndef RHOTRACK_HOUGH_VOTES_H
@@ -27,6 +28,8 @@ struct rho_hough_pass {
     struct rho_hough_rows wanted; /* rows whose cells are listed */
     struct rho_hough_rows voting; /* rows whose lines vote for such cells */
     struct rho_hough_rows held;   /* rows whose lines are kernels of such lines */
+    enum rho_hough_component component;
+    struct rho_plane *plane; /* where cells are noted instead of listed; NULL: they are listed */
     int can_reject; /* lines outside are rejected by the border normals, without an arctangent */
     float from_x, from_y, to_x, to_y;
     int stops_when_full, is_full;
@@ -80,6 +83,10 @@ void rho_hough_compare_kernel(const struct rho_hough *hough, struct rho_line lin
 /* The vote of a pair with these kernels, in units of 1 / RHO_HOUGH_VOTE; 0: none. */
 uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
                                struct rho_line line, const struct rho_hough_nearest *nearest);
+struct rho_hough_memberships rho_hough_memberships_of(const struct rho_hough *hough,
+                                                      const struct rho_hough_points *points,
+                                                      struct rho_line line,
+                                                      const struct rho_hough_nearest *nearest);
 
 /* All pairs of a pass vote. */
 void rho_hough_vote_pairs(struct rho_hough_pass *pass);
@@ -94,10 +101,15 @@ void rho_hough_spread_weights(uint32_t shares[RHO_HOUGH_REACH_MAX + 1], unsigned
                               float eps);
 uint32_t rho_hough_scale(uint32_t votes, uint32_t share);
 
-/* Lists the cells of the wanted rows with all their votes. */
+/* Lists the cells of the wanted rows with all their votes; NULL: notes them in the pass' plane. */
 void rho_hough_collect(struct rho_hough_pass *pass, struct rho_peak_list *list);
 
 /* ---- voters ---- */
+
+/* Those of a pair whose second plot is of the scan. */
+struct rho_hough_memberships rho_hough_pair_memberships(const struct rho_hough *hough,
+                                                        const struct rho_hough_points *points,
+                                                        unsigned scan, struct rho_hough_pair pair);
 
 /* rho_hough_track of arguments that were checked; for HT the accumulator is set up. */
 void rho_hough_find_voters(struct rho_hough *hough, const struct rho_hough_points *points,

@@ -8,8 +8,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define PAPER_MAGIC 0x50504150u /* "PPAP" */
-
 #define SCANS_MIN 4u
 #define VOTES_MAX 255u
 
@@ -32,7 +30,7 @@ void rho_passive_paper_config_default(struct rho_passive_paper_config *config)
                                                 .rule = RHO_GHOST_LITERAL};
 }
 
-static unsigned count_rows(const struct rho_passive_paper_config *config)
+unsigned rho_passive_paper_rows(const struct rho_passive_paper_config *config)
 {
     return (unsigned)(RHO_PI / config->theta_cell_rad + 0.5f);
 }
@@ -45,7 +43,7 @@ static int is_usable(const struct rho_passive_paper_config *config)
            rho_is_within(config->rho_cell_m, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_POSITION_M) &&
            2.0f * config->range_max_m <= config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS &&
            rho_is_within(config->theta_cell_rad, 1.0e-4f, 0.5f) &&
-           count_rows(config) <= RHO_PAPER_THETA_CELLS &&
+           rho_passive_paper_rows(config) <= RHO_PAPER_THETA_CELLS &&
            (unsigned)config->votes <= RHO_VOTES_POINTS && (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
 
@@ -73,7 +71,7 @@ enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t s
     struct rho_passive_paper_config kept = *config; /* it may lie within *paper */
     memset(paper, 0, sizeof *paper);
     paper->config = kept;
-    paper->magic = PAPER_MAGIC;
+    paper->magic = RHO_PASSIVE_PAPER_MAGIC;
     return rho_batch_init(&paper->batch, kept.scans, max_sensor_distance_m(&kept));
 }
 
@@ -85,7 +83,7 @@ enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
     if (!paper) {
         return RHO_ERROR_NULL;
     }
-    if (paper->magic != PAPER_MAGIC) {
+    if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return RHO_ERROR_STATE;
     }
     enum rho_status status = rho_batch_push(&paper->batch, frame, fates);
@@ -106,10 +104,9 @@ static int has_looked(const struct rho_batch *batch, unsigned sensor)
     return looks > 0;
 }
 
-/* The sensors with a scan in the batch, and their centroid. */
-static void set_sensors(struct rho_passive_paper_search *search)
+void rho_passive_paper_set_sensors(const struct rho_batch *batch,
+                                   struct rho_passive_paper_search *search)
 {
-    const struct rho_batch *batch = &search->paper->batch;
     for (unsigned s = 0; s < batch->num_sensors; s++) {
         if (has_looked(batch, s)) {
             search->sensors[search->num_sensors++] = (uint8_t)s;
@@ -133,14 +130,15 @@ static void set_times(struct rho_passive_paper_search *search)
     }
 }
 
-static void set_cells(struct rho_passive_paper_search *search)
+int rho_passive_paper_set_cells(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
-    search->rows = (int)count_rows(&paper->config);
+    search->rows = (int)rho_passive_paper_rows(&paper->config);
     search->columns = RHO_PAPER_RHO_CELLS;
     paper->votes_min = paper->config.votes_min > 0
                            ? paper->config.votes_min
                            : (uint16_t)((4u * paper->batch.num_scans + 4u) / 5u);
+    return paper->batch.num_scans >= SCANS_MIN && search->num_sensors >= 2;
 }
 
 enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
@@ -148,16 +146,15 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     if (!paper) {
         return RHO_ERROR_NULL;
     }
-    if (paper->magic != PAPER_MAGIC) {
+    if (paper->magic != RHO_PASSIVE_PAPER_MAGIC) {
         return RHO_ERROR_STATE;
     }
     struct rho_passive_paper_search search = {.paper = paper};
     memset(&paper->work, 0, sizeof paper->work);
     paper->num_lines = 0;
     rho_batch_compact(&paper->batch);
-    set_sensors(&search);
-    set_cells(&search);
-    if (paper->batch.num_scans < SCANS_MIN || search.num_sensors < 2) {
+    rho_passive_paper_set_sensors(&paper->batch, &search);
+    if (!rho_passive_paper_set_cells(&search)) {
         return RHO_OK;
     }
     set_times(&search);

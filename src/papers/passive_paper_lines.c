@@ -6,10 +6,6 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-/* Neighbouring cells that are not chosen as another line. */
-#define NEAR_ROWS 4
-#define NEAR_COLUMNS 3
-
 #define SPREAD_MIN 1.0e-6f /* smallest spread of u that is not rounding */
 
 struct cell {
@@ -57,8 +53,9 @@ static struct cell plateau_middle(const struct rho_passive_paper_search *search,
 {
     int sum_row = 0, sum_column = 0, count = 0, least = INT32_MAX;
     struct cell best = from;
-    for (int i = -2 * NEAR_ROWS; i <= 2 * NEAR_ROWS; i++) {
-        for (int j = -2 * NEAR_COLUMNS; j <= 2 * NEAR_COLUMNS; j++) {
+    for (int i = -2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i <= 2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i++) {
+        for (int j = -2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS; j <= 2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS;
+             j++) {
             if (height_at(search, from.row + i, from.column + j) == height) {
                 sum_row += i;
                 sum_column += j;
@@ -66,8 +63,9 @@ static struct cell plateau_middle(const struct rho_passive_paper_search *search,
             }
         }
     }
-    for (int i = -2 * NEAR_ROWS; i <= 2 * NEAR_ROWS; i++) {
-        for (int j = -2 * NEAR_COLUMNS; j <= 2 * NEAR_COLUMNS; j++) {
+    for (int i = -2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i <= 2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i++) {
+        for (int j = -2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS; j <= 2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS;
+             j++) {
             int off_row = i * count - sum_row, off_column = j * count - sum_column;
             int off = off_row * off_row + off_column * off_column;
             if (height_at(search, from.row + i, from.column + j) == height && off < least) {
@@ -81,8 +79,10 @@ static struct cell plateau_middle(const struct rho_passive_paper_search *search,
 
 static void clear_neighbours(struct rho_passive_paper_search *search, struct cell at)
 {
-    for (int row = at.row - NEAR_ROWS; row <= at.row + NEAR_ROWS; row++) {
-        for (int column = at.column - NEAR_COLUMNS; column <= at.column + NEAR_COLUMNS; column++) {
+    for (int row = at.row - RHO_PASSIVE_PAPER_NEAR_ROWS;
+         row <= at.row + RHO_PASSIVE_PAPER_NEAR_ROWS; row++) {
+        for (int column = at.column - RHO_PASSIVE_PAPER_NEAR_COLUMNS;
+             column <= at.column + RHO_PASSIVE_PAPER_NEAR_COLUMNS; column++) {
             struct cell cell = wrapped_cell(search, row, column);
             if (column >= 0 && column < search->columns) {
                 search->paper->cells[cell.row][cell.column] = 0;

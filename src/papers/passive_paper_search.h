@@ -5,11 +5,18 @@
  *   passive_paper_votes.c  crossings, votes in rows of theta, confirmation by all pairs
  *   passive_paper_lines.c  the choice of the lines, and the fits through their crossings
  *   passive_paper.c        configuration, frames, the plan of a search
+ *   passive_paper_view.c   what a search had: ghost matrices, planes
  */
 #ifndef RHOTRACK_PASSIVE_PAPER_SEARCH_H
 #define RHOTRACK_PASSIVE_PAPER_SEARCH_H
 
 #include "rhotrack/passive_paper.h"
+
+#define RHO_PASSIVE_PAPER_MAGIC 0x50504150u /* "PPAP" */
+
+/* Neighbouring cells that are not chosen as another line. */
+#define RHO_PASSIVE_PAPER_NEAR_ROWS 4
+#define RHO_PASSIVE_PAPER_NEAR_COLUMNS 3
 
 /* Values computed once for a search. The origin is the sensors' centroid. */
 struct rho_passive_paper_search {
@@ -34,6 +41,29 @@ struct rho_passive_paper_direction {
  */
 struct rho_passive_paper_direction
 rho_passive_paper_direction(const struct rho_passive_paper_search *search, int row);
+
+/* The sensors with scans in the batch, and their centroid. */
+void rho_passive_paper_set_sensors(const struct rho_batch *batch,
+                                   struct rho_passive_paper_search *search);
+
+/* The cells, and T. Returns 0 where there is too little to search. */
+int rho_passive_paper_set_cells(struct rho_passive_paper_search *search);
+unsigned rho_passive_paper_rows(const struct rho_passive_paper_config *config);
+
+/* Base of two sensors about the centroid; 0: there is none. */
+int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
+                               const struct rho_batch *batch, unsigned a, unsigned b,
+                               struct rho_crossing_base *base);
+
+/* The pruned ghost matrix of two sensors' bearings in a scan, which it collects. */
+struct rho_passive_paper_bearings {
+    float a_rad[RHO_MAX_BEARINGS], b_rad[RHO_MAX_BEARINGS];
+};
+int rho_passive_paper_prune(const struct rho_passive_paper_config *config,
+                            const struct rho_batch *batch, const struct rho_crossing_base *base,
+                            unsigned scan, struct rho_passive_paper_pair pair,
+                            struct rho_passive_paper_bearings *bearings,
+                            struct rho_ghost_matrix *matrix);
 
 /* Crossings of two sensors, pruned, into paper->points. */
 void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b);

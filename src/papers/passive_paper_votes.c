@@ -32,25 +32,40 @@ static void add_point(struct rho_passive_paper_search *search, unsigned scan,
         (struct rho_passive_paper_point){.x_m = crossing->x_m, .y_m = crossing->y_m};
 }
 
+int rho_passive_paper_prune(const struct rho_passive_paper_config *config,
+                            const struct rho_batch *batch, const struct rho_crossing_base *base,
+                            unsigned scan, struct rho_passive_paper_pair pair,
+                            struct rho_passive_paper_bearings *bearings,
+                            struct rho_ghost_matrix *matrix)
+{
+    memset(bearings, 0, sizeof *bearings);
+    unsigned num_a = collect_bearings(batch, scan, pair.a, bearings->a_rad);
+    unsigned num_b = collect_bearings(batch, scan, pair.b, bearings->b_rad);
+    if (rho_ghost_fill(matrix, base, bearings->a_rad, num_a, bearings->b_rad, num_b,
+                       config->range_max_m) != RHO_OK) {
+        return 0; /* cannot be: frames were checked */
+    }
+    rho_ghost_prune(matrix, config->rule);
+    return 1;
+}
+
 static void cross_scan(struct rho_passive_paper_search *search,
-                       const struct rho_crossing_base *base, unsigned scan, unsigned a, unsigned b)
+                       const struct rho_crossing_base *base, unsigned scan,
+                       struct rho_passive_paper_pair pair)
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_ghost_matrix matrix;
-    float bearings_a_rad[RHO_MAX_BEARINGS] = {0}, bearings_b_rad[RHO_MAX_BEARINGS] = {0};
-    unsigned num_a = collect_bearings(&paper->batch, scan, a, bearings_a_rad);
-    unsigned num_b = collect_bearings(&paper->batch, scan, b, bearings_b_rad);
-    if (rho_ghost_fill(&matrix, base, bearings_a_rad, num_a, bearings_b_rad, num_b,
-                       paper->config.range_max_m) != RHO_OK) {
-        return; /* cannot be: frames were checked */
+    struct rho_passive_paper_bearings bearings;
+    if (!rho_passive_paper_prune(&paper->config, &paper->batch, base, scan, pair, &bearings,
+                                 &matrix)) {
+        return;
     }
-    rho_ghost_prune(&matrix, paper->config.rule);
-    for (unsigned i = 0; i < num_a; i++) {
-        for (unsigned j = 0; j < num_b; j++) {
+    for (unsigned i = 0; i < matrix.rows; i++) {
+        for (unsigned j = 0; j < matrix.columns; j++) {
             struct rho_crossing crossing;
             int is_left =
                 matrix.reason[i][j] == RHO_GHOST_KEPT &&
-                rho_crossing_find(base, bearings_a_rad[i], bearings_b_rad[j],
+                rho_crossing_find(base, bearings.a_rad[i], bearings.b_rad[j],
                                   paper->config.range_max_m, &crossing) == RHO_CROSSING_MEETS;
             search->per_pair.crossings++;
             search->per_pair.ghosts += !is_left;
@@ -61,22 +76,30 @@ static void cross_scan(struct rho_passive_paper_search *search,
     }
 }
 
+int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
+                               const struct rho_batch *batch, unsigned a, unsigned b,
+                               struct rho_crossing_base *base)
+{
+    const struct rho_batch_sensor *sensor_a = &batch->sensors[a];
+    const struct rho_batch_sensor *sensor_b = &batch->sensors[b];
+    return rho_crossing_set_base(
+               base, sensor_a->x_m - search->middle_x_m, sensor_a->y_m - search->middle_y_m,
+               sensor_b->x_m - search->middle_x_m, sensor_b->y_m - search->middle_y_m) == RHO_OK;
+}
+
 void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b)
 {
     struct rho_passive_paper *paper = search->paper;
-    const struct rho_batch_sensor *sensor_a = &paper->batch.sensors[a];
-    const struct rho_batch_sensor *sensor_b = &paper->batch.sensors[b];
+    const struct rho_passive_paper_pair pair = {(uint8_t)a, (uint8_t)b};
     struct rho_crossing_base base;
     memset(&search->per_pair, 0, sizeof search->per_pair);
     memset(paper->scan_end, 0, sizeof paper->scan_end);
-    if (rho_crossing_set_base(
-            &base, sensor_a->x_m - search->middle_x_m, sensor_a->y_m - search->middle_y_m,
-            sensor_b->x_m - search->middle_x_m, sensor_b->y_m - search->middle_y_m) != RHO_OK) {
+    if (!rho_passive_paper_set_base(search, &paper->batch, a, b, &base)) {
         return; /* cannot be: frames were checked */
     }
     for (unsigned scan = 0; scan < paper->batch.num_scans; scan++) {
         paper->scan_end[scan] = scan > 0 ? paper->scan_end[scan - 1u] : 0;
-        cross_scan(search, &base, scan, a, b);
+        cross_scan(search, &base, scan, pair);
     }
 }
 

@@ -56,6 +56,7 @@ enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t si
     }
     memset(&starts->result, 0, sizeof starts->result);
     memset(&starts->work, 0, sizeof starts->work);
+    starts->has_searched = starts->num_scans = 0;
     starts->config = kept;
     starts->magic = STARTS_MAGIC;
     return rho_window_init(&starts->window, sizeof starts->window, kept.scans, 0, 0.0f);
@@ -122,6 +123,12 @@ static enum rho_status keep_plots(struct rho_paper_starts *starts, const struct 
     return status;
 }
 
+struct rho_hough_points rho_paper_starts_points(const struct rho_paper_starts *starts)
+{
+    return (struct rho_hough_points){
+        .at = {starts->x_m, starts->y_m, starts->num_scans, starts->scan_end}, .t_s = starts->t_s};
+}
+
 /* The window in the transform's arrays, but for the plots that have started tracks. */
 static struct rho_hough_points gather_points(struct rho_paper_starts *starts)
 {
@@ -140,8 +147,8 @@ static struct rho_hough_points gather_points(struct rho_paper_starts *starts)
         }
         starts->scan_end[m] = num;
     }
-    return (struct rho_hough_points){
-        .at = {starts->x_m, starts->y_m, window->num_scans, starts->scan_end}, .t_s = starts->t_s};
+    starts->num_scans = window->num_scans;
+    return rho_paper_starts_points(starts);
 }
 
 /* The plots of a line: of each scan the nearest to the motion that was fitted to its voters. */
@@ -197,12 +204,19 @@ static void use_plots(struct rho_paper_starts *starts, const struct rho_candidat
     counters->plots_initiated = rho_count(counters->plots_initiated, candidate->hits);
 }
 
-static void start_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
-                       const struct rho_hough_track *line, unsigned scans_min,
-                       struct rho_report *report)
+/* Tracks are in the order of their starts. */
+static uint32_t newest_track_id(const struct rho_tracker *tracker)
 {
+    return tracker->tracks[tracker->num_tracks - 1u].track_id;
+}
+
+static void start_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
+                       struct rho_paper_line *peak, unsigned scans_min, struct rho_report *report)
+{
+    const struct rho_hough_track *line = &peak->line;
     struct rho_candidate candidate;
     struct rho_track_plot plots[RHO_MAX_SCANS];
+    peak->track_id = 0;
     if (!line->has_velocity || find_plots(starts, line, &candidate) < scans_min ||
         !is_fresh(candidate.mask, starts->window.num_scans)) {
         starts->work.short_lines = rho_count(starts->work.short_lines, 1);
@@ -210,6 +224,7 @@ static void start_line(struct rho_paper_starts *starts, struct rho_tracker *trac
     }
     const unsigned num = rho_tracker_gather_plots(&starts->window, &candidate, plots);
     if (rho_tracker_start_track(tracker, plots, num, 0, report) == RHO_OK) {
+        peak->track_id = newest_track_id(tracker);
         use_plots(starts, &candidate, &tracker->counters);
         starts->work.started = rho_count(starts->work.started, 1);
     } else {
@@ -234,6 +249,7 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
     }
     struct step step = step_of(tracker, report);
     memset(&starts->work, 0, sizeof starts->work);
+    starts->has_searched = 0;
     if (report->time_us != tracker->time_us ||
         !rho_window_accepts(&starts->window, scan->time_us)) {
         return RHO_OK;
@@ -248,13 +264,13 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
         rho_hough_find(&starts->hough, &points, starts->peaks, RHO_PAPER_PEAKS, &starts->result);
     starts->work.peaks = starts->result.num_peaks;
     for (uint32_t i = 0; status == RHO_OK && i < starts->result.num_peaks; i++) {
-        struct rho_hough_track line;
         status = rho_hough_track(&starts->hough, &points, starts->peaks[i].theta_cell,
-                                 starts->peaks[i].rho_cell, 0.0f, &line);
+                                 starts->peaks[i].rho_cell, 0.0f, &starts->lines[i].line);
         if (status == RHO_OK) {
-            start_line(starts, tracker, &line, scans_min, report);
+            start_line(starts, tracker, &starts->lines[i], scans_min, report);
         }
     }
+    starts->has_searched = status == RHO_OK;
     return status;
 }
 
@@ -280,12 +296,15 @@ static void start_lines(struct rho_passive_paper *paper, struct rho_tracker *tra
                         struct rho_report *report)
 {
     for (unsigned i = 0; i < paper->num_lines; i++) {
-        const struct rho_passive_paper_line *line = &paper->lines[i];
+        struct rho_passive_paper_line *line = &paper->lines[i];
         if (line->has_state && is_fresh(line->scans, paper->batch.num_scans)) {
             const struct rho_kalman estimate = estimate_of(line);
             /* a refusal is the line's: the tracker has no room, or the fit is no estimate */
-            (void)!rho_tracker_start_estimate(tracker, &estimate, paper->batch.sensors[0].sensor_id,
-                                              (uint16_t)rho_count_bits(line->scans), 0, report);
+            if (rho_tracker_start_estimate(tracker, &estimate, paper->batch.sensors[0].sensor_id,
+                                           (uint16_t)rho_count_bits(line->scans), 0,
+                                           report) == RHO_OK) {
+                line->track_id = newest_track_id(tracker);
+            }
         }
     }
 }

@@ -70,6 +70,9 @@ static int make_room(struct step *step, int32_t score_mnat)
     tracker->num_tracks--;
     memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
             (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
+    if (RHO_KEEPS_OFFERS) {
+        rho_tracker_close_row(tracker, lowest);
+    }
     return 1;
 }
 

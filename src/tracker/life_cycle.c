@@ -38,10 +38,16 @@ void rho_tracker_remove_ended(struct rho_tracker *tracker)
     unsigned live = 0;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         if (tracker->tracks[i].status != RHO_TRACK_FREE) {
+            if (RHO_KEEPS_OFFERS) {
+                rho_assignment_move_pairs(&tracker->assignment, i, live);
+            }
             tracker->tracks[live++] = tracker->tracks[i];
         }
     }
     tracker->num_tracks = (uint16_t)live;
+    if (RHO_KEEPS_OFFERS && tracker->assignment.num_rows > live) {
+        tracker->assignment.num_rows = (uint16_t)live;
+    }
 }
 
 /* A miss of the best sensor: the scan of a weak sensor must not make earlier misses of a better one

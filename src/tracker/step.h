@@ -341,6 +341,9 @@ void rho_tracker_open_gate(const struct step *step, const struct rho_track *trac
 void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat);
 /* The gain of an offer over clutter, not over a miss; 0 where there was none, *gain_nat stays. */
 int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat);
+/* Tracks behind a row that is no track's any more have moved up by one: so do their offers. */
+void rho_tracker_close_row(struct rho_tracker *tracker, unsigned row);
+
 /* Solves the assignment, and counts the plots that gates had no room for. */
 void rho_tracker_assign(struct step *step);
 

@@ -7,6 +7,29 @@
 
 #include "message_codec.h"
 
+static const struct message_run accumulator_cell_runs[] = {
+    {offsetof(struct rho_message_accumulator_cell, rho_m), 4, 4},
+    {offsetof(struct rho_message_accumulator_cell, plots), 2, 1},
+    {offsetof(struct rho_message_accumulator_cell, track_id), 4, 1},
+};
+static const struct message_int_rule accumulator_cell_ints[] = {
+    {offsetof(struct rho_message_accumulator_cell, scan_mask), 4, 1, MESSAGE_RANGE, 0, 65535},
+    {offsetof(struct rho_message_accumulator_cell, plots), 2, 1, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_accumulator_cell, track_id), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+};
+static const struct message_float_rule accumulator_cell_floats[] = {
+    {offsetof(struct rho_message_accumulator_cell, rho_m), 1, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_accumulator_cell, theta_rad), 1, 0.0f, 6.3f},
+    {offsetof(struct rho_message_accumulator_cell, votes), 1, 0.0f, 1000000000.0f},
+};
+static const struct message_format accumulator_cell_format = {
+    RHO_MESSAGE_ACCUMULATOR_CELL_FINGERPRINT,
+    {accumulator_cell_runs, 3, 22}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules accumulator_cell_rules = {
+    &accumulator_cell_format,
+    {accumulator_cell_ints, accumulator_cell_floats, 3, 3}, {0, 0, 0, 0}};
+
 static const struct message_run echo_runs[] = {
     {offsetof(struct rho_message_echo, sensor_id), 2, 3},
     {offsetof(struct rho_message_echo, x_m), 4, 7},
@@ -28,6 +51,44 @@ static const struct message_format echo_format = {
 static const struct message_rules echo_rules = {
     &echo_format,
     {echo_ints, echo_floats, 2, 4}, {0, 0, 0, 0}};
+
+static const struct message_run ghost_runs[] = {
+    {offsetof(struct rho_message_ghost, row), 2, 2},
+    {offsetof(struct rho_message_ghost, reason), 1, 1},
+    {offsetof(struct rho_message_ghost, delta_rad), 4, 3},
+};
+static const struct message_int_rule ghost_ints[] = {
+    {offsetof(struct rho_message_ghost, row), 2, 2, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_ghost, reason), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 5 | 1 << 6},
+};
+static const struct message_float_rule ghost_floats[] = {
+    {offsetof(struct rho_message_ghost, delta_rad), 1, -3.15f, 3.15f},
+    {offsetof(struct rho_message_ghost, x_m), 2, -FLT_MAX, FLT_MAX},
+};
+static const struct message_format ghost_format = {
+    RHO_MESSAGE_GHOST_FINGERPRINT,
+    {ghost_runs, 3, 17}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules ghost_rules = {
+    &ghost_format,
+    {ghost_ints, ghost_floats, 2, 2}, {0, 0, 0, 0}};
+
+static const struct message_run hypothesis_runs[] = {
+    {offsetof(struct rho_message_hypothesis, share), 4, 6},
+    {offsetof(struct rho_message_hypothesis, plots), 2, 3},
+};
+static const struct message_float_rule hypothesis_floats[] = {
+    {offsetof(struct rho_message_hypothesis, share), 1, 0.0f, 1.0f},
+    {offsetof(struct rho_message_hypothesis, x_m), 4, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_hypothesis, maneuver_probability), 1, 0.0f, 1.0f},
+};
+static const struct message_format hypothesis_format = {
+    RHO_MESSAGE_HYPOTHESIS_FINGERPRINT,
+    {hypothesis_runs, 2, 30}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules hypothesis_rules = {
+    &hypothesis_format,
+    {0, hypothesis_floats, 0, 3}, {0, 0, 0, 0}};
 
 static const struct message_run learned_runs[] = {
     {offsetof(struct rho_message_learned, utime), 8, 1},
@@ -73,6 +134,17 @@ static const struct message_format peak_format = {
 static const struct message_rules peak_rules = {
     &peak_format,
     {peak_ints, peak_floats, 1, 4}, {0, 0, 0, 0}};
+
+static const struct message_run plane_row_runs[] = {
+    {offsetof(struct rho_message_plane_row, votes), 1, 64},
+};
+static const struct message_format plane_row_format = {
+    RHO_MESSAGE_PLANE_ROW_FINGERPRINT,
+    {plane_row_runs, 1, 64}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules plane_row_rules = {
+    &plane_row_format,
+    {0, 0, 0, 0}, {0, 0, 0, 0}};
 
 static const struct message_run plot_runs[] = {
     {offsetof(struct rho_message_plot, dt_us), 4, 10},
@@ -269,6 +341,42 @@ static const struct message_rules zone_rules = {
     &zone_format,
     {zone_ints, zone_floats, 2, 2}, {0, 0, 0, 0}};
 
+static const struct message_run accumulator_runs[] = {
+    {offsetof(struct rho_message_accumulator, utime), 8, 1},
+    {offsetof(struct rho_message_accumulator, scan), 4, 2},
+    {offsetof(struct rho_message_accumulator, method), 1, 2},
+    {offsetof(struct rho_message_accumulator, sensor_a_id), 2, 3},
+    {offsetof(struct rho_message_accumulator, oldest_utime), 8, 1},
+    {offsetof(struct rho_message_accumulator, origin_x_m), 4, 4},
+    {offsetof(struct rho_message_accumulator, rho_cells), 2, 2},
+    {offsetof(struct rho_message_accumulator, votes_max), 4, 3},
+    {offsetof(struct rho_message_accumulator, num_cells_total), 2, 1},
+};
+static const struct message_int_rule accumulator_ints[] = {
+    {offsetof(struct rho_message_accumulator, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_accumulator, method), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 5},
+    {offsetof(struct rho_message_accumulator, has_pair), 1, 1, MESSAGE_RANGE, 0, 1},
+    {offsetof(struct rho_message_accumulator, num_scans), 2, 1, MESSAGE_RANGE, 1, 16},
+    {offsetof(struct rho_message_accumulator, oldest_utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_accumulator, rho_cells), 2, 2, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_accumulator, not_sent), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_accumulator, num_cells_total), 2, 1, MESSAGE_RANGE, 0, 32767},
+};
+static const struct message_float_rule accumulator_floats[] = {
+    {offsetof(struct rho_message_accumulator, origin_x_m), 2, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_accumulator, rho_min_m), 2, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_accumulator, votes_max), 2, 0.0f, 1000000000.0f},
+};
+static const struct message_format accumulator_format = {
+    RHO_MESSAGE_ACCUMULATOR_FINGERPRINT,
+    {accumulator_runs, 9, 66}, {accumulator_cell_runs, 3, 22},
+    offsetof(struct rho_message_accumulator, num_cells),
+    offsetof(struct rho_message_accumulator, cells),
+    sizeof(struct rho_message_accumulator_cell), RHO_MESSAGE_ACCUMULATOR_MAX_CELLS};
+static const struct message_rules accumulator_rules = {
+    &accumulator_format,
+    {accumulator_ints, accumulator_floats, 8, 3}, {accumulator_cell_ints, accumulator_cell_floats, 3, 3}};
+
 static const struct message_run bearing_scan_runs[] = {
     {offsetof(struct rho_message_bearing_scan, utime), 8, 1},
     {offsetof(struct rho_message_bearing_scan, scan), 4, 2},
@@ -320,6 +428,65 @@ static const struct message_rules clutter_map_rules = {
     &clutter_map_format,
     {clutter_map_ints, 0, 4, 0}, {echo_ints, echo_floats, 2, 4}};
 
+static const struct message_run ghost_matrix_runs[] = {
+    {offsetof(struct rho_message_ghost_matrix, utime), 8, 1},
+    {offsetof(struct rho_message_ghost_matrix, scan), 4, 2},
+    {offsetof(struct rho_message_ghost_matrix, sensor_a_id), 2, 2},
+    {offsetof(struct rho_message_ghost_matrix, sensor_a_x_m), 4, 5},
+    {offsetof(struct rho_message_ghost_matrix, rule), 1, 1},
+    {offsetof(struct rho_message_ghost_matrix, num_rows), 2, 2},
+    {offsetof(struct rho_message_ghost_matrix, not_sent), 4, 1},
+    {offsetof(struct rho_message_ghost_matrix, part), 2, 2},
+};
+static const struct message_int_rule ghost_matrix_ints[] = {
+    {offsetof(struct rho_message_ghost_matrix, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_ghost_matrix, rule), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2},
+    {offsetof(struct rho_message_ghost_matrix, num_rows), 2, 2, MESSAGE_RANGE, 0, 255},
+    {offsetof(struct rho_message_ghost_matrix, not_sent), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+    {offsetof(struct rho_message_ghost_matrix, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_ghost_matrix, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_ghost_matrix, num_parts)},
+};
+static const struct message_float_rule ghost_matrix_floats[] = {
+    {offsetof(struct rho_message_ghost_matrix, sensor_a_x_m), 4, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_ghost_matrix, range_max_m), 1, 0.0f, 1000000000.0f},
+};
+static const struct message_format ghost_matrix_format = {
+    RHO_MESSAGE_GHOST_MATRIX_FINGERPRINT,
+    {ghost_matrix_runs, 8, 53}, {ghost_runs, 3, 17},
+    offsetof(struct rho_message_ghost_matrix, num_elements),
+    offsetof(struct rho_message_ghost_matrix, elements),
+    sizeof(struct rho_message_ghost), RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS};
+static const struct message_rules ghost_matrix_rules = {
+    &ghost_matrix_format,
+    {ghost_matrix_ints, ghost_matrix_floats, 6, 2}, {ghost_ints, ghost_floats, 2, 2}};
+
+static const struct message_run hypotheses_runs[] = {
+    {offsetof(struct rho_message_hypotheses, utime), 8, 1},
+    {offsetof(struct rho_message_hypotheses, scan), 4, 7},
+    {offsetof(struct rho_message_hypotheses, evidence), 1, 1},
+    {offsetof(struct rho_message_hypotheses, support), 4, 4},
+};
+static const struct message_int_rule hypotheses_ints[] = {
+    {offsetof(struct rho_message_hypotheses, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_hypotheses, evidence), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2},
+    {offsetof(struct rho_message_hypotheses, not_sent), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+};
+static const struct message_float_rule hypotheses_floats[] = {
+    {offsetof(struct rho_message_hypotheses, score_nat), 1, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_hypotheses, calm), 3, 0.0f, 1.0f},
+    {offsetof(struct rho_message_hypotheses, support), 3, 0.0f, 1.0f},
+};
+static const struct message_format hypotheses_format = {
+    RHO_MESSAGE_HYPOTHESES_FINGERPRINT,
+    {hypotheses_runs, 4, 53}, {hypothesis_runs, 2, 30},
+    offsetof(struct rho_message_hypotheses, num_hypotheses),
+    offsetof(struct rho_message_hypotheses, hypotheses),
+    sizeof(struct rho_message_hypothesis), RHO_MESSAGE_HYPOTHESES_MAX_HYPOTHESES};
+static const struct message_rules hypotheses_rules = {
+    &hypotheses_format,
+    {hypotheses_ints, hypotheses_floats, 3, 3}, {0, hypothesis_floats, 0, 3}};
+
 static const struct message_run peak_list_runs[] = {
     {offsetof(struct rho_message_peak_list, utime), 8, 1},
     {offsetof(struct rho_message_peak_list, scan), 4, 1},
@@ -336,6 +503,35 @@ static const struct message_format peak_list_format = {
 static const struct message_rules peak_list_rules = {
     &peak_list_format,
     {peak_list_ints, 0, 1, 0}, {peak_ints, peak_floats, 1, 4}};
+
+static const struct message_run plane_runs[] = {
+    {offsetof(struct rho_message_plane, utime), 8, 1},
+    {offsetof(struct rho_message_plane, scan), 4, 2},
+    {offsetof(struct rho_message_plane, method), 1, 2},
+    {offsetof(struct rho_message_plane, sensor_a_id), 2, 2},
+    {offsetof(struct rho_message_plane, votes_max), 4, 1},
+    {offsetof(struct rho_message_plane, part), 2, 2},
+};
+static const struct message_int_rule plane_ints[] = {
+    {offsetof(struct rho_message_plane, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_plane, method), 1, 1, MESSAGE_RANGE, 1, 5},
+    {offsetof(struct rho_message_plane, has_pair), 1, 1, MESSAGE_RANGE, 0, 1},
+    {offsetof(struct rho_message_plane, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_plane, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_plane, num_parts)},
+};
+static const struct message_float_rule plane_floats[] = {
+    {offsetof(struct rho_message_plane, votes_max), 1, 0.0f, 1000000000.0f},
+};
+static const struct message_format plane_format = {
+    RHO_MESSAGE_PLANE_FINGERPRINT,
+    {plane_runs, 6, 30}, {plane_row_runs, 1, 64},
+    offsetof(struct rho_message_plane, num_rows),
+    offsetof(struct rho_message_plane, rows),
+    sizeof(struct rho_message_plane_row), RHO_MESSAGE_PLANE_MAX_ROWS};
+static const struct message_rules plane_rules = {
+    &plane_format,
+    {plane_ints, plane_floats, 5, 1}, {0, 0, 0, 0}};
 
 static const struct message_run plot_scan_runs[] = {
     {offsetof(struct rho_message_plot_scan, utime), 8, 1},
@@ -497,12 +693,20 @@ static const struct message_rules zone_list_rules = {
     &zone_list_format,
     {zone_list_ints, 0, 2, 0}, {zone_ints, zone_floats, 2, 2}};
 
+typedef char accumulator_head_fits[offsetof(struct rho_message_accumulator, num_cells_total) ==
+    offsetof(struct rho_message_accumulator_head, num_cells_total) ? 1 : -1];
 typedef char bearing_scan_head_fits[offsetof(struct rho_message_bearing_scan, sigma_rad) ==
     offsetof(struct rho_message_bearing_scan_head, sigma_rad) ? 1 : -1];
 typedef char clutter_map_head_fits[offsetof(struct rho_message_clutter_map, num_parts) ==
     offsetof(struct rho_message_clutter_map_head, num_parts) ? 1 : -1];
+typedef char ghost_matrix_head_fits[offsetof(struct rho_message_ghost_matrix, num_parts) ==
+    offsetof(struct rho_message_ghost_matrix_head, num_parts) ? 1 : -1];
+typedef char hypotheses_head_fits[offsetof(struct rho_message_hypotheses, not_sent) ==
+    offsetof(struct rho_message_hypotheses_head, not_sent) ? 1 : -1];
 typedef char peak_list_head_fits[offsetof(struct rho_message_peak_list, scan) ==
     offsetof(struct rho_message_peak_list_head, scan) ? 1 : -1];
+typedef char plane_head_fits[offsetof(struct rho_message_plane, num_parts) ==
+    offsetof(struct rho_message_plane_head, num_parts) ? 1 : -1];
 typedef char plot_scan_head_fits[offsetof(struct rho_message_plot_scan, sector_to_rad) ==
     offsetof(struct rho_message_plot_scan_head, sector_to_rad) ? 1 : -1];
 typedef char polar_scan_head_fits[offsetof(struct rho_message_polar_scan, sector_to_rad) ==
@@ -521,9 +725,13 @@ typedef char zone_list_head_fits[offsetof(struct rho_message_zone_list, events_d
 uint64_t rho_message_fingerprint(enum rho_message_type type)
 {
     static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {
+        RHO_MESSAGE_ACCUMULATOR_CELL_FINGERPRINT,
         RHO_MESSAGE_ECHO_FINGERPRINT,
+        RHO_MESSAGE_GHOST_FINGERPRINT,
+        RHO_MESSAGE_HYPOTHESIS_FINGERPRINT,
         RHO_MESSAGE_LEARNED_FINGERPRINT,
         RHO_MESSAGE_PEAK_FINGERPRINT,
+        RHO_MESSAGE_PLANE_ROW_FINGERPRINT,
         RHO_MESSAGE_PLOT_FINGERPRINT,
         RHO_MESSAGE_POLAR_PLOT_FINGERPRINT,
         RHO_MESSAGE_SENSOR_FINGERPRINT,
@@ -533,9 +741,13 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_WORK_FINGERPRINT,
         RHO_MESSAGE_ZONE_EVENT_FINGERPRINT,
         RHO_MESSAGE_ZONE_FINGERPRINT,
+        RHO_MESSAGE_ACCUMULATOR_FINGERPRINT,
         RHO_MESSAGE_BEARING_SCAN_FINGERPRINT,
         RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT,
+        RHO_MESSAGE_GHOST_MATRIX_FINGERPRINT,
+        RHO_MESSAGE_HYPOTHESES_FINGERPRINT,
         RHO_MESSAGE_PEAK_LIST_FINGERPRINT,
+        RHO_MESSAGE_PLANE_FINGERPRINT,
         RHO_MESSAGE_PLOT_SCAN_FINGERPRINT,
         RHO_MESSAGE_POLAR_SCAN_FINGERPRINT,
         RHO_MESSAGE_SENSOR_LIST_FINGERPRINT,
@@ -566,6 +778,24 @@ enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size)
     return (enum rho_message_type)type;
 }
 
+enum rho_status rho_message_accumulator_cell_encode(
+    const struct rho_message_accumulator_cell *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&accumulator_cell_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_accumulator_cell_decode(
+    const uint8_t *data, size_t size, struct rho_message_accumulator_cell *message)
+{
+    return rho_message_decode(&accumulator_cell_format, data, size, message);
+}
+
+enum rho_status rho_message_accumulator_cell_validate(
+    const struct rho_message_accumulator_cell *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&accumulator_cell_rules, message, place);
+}
+
 enum rho_status rho_message_echo_encode(
     const struct rho_message_echo *message, uint8_t *buffer, size_t capacity, size_t *size)
 {
@@ -582,6 +812,42 @@ enum rho_status rho_message_echo_validate(
     const struct rho_message_echo *message, struct rho_message_place *place)
 {
     return rho_message_validate(&echo_rules, message, place);
+}
+
+enum rho_status rho_message_ghost_encode(
+    const struct rho_message_ghost *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&ghost_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_ghost_decode(
+    const uint8_t *data, size_t size, struct rho_message_ghost *message)
+{
+    return rho_message_decode(&ghost_format, data, size, message);
+}
+
+enum rho_status rho_message_ghost_validate(
+    const struct rho_message_ghost *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&ghost_rules, message, place);
+}
+
+enum rho_status rho_message_hypothesis_encode(
+    const struct rho_message_hypothesis *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&hypothesis_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_hypothesis_decode(
+    const uint8_t *data, size_t size, struct rho_message_hypothesis *message)
+{
+    return rho_message_decode(&hypothesis_format, data, size, message);
+}
+
+enum rho_status rho_message_hypothesis_validate(
+    const struct rho_message_hypothesis *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&hypothesis_rules, message, place);
 }
 
 enum rho_status rho_message_learned_encode(
@@ -618,6 +884,24 @@ enum rho_status rho_message_peak_validate(
     const struct rho_message_peak *message, struct rho_message_place *place)
 {
     return rho_message_validate(&peak_rules, message, place);
+}
+
+enum rho_status rho_message_plane_row_encode(
+    const struct rho_message_plane_row *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&plane_row_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_plane_row_decode(
+    const uint8_t *data, size_t size, struct rho_message_plane_row *message)
+{
+    return rho_message_decode(&plane_row_format, data, size, message);
+}
+
+enum rho_status rho_message_plane_row_validate(
+    const struct rho_message_plane_row *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&plane_row_rules, message, place);
 }
 
 enum rho_status rho_message_plot_encode(
@@ -782,6 +1066,37 @@ enum rho_status rho_message_zone_validate(
     return rho_message_validate(&zone_rules, message, place);
 }
 
+enum rho_status rho_message_accumulator_encode(
+    const struct rho_message_accumulator *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&accumulator_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_accumulator_decode(
+    const uint8_t *data, size_t size, struct rho_message_accumulator *message)
+{
+    return rho_message_decode(&accumulator_format, data, size, message);
+}
+
+enum rho_status rho_message_accumulator_validate(
+    const struct rho_message_accumulator *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&accumulator_rules, message, place);
+}
+
+enum rho_status rho_message_accumulator_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_accumulator_head *head)
+{
+    return rho_message_begin(&accumulator_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_accumulator_add(
+    struct rho_message_writer *writer, const struct rho_message_accumulator_cell *cell)
+{
+    return rho_message_add(&accumulator_format, writer, cell);
+}
+
 enum rho_status rho_message_bearing_scan_encode(
     const struct rho_message_bearing_scan *message, uint8_t *buffer, size_t capacity, size_t *size)
 {
@@ -844,6 +1159,68 @@ enum rho_status rho_message_clutter_map_add(
     return rho_message_add(&clutter_map_format, writer, echoe);
 }
 
+enum rho_status rho_message_ghost_matrix_encode(
+    const struct rho_message_ghost_matrix *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&ghost_matrix_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_ghost_matrix_decode(
+    const uint8_t *data, size_t size, struct rho_message_ghost_matrix *message)
+{
+    return rho_message_decode(&ghost_matrix_format, data, size, message);
+}
+
+enum rho_status rho_message_ghost_matrix_validate(
+    const struct rho_message_ghost_matrix *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&ghost_matrix_rules, message, place);
+}
+
+enum rho_status rho_message_ghost_matrix_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_ghost_matrix_head *head)
+{
+    return rho_message_begin(&ghost_matrix_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_ghost_matrix_add(
+    struct rho_message_writer *writer, const struct rho_message_ghost *element)
+{
+    return rho_message_add(&ghost_matrix_format, writer, element);
+}
+
+enum rho_status rho_message_hypotheses_encode(
+    const struct rho_message_hypotheses *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&hypotheses_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_hypotheses_decode(
+    const uint8_t *data, size_t size, struct rho_message_hypotheses *message)
+{
+    return rho_message_decode(&hypotheses_format, data, size, message);
+}
+
+enum rho_status rho_message_hypotheses_validate(
+    const struct rho_message_hypotheses *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&hypotheses_rules, message, place);
+}
+
+enum rho_status rho_message_hypotheses_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_hypotheses_head *head)
+{
+    return rho_message_begin(&hypotheses_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_hypotheses_add(
+    struct rho_message_writer *writer, const struct rho_message_hypothesis *hypothese)
+{
+    return rho_message_add(&hypotheses_format, writer, hypothese);
+}
+
 enum rho_status rho_message_peak_list_encode(
     const struct rho_message_peak_list *message, uint8_t *buffer, size_t capacity, size_t *size)
 {
@@ -873,6 +1250,37 @@ enum rho_status rho_message_peak_list_add(
     struct rho_message_writer *writer, const struct rho_message_peak *peak)
 {
     return rho_message_add(&peak_list_format, writer, peak);
+}
+
+enum rho_status rho_message_plane_encode(
+    const struct rho_message_plane *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&plane_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_plane_decode(
+    const uint8_t *data, size_t size, struct rho_message_plane *message)
+{
+    return rho_message_decode(&plane_format, data, size, message);
+}
+
+enum rho_status rho_message_plane_validate(
+    const struct rho_message_plane *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&plane_rules, message, place);
+}
+
+enum rho_status rho_message_plane_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_plane_head *head)
+{
+    return rho_message_begin(&plane_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_plane_add(
+    struct rho_message_writer *writer, const struct rho_message_plane_row *row)
+{
+    return rho_message_add(&plane_format, writer, row);
 }
 
 enum rho_status rho_message_plot_scan_encode(

@@ -21,6 +21,15 @@ static const char *find(const struct name *names, unsigned count, uint16_t offse
     return names[i].text;
 }
 
+static const struct name accumulator_cell_names[] = {
+    {offsetof(struct rho_message_accumulator_cell, rho_m), "rho_m"},
+    {offsetof(struct rho_message_accumulator_cell, theta_rad), "theta_rad"},
+    {offsetof(struct rho_message_accumulator_cell, votes), "votes"},
+    {offsetof(struct rho_message_accumulator_cell, scan_mask), "scan_mask"},
+    {offsetof(struct rho_message_accumulator_cell, plots), "plots"},
+    {offsetof(struct rho_message_accumulator_cell, track_id), "track_id"},
+};
+
 static const struct name echo_names[] = {
     {offsetof(struct rho_message_echo, sensor_id), "sensor_id"},
     {offsetof(struct rho_message_echo, hits), "hits"},
@@ -32,6 +41,25 @@ static const struct name echo_names[] = {
     {offsetof(struct rho_message_echo, sigma_range_m), "sigma_range_m"},
     {offsetof(struct rho_message_echo, sigma_cross_m), "sigma_cross_m"},
     {offsetof(struct rho_message_echo, chance), "chance"},
+};
+
+static const struct name ghost_names[] = {
+    {offsetof(struct rho_message_ghost, row), "row"},
+    {offsetof(struct rho_message_ghost, column), "column"},
+    {offsetof(struct rho_message_ghost, reason), "reason"},
+    {offsetof(struct rho_message_ghost, delta_rad), "delta_rad"},
+    {offsetof(struct rho_message_ghost, x_m), "x_m"},
+    {offsetof(struct rho_message_ghost, y_m), "y_m"},
+};
+
+static const struct name hypothesis_names[] = {
+    {offsetof(struct rho_message_hypothesis, share), "share"},
+    {offsetof(struct rho_message_hypothesis, x_m), "x_m"},
+    {offsetof(struct rho_message_hypothesis, y_m), "y_m"},
+    {offsetof(struct rho_message_hypothesis, vx_mps), "vx_mps"},
+    {offsetof(struct rho_message_hypothesis, vy_mps), "vy_mps"},
+    {offsetof(struct rho_message_hypothesis, maneuver_probability), "maneuver_probability"},
+    {offsetof(struct rho_message_hypothesis, plots), "plots"},
 };
 
 static const struct name learned_names[] = {
@@ -55,6 +83,10 @@ static const struct name peak_names[] = {
     {offsetof(struct rho_message_peak, score_nat), "score_nat"},
     {offsetof(struct rho_message_peak, scans_hit), "scans_hit"},
     {offsetof(struct rho_message_peak, sensor_pairs), "sensor_pairs"},
+};
+
+static const struct name plane_row_names[] = {
+    {offsetof(struct rho_message_plane_row, votes), "votes"},
 };
 
 static const struct name plot_names[] = {
@@ -203,6 +235,30 @@ static const struct name zone_names[] = {
     {offsetof(struct rho_message_zone, dwell_max_s), "dwell_max_s"},
 };
 
+static const struct name accumulator_names[] = {
+    {offsetof(struct rho_message_accumulator, utime), "utime"},
+    {offsetof(struct rho_message_accumulator, scan), "scan"},
+    {offsetof(struct rho_message_accumulator, epoch), "epoch"},
+    {offsetof(struct rho_message_accumulator, method), "method"},
+    {offsetof(struct rho_message_accumulator, has_pair), "has_pair"},
+    {offsetof(struct rho_message_accumulator, sensor_a_id), "sensor_a_id"},
+    {offsetof(struct rho_message_accumulator, sensor_b_id), "sensor_b_id"},
+    {offsetof(struct rho_message_accumulator, num_scans), "num_scans"},
+    {offsetof(struct rho_message_accumulator, oldest_utime), "oldest_utime"},
+    {offsetof(struct rho_message_accumulator, origin_x_m), "origin_x_m"},
+    {offsetof(struct rho_message_accumulator, origin_y_m), "origin_y_m"},
+    {offsetof(struct rho_message_accumulator, rho_min_m), "rho_min_m"},
+    {offsetof(struct rho_message_accumulator, rho_max_m), "rho_max_m"},
+    {offsetof(struct rho_message_accumulator, rho_cells), "rho_cells"},
+    {offsetof(struct rho_message_accumulator, theta_cells), "theta_cells"},
+    {offsetof(struct rho_message_accumulator, votes_max), "votes_max"},
+    {offsetof(struct rho_message_accumulator, votes_min), "votes_min"},
+    {offsetof(struct rho_message_accumulator, not_sent), "not_sent"},
+    {offsetof(struct rho_message_accumulator, num_cells_total), "num_cells_total"},
+    {offsetof(struct rho_message_accumulator, num_cells), "num_cells"},
+    {offsetof(struct rho_message_accumulator, cells), "cells"},
+};
+
 static const struct name bearing_scan_names[] = {
     {offsetof(struct rho_message_bearing_scan, utime), "utime"},
     {offsetof(struct rho_message_bearing_scan, scan), "scan"},
@@ -226,11 +282,65 @@ static const struct name clutter_map_names[] = {
     {offsetof(struct rho_message_clutter_map, echoes), "echoes"},
 };
 
+static const struct name ghost_matrix_names[] = {
+    {offsetof(struct rho_message_ghost_matrix, utime), "utime"},
+    {offsetof(struct rho_message_ghost_matrix, scan), "scan"},
+    {offsetof(struct rho_message_ghost_matrix, epoch), "epoch"},
+    {offsetof(struct rho_message_ghost_matrix, sensor_a_id), "sensor_a_id"},
+    {offsetof(struct rho_message_ghost_matrix, sensor_b_id), "sensor_b_id"},
+    {offsetof(struct rho_message_ghost_matrix, sensor_a_x_m), "sensor_a_x_m"},
+    {offsetof(struct rho_message_ghost_matrix, sensor_a_y_m), "sensor_a_y_m"},
+    {offsetof(struct rho_message_ghost_matrix, sensor_b_x_m), "sensor_b_x_m"},
+    {offsetof(struct rho_message_ghost_matrix, sensor_b_y_m), "sensor_b_y_m"},
+    {offsetof(struct rho_message_ghost_matrix, range_max_m), "range_max_m"},
+    {offsetof(struct rho_message_ghost_matrix, rule), "rule"},
+    {offsetof(struct rho_message_ghost_matrix, num_rows), "num_rows"},
+    {offsetof(struct rho_message_ghost_matrix, num_columns), "num_columns"},
+    {offsetof(struct rho_message_ghost_matrix, not_sent), "not_sent"},
+    {offsetof(struct rho_message_ghost_matrix, part), "part"},
+    {offsetof(struct rho_message_ghost_matrix, num_parts), "num_parts"},
+    {offsetof(struct rho_message_ghost_matrix, num_elements), "num_elements"},
+    {offsetof(struct rho_message_ghost_matrix, elements), "elements"},
+};
+
+static const struct name hypotheses_names[] = {
+    {offsetof(struct rho_message_hypotheses, utime), "utime"},
+    {offsetof(struct rho_message_hypotheses, scan), "scan"},
+    {offsetof(struct rho_message_hypotheses, epoch), "epoch"},
+    {offsetof(struct rho_message_hypotheses, track_id), "track_id"},
+    {offsetof(struct rho_message_hypotheses, score_nat), "score_nat"},
+    {offsetof(struct rho_message_hypotheses, calm), "calm"},
+    {offsetof(struct rho_message_hypotheses, steady), "steady"},
+    {offsetof(struct rho_message_hypotheses, maneuver), "maneuver"},
+    {offsetof(struct rho_message_hypotheses, evidence), "evidence"},
+    {offsetof(struct rho_message_hypotheses, support), "support"},
+    {offsetof(struct rho_message_hypotheses, shared), "shared"},
+    {offsetof(struct rho_message_hypotheses, clutter), "clutter"},
+    {offsetof(struct rho_message_hypotheses, not_sent), "not_sent"},
+    {offsetof(struct rho_message_hypotheses, num_hypotheses), "num_hypotheses"},
+    {offsetof(struct rho_message_hypotheses, hypotheses), "hypotheses"},
+};
+
 static const struct name peak_list_names[] = {
     {offsetof(struct rho_message_peak_list, utime), "utime"},
     {offsetof(struct rho_message_peak_list, scan), "scan"},
     {offsetof(struct rho_message_peak_list, num_peaks), "num_peaks"},
     {offsetof(struct rho_message_peak_list, peaks), "peaks"},
+};
+
+static const struct name plane_names[] = {
+    {offsetof(struct rho_message_plane, utime), "utime"},
+    {offsetof(struct rho_message_plane, scan), "scan"},
+    {offsetof(struct rho_message_plane, epoch), "epoch"},
+    {offsetof(struct rho_message_plane, method), "method"},
+    {offsetof(struct rho_message_plane, has_pair), "has_pair"},
+    {offsetof(struct rho_message_plane, sensor_a_id), "sensor_a_id"},
+    {offsetof(struct rho_message_plane, sensor_b_id), "sensor_b_id"},
+    {offsetof(struct rho_message_plane, votes_max), "votes_max"},
+    {offsetof(struct rho_message_plane, part), "part"},
+    {offsetof(struct rho_message_plane, num_parts), "num_parts"},
+    {offsetof(struct rho_message_plane, num_rows), "num_rows"},
+    {offsetof(struct rho_message_plane, rows), "rows"},
 };
 
 static const struct name plot_scan_names[] = {
@@ -319,10 +429,14 @@ static const struct name zone_list_names[] = {
 
 const char *rho_message_type_name(enum rho_message_type type)
 {
-    static const char type_names[RHO_NUM_MESSAGE_TYPES][18] = {
+    static const char type_names[RHO_NUM_MESSAGE_TYPES][19] = {
+        "accumulator_cell_t",
         "echo_t",
+        "ghost_t",
+        "hypothesis_t",
         "learned_t",
         "peak_t",
+        "plane_row_t",
         "plot_t",
         "polar_plot_t",
         "sensor_t",
@@ -332,9 +446,13 @@ const char *rho_message_type_name(enum rho_message_type type)
         "work_t",
         "zone_event_t",
         "zone_t",
+        "accumulator_t",
         "bearing_scan_t",
         "clutter_map_t",
+        "ghost_matrix_t",
+        "hypotheses_t",
         "peak_list_t",
+        "plane_t",
         "plot_scan_t",
         "polar_scan_t",
         "sensor_list_t",
@@ -347,9 +465,24 @@ const char *rho_message_type_name(enum rho_message_type type)
     return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? type_names[type] : "unknown";
 }
 
+const char *rho_message_accumulator_cell_field(const struct rho_message_place *place)
+{
+    return place ? find(accumulator_cell_names, 6, place->offset) : "unknown";
+}
+
 const char *rho_message_echo_field(const struct rho_message_place *place)
 {
     return place ? find(echo_names, 10, place->offset) : "unknown";
+}
+
+const char *rho_message_ghost_field(const struct rho_message_place *place)
+{
+    return place ? find(ghost_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_hypothesis_field(const struct rho_message_place *place)
+{
+    return place ? find(hypothesis_names, 7, place->offset) : "unknown";
 }
 
 const char *rho_message_learned_field(const struct rho_message_place *place)
@@ -360,6 +493,11 @@ const char *rho_message_learned_field(const struct rho_message_place *place)
 const char *rho_message_peak_field(const struct rho_message_place *place)
 {
     return place ? find(peak_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_plane_row_field(const struct rho_message_place *place)
+{
+    return place ? find(plane_row_names, 1, place->offset) : "unknown";
 }
 
 const char *rho_message_plot_field(const struct rho_message_place *place)
@@ -407,6 +545,14 @@ const char *rho_message_zone_field(const struct rho_message_place *place)
     return place ? find(zone_names, 12, place->offset) : "unknown";
 }
 
+const char *rho_message_accumulator_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(accumulator_cell_names, 6, place->offset);
+    }
+    return place ? find(accumulator_names, 21, place->offset) : "unknown";
+}
+
 const char *rho_message_bearing_scan_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
@@ -423,12 +569,36 @@ const char *rho_message_clutter_map_field(const struct rho_message_place *place)
     return place ? find(clutter_map_names, 8, place->offset) : "unknown";
 }
 
+const char *rho_message_ghost_matrix_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(ghost_names, 6, place->offset);
+    }
+    return place ? find(ghost_matrix_names, 18, place->offset) : "unknown";
+}
+
+const char *rho_message_hypotheses_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(hypothesis_names, 7, place->offset);
+    }
+    return place ? find(hypotheses_names, 15, place->offset) : "unknown";
+}
+
 const char *rho_message_peak_list_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
         return find(peak_names, 6, place->offset);
     }
     return place ? find(peak_list_names, 4, place->offset) : "unknown";
+}
+
+const char *rho_message_plane_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(plane_row_names, 1, place->offset);
+    }
+    return place ? find(plane_names, 12, place->offset) : "unknown";
 }
 
 const char *rho_message_plot_scan_field(const struct rho_message_place *place)

@@ -7,9 +7,18 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(echo, ECHO) X(learned, LEARNED) X(peak, PEAK) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
-#define MESSAGES_WITH_LIST(X) X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
+#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
+#define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
 #endif
+
+static const struct message_member MESSAGE_TABLE(accumulator_cell)[] = {
+    {"rho_m", offsetof(MESSAGE_STRUCT(accumulator_cell), rho_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"theta_rad", offsetof(MESSAGE_STRUCT(accumulator_cell), theta_rad), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(6.3)},
+    {"votes", offsetof(MESSAGE_STRUCT(accumulator_cell), votes), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
+    {"scan_mask", offsetof(MESSAGE_STRUCT(accumulator_cell), scan_mask), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(65535)},
+    {"plots", offsetof(MESSAGE_STRUCT(accumulator_cell), plots), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"track_id", offsetof(MESSAGE_STRUCT(accumulator_cell), track_id), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+};
 
 static const struct message_member MESSAGE_TABLE(echo)[] = {
     {"sensor_id", offsetof(MESSAGE_STRUCT(echo), sensor_id), 0, 2, 1, .rule = MEMBER_ANY},
@@ -22,6 +31,25 @@ static const struct message_member MESSAGE_TABLE(echo)[] = {
     {"sigma_range_m", offsetof(MESSAGE_STRUCT(echo), sigma_range_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e6)},
     {"sigma_cross_m", offsetof(MESSAGE_STRUCT(echo), sigma_cross_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e6)},
     {"chance", offsetof(MESSAGE_STRUCT(echo), chance), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+};
+
+static const struct message_member MESSAGE_TABLE(ghost)[] = {
+    {"row", offsetof(MESSAGE_STRUCT(ghost), row), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"column", offsetof(MESSAGE_STRUCT(ghost), column), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"reason", offsetof(MESSAGE_STRUCT(ghost), reason), 0, 1, 1, .rule = MEMBER_ONE_OF, .choices = {0, 1, 2, 3, 4, 5, 6}, .num_choices = 7},
+    {"delta_rad", offsetof(MESSAGE_STRUCT(ghost), delta_rad), 0, 4, 1, .is_float = true, .low = (float)(-3.15), .high = (float)(3.15)},
+    {"x_m", offsetof(MESSAGE_STRUCT(ghost), x_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"y_m", offsetof(MESSAGE_STRUCT(ghost), y_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+};
+
+static const struct message_member MESSAGE_TABLE(hypothesis)[] = {
+    {"share", offsetof(MESSAGE_STRUCT(hypothesis), share), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"x_m", offsetof(MESSAGE_STRUCT(hypothesis), x_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"y_m", offsetof(MESSAGE_STRUCT(hypothesis), y_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"vx_mps", offsetof(MESSAGE_STRUCT(hypothesis), vx_mps), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"vy_mps", offsetof(MESSAGE_STRUCT(hypothesis), vy_mps), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"maneuver_probability", offsetof(MESSAGE_STRUCT(hypothesis), maneuver_probability), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"plots", offsetof(MESSAGE_STRUCT(hypothesis), plots), 0, 2, 3, .rule = MEMBER_ANY},
 };
 
 static const struct message_member MESSAGE_TABLE(learned)[] = {
@@ -45,6 +73,10 @@ static const struct message_member MESSAGE_TABLE(peak)[] = {
     {"score_nat", offsetof(MESSAGE_STRUCT(peak), score_nat), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
     {"scans_hit", offsetof(MESSAGE_STRUCT(peak), scans_hit), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
     {"sensor_pairs", offsetof(MESSAGE_STRUCT(peak), sensor_pairs), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+};
+
+static const struct message_member MESSAGE_TABLE(plane_row)[] = {
+    {"votes", offsetof(MESSAGE_STRUCT(plane_row), votes), 0, 1, 64, .rule = MEMBER_ANY},
 };
 
 static const struct message_member MESSAGE_TABLE(plot)[] = {
@@ -193,6 +225,28 @@ static const struct message_member MESSAGE_TABLE(zone)[] = {
     {"dwell_max_s", offsetof(MESSAGE_STRUCT(zone), dwell_max_s), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
 };
 
+static const struct message_member MESSAGE_TABLE(accumulator)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(accumulator), utime), MESSAGE_HEAD(accumulator, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(accumulator), scan), MESSAGE_HEAD(accumulator, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(accumulator), epoch), MESSAGE_HEAD(accumulator, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"method", offsetof(MESSAGE_STRUCT(accumulator), method), MESSAGE_HEAD(accumulator, method), 1, 1, .rule = MEMBER_ONE_OF, .choices = {1, 2, 3, 4, 5}, .num_choices = 5},
+    {"has_pair", offsetof(MESSAGE_STRUCT(accumulator), has_pair), MESSAGE_HEAD(accumulator, has_pair), 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(1)},
+    {"sensor_a_id", offsetof(MESSAGE_STRUCT(accumulator), sensor_a_id), MESSAGE_HEAD(accumulator, sensor_a_id), 2, 1, .rule = MEMBER_ANY},
+    {"sensor_b_id", offsetof(MESSAGE_STRUCT(accumulator), sensor_b_id), MESSAGE_HEAD(accumulator, sensor_b_id), 2, 1, .rule = MEMBER_ANY},
+    {"num_scans", offsetof(MESSAGE_STRUCT(accumulator), num_scans), MESSAGE_HEAD(accumulator, num_scans), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(16)},
+    {"oldest_utime", offsetof(MESSAGE_STRUCT(accumulator), oldest_utime), MESSAGE_HEAD(accumulator, oldest_utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"origin_x_m", offsetof(MESSAGE_STRUCT(accumulator), origin_x_m), MESSAGE_HEAD(accumulator, origin_x_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"origin_y_m", offsetof(MESSAGE_STRUCT(accumulator), origin_y_m), MESSAGE_HEAD(accumulator, origin_y_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"rho_min_m", offsetof(MESSAGE_STRUCT(accumulator), rho_min_m), MESSAGE_HEAD(accumulator, rho_min_m), 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"rho_max_m", offsetof(MESSAGE_STRUCT(accumulator), rho_max_m), MESSAGE_HEAD(accumulator, rho_max_m), 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"rho_cells", offsetof(MESSAGE_STRUCT(accumulator), rho_cells), MESSAGE_HEAD(accumulator, rho_cells), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+    {"theta_cells", offsetof(MESSAGE_STRUCT(accumulator), theta_cells), MESSAGE_HEAD(accumulator, theta_cells), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+    {"votes_max", offsetof(MESSAGE_STRUCT(accumulator), votes_max), MESSAGE_HEAD(accumulator, votes_max), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
+    {"votes_min", offsetof(MESSAGE_STRUCT(accumulator), votes_min), MESSAGE_HEAD(accumulator, votes_min), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
+    {"not_sent", offsetof(MESSAGE_STRUCT(accumulator), not_sent), MESSAGE_HEAD(accumulator, not_sent), 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"num_cells_total", offsetof(MESSAGE_STRUCT(accumulator), num_cells_total), MESSAGE_HEAD(accumulator, num_cells_total), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+};
+
 static const struct message_member MESSAGE_TABLE(bearing_scan)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(bearing_scan), utime), MESSAGE_HEAD(bearing_scan, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"scan", offsetof(MESSAGE_STRUCT(bearing_scan), scan), MESSAGE_HEAD(bearing_scan, scan), 4, 1, .rule = MEMBER_ANY},
@@ -215,9 +269,57 @@ static const struct message_member MESSAGE_TABLE(clutter_map)[] = {
     {"num_parts", offsetof(MESSAGE_STRUCT(clutter_map), num_parts), MESSAGE_HEAD(clutter_map, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
 };
 
+static const struct message_member MESSAGE_TABLE(ghost_matrix)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(ghost_matrix), utime), MESSAGE_HEAD(ghost_matrix, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(ghost_matrix), scan), MESSAGE_HEAD(ghost_matrix, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(ghost_matrix), epoch), MESSAGE_HEAD(ghost_matrix, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"sensor_a_id", offsetof(MESSAGE_STRUCT(ghost_matrix), sensor_a_id), MESSAGE_HEAD(ghost_matrix, sensor_a_id), 2, 1, .rule = MEMBER_ANY},
+    {"sensor_b_id", offsetof(MESSAGE_STRUCT(ghost_matrix), sensor_b_id), MESSAGE_HEAD(ghost_matrix, sensor_b_id), 2, 1, .rule = MEMBER_ANY},
+    {"sensor_a_x_m", offsetof(MESSAGE_STRUCT(ghost_matrix), sensor_a_x_m), MESSAGE_HEAD(ghost_matrix, sensor_a_x_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sensor_a_y_m", offsetof(MESSAGE_STRUCT(ghost_matrix), sensor_a_y_m), MESSAGE_HEAD(ghost_matrix, sensor_a_y_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sensor_b_x_m", offsetof(MESSAGE_STRUCT(ghost_matrix), sensor_b_x_m), MESSAGE_HEAD(ghost_matrix, sensor_b_x_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sensor_b_y_m", offsetof(MESSAGE_STRUCT(ghost_matrix), sensor_b_y_m), MESSAGE_HEAD(ghost_matrix, sensor_b_y_m), 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"range_max_m", offsetof(MESSAGE_STRUCT(ghost_matrix), range_max_m), MESSAGE_HEAD(ghost_matrix, range_max_m), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
+    {"rule", offsetof(MESSAGE_STRUCT(ghost_matrix), rule), MESSAGE_HEAD(ghost_matrix, rule), 1, 1, .rule = MEMBER_ONE_OF, .choices = {0, 1, 2}, .num_choices = 3},
+    {"num_rows", offsetof(MESSAGE_STRUCT(ghost_matrix), num_rows), MESSAGE_HEAD(ghost_matrix, num_rows), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(255)},
+    {"num_columns", offsetof(MESSAGE_STRUCT(ghost_matrix), num_columns), MESSAGE_HEAD(ghost_matrix, num_columns), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(255)},
+    {"not_sent", offsetof(MESSAGE_STRUCT(ghost_matrix), not_sent), MESSAGE_HEAD(ghost_matrix, not_sent), 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"part", offsetof(MESSAGE_STRUCT(ghost_matrix), part), MESSAGE_HEAD(ghost_matrix, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(ghost_matrix), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(ghost_matrix), num_parts), MESSAGE_HEAD(ghost_matrix, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+};
+
+static const struct message_member MESSAGE_TABLE(hypotheses)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(hypotheses), utime), MESSAGE_HEAD(hypotheses, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(hypotheses), scan), MESSAGE_HEAD(hypotheses, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(hypotheses), epoch), MESSAGE_HEAD(hypotheses, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"track_id", offsetof(MESSAGE_STRUCT(hypotheses), track_id), MESSAGE_HEAD(hypotheses, track_id), 4, 1, .rule = MEMBER_ANY},
+    {"score_nat", offsetof(MESSAGE_STRUCT(hypotheses), score_nat), MESSAGE_HEAD(hypotheses, score_nat), 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"calm", offsetof(MESSAGE_STRUCT(hypotheses), calm), MESSAGE_HEAD(hypotheses, calm), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"steady", offsetof(MESSAGE_STRUCT(hypotheses), steady), MESSAGE_HEAD(hypotheses, steady), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"maneuver", offsetof(MESSAGE_STRUCT(hypotheses), maneuver), MESSAGE_HEAD(hypotheses, maneuver), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"evidence", offsetof(MESSAGE_STRUCT(hypotheses), evidence), MESSAGE_HEAD(hypotheses, evidence), 1, 1, .rule = MEMBER_ONE_OF, .choices = {0, 1, 2}, .num_choices = 3},
+    {"support", offsetof(MESSAGE_STRUCT(hypotheses), support), MESSAGE_HEAD(hypotheses, support), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"shared", offsetof(MESSAGE_STRUCT(hypotheses), shared), MESSAGE_HEAD(hypotheses, shared), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"clutter", offsetof(MESSAGE_STRUCT(hypotheses), clutter), MESSAGE_HEAD(hypotheses, clutter), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
+    {"not_sent", offsetof(MESSAGE_STRUCT(hypotheses), not_sent), MESSAGE_HEAD(hypotheses, not_sent), 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+};
+
 static const struct message_member MESSAGE_TABLE(peak_list)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(peak_list), utime), MESSAGE_HEAD(peak_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"scan", offsetof(MESSAGE_STRUCT(peak_list), scan), MESSAGE_HEAD(peak_list, scan), 4, 1, .rule = MEMBER_ANY},
+};
+
+static const struct message_member MESSAGE_TABLE(plane)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(plane), utime), MESSAGE_HEAD(plane, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(plane), scan), MESSAGE_HEAD(plane, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(plane), epoch), MESSAGE_HEAD(plane, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"method", offsetof(MESSAGE_STRUCT(plane), method), MESSAGE_HEAD(plane, method), 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(5)},
+    {"has_pair", offsetof(MESSAGE_STRUCT(plane), has_pair), MESSAGE_HEAD(plane, has_pair), 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(1)},
+    {"sensor_a_id", offsetof(MESSAGE_STRUCT(plane), sensor_a_id), MESSAGE_HEAD(plane, sensor_a_id), 2, 1, .rule = MEMBER_ANY},
+    {"sensor_b_id", offsetof(MESSAGE_STRUCT(plane), sensor_b_id), MESSAGE_HEAD(plane, sensor_b_id), 2, 1, .rule = MEMBER_ANY},
+    {"votes_max", offsetof(MESSAGE_STRUCT(plane), votes_max), MESSAGE_HEAD(plane, votes_max), 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
+    {"part", offsetof(MESSAGE_STRUCT(plane), part), MESSAGE_HEAD(plane, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(plane), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(plane), num_parts), MESSAGE_HEAD(plane, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
 };
 
 static const struct message_member MESSAGE_TABLE(plot_scan)[] = {
@@ -291,9 +393,13 @@ static const struct message_member MESSAGE_TABLE(zone_list)[] = {
 };
 
 static const struct message_shape MESSAGE_TABLE(shapes)[] = {
+    {"accumulator_cell_t", MESSAGE_TABLE(accumulator_cell), 6, sizeof(MESSAGE_STRUCT(accumulator_cell)), .element_members = NULL},
     {"echo_t", MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), .element_members = NULL},
+    {"ghost_t", MESSAGE_TABLE(ghost), 6, sizeof(MESSAGE_STRUCT(ghost)), .element_members = NULL},
+    {"hypothesis_t", MESSAGE_TABLE(hypothesis), 7, sizeof(MESSAGE_STRUCT(hypothesis)), .element_members = NULL},
     {"learned_t", MESSAGE_TABLE(learned), 11, sizeof(MESSAGE_STRUCT(learned)), .element_members = NULL},
     {"peak_t", MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), .element_members = NULL},
+    {"plane_row_t", MESSAGE_TABLE(plane_row), 1, sizeof(MESSAGE_STRUCT(plane_row)), .element_members = NULL},
     {"plot_t", MESSAGE_TABLE(plot), 10, sizeof(MESSAGE_STRUCT(plot)), .element_members = NULL},
     {"polar_plot_t", MESSAGE_TABLE(polar_plot), 6, sizeof(MESSAGE_STRUCT(polar_plot)), .element_members = NULL},
     {"sensor_t", MESSAGE_TABLE(sensor), 13, sizeof(MESSAGE_STRUCT(sensor)), .element_members = NULL},
@@ -303,15 +409,27 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"work_t", MESSAGE_TABLE(work), 11, sizeof(MESSAGE_STRUCT(work)), .element_members = NULL},
     {"zone_event_t", MESSAGE_TABLE(zone_event), 6, sizeof(MESSAGE_STRUCT(zone_event)), .element_members = NULL},
     {"zone_t", MESSAGE_TABLE(zone), 12, sizeof(MESSAGE_STRUCT(zone)), .element_members = NULL},
+    {"accumulator_t", MESSAGE_TABLE(accumulator), 19, sizeof(MESSAGE_STRUCT(accumulator)),
+     {"num_cells", offsetof(MESSAGE_STRUCT(accumulator), num_cells), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(accumulator), cells), MESSAGE_TABLE(accumulator_cell), 6, sizeof(MESSAGE_STRUCT(accumulator_cell)), 22, 48, MESSAGE_LIST_IS_POINTER},
     {"bearing_scan_t", MESSAGE_TABLE(bearing_scan), 7, sizeof(MESSAGE_STRUCT(bearing_scan)),
      {"num_bearings", offsetof(MESSAGE_STRUCT(bearing_scan), num_bearings), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(bearing_scan), bearing_rad), MESSAGE_TABLE(bearing_scan_element), 1, sizeof(float), 4, 256, MESSAGE_LIST_IS_POINTER},
     {"clutter_map_t", MESSAGE_TABLE(clutter_map), 6, sizeof(MESSAGE_STRUCT(clutter_map)),
      {"num_echoes", offsetof(MESSAGE_STRUCT(clutter_map), num_echoes), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(clutter_map), echoes), MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), 34, 40, MESSAGE_LIST_IS_POINTER},
+    {"ghost_matrix_t", MESSAGE_TABLE(ghost_matrix), 16, sizeof(MESSAGE_STRUCT(ghost_matrix)),
+     {"num_elements", offsetof(MESSAGE_STRUCT(ghost_matrix), num_elements), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(ghost_matrix), elements), MESSAGE_TABLE(ghost), 6, sizeof(MESSAGE_STRUCT(ghost)), 17, 78, MESSAGE_LIST_IS_POINTER},
+    {"hypotheses_t", MESSAGE_TABLE(hypotheses), 13, sizeof(MESSAGE_STRUCT(hypotheses)),
+     {"num_hypotheses", offsetof(MESSAGE_STRUCT(hypotheses), num_hypotheses), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(hypotheses), hypotheses), MESSAGE_TABLE(hypothesis), 7, sizeof(MESSAGE_STRUCT(hypothesis)), 30, 8, MESSAGE_LIST_IS_POINTER},
     {"peak_list_t", MESSAGE_TABLE(peak_list), 2, sizeof(MESSAGE_STRUCT(peak_list)),
      {"num_peaks", offsetof(MESSAGE_STRUCT(peak_list), num_peaks), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(peak_list), peaks), MESSAGE_TABLE(peak), 6, sizeof(MESSAGE_STRUCT(peak)), 20, 48, MESSAGE_LIST_IS_POINTER},
+    {"plane_t", MESSAGE_TABLE(plane), 10, sizeof(MESSAGE_STRUCT(plane)),
+     {"num_rows", offsetof(MESSAGE_STRUCT(plane), num_rows), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(plane), rows), MESSAGE_TABLE(plane_row), 1, sizeof(MESSAGE_STRUCT(plane_row)), 64, 16, MESSAGE_LIST_IS_POINTER},
     {"plot_scan_t", MESSAGE_TABLE(plot_scan), 9, sizeof(MESSAGE_STRUCT(plot_scan)),
      {"num_plots", offsetof(MESSAGE_STRUCT(plot_scan), num_plots), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(plot_scan), plots), MESSAGE_TABLE(plot), 10, sizeof(MESSAGE_STRUCT(plot)), 40, 34, MESSAGE_LIST_IS_POINTER},

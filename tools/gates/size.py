@@ -44,7 +44,7 @@ ROWS = [
      "measurement/crossing bearings/* tracker/bearing_* -*_validate -bearings/frames", "passive"),
     ("frames of bearing scans as they arrive, likewise", "bearings/frames", "frames"),
     ("papers: accumulator, likewise", "papers/accumulator*", "accumulator"),
-    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough*", "hough"),
+    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough* papers/plane", "hough"),
     ("papers: passive Hough transform, likewise", "papers/passive_paper*", "passive_paper"),
     ("papers: Hough gate, likewise", "papers/gate_hough", ""),
     ("snapshot, and the validation of images, likewise", IMAGES, ""),
@@ -54,6 +54,7 @@ ROWS = [
     ("names of messages and their fields, likewise", "wire/message_names", ""),
     ("scan assembly from messages, two scans open at a time, likewise", "wire/scan_*",
      "scan_assembler"),
+    ("what a step thought, as messages (show), likewise", "wire/show*", "show"),
     ("report of a step", "", "report"),
 ]
 
@@ -62,7 +63,8 @@ ROWS = [
 AIMS = [
     ("a radar node: all but passive sensors, papers, images and names",
      "base/* measurement/* estimation/* association/* initiation/* tracker/* wire/* "
-     "-measurement/crossing -tracker/bearing_* -*_validate -tracker/snapshot -wire/message_names",
+     "-measurement/crossing -tracker/bearing_* -*_validate -tracker/snapshot -wire/message_names "
+     "-wire/show*",
      96 * 1024, "initiator tracker scan_assembler report", 176 * 1024, 4096),
 ]
 
@@ -87,7 +89,7 @@ OBJECTS = {
     "ghost": "ghost_matrix", **{
         name: name
         for name in ("accumulator window hough initiator frames batch passive passive_paper kalman input gate imm hypotheses track "
-                     "assignment tracker scan_assembler node").split()
+                     "assignment tracker scan_assembler node show").split()
     }
 }
 OTHERS = {

@@ -12,7 +12,7 @@
 #include "io/asterix/asterix_records.h"
 #include "settings/method.h"
 
-enum { NUM_OPTIONS = 25, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 26, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -25,6 +25,8 @@ static const struct {
      "how tracks are initiated: " METHOD_NAMES "; or an experiment's part"},
     {'P', "pipeline", "paper",
      "the papers' methods for all: nht, passive-paper, gate hough, inputs"},
+    {'W', "show", "KINDS",
+     "ghosts,votes,hypotheses: messages of what the methods of the papers and tracks think"},
     {'g', "gate", "GATE", "how a track chooses its plots; the parameter gate says the same"},
     {'K', "kind", "KIND", "which messages of a log: plots, polar, bearings, truth or tracks"},
     {'i', "no-input-estimation", NULL, "gates hough, nearest, none: a plain Kalman filter"},
@@ -140,6 +142,9 @@ static bool take_live_option(struct command_line *line, char letter, char *argum
         return true;
     case 'R':
         line->snapshot = argument;
+        return true;
+    case 'W':
+        line->show = argument;
         return true;
     case 'x':
         line->speed = read_decimal("speed", argument, 0, 1e6);

@@ -286,6 +286,10 @@ static void print_summary(const struct node *node)
     if (node->print.left_out > 0) {
         fprintf(stderr, "rhotrack: reports not printed: %" PRIu64 "\n", node->print.left_out);
     }
+    if (node_core_not_shown(node->core) > 0) {
+        fprintf(stderr, "rhotrack: messages of --show beyond its rate: %" PRIu64 "\n",
+                node_core_not_shown(node->core));
+    }
     if (events_left_out > 0) {
         fprintf(stderr, "rhotrack: events not logged: %" PRIu64 "\n", events_left_out);
     }
@@ -417,7 +421,11 @@ static bool is_output(const char *channel)
            strcmp(channel, RHO_MESSAGE_WORK_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_SENSOR_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_LEARNED_CHANNEL) == 0 ||
-           strcmp(channel, RHO_MESSAGE_CLUTTER_MAP_CHANNEL) == 0;
+           strcmp(channel, RHO_MESSAGE_CLUTTER_MAP_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_GHOST_MATRIX_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_ACCUMULATOR_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_PLANE_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_HYPOTHESES_CHANNEL) == 0;
 }
 
 /*
@@ -548,7 +556,9 @@ int command_node(struct command_line *line)
     if (line->clutter_map && transport_is_file(line->lcm, line->clutter_map)) {
         fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);
     }
+    struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
+    node_core_show(node.core, show);
     node.snapshot_path = line->snapshot;
     node.snapshot_us = node.status_us + SNAPSHOT_US;
     if (line->snapshot && node_core_restore(node.core, line->snapshot) == PIPELINE_RESTORED) {

@@ -19,10 +19,12 @@
 #include "pipeline/bearings_batch.h"
 #include "pipeline/learned.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/pipeline_show.h"
 #include "settings/method.h"
 
 struct tracking {
     struct pipeline pipeline;
+    struct pipeline_show *show; /* NULL: nothing is shown */
     struct clutter_file clutter;
     struct zones_output zones;
     int64_t sum_us, max_us;
@@ -87,6 +89,19 @@ static void step(struct tracking *tracking, const struct input *input)
     }
 }
 
+/* A log that is written, at the time of a step. */
+struct shown {
+    struct tracks_output *tracks;
+    int64_t time_us;
+};
+
+static void on_shown(void *context, const char *channel, const uint8_t *data, size_t size)
+{
+    const struct shown *shown = context;
+
+    tracks_output_message(shown->tracks, shown->time_us, channel, data, size);
+}
+
 static void step_and_report(struct tracking *tracking, const struct input *input,
                             struct tracks_output *tracks)
 {
@@ -96,6 +111,14 @@ static void step_and_report(struct tracking *tracking, const struct input *input
     }
     if (tracks) {
         tracks_output_report(tracks, tracking->pipeline.report);
+    }
+    if (tracking->show) {
+        struct shown shown = {tracks, tracking->pipeline.report->time_us};
+        const struct pipeline_show_output output = {&shown, on_shown};
+
+        pipeline_show_step(tracking->show, &tracking->pipeline, input->frame != NULL,
+                           tracks_output_step(tracks), tracks_output_epoch(), shown.time_us,
+                           &output);
     }
 }
 
@@ -265,6 +288,10 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
     if (work->partial_steps > 0) {
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
+    }
+    if (pipeline_show_not_sent(tracking->show) > 0) {
+        fprintf(stderr, ", messages of --show beyond its rate: %" PRIu64,
+                pipeline_show_not_sent(tracking->show));
     }
     fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(tracking, counts),
             tracking->max_us);
@@ -468,6 +495,10 @@ int command_track(struct command_line *line)
     pipeline_set_options(&line->parameters,
                          &(struct pipeline_options){line->gate, line->method, line->pipeline});
     check_clutter_map(line);
+    if (line->show && !tracks_output_is_log(line->output)) {
+        fail(EXIT_USAGE, "--show writes messages: it needs -o NAME.lcm");
+    }
+    tracking.show = pipeline_show_open(line->show, &line->parameters);
     inputs = open_inputs(line);
     open_chain(&tracking, inputs, &line->parameters);
     tracking.clutter = clutter_file_open(line->clutter_map, &line->parameters,
@@ -484,6 +515,7 @@ int command_track(struct command_line *line)
     is_saved = clutter_file_save(&tracking.clutter, &tracking.pipeline.tracker->clutter_map);
     print_results(&tracking, inputs, line);
     inputs_close(inputs);
+    pipeline_show_close(tracking.show);
     pipeline_free(&tracking.pipeline);
     if (why) {
         fail(EXIT_RUNTIME, "%s %s: it is followed no longer", line->arguments[0], why);

@@ -18,6 +18,7 @@ struct command_line {
     const char *method;       /* --method; NULL where not given */
     const char *gate;         /* --gate */
     const char *pipeline;     /* --pipeline */
+    const char *show;         /* --show; NULL where not given */
     const char *kind;         /* --kind; NULL where not given */
     const char *lcm, *log;    /* --lcm, --log; NULL where not given */
     const char *clutter_map;  /* --clutter-map; NULL where not given */

@@ -26,7 +26,7 @@
 
 static const struct command commands[] = {
     {"track", command_track, "INPUT... [-o OUTPUT] [--gate best|hough|nearest] [--follow]", 1,
-     INT_MAX, "omPgfcMZjksC", "the main job: scans in, tracks out",
+     INT_MAX, "omPgWfcMZjksC", "the main job: scans in, tracks out",
      "Reads plots (CSV: t_s,sensor_id,x_m,y_m and optional columns) and bearings (t_s,sensor_id,\n"
      "sensor_x_m,sensor_y_m,bearing_rad), several inputs merged by time, starts and maintains "
      "tracks,\n"
@@ -35,6 +35,10 @@ static const struct command commands[] = {
      "A summary goes to standard error. With --json the results go to standard output as one JSON\n"
      "object, and tracks only to OUTPUT. INPUT - is standard input (CSV). Files may be of any\n"
      "length: memory does not grow with them.\n"
+     "\n"
+     "--show adds to OUTPUT, an LCM log, what the tracks and the methods of the papers think:\n"
+     "RHO_GHOSTS, RHO_ACCUMULATOR with RHO_PLANE, and RHO_HYPOTHESES; at most 50 messages of a\n"
+     "kind a second.\n"
      "\n"
      "--clutter-map keeps what is known of towers and other echoes that come back, so that they "
      "start\n"
@@ -110,13 +114,15 @@ static const struct command commands[] = {
      "become CAT062 where OUT ends with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
-     "lpLRTmPgMsC", "the live tracker: LCM messages in, LCM messages out",
+     "lpLRTmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
      "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS, RHO_WORK and RHO_SENSORS once a second,\n"
      "with them what is learned of each sensor in turn, RHO_LEARNED,\n"
      "and what is known of clutter that comes back, RHO_CLUTTER, every five. Bad, late and lost "
      "messages are\n"
-     "counted and end nothing. Sensors that contradict the others or fall\n"
+     "counted and end nothing. --show adds RHO_GHOSTS, RHO_ACCUMULATOR with RHO_PLANE, and\n"
+     "RHO_HYPOTHESES, at most 50 messages of a kind a second. Sensors that contradict the others "
+     "or fall\n"
      "silent are named. With --snapshot a node that is started again goes on with its tracks.\n"
      "It ends on SIGINT and SIGTERM, or at the end of a log\n"
      "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"

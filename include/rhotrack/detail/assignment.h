@@ -76,6 +76,12 @@ void rho_assignment_solve(struct rho_assignment *assignment);
 /* The column of a row by the last solve, or RHO_ASSIGNMENT_NONE. Constant cost. */
 int rho_assignment_column(const struct rho_assignment *assignment, unsigned row);
 
+/*
+ * The pairs of row `from` become those of row `to`; rows that were moved on have none. Of rows
+ * beyond num_rows nothing happens. Cost: RHO_MAX_GATE_PLOTS.
+ */
+void rho_assignment_move_pairs(struct rho_assignment *assignment, unsigned from, unsigned to);
+
 /* True of an initialised object. Constant cost. */
 int rho_assignment_is_ready(const struct rho_assignment *assignment);
 

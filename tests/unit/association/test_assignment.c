@@ -324,6 +324,25 @@ static void the_count_of_dropped_pairs_saturates(void **state)
     assert_int_equal(assignment.pairs_dropped, UINT32_MAX);
 }
 
+/* A row that has gone: those behind it move up, and their pairs with them. */
+static void pairs_move_to_another_row(void **state)
+{
+    (void)state;
+    begin(3, 4);
+    add(0, 1, -5);
+    add(1, 2, -6);
+    add(1, 3, -7);
+    rho_assignment_move_pairs(&assignment, 1, 0);
+    assert_int_equal(assignment.num_pairs[0], 2);
+    assert_int_equal(assignment.pairs[0][1].column, 3);
+    assert_int_equal(assignment.pairs[0][1].cost, -7);
+    assert_int_equal(assignment.num_pairs[1], 0);
+    rho_assignment_move_pairs(&assignment, 0, 0);
+    rho_assignment_move_pairs(&assignment, 3, 0); /* no such row */
+    rho_assignment_move_pairs(&assignment, 0, 3);
+    assert_int_equal(assignment.num_pairs[0], 2);
+}
+
 /* --- a full object ------------------------------------------------------------------------- */
 
 static void pose_full_problem(void)
@@ -497,6 +516,7 @@ int main(void)
         cmocka_unit_test_setup(the_dearest_pairs_of_a_full_row_give_way, initialise),
         cmocka_unit_test_setup(ties_of_a_full_row_go_by_column, initialise),
         cmocka_unit_test_setup(the_count_of_dropped_pairs_saturates, initialise),
+        cmocka_unit_test_setup(pairs_move_to_another_row, initialise),
         cmocka_unit_test_setup(a_full_object_is_solved_exactly, initialise),
         cmocka_unit_test_setup(the_same_input_gives_the_same_answer, initialise),
         cmocka_unit_test_setup(refused_init_changes_nothing, initialise),

@@ -281,7 +281,7 @@ static int heights[ROWS_MAX][COLUMNS];
 static unsigned num_confirmed;
 
 /* False where float32 may see other heights. */
-static int fill_heights(const struct rho_passive_paper_config *config, unsigned votes_min)
+static inline int fill_heights(const struct rho_passive_paper_config *config, unsigned votes_min)
 {
     int is_sure = 1;
     num_confirmed = 0;
@@ -357,7 +357,7 @@ static struct place middle_of_plateau(struct place from)
 }
 
 /* The next line; its height in *height, 0 where there is none. Its neighbours are gone. */
-static struct place next_line(int *height)
+static inline struct place next_line(int *height)
 {
     struct place at, line = highest();
     *height = heights[line.row][line.column];
@@ -376,8 +376,8 @@ static struct place next_line(int *height)
     return line;
 }
 
-static void expect_line(const struct rho_passive_paper_line *line, struct place at, int height,
-                        const struct rho_passive_paper_config *config)
+static inline void expect_line(const struct rho_passive_paper_line *line, struct place at,
+                               int height, const struct rho_passive_paper_config *config)
 {
     double theta_rad = theta_of(at.row);
     double rho_m = (at.column + 0.5 - COLUMNS / 2) * (double)config->rho_cell_m +
@@ -458,8 +458,8 @@ static int gather(struct place at, const struct rho_passive_paper_config *config
     return is_sure;
 }
 
-static void expect_state(const struct rho_passive_paper_line *line, struct place at,
-                         const struct rho_passive_paper_config *config)
+static inline void expect_state(const struct rho_passive_paper_line *line, struct place at,
+                                const struct rho_passive_paper_config *config)
 {
     struct sums sums = {0};
     if (!gather(at, config, &sums)) {

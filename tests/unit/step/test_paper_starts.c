@@ -101,6 +101,39 @@ static void each_transform_starts_the_target(void **state)
     }
 }
 
+/* Points, lines and peaks stay until the next step; a line names the track that it started. */
+static void the_last_search_can_be_looked_at(void **state)
+{
+    (void)state;
+    begin_by(RHO_HOUGH_NHT_C);
+    assert_int_equal(rho_paper_starts_points(&starts).at.num_scans, 0);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(starts.has_searched, 0);
+        step_with_starts(k);
+    }
+    const struct rho_hough_points points = rho_paper_starts_points(&starts);
+    assert_int_equal(starts.has_searched, 1);
+    assert_int_equal(points.at.num_scans, 4);
+    assert_int_equal(points.at.scan_end[3], 4 * (CLUTTER + 1));
+    assert_float_equal(points.t_s[0], -3.0 * SCAN_S, 1e-5);
+    uint32_t named = 0, newest = 0;
+    for (uint32_t i = points.at.scan_end[2]; i < points.at.scan_end[3]; i++) {
+        newest += memcmp(&points.at.x_m[i], &plots[0].x_m, sizeof plots[0].x_m) == 0;
+    }
+    assert_int_equal(newest, 1); /* the window has its own order */
+    for (uint32_t i = 0; i < starts.result.num_peaks; i++) {
+        struct rho_hough_track again;
+        assert_int_equal(rho_hough_track(&starts.hough, &points, starts.peaks[i].theta_cell,
+                                         starts.peaks[i].rho_cell, 0.0f, &again),
+                         RHO_OK);
+        assert_memory_equal(&again, &starts.lines[i].line, sizeof again);
+        named += starts.lines[i].track_id == report.tracks[0].track_id;
+    }
+    assert_int_equal(named, 1);
+    step_with_starts(2); /* late */
+    assert_int_equal(starts.has_searched, 0);
+}
+
 /* What no track claims is held, as by an initiator; fates and counters agree. */
 static void unclaimed_plots_are_held_and_counted(void **state)
 {
@@ -297,6 +330,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_transform_starts_the_target),
+        cmocka_unit_test(the_last_search_can_be_looked_at),
         cmocka_unit_test(unclaimed_plots_are_held_and_counted),
         cmocka_unit_test(stale_and_short_lines_start_nothing),
         cmocka_unit_test(the_same_plots_give_the_same_bytes),

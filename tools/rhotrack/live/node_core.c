@@ -25,6 +25,7 @@ struct node_core {
     const struct parameters *parameters;
     struct node_core_events events;
     struct pipeline pipeline;
+    struct pipeline_show *show; /* NULL: nothing is */
     struct rho_node node;
     struct sequence_counts order;
     struct timing timing; /* of all steps */
@@ -87,6 +88,16 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
     parameters_to_assembler(parameters, &core->assembler);
     open_node(core, epoch);
     return core;
+}
+
+void node_core_show(struct node_core *core, struct pipeline_show *show)
+{
+    core->show = show;
+}
+
+uint64_t node_core_not_shown(const struct node_core *core)
+{
+    return pipeline_show_not_sent(core->show);
 }
 
 enum pipeline_restored node_core_restore(struct node_core *core, const char *path)
@@ -154,6 +165,14 @@ static void send_step(const struct node_core *core)
     }
 }
 
+static void show_step(struct node_core *core, enum rho_node_due due)
+{
+    const struct pipeline_show_output output = {core->events.context, core->events.send};
+
+    pipeline_show_step(core->show, &core->pipeline, due == RHO_NODE_FRAME, core->node.step,
+                       core->node.epoch, core->node.now_us, &output);
+}
+
 static void start_tracks(struct node_core *core, enum rho_node_due due)
 {
     struct rho_frame_view view;
@@ -188,6 +207,7 @@ static void step(struct node_core *core, enum rho_node_due due)
     }
     send_step(core);
     send_zone_events(core);
+    show_step(core, due);
 }
 
 static void run(struct node_core *core, int64_t now_us)
@@ -422,6 +442,7 @@ double node_core_max_us(const struct node_core *core)
 
 void node_core_close(struct node_core *core)
 {
+    pipeline_show_close(core->show);
     pipeline_free(&core->pipeline);
     free(core);
 }

@@ -18,6 +18,7 @@
 #include <stdio.h>
 
 #include "io/scans/sequence_counts.h"
+#include "pipeline/pipeline_show.h"
 #include "pipeline/pipeline_snapshot.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
@@ -43,6 +44,12 @@ struct node_core_events {
  */
 struct node_core *node_core_open(const struct parameters *parameters, int32_t epoch,
                                  const struct node_core_events *events);
+
+/* Each step is shown from now on; the core closes it at its end. NULL: nothing is. */
+void node_core_show(struct node_core *core, struct pipeline_show *show);
+
+/* Messages of --show that its rates have left out. */
+uint64_t node_core_not_shown(const struct node_core *core);
 
 /*
  * Goes on with the tracks and all that was learned of the file; before the first message. Where the

@@ -38,6 +38,10 @@ static bool has_scan(const uint8_t *data, size_t size)
     case RHO_MESSAGE_TYPE_SENSOR_LIST:
     case RHO_MESSAGE_TYPE_LEARNED:
     case RHO_MESSAGE_TYPE_CLUTTER_MAP:
+    case RHO_MESSAGE_TYPE_GHOST_MATRIX:
+    case RHO_MESSAGE_TYPE_ACCUMULATOR:
+    case RHO_MESSAGE_TYPE_PLANE:
+    case RHO_MESSAGE_TYPE_HYPOTHESES:
         return size >= SCAN_AT + NUMBER_BYTES;
     default:
         return false;

@@ -154,6 +154,22 @@ void tracks_output_report(struct tracks_output *tracks, const struct rho_report 
     }
 }
 
+int32_t tracks_output_step(const struct tracks_output *tracks)
+{
+    return tracks->step;
+}
+
+int32_t tracks_output_epoch(void)
+{
+    return EPOCH;
+}
+
+void tracks_output_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
+                           const uint8_t *data, size_t size)
+{
+    lcm_log_must_write(&tracks->log, tracks->path, time_us, channel, data, size);
+}
+
 void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
                          const struct rho_track_report *track)
 {

@@ -34,6 +34,12 @@ void tracks_output_flush(struct tracks_output *tracks);
 /* All tracks of a step. */
 void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report);
 
+/* The number and epoch of the last step in a log; a message more in it, at the step's time. */
+int32_t tracks_output_step(const struct tracks_output *tracks);
+int32_t tracks_output_epoch(void);
+void tracks_output_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
+                           const uint8_t *data, size_t size);
+
 /* A step that has one track. */
 void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
                          const struct rho_track_report *track);

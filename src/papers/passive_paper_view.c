@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passive_paper_view: what the last search had, made again from the batch, which stays until the
+ * next frame: ghost matrices, and the planes of votes.
+ */
+#include "passive_paper_search.h"
+#include "rhotrack/types.h"
+
+static int is_ready(const struct rho_passive_paper *paper)
+{
+    return paper->magic == RHO_PASSIVE_PAPER_MAGIC;
+}
+
+/* ---- pairs of sensors ------------------------------------------------------------------------ */
+
+int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
+                           struct rho_passive_paper_pair *pair)
+{
+    struct rho_passive_paper_search search = {.num_sensors = 0};
+    if (!paper || !pair || !is_ready(paper)) {
+        return 0;
+    }
+    rho_passive_paper_set_sensors(&paper->batch, &search);
+    for (unsigned i = 0; i + 1u < search.num_sensors; i++) {
+        const unsigned behind = search.num_sensors - 1u - i;
+        if (number < behind) {
+            *pair =
+                (struct rho_passive_paper_pair){search.sensors[i], search.sensors[i + 1u + number]};
+            return 1;
+        }
+        number -= behind;
+    }
+    return 0;
+}
+
+static int is_pair(const struct rho_passive_paper *paper, const struct rho_passive_paper_pair *pair)
+{
+    struct rho_passive_paper_pair one;
+    for (unsigned number = 0; rho_passive_paper_pair(paper, number, &one); number++) {
+        if (one.a == pair->a && one.b == pair->b) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* ---- ghosts ---------------------------------------------------------------------------------- */
+
+enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
+                                         const struct rho_passive_paper_pair *pair, unsigned scan,
+                                         struct rho_ghost_matrix *matrix)
+{
+    struct rho_passive_paper_search search = {.num_sensors = 0};
+    struct rho_passive_paper_bearings bearings;
+    struct rho_crossing_base base;
+    if (!paper || !pair || !matrix) {
+        return RHO_ERROR_NULL;
+    }
+    if (!is_ready(paper)) {
+        return RHO_ERROR_STATE;
+    }
+    if (scan >= paper->batch.num_scans || !is_pair(paper, pair)) {
+        return RHO_ERROR_VALUE;
+    }
+    rho_passive_paper_set_sensors(&paper->batch, &search);
+    return rho_passive_paper_set_base(&search, &paper->batch, pair->a, pair->b, &base) &&
+                   rho_passive_paper_prune(&paper->config, &paper->batch, &base, scan, *pair,
+                                           &bearings, matrix)
+               ? RHO_OK
+               : RHO_ERROR_VALUE;
+}
+
+/* ---- planes ---------------------------------------------------------------------------------- */
+
+enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
+                                        struct rho_passive_paper_space *space)
+{
+    struct rho_passive_paper_search search = {.num_sensors = 0};
+    if (!paper || !space) {
+        return RHO_ERROR_NULL;
+    }
+    if (is_ready(paper)) {
+        rho_passive_paper_set_sensors(&paper->batch, &search);
+    }
+    if (search.num_sensors == 0) {
+        return RHO_ERROR_STATE;
+    }
+    *space = (struct rho_passive_paper_space){
+        .origin_x_m = search.middle_x_m,
+        .origin_y_m = search.middle_y_m,
+        .rho_max_m = 0.5f * paper->config.rho_cell_m * (float)RHO_PAPER_RHO_CELLS,
+        .theta_cells = (uint16_t)rho_passive_paper_rows(&paper->config),
+        .rho_cells = RHO_PAPER_RHO_CELLS};
+    return RHO_OK;
+}
+
+/* Of a cell of all pairs the votes are counted from 1: 0 is a cell that is not confirmed. */
+static void note_row(const struct rho_passive_paper_search *search, int row, const uint8_t *cells,
+                     unsigned first, struct rho_plane *plane)
+{
+    for (int column = 0; column < search->columns; column++) {
+        if (cells[column] > first) {
+            rho_plane_note(plane, (unsigned)row, (unsigned)column, cells[column] - first);
+        }
+    }
+}
+
+static void note_pair(struct rho_passive_paper_search *search,
+                      const struct rho_passive_paper_pair *pair, struct rho_plane *plane)
+{
+    uint8_t *counts = search->paper->rows[0];
+    rho_passive_paper_cross(search, pair->a, pair->b);
+    for (int row = 0; row < search->rows; row++) {
+        rho_passive_paper_vote_row(search, row, counts);
+        note_row(search, row, counts, 0, plane);
+    }
+}
+
+static void note_all_pairs(struct rho_passive_paper_search *search, struct rho_plane *plane)
+{
+    const struct rho_passive_paper_work work = search->paper->work;
+    rho_passive_paper_vote(search);
+    search->paper->work = work;
+    for (int row = 0; row < search->rows; row++) {
+        note_row(search, row, search->paper->cells[row], 1, plane);
+    }
+}
+
+/* The search of a batch; STATE: there is too little to search. */
+static enum rho_status open_search(struct rho_passive_paper *paper,
+                                   const struct rho_passive_paper_pair *pair,
+                                   struct rho_passive_paper_search *search)
+{
+    *search = (struct rho_passive_paper_search){.paper = paper};
+    if (!is_ready(paper)) {
+        return RHO_ERROR_STATE;
+    }
+    rho_passive_paper_set_sensors(&paper->batch, search);
+    if (!rho_passive_paper_set_cells(search)) {
+        return RHO_ERROR_STATE;
+    }
+    return !pair || is_pair(paper, pair) ? RHO_OK : RHO_ERROR_VALUE;
+}
+
+enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
+                                        const struct rho_passive_paper_pair *pair,
+                                        struct rho_plane *plane)
+{
+    struct rho_passive_paper_search search;
+    if (!paper) {
+        return RHO_ERROR_NULL;
+    }
+    enum rho_status status = open_search(paper, pair, &search);
+    if (status == RHO_OK) {
+        status = rho_plane_open(plane, (unsigned)search.rows, (unsigned)search.columns);
+    }
+    if (status == RHO_OK && pair) {
+        note_pair(&search, pair, plane);
+    } else if (status == RHO_OK) {
+        note_all_pairs(&search, plane);
+    }
+    return status;
+}
+
+/* ---- cells of a pair ------------------------------------------------------------------------- */
+
+/* The scans whose crossings voted for a cell. */
+static uint32_t mask_of(const struct rho_passive_paper_search *search, int row, int column)
+{
+    const struct rho_passive_paper *paper = search->paper;
+    const struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
+    uint32_t mask = 0;
+    for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
+        for (; i < paper->scan_end[scan]; i++) {
+            if (rho_passive_paper_column(search, direction, &paper->points[i]) == column) {
+                mask |= 1u << scan;
+            }
+        }
+    }
+    return mask;
+}
+
+static void list_cells(const struct rho_passive_paper_search *search, struct rho_peak_list *list)
+{
+    uint8_t *counts = search->paper->rows[0];
+    for (int row = 0; row < search->rows; row++) {
+        rho_passive_paper_vote_row(search, row, counts);
+        for (int column = 0; column < search->columns; column++) {
+            rho_peak_list_add(list, (struct rho_accumulator_peak){.votes = counts[column],
+                                                                  .theta_cell = (uint16_t)row,
+                                                                  .rho_cell = (uint16_t)column});
+        }
+    }
+    rho_peak_list_finish(list);
+}
+
+enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
+                                        const struct rho_passive_paper_pair *pair,
+                                        struct rho_accumulator_peak *peaks, uint32_t max_peaks,
+                                        uint32_t *num_peaks)
+{
+    struct rho_passive_paper_search search;
+    if (!paper || !pair || !peaks || !num_peaks) {
+        return RHO_ERROR_NULL;
+    }
+    const enum rho_status status = open_search(paper, pair, &search);
+    if (status != RHO_OK) {
+        return status;
+    }
+    struct rho_peak_list list = {
+        .peaks = peaks, .max_peaks = max_peaks, .min_votes = paper->votes_min};
+    const struct rho_peak_distance near = {.theta_cells = (uint16_t)search.rows,
+                                           .rho_cells = (uint16_t)search.columns,
+                                           .theta = RHO_PASSIVE_PAPER_NEAR_ROWS,
+                                           .rho = RHO_PASSIVE_PAPER_NEAR_COLUMNS};
+    rho_passive_paper_cross(&search, pair->a, pair->b);
+    list_cells(&search, &list);
+    *num_peaks = rho_peak_list_suppress(peaks, list.num_peaks, &near, NULL, 0);
+    for (uint32_t i = 0; i < *num_peaks; i++) {
+        peaks[i].mask = mask_of(&search, peaks[i].theta_cell, peaks[i].rho_cell);
+    }
+    return RHO_OK;
+}

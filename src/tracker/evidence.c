@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/* evidence: of a track's last look, what is its own, what others claim too, and what is clutter. */
+#include <string.h>
+
+#include "rhotrack/detail/approx.h"
+#include "step.h"
+
+#define NAT_PER_MNAT 0.001f
+
+void rho_tracker_close_row(struct rho_tracker *tracker, unsigned row)
+{
+    struct rho_assignment *assignment = &tracker->assignment;
+    for (unsigned from = row + 1u; from < assignment->num_rows; from++) {
+        rho_assignment_move_pairs(assignment, from, from - 1u);
+    }
+    if (row < assignment->num_rows) {
+        assignment->num_rows--;
+    }
+}
+
+/* Costs are losses against a miss: the dearest to lose, or none, is the likeliest. */
+static int32_t least_cost(const struct rho_assignment *assignment, unsigned row)
+{
+    int32_t least = 0;
+    for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
+        const int32_t cost = assignment->pairs[row][i].cost;
+        least = cost < least ? cost : least;
+    }
+    return least;
+}
+
+static float likelihood(int32_t cost, int32_t least)
+{
+    return rho_exp((float)(least - cost) * NAT_PER_MNAT);
+}
+
+/* Likelihoods of all offers and of none, relative to the likeliest. */
+static float sum_of(const struct rho_assignment *assignment, unsigned row, int32_t least)
+{
+    float sum = likelihood(0, least);
+    for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
+        sum += likelihood(assignment->pairs[row][i].cost, least);
+    }
+    return sum;
+}
+
+/* How much likelier the column's plot is the row's than another one's: 1 where no other offers it. */
+static float share_of(const struct rho_assignment *assignment, unsigned row, int16_t column,
+                      int32_t cost)
+{
+    float others = 0.0f;
+    for (unsigned other = 0; other < assignment->num_rows; other++) {
+        for (unsigned i = 0; other != row && i < assignment->num_pairs[other]; i++) {
+            if (assignment->pairs[other][i].column == column) {
+                others += likelihood(assignment->pairs[other][i].cost, cost);
+            }
+        }
+    }
+    return 1.0f / (1.0f + others);
+}
+
+int rho_tracker_evidence_of(const struct rho_tracker *tracker, unsigned track,
+                            struct rho_tracker_evidence *evidence)
+{
+    if (!RHO_KEEPS_OFFERS || !tracker || !evidence || !rho_tracker_is_ready(tracker) ||
+        track >= tracker->num_tracks || track >= tracker->assignment.num_rows) {
+        return 0;
+    }
+    const struct rho_assignment *assignment = &tracker->assignment;
+    const unsigned offers = assignment->num_pairs[track];
+    if (offers == 0 && tracker->tracks[track].time_us != tracker->time_us) {
+        return 0; /* it was not moved to the scan's time: out of the sensor's sight */
+    }
+    const int32_t least = least_cost(assignment, track);
+    const float sum = sum_of(assignment, track, least);
+    *evidence = (struct rho_tracker_evidence){.clutter = likelihood(0, least) / sum};
+    for (unsigned i = 0; i < offers; i++) {
+        const struct rho_assignment_pair *offer = &assignment->pairs[track][i];
+        const float own = likelihood(offer->cost, least) / sum;
+        const float share = share_of(assignment, track, offer->column, offer->cost);
+        evidence->support += own * share;
+        evidence->shared += own * (1.0f - share);
+    }
+    return 1;
+}

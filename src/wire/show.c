@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT */
+/* show: which messages of a step are sent, by the rate of their kind. */
+#include "rhotrack/show.h"
+
+#include <string.h>
+
+#include "show_parts.h"
+
+#define MAGIC 0x53484f57u /* "SHOW" */
+#define SECOND_US 1000000
+#define RATE_MAX 10000u
+#define ALL_KINDS ((1u << RHO_NUM_SHOW_KINDS) - 1u)
+
+void rho_show_config_default(struct rho_show_config *config)
+{
+    *config = (struct rho_show_config){.kinds = ALL_KINDS, .messages_per_s = 50};
+}
+
+enum rho_status rho_show_init(struct rho_show *show, size_t size,
+                              const struct rho_show_config *config)
+{
+    if (!show || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *show) {
+        return RHO_ERROR_SIZE;
+    }
+    if (config->kinds == 0 || config->kinds > ALL_KINDS || config->messages_per_s == 0 ||
+        config->messages_per_s > RATE_MAX) {
+        return RHO_ERROR_CONFIG;
+    }
+    const struct rho_show_config kept = *config; /* it may lie within *show */
+    memset(show, 0, sizeof *show);
+    show->config = kept;
+    show->magic = MAGIC;
+    return RHO_OK;
+}
+
+/* ---- rates ----------------------------------------------------------------------------------- */
+
+static int64_t cost_us(const struct rho_show *show)
+{
+    return (SECOND_US + show->config.messages_per_s - 1) / show->config.messages_per_s;
+}
+
+static void add_credit(struct rho_show_rate *rate, int64_t now_us)
+{
+    if (!rate->has_time || now_us < rate->since_us) {
+        rate->credit_us = SECOND_US;
+    } else {
+        const uint64_t more_us = (uint64_t)now_us - (uint64_t)rate->since_us;
+        rate->credit_us += (int64_t)(more_us < 2 * SECOND_US ? more_us : 2 * SECOND_US);
+        rate->credit_us = rate->credit_us < SECOND_US ? rate->credit_us : SECOND_US;
+    }
+    rate->since_us = now_us;
+    rate->has_time = 1;
+}
+
+/* So many messages are sent, which the rate has to pay for; the others are left out. */
+static void spend(const struct rho_show *show, struct rho_show_rate *rate, uint32_t sent,
+                  uint32_t all)
+{
+    rate->left = sent;
+    rate->at = 0;
+    rate->credit_us -= (int64_t)sent * cost_us(show);
+    rate->not_sent = rho_count(rate->not_sent, all - sent);
+}
+
+/* Tracks that the credit lasts for. */
+static uint32_t num_affordable(const struct rho_show *show, const struct rho_show_rate *rate,
+                               uint32_t all)
+{
+    const int64_t most = rate->credit_us > 0 ? (rate->credit_us - 1) / cost_us(show) + 1 : 0;
+    return most < (int64_t)all ? (uint32_t)most : all;
+}
+
+/* ---- a step ---------------------------------------------------------------------------------- */
+
+static uint32_t num_messages(const struct rho_show *show, const struct rho_show_source *source,
+                             unsigned kind)
+{
+    return kind == RHO_SHOW_GHOSTS  ? rho_show_num_ghosts(source)
+           : kind == RHO_SHOW_VOTES ? rho_show_num_votes(show, source)
+                                    : source->report->num_tracks;
+}
+
+void rho_show_begin(struct rho_show *show, const struct rho_show_source *source, int64_t now_us)
+{
+    if (!show || show->magic != MAGIC) {
+        return;
+    }
+    for (unsigned kind = 0; kind < RHO_NUM_SHOW_KINDS; kind++) {
+        struct rho_show_rate *rate = &show->rates[kind];
+        rate->left = 0;
+        if (!source || !source->tracker || !source->report || !(show->config.kinds >> kind & 1u)) {
+            continue;
+        }
+        const uint32_t all = num_messages(show, source, kind);
+        add_credit(rate, now_us);
+        spend(show, rate,
+              kind == RHO_SHOW_HYPOTHESES ? num_affordable(show, rate, all)
+              : rate->credit_us > 0       ? all
+                                          : 0,
+              all);
+    }
+}
+
+/* The track whose turn it is: the first one behind the last that was shown. */
+static unsigned next_track(struct rho_show *show, const struct rho_report *report)
+{
+    unsigned track = 0;
+    while (track < report->num_tracks && report->tracks[track].track_id <= show->last_track_id) {
+        track++;
+    }
+    track = track < report->num_tracks ? track : 0;
+    show->last_track_id = report->tracks[track].track_id;
+    return track;
+}
+
+static const char *write_message(struct rho_show *show, const struct rho_show_source *source,
+                                 unsigned kind, uint32_t number,
+                                 const struct rho_show_output *output)
+{
+    return kind == RHO_SHOW_GHOSTS ? rho_show_write_ghosts(source, number, output)
+           : kind == RHO_SHOW_VOTES
+               ? rho_show_write_votes(show, source, number, output)
+               : rho_show_write_hypotheses(source, next_track(show, source->report), output);
+}
+
+const char *rho_show_next(struct rho_show *show, const struct rho_show_source *source,
+                          uint8_t *buffer, size_t capacity, size_t *size)
+{
+    if (!show || show->magic != MAGIC || !source || !buffer || !size ||
+        capacity < RHO_SHOW_MAX_SIZE) {
+        return NULL;
+    }
+    struct rho_show_output output;
+    output.buffer = buffer;
+    output.capacity = capacity;
+    output.size = size;
+    for (unsigned kind = 0; kind < RHO_NUM_SHOW_KINDS; kind++) {
+        struct rho_show_rate *rate = &show->rates[kind];
+        output.not_sent = (int32_t)(rate->not_sent < INT32_MAX ? rate->not_sent : INT32_MAX);
+        while (rate->left > 0) {
+            rate->left--;
+            const char *channel = write_message(show, source, kind, rate->at++, &output);
+            if (channel) {
+                return channel;
+            }
+        }
+    }
+    return NULL;
+}
+
+uint32_t rho_show_not_sent(const struct rho_show *show, enum rho_show_kind kind)
+{
+    return show && show->magic == MAGIC && (unsigned)kind < RHO_NUM_SHOW_KINDS
+               ? show->rates[kind].not_sent
+               : 0;
+}

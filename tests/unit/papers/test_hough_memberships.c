@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * T, I and F of the neutrosophic paper as objects: the memberships of a vote against double
+ * precision, the matrices C_T, C_I and C_F as sums of these, eq. (19) beside eq. (24), and planes
+ * of every method beside the cells that the search compares.
+ */
+#include "hough_cells.h"
+
+#define NUM(array) (sizeof(array) / sizeof((array)[0]))
+#define ROWS_MAX 400u
+#define COLUMNS_MAX 420u
+#define PARTS 16.0 /* of a vote that float may be off */
+
+static uint32_t pictures[RHO_NUM_HOUGH_COMPONENTS][ROWS_MAX * COLUMNS_MAX];
+
+/* A plane that fits a picture cell by cell: 25 m and 8 mrad. */
+static void coarse(enum rho_hough_method method)
+{
+    paper_all(method);
+    config.rho_cell_m = 25.0f;
+    config.theta_cell_rad = 0.008f;
+    config.eps_rho_m = 40.0f;
+    config.eps_theta_rad = 0.02f;
+}
+
+static struct rho_plane whole(enum rho_hough_component component)
+{
+    struct rho_plane plane = {
+        .height = hough.theta_cells, .width = hough.rho_cells, .votes = pictures[component]};
+    assert_true(hough.theta_cells <= ROWS_MAX && hough.rho_cells <= COLUMNS_MAX);
+    return plane;
+}
+
+static void draw_plane(enum rho_hough_component component)
+{
+    struct rho_plane plane = whole(component);
+    assert_int_equal(rho_hough_plane(&hough, &points, component, &plane), RHO_OK);
+}
+
+static struct rho_hough_memberships vote_of(unsigned first, unsigned second)
+{
+    struct rho_hough_memberships of;
+    memset(&of, 0x5a, sizeof of);
+    assert_int_equal(rho_hough_vote(&hough, &points, first, second, &of), RHO_OK);
+    return of;
+}
+
+/* ---- one vote -------------------------------------------------------------------------------- */
+
+/* As in test_hough_weights.c: 12 m from one kernel, 30 m from the other, 9 m from between. */
+static void lay_two_kernels(void)
+{
+    points.at.num_scans = 0;
+    start_scan();
+    add_plot(100.0, 1012.0, 0.0);
+    add_plot(100.0, 970.0, 0.0);
+    start_scan();
+    add_plot(500.0, 1012.0, 2.0);
+    add_plot(500.0, 970.0, 2.0);
+    add_plot(500.0, 1000.0, 2.0);
+    start_scan();
+    add_plot(1100.0, 1000.0, 4.0);
+    add_plot(500.0, 3000.0, 4.0); /* too far for a target of 400 m/s */
+}
+
+static void a_vote_has_truth_indeterminacy_and_falsity(void **state)
+{
+    (void)state;
+    lay_two_kernels();
+    paper_all(RHO_HOUGH_NHT_A);
+    prepare();
+    struct rho_hough_memberships of = vote_of(4, 5);
+    assert_float_equal(of.truth, 65536.0 * exp(-0.18), 4.0);
+    assert_float_equal(of.indeterminacy, 65536.0 * exp(-0.10125), 4.0);
+    assert_int_equal(of.falsity, 7); /* 65536 P_F^2 = 6.55 */
+    config.lambda_k = 1e6f;
+    prepare();
+    of = vote_of(4, 5);
+    assert_int_equal(of.falsity, RHO_HOUGH_VOTE); /* a membership is 1 at most */
+    of = vote_of(4, 6);
+    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0); /* no candidate, eq. (20) */
+    of = vote_of(0, 2);
+    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0); /* no scan before: no kernel */
+}
+
+/* The nearest kernel in double precision; -1: so near a limit that float may differ. */
+static double truth_of(unsigned first, unsigned second)
+{
+    const struct line line = line_of_plots(first, second);
+    const unsigned scan = scan_of(second);
+    double best = 0.0;
+    for (unsigned i = scan_start(scan - 2); i < scan_end[scan - 2]; i++) {
+        for (unsigned j = scan_start(scan - 1); j < scan_end[scan - 1]; j++) {
+            const double d_m = hypot((double)(x_m[j] - x_m[i]), (double)(y_m[j] - y_m[i]));
+            const double dt_s = (double)(t_s[j] - t_s[i]);
+            const struct line off = offset(line, line_of_plots(i, j));
+            const double rho = fabs(off.rho) / (2.0 * (double)config.eps_rho_m);
+            const double theta = fabs(off.theta) / (2.0 * (double)config.eps_theta_rad);
+            const int is_near = rho < 1.001 && theta < 1.001;
+            const int is_speed = d_m > 0.999 * (double)config.v_min_mps * dt_s &&
+                                 d_m < 1.001 * (double)config.v_max_mps * dt_s;
+            const int is_sure = rho < 0.999 && theta < 0.999 &&
+                                d_m > 1.001 * (double)config.v_min_mps * dt_s &&
+                                d_m < 0.999 * (double)config.v_max_mps * dt_s;
+            if (is_near && is_speed) {
+                const double mu = closeness(off);
+                if (!is_sure && mu > best) {
+                    return -1.0;
+                }
+                best = mu > best ? mu : best;
+            }
+        }
+    }
+    return best;
+}
+
+static int is_candidate(unsigned first, unsigned second)
+{
+    const double d_m =
+        hypot((double)(x_m[second] - x_m[first]), (double)(y_m[second] - y_m[first]));
+    const double dt_s = (double)(t_s[second] - t_s[first]);
+    return d_m > 1.001 * (double)config.v_min_mps * dt_s &&
+           d_m < 0.999 * (double)config.v_max_mps * dt_s;
+}
+
+static void truth_is_that_of_the_nearest_kernel(void **state)
+{
+    (void)state;
+    unsigned compared = 0, true_ones = 0;
+    random_state = 31;
+    lay_table_1(4, 0.5, 1);
+    coarse(RHO_HOUGH_NHT_A);
+    prepare();
+    for (unsigned i = scan_start(1); i < scan_end[2]; i++) {
+        const unsigned scan = scan_of(i) + 1u;
+        for (unsigned j = scan_start(scan); j < scan_end[scan]; j++) {
+            const double truth = scan >= 2 && is_candidate(i, j) ? truth_of(i, j) : -1.0;
+            if (truth >= 0.0) {
+                assert_float_equal(vote_of(i, j).truth, 65536.0 * truth, PARTS);
+                compared++;
+                true_ones += truth > 0.0;
+            }
+        }
+    }
+    print_message("%u votes, of %u truth is not 0\n", compared, true_ones);
+    assert_true(compared > 1000 && true_ones > 50 && true_ones < compared);
+}
+
+/* ---- matrices -------------------------------------------------------------------------------- */
+
+static uint32_t part_of(const struct rho_hough_memberships *of, enum rho_hough_component component)
+{
+    const uint32_t parts[] = {[RHO_HOUGH_TRUTH] = of->truth,
+                              [RHO_HOUGH_INDETERMINACY] = of->indeterminacy,
+                              [RHO_HOUGH_FALSITY] = of->falsity};
+    uint32_t largest = 0;
+    for (int i = RHO_HOUGH_TRUTH; i <= RHO_HOUGH_FALSITY; i++) {
+        largest = parts[i] > largest ? parts[i] : largest;
+    }
+    return component == RHO_HOUGH_LARGEST ? largest : parts[component];
+}
+
+/*
+ * Eqs. (16) to (18), and the sum of (24): cell by cell, but for pairs whose line is at the border of
+ * its cell.
+ */
+static void matrices_are_sums_of_memberships(void **state)
+{
+    (void)state;
+    static uint32_t sums[RHO_NUM_HOUGH_COMPONENTS][ROWS_MAX * COLUMNS_MAX];
+    static uint8_t is_unsure[ROWS_MAX * COLUMNS_MAX];
+    random_state = 32;
+    lay_table_1(5, 2.0, 1);
+    coarse(RHO_HOUGH_NHT_A);
+    prepare();
+    memset(sums, 0, sizeof sums);
+    memset(is_unsure, 0, sizeof is_unsure);
+    for (unsigned i = scan_start(1); i < scan_end[3]; i++) {
+        const unsigned scan = scan_of(i) + 1u;
+        for (unsigned j = scan_start(scan); j < scan_end[scan]; j++) {
+            const struct rho_hough_memberships of = vote_of(i, j);
+            const struct line line = line_of_plots(i, j);
+            if (!is_in_plane(place_of(line)) || of.falsity == 0) {
+                continue;
+            }
+            for (int side = 0; side < 9; side++) {
+                const struct line moved = {line.rho + 0.05 * (side % 3 - 1),
+                                           line.theta + 2e-5 * (side / 3 - 1)};
+                const struct place place = wrapped(place_of(upright(moved)));
+                const unsigned at = (unsigned)(place.theta * num_rho() + place.rho);
+                is_unsure[at] |= is_in_plane(place) && (place.theta != place_of(line).theta ||
+                                                        place.rho != place_of(line).rho);
+            }
+            const unsigned own = (unsigned)key_of(place_of(line));
+            for (int c = RHO_HOUGH_TRUTH; c < RHO_NUM_HOUGH_COMPONENTS; c++) {
+                sums[c][own] += part_of(&of, (enum rho_hough_component)c);
+            }
+        }
+    }
+    for (int c = RHO_HOUGH_TRUTH; c < RHO_NUM_HOUGH_COMPONENTS; c++) {
+        unsigned same = 0, off = 0, filled = 0;
+        draw_plane((enum rho_hough_component)c);
+        for (unsigned i = 0; i < (unsigned)hough.theta_cells * hough.rho_cells; i++) {
+            filled += pictures[c][i] > 0;
+            same += pictures[c][i] > 0 && pictures[c][i] == sums[c][i];
+            off += pictures[c][i] != sums[c][i] && !is_unsure[i];
+        }
+        print_message("component %d: %u cells, %u the same\n", c, filled, same);
+        assert_true(filled > 100 && same > filled - filled / 20);
+        assert_in_range(off, 0, filled / 50); /* the other cell of a pair at a border */
+    }
+}
+
+/*
+ * (19) takes the largest of the sums, (24) sums the largest: no less in any cell, at most all three
+ * together, and the same where one membership is the largest in each vote of a cell.
+ */
+static void the_largest_sum_is_at_most_the_sum_of_the_largest(void **state)
+{
+    (void)state;
+    for (int reading = 0; reading < 2; reading++) {
+        unsigned less = 0, equal = 0;
+        random_state = 33;
+        lay_table_1(6, 3.0, 1);
+        coarse(reading ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
+        config.lambda_k = 5000.0f; /* F 0.5: each of the three is the largest somewhere */
+        prepare();
+        for (int c = RHO_HOUGH_TRUTH; c < RHO_NUM_HOUGH_COMPONENTS; c++) {
+            draw_plane((enum rho_hough_component)c);
+        }
+        for (unsigned i = 0; i < (unsigned)hough.theta_cells * hough.rho_cells; i++) {
+            const uint32_t of[] = {pictures[RHO_HOUGH_TRUTH][i],
+                                   pictures[RHO_HOUGH_INDETERMINACY][i],
+                                   pictures[RHO_HOUGH_FALSITY][i]};
+            const uint32_t by_24 = pictures[RHO_HOUGH_LARGEST][i], all = of[0] + of[1] + of[2];
+            uint32_t by_19 = of[0] > of[1] ? of[0] : of[1];
+            by_19 = of[2] > by_19 ? of[2] : by_19;
+            const uint32_t rounding = reading ? 200 : 0; /* spread sums are rounded each */
+            assert_true(by_19 <= by_24 + rounding && by_24 <= all + 3 * rounding);
+            less += by_19 + rounding < by_24;
+            equal += by_24 > 0 && by_19 == by_24;
+        }
+        print_message("(19) is (24) in %u cells, less in %u\n", equal, less);
+        assert_true(equal > 100 && less > 5);
+    }
+}
+
+/* ---- planes beside searches ------------------------------------------------------------------ */
+
+static void the_plane_of_votes_is_that_of_the_search(void **state)
+{
+    (void)state;
+    static const enum rho_hough_method methods[] = {RHO_HOUGH_HT, RHO_HOUGH_MHT, RHO_HOUGH_IHT,
+                                                    RHO_HOUGH_NHT_A, RHO_HOUGH_NHT_C};
+    random_state = 34;
+    for (unsigned run = 0; run < 2 * NUM(methods); run++) {
+        lay_table_1(5, 3.0, 1);
+        coarse(methods[run / 2]);
+        config.votes = run % 2 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
+        config.uses_indeterminacy = run % 2;
+        find();
+        draw_plane(RHO_HOUGH_VOTES);
+        unsigned filled = 0;
+        for (unsigned i = 0; i < (unsigned)hough.theta_cells * hough.rho_cells; i++) {
+            filled += pictures[RHO_HOUGH_VOTES][i] > 0;
+        }
+        assert_int_equal(filled, result.num_peaks);
+        for (uint32_t i = 0; i < result.num_peaks; i++) {
+            const unsigned at = peaks[i].theta_cell * hough.rho_cells + peaks[i].rho_cell;
+            assert_int_equal(pictures[RHO_HOUGH_VOTES][at], peaks[i].votes);
+        }
+    }
+}
+
+/* What the voters of a cell sum up to is what the matrices have there. */
+static void a_line_has_the_matrices_of_its_cell(void **state)
+{
+    (void)state;
+    for (int reading = 0; reading < 2; reading++) {
+        random_state = 35;
+        lay_table_1(6, 0.5, 1);
+        coarse(reading ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
+        find();
+        for (int c = RHO_HOUGH_TRUTH; c <= RHO_HOUGH_FALSITY; c++) {
+            draw_plane((enum rho_hough_component)c);
+        }
+        assert_true(result.num_peaks > 20);
+        for (uint32_t i = 0; i < 20; i++) {
+            struct rho_hough_track track;
+            const unsigned at = peaks[i].theta_cell * hough.rho_cells + peaks[i].rho_cell;
+            assert_int_equal(rho_hough_track(&hough, &points, peaks[i].theta_cell,
+                                             peaks[i].rho_cell, 0.0f, &track),
+                             RHO_OK);
+            assert_float_equal(track.sums.truth, pictures[RHO_HOUGH_TRUTH][at], 100.0);
+            assert_float_equal(track.sums.indeterminacy, pictures[RHO_HOUGH_INDETERMINACY][at],
+                               100.0);
+            if (!reading) { /* spread over many pairs, 7 parts are rounded away */
+                assert_int_equal(track.sums.falsity, pictures[RHO_HOUGH_FALSITY][at]);
+            }
+        }
+    }
+}
+
+static void a_window_has_the_most_of_each_block(void **state)
+{
+    (void)state;
+    uint32_t small[4 * 5];
+    random_state = 36;
+    lay_table_1(5, 3.0, 1);
+    coarse(RHO_HOUGH_NHT_C);
+    prepare();
+    draw_plane(RHO_HOUGH_VOTES);
+    struct rho_plane plane = {.first_theta = 40,
+                              .theta_cells = 200,
+                              .first_rho = 100,
+                              .rho_cells = 250,
+                              .height = 4,
+                              .width = 5,
+                              .votes = small};
+    assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_VOTES, &plane), RHO_OK);
+    for (unsigned y = 0; y < 4; y++) {
+        for (unsigned x = 0; x < 5; x++) {
+            uint32_t most = 0;
+            for (unsigned i = 40 + 50 * y; i < 90 + 50 * y; i++) {
+                for (unsigned j = 100 + 50 * x; j < 150 + 50 * x; j++) {
+                    const uint32_t one = pictures[RHO_HOUGH_VOTES][i * hough.rho_cells + j];
+                    most = one > most ? one : most;
+                }
+            }
+            assert_int_equal(small[5 * y + x], most);
+        }
+    }
+}
+
+static void what_is_no_vote_and_no_plane_is_refused(void **state)
+{
+    (void)state;
+    struct rho_hough_memberships of;
+    lay_two_kernels();
+    coarse(RHO_HOUGH_IHT);
+    prepare();
+    struct rho_plane plane = whole(RHO_HOUGH_TRUTH);
+    assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_TRUTH, &plane), RHO_ERROR_VALUE);
+    assert_int_equal(rho_hough_plane(&hough, &points, RHO_NUM_HOUGH_COMPONENTS, &plane),
+                     RHO_ERROR_VALUE);
+    assert_int_equal(rho_hough_plane(NULL, &points, RHO_HOUGH_VOTES, &plane), RHO_ERROR_NULL);
+    assert_int_equal(rho_hough_plane(&hough, NULL, RHO_HOUGH_VOTES, &plane), RHO_ERROR_NULL);
+    assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_VOTES, NULL), RHO_ERROR_NULL);
+    plane.height = (uint16_t)(hough.theta_cells + 1u);
+    assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_VOTES, &plane), RHO_ERROR_VALUE);
+    assert_int_equal(rho_hough_vote(&hough, &points, 4, 5, &of), RHO_OK);
+    assert_int_equal(of.truth + of.indeterminacy + of.falsity, 0); /* IHT has none */
+    assert_int_equal(rho_hough_vote(&hough, &points, 4, 5, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_hough_vote(NULL, &points, 4, 5, &of), RHO_ERROR_NULL);
+    assert_int_equal(rho_hough_vote(&hough, &points, 0, 5, &of), RHO_ERROR_VALUE);
+    assert_int_equal(rho_hough_vote(&hough, &points, 5, 4, &of), RHO_ERROR_VALUE);
+    assert_int_equal(rho_hough_vote(&hough, &points, 4, 7, &of), RHO_ERROR_VALUE);
+    hough.magic = 0;
+    assert_int_equal(rho_hough_vote(&hough, &points, 4, 5, &of), RHO_ERROR_STATE);
+    assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_VOTES, &plane), RHO_ERROR_STATE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_vote_has_truth_indeterminacy_and_falsity),
+        cmocka_unit_test(truth_is_that_of_the_nearest_kernel),
+        cmocka_unit_test(matrices_are_sums_of_memberships),
+        cmocka_unit_test(the_largest_sum_is_at_most_the_sum_of_the_largest),
+        cmocka_unit_test(the_plane_of_votes_is_that_of_the_search),
+        cmocka_unit_test(a_line_has_the_matrices_of_its_cell),
+        cmocka_unit_test(a_window_has_the_most_of_each_block),
+        cmocka_unit_test(what_is_no_vote_and_no_plane_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
