@@ -138,4 +138,19 @@ refused 'scans of sixty years' 'the scans taken span 2e+09 s; at most 9e+08 s ma
 refused 'speeds' 'v_min_mps 500 is not below v_max_mps 400' initiate table1.csv --method iht \
     --set v_min_mps=500
 
+# ---- pictures of the plane ----
+run plot parameter-space table1.csv --method nht -o tif.svg
+check 'the neutrosophic plane has four pictures' exits 0
+for title in 'votes, C' 'truth, C_T' 'indeterminacy, C_I' 'falsity, C_F'; do
+    check "one is of $title" grep -q "nht: $title" tif.svg
+done
+run plot parameter-space table1.csv --method iht -o iht.svg
+check 'another method has one' test "$(grep -c 'votes, C\|truth' iht.svg)" = 1
+run plot parameter-space table1.csv --method kernel -o x.svg
+check 'and the default none' says 2 \
+    'rhotrack: plot parameter-space: kernel has no accumulator of plots; ht, mht, iht and nht have one'
+run plot tracks table1.csv --method nht -o x.svg
+check 'nor has another picture' says 2 'rhotrack: plot tracks: --method is for parameter-space'
+check 'what is refused leaves no picture' test ! -e x.svg
+
 finish

@@ -14,6 +14,7 @@
 #include "picture/plot_data.h"
 #include "picture/plot_errors.h"
 #include "picture/plot_parameter_space.h"
+#include "picture/plot_votes.h"
 
 /* From so many points on a picture has small marks. */
 #define MANY_POINTS 1500
@@ -166,16 +167,37 @@ static void check_content(const char *kind, const struct plot_data *data)
 struct findings {
     struct revolutions revolutions;
     struct plot_errors errors;
+    struct plot_votes *votes; /* of --method; else NULL */
 };
 
-static struct findings find(const char *kind, const struct plot_data *data,
-                            const struct parameters *parameters)
+static void find_votes(struct findings *findings, const struct plot_data *data,
+                       struct command_line *line)
 {
+    const enum method method = method_find(line->method);
+
+    if (method == METHOD_KERNEL || method_takes_bearings(method)) {
+        fail(EXIT_USAGE,
+             "plot parameter-space: %s has no accumulator of plots; ht, mht, iht and "
+             "nht have one",
+             method_name(method));
+    }
+    method_suggest(method, &line->parameters);
+    findings->revolutions = plot_parameter_space_read(
+        data, &line->parameters, (size_t)line->parameters.value[PARAMETER_SCANS]);
+    findings->votes = plot_votes_find(method, &findings->revolutions, &line->parameters);
+}
+
+static struct findings find(const char *kind, const struct plot_data *data,
+                            struct command_line *line)
+{
+    const struct parameters *parameters = &line->parameters;
     struct findings findings = {.revolutions = {.count = 0}};
     if (strcmp(kind, "errors") == 0) {
         findings.errors = plot_errors_find(data, parameters);
+    } else if (strcmp(kind, "parameter-space") == 0 && line->method) {
+        find_votes(&findings, data, line);
     } else if (strcmp(kind, "parameter-space") == 0) {
-        findings.revolutions = plot_parameter_space_read(data, parameters);
+        findings.revolutions = plot_parameter_space_read(data, parameters, RHO_MAX_SCANS);
     }
     return findings;
 }
@@ -191,6 +213,8 @@ static void draw(const char *kind, struct picture *picture, const struct plot_da
         draw_tracks(picture, data);
     } else if (strcmp(kind, "errors") == 0) {
         plot_errors(picture, data, &findings->errors);
+    } else if (findings->votes) {
+        plot_votes(picture, findings->votes);
     } else {
         plot_parameter_space(picture, data, &findings->revolutions);
     }
@@ -222,18 +246,22 @@ int command_plot(struct command_line *line)
                          "clutter-map), files, and -o FILE.svg");
     }
     const char *kind = line->arguments[0];
+    if (line->method && strcmp(kind, "parameter-space") != 0) {
+        fail(EXIT_USAGE, "plot %s: --method is for parameter-space", kind);
+    }
     if (strcmp(kind, "clutter-map") == 0) {
         return plot_clutter_map(line);
     }
     struct plot_data data =
         plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_content(kind, &data);
-    struct findings findings = find(kind, &data, &line->parameters);
+    struct findings findings = find(kind, &data, line);
     struct picture picture = picture_open(line->output, 1100, 680);
     draw(kind, &picture, &data, &findings);
     picture_close(&picture);
     revolutions_free(&findings.revolutions);
     plot_errors_free(&findings.errors);
+    plot_votes_free(findings.votes);
     plot_data_free(&data);
     return 0;
 }

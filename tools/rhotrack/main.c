@@ -94,10 +94,11 @@ static const struct command commands[] = {
      "and\n"
      "every target's (by_target).\n"},
     {"plot", command_plot, "scans|tracks|parameter-space|errors|clutter-map FILES... -o FILE.svg",
-     2, INT_MAX, "osC", "pictures",
+     2, INT_MAX, "omsC", "pictures",
      "Draws plots or bearings, tracks, the parameter space of lines, errors, or a clutter map (and "
      "the\n"
-     "plots of further files beneath), as SVG.\n"},
+     "plots of further files beneath), as SVG. With --method ht, mht, iht or nht the parameter\n"
+     "space has that method's votes; of nht also truth, indeterminacy and falsity.\n"},
     {"convert", command_convert, "IN OUT [--kind plots|polar|bearings|truth|tracks]", 2, 2, "KcksC",
      "CSV files, LCM logs and ASTERIX to one another",
      "Writes a CSV file (plots, polar plots, bearings, truth or tracks) as an LCM log, or the\n"

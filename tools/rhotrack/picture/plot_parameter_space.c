@@ -95,7 +95,7 @@ static void put_lines(FILE *script, const struct plot_points *tracks, double uni
 
 /* The plots of the last scans: in a table of plots nobody sees what a scan is. */
 struct revolutions plot_parameter_space_read(const struct plot_data *data,
-                                             const struct parameters *parameters)
+                                             const struct parameters *parameters, size_t scans)
 {
     uint32_t num_plots = 0;
     for (int i = 0; i < data->num_plot_paths; i++) {
@@ -106,7 +106,7 @@ struct revolutions plot_parameter_space_read(const struct plot_data *data,
     }
     struct scan_reader *reader =
         scan_reader_open_any(data->plot_paths, data->num_plot_paths, parameters);
-    struct revolutions revolutions = revolutions_read(reader, RHO_MAX_SCANS);
+    struct revolutions revolutions = revolutions_read(reader, scans);
     for (size_t i = 0; i < revolutions.count; i++) {
         num_plots += revolutions.list[i].scan.num_plots;
     }

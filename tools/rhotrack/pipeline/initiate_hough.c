@@ -8,26 +8,15 @@
 
 #include "base/common.h"
 #include "io/output/initiated_output.h"
+#include "io/scans/hough_batch.h"
 #include "io/scans/revolutions.h"
 #include "io/scans/scan_reader.h"
 #include "pipeline/pipeline.h"
 
 #define CELLS_MAX (UINT32_C(1) << 20)
 #define PAIRS_MANY 1e7
-#define SPAN_MAX_US INT64_C(900000000000000)
-
-/* The last scans of a file, in the library's arrays. */
-struct batch {
-    int64_t time_us; /* of the last scan, which times count from */
-    unsigned num_scans;
-    uint32_t scan_end[RHO_MAX_SCANS];
-    uint32_t num_plots, num_invalid, room;
-    float *x_m, *y_m, *t_s;
-    double range_m; /* of the farthest plot */
-};
-
 struct search {
-    struct batch batch;
+    struct hough_batch batch;
     struct rho_hough *hough;
     struct rho_accumulator_peak *peaks;
     struct rho_hough_result result;
@@ -36,74 +25,18 @@ struct search {
 
 /* ---- The batch ---- */
 
-static void make_room(struct batch *batch, uint32_t plots)
-{
-    if (batch->num_plots + plots <= batch->room) {
-        return;
-    }
-    batch->room = 2 * (batch->num_plots + plots);
-    batch->x_m = must_realloc(batch->x_m, batch->room * sizeof *batch->x_m);
-    batch->y_m = must_realloc(batch->y_m, batch->room * sizeof *batch->y_m);
-    batch->t_s = must_realloc(batch->t_s, batch->room * sizeof *batch->t_s);
-}
-
-static bool is_usable(const struct rho_plot *plot)
-{
-    return rho_is_coordinate(plot->x_m) && rho_is_coordinate(plot->y_m);
-}
-
-/* Times count from the first scan, until all are there. */
-static void add_scan(struct batch *batch, const struct rho_scan *scan, int64_t first_us)
-{
-    if (scan->time_us - first_us > SPAN_MAX_US) {
-        fail(EXIT_USAGE, "the scans taken span %.3g s; at most %.0g s make a batch",
-             1e-6 * (double)(scan->time_us - first_us), 1e-6 * (double)SPAN_MAX_US);
-    }
-    make_room(batch, scan->num_plots);
-    for (uint32_t i = 0; i < scan->num_plots; i++) {
-        const struct rho_plot *plot = &scan->plots[i];
-
-        if (!is_usable(plot)) {
-            batch->num_invalid++;
-            continue;
-        }
-        batch->x_m[batch->num_plots] = plot->x_m;
-        batch->y_m[batch->num_plots] = plot->y_m;
-        batch->t_s[batch->num_plots++] =
-            (float)(1e-6 * (double)(scan->time_us - first_us + plot->offset_us));
-        batch->range_m = fmax(batch->range_m, hypot((double)plot->x_m, (double)plot->y_m));
-    }
-    batch->scan_end[batch->num_scans++] = batch->num_plots;
-    batch->time_us = scan->time_us;
-}
-
-static void read_batch(struct batch *batch, const struct command_line *line)
+static void read_batch(struct hough_batch *batch, const struct command_line *line)
 {
     struct scan_reader *reader =
         scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     struct revolutions revolutions =
         revolutions_read(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
-    int64_t first_us = revolutions.count > 0 ? revolutions.list[0].scan.time_us : 0;
 
-    for (size_t i = 0; i < revolutions.count; i++) {
-        add_scan(batch, &revolutions.list[i].scan, first_us);
-    }
+    *batch = hough_batch_of(&revolutions);
     revolutions_free(&revolutions);
-    for (uint32_t i = 0; i < batch->num_plots; i++) {
-        batch->t_s[i] -= (float)(1e-6 * (double)(batch->time_us - first_us));
-    }
     scan_reader_report(reader);
-    if (batch->num_invalid) {
-        fprintf(stderr, "rhotrack: %" PRIu32 " plots beyond %.0f km are left out\n",
-                batch->num_invalid, (double)RHO_LIMIT_POSITION_M / 1e3);
-    }
+    hough_batch_report(batch);
     scan_reader_close(reader);
-}
-
-static struct rho_hough_points points_of(const struct batch *batch)
-{
-    return (struct rho_hough_points){
-        .at = {batch->x_m, batch->y_m, batch->num_scans, batch->scan_end}, .t_s = batch->t_s};
 }
 
 /* ---- The search ---- */
@@ -145,7 +78,7 @@ static void warn_of_time(const struct rho_hough *hough, const struct rho_hough_p
 static void find(struct search *search, const struct command_line *line, enum method method)
 {
     struct rho_hough_config config = method_hough(method, &line->parameters, search->batch.range_m);
-    struct rho_hough_points points = points_of(&search->batch);
+    struct rho_hough_points points = hough_batch_points(&search->batch);
 
     must_succeed(rho_hough_init(search->hough, sizeof *search->hough, &config), "hough");
     warn_of_time(search->hough, &points);
@@ -170,7 +103,7 @@ static double votes_of(const struct rho_accumulator_peak *peak)
 static struct initiated row_of(const struct search *search, uint32_t number)
 {
     const struct rho_accumulator_peak *peak = &search->peaks[number];
-    struct rho_hough_points points = points_of(&search->batch);
+    struct rho_hough_points points = hough_batch_points(&search->batch);
     struct rho_hough_track track;
 
     must_succeed(
@@ -254,9 +187,7 @@ void initiate_hough(const struct command_line *line, enum method method)
     if (line->json) {
         print_json(&search, method);
     }
-    free(search.batch.x_m);
-    free(search.batch.y_m);
-    free(search.batch.t_s);
+    hough_batch_free(&search.batch);
     free(search.peaks);
     free(search.hough);
 }

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/* hough_batch: the plots of scans in the arrays that the library's Hough transforms take. */
+#ifndef RHOTRACK_TOOL_HOUGH_BATCH_H
+#define RHOTRACK_TOOL_HOUGH_BATCH_H
+
+#include "io/scans/revolutions.h"
+#include "rhotrack/hough.h"
+
+struct hough_batch {
+    int64_t time_us; /* of the last scan, which times count from */
+    unsigned num_scans;
+    uint32_t scan_end[RHO_MAX_SCANS];
+    uint32_t num_plots, num_invalid, room;
+    float *x_m, *y_m, *t_s;
+    double range_m; /* of the farthest plot */
+};
+
+/* At most RHO_MAX_SCANS scans. Exit 2 where they span too long a time. */
+struct hough_batch hough_batch_of(const struct revolutions *revolutions);
+
+/* Says on standard error how many plots are left out, since they are no coordinates. */
+void hough_batch_report(const struct hough_batch *batch);
+
+/* As the library takes them; the arrays stay the batch's. */
+struct rho_hough_points hough_batch_points(const struct hough_batch *batch);
+void hough_batch_free(struct hough_batch *batch);
+
+#endif

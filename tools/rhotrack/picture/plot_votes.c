@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: MIT */
+#include "picture/plot_votes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+#include "io/scans/hough_batch.h"
+#include "picture/map.h"
+
+#define THETA_BLOCKS 270
+#define RHO_BLOCKS 240
+#define PICTURES 4
+#define MARGIN_CELLS 10
+#define DEGREES_PER_RAD 57.29577951308232
+
+struct plot_votes {
+    enum method method;
+    unsigned count; /* of pictures */
+    unsigned height, width;
+    double from_deg, to_deg, from_m, to_m; /* the window that has all candidates */
+    uint32_t of[PICTURES][THETA_BLOCKS * RHO_BLOCKS];
+};
+
+/* In the order of the pictures. */
+static const struct {
+    enum rho_hough_component component;
+    const char *title;
+} pictures[PICTURES] = {{RHO_HOUGH_VOTES, "votes, C"},
+                        {RHO_HOUGH_TRUTH, "truth, C_T"},
+                        {RHO_HOUGH_INDETERMINACY, "indeterminacy, C_I"},
+                        {RHO_HOUGH_FALSITY, "falsity, C_F"}};
+
+static unsigned at_most(unsigned cells, unsigned most)
+{
+    return cells < most ? cells : most;
+}
+
+/* Cells of one direction. */
+struct range {
+    unsigned first, last;
+};
+
+static void widen(struct range *range, unsigned block, unsigned blocks, unsigned cells)
+{
+    const unsigned from = block * cells / blocks, to = (block + 1) * cells / blocks;
+
+    range->first = from < range->first ? from : range->first;
+    range->last = to > range->last ? to : range->last;
+}
+
+static struct range with_margin(struct range range, unsigned cells)
+{
+    if (range.first > range.last) {
+        return (struct range){0, cells - 1}; /* nothing voted */
+    }
+    range.first -= at_most(range.first, MARGIN_CELLS);
+    range.last = at_most(range.last + MARGIN_CELLS, cells - 1);
+    return range;
+}
+
+/* Where any candidate votes: falsity is each one's, and so is a vote of the other methods. */
+static struct rho_plane window_of(const struct rho_hough *hough, const struct rho_plane *whole)
+{
+    struct range theta = {hough->theta_cells, 0}, rho = {hough->rho_cells, 0};
+
+    for (unsigned y = 0; y < whole->height; y++) {
+        for (unsigned x = 0; x < whole->width; x++) {
+            if (whole->votes[y * whole->width + x] > 0) {
+                widen(&theta, y, whole->height, hough->theta_cells);
+                widen(&rho, x, whole->width, hough->rho_cells);
+            }
+        }
+    }
+    theta = with_margin(theta, hough->theta_cells);
+    rho = with_margin(rho, hough->rho_cells);
+    const unsigned rows = theta.last - theta.first + 1, columns = rho.last - rho.first + 1;
+
+    return (struct rho_plane){.first_theta = (uint16_t)theta.first,
+                              .theta_cells = (uint16_t)rows,
+                              .first_rho = (uint16_t)rho.first,
+                              .rho_cells = (uint16_t)columns,
+                              .height = (uint16_t)at_most(rows, THETA_BLOCKS),
+                              .width = (uint16_t)at_most(columns, RHO_BLOCKS)};
+}
+
+static void vote(struct plot_votes *votes, const struct rho_hough_config *config,
+                 const struct rho_hough_points *points)
+{
+    struct rho_hough *hough = must_alloc(sizeof *hough);
+
+    must_succeed(rho_hough_init(hough, sizeof *hough, config), "hough");
+    struct rho_plane whole = {.height = (uint16_t)at_most(hough->theta_cells, THETA_BLOCKS),
+                              .width = (uint16_t)at_most(hough->rho_cells, RHO_BLOCKS),
+                              .votes = votes->of[0]};
+    must_succeed(rho_hough_plane(hough, points, pictures[votes->count - 1].component, &whole),
+                 "hough");
+    struct rho_plane plane = window_of(hough, &whole);
+    for (unsigned i = 0; i < votes->count; i++) {
+        plane.votes = votes->of[i];
+        must_succeed(rho_hough_plane(hough, points, pictures[i].component, &plane), "hough");
+    }
+    const double cell_deg = (double)config->theta_cell_rad * DEGREES_PER_RAD;
+
+    votes->height = plane.height;
+    votes->width = plane.width;
+    votes->from_deg = plane.first_theta * cell_deg;
+    votes->to_deg = (plane.first_theta + plane.theta_cells) * cell_deg;
+    votes->from_m = plane.first_rho * (double)config->rho_cell_m - (double)config->rho_max_m;
+    votes->to_m = votes->from_m + plane.rho_cells * (double)config->rho_cell_m;
+    free(hough);
+}
+
+struct plot_votes *plot_votes_find(enum method method, const struct revolutions *revolutions,
+                                   const struct parameters *parameters)
+{
+    struct parameters fitted = *parameters;
+    struct plot_votes *votes = must_calloc(1, sizeof *votes);
+    struct hough_batch batch = hough_batch_of(revolutions);
+    struct rho_hough_points points = hough_batch_points(&batch);
+
+    method_fit_cells(&fitted, batch.range_m);
+    struct rho_hough_config config = method_hough(method, &fitted, batch.range_m);
+
+    hough_batch_report(&batch);
+    votes->method = method;
+    votes->count = method == METHOD_NHT ? PICTURES : 1;
+    vote(votes, &config, &points);
+    hough_batch_free(&batch);
+    return votes;
+}
+
+/* A plane without votes has a scale, too. */
+static double most_votes(const struct plot_votes *votes, unsigned number)
+{
+    uint32_t most = 0;
+
+    for (unsigned i = 0; i < votes->height * votes->width; i++) {
+        most = votes->of[number][i] > most ? votes->of[number][i] : most;
+    }
+    return most > 0 ? most / (double)RHO_HOUGH_VOTE : 1.0;
+}
+
+static void put_picture(FILE *script, const struct plot_votes *votes, unsigned number,
+                        double unit_m)
+{
+    const double step_m = (votes->to_m - votes->from_m) / votes->width;
+    const double step_deg = (votes->to_deg - votes->from_deg) / votes->height;
+
+    fprintf(script, "$of%u << EOD\n", number);
+    for (unsigned theta = 0; theta < votes->height; theta++) {
+        for (unsigned rho = 0; rho < votes->width; rho++) {
+            fprintf(script, "%.5g %.5g %.5g\n", votes->from_deg + (theta + 0.5) * step_deg,
+                    (votes->from_m + (rho + 0.5) * step_m) / unit_m,
+                    votes->of[number][theta * votes->width + rho] / (double)RHO_HOUGH_VOTE);
+        }
+        fprintf(script, "\n");
+    }
+    fprintf(script, "EOD\n");
+}
+
+void plot_votes(struct picture *picture, const struct plot_votes *votes)
+{
+    const double unit_m = votes->to_m - votes->from_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
+    FILE *script = picture->script;
+
+    for (unsigned i = 0; i < votes->count; i++) {
+        put_picture(script, votes, i, unit_m);
+    }
+    fprintf(script,
+            "set key off\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"
+            "set xlabel 'theta (degrees)'\nset ylabel 'rho (%s)'\n"
+            "set palette defined (0 '#ffffff', 0.02 '#d0dff0', 0.4 '#5a9bd0', 1 '#08306b')\n",
+            votes->from_deg, votes->to_deg, votes->from_m / unit_m, votes->to_m / unit_m,
+            unit_m > 1.0 ? "km" : "m");
+    if (votes->count > 1) {
+        fprintf(script, "set multiplot layout 2,2\n");
+    }
+    for (unsigned i = 0; i < votes->count; i++) {
+        fprintf(script,
+                "set title '%s: %s' noenhanced\nset cbrange [0:%.6g]\n"
+                "plot $of%u using 1:2:3 with image\n",
+                method_name(votes->method), pictures[i].title, most_votes(votes, i), i);
+    }
+    if (votes->count > 1) {
+        fprintf(script, "unset multiplot\n");
+    }
+}
+
+void plot_votes_free(struct plot_votes *votes)
+{
+    free(votes);
+}
