@@ -45,6 +45,11 @@ final class Legend {
             Symbols.truth(g, legend.x, legend.y);
             legend.text("truth");
         }
+        if (options.shows(ViewOptions.Layer.GHOSTS) && !scene.thoughts().ghosts().isEmpty()) {
+            g.setStroke(Palette.THIN);
+            ThoughtLayer.paintCrossing(g, legend.x, legend.y, true);
+            legend.text("ghost");
+        }
         if (options.shows(ViewOptions.Layer.CLUTTER) && !scene.echoes().isEmpty()) {
             g.setColor(Palette.MUTED);
             g.setStroke(Palette.THIN);

@@ -58,6 +58,11 @@ final class Palette {
         return SENSORS[Math.floorMod(id - 1, SENSORS.length)];
     }
 
+    /** The best one first. */
+    static Color hypothesis(int index) {
+        return ramp(1 - index / 7.0);
+    }
+
     static Color faded(Color colour, double strength) {
         int alpha = (int) Math.round(255 * Math.max(0, Math.min(1, strength)));
         return new Color(colour.getRed(), colour.getGreen(), colour.getBlue(), alpha);

@@ -34,10 +34,12 @@ final class PeaksView extends JComponent {
     private static final double RING = 8;
     private static final String[] THETAS = {"0", "\u03c0/4", "\u03c0/2", "3\u03c0/4", "\u03c0"};
 
+    private final ViewOptions options;
     private Scene scene;
     private double rhoLimit;
 
-    PeaksView() {
+    PeaksView(ViewOptions options) {
+        this.options = options;
         setPreferredSize(new Dimension(420, 400));
     }
 
@@ -54,21 +56,38 @@ final class PeaksView extends JComponent {
         g.fillRect(0, 0, getWidth(), getHeight());
         g.setFont(Palette.BOLD);
         g.setColor(Palette.TEXT);
-        g.drawString("Parameter space", 14, 21);
-        String note = "speed \u00b7 scans hit \u2002 \u25cb track";
+        Scene.Accumulator search = scene != null && options.shows(ViewOptions.Layer.VOTES) ? newestSearch() : null;
+        g.drawString(search != null ? VotesLayer.title(search) : "Parameter space", 14, 21);
+        String note = search != null ? "\u25cb peak \u2002 \u25cf new track" : "speed \u00b7 scans hit \u2002 \u25cb track";
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
         g.drawString(note, getWidth() - RIGHT - g.getFontMetrics().stringWidth(note), 21);
         if (scene != null) {
             updateLimit();
+            if (search != null) {
+                rhoLimit = Math.max(-search.rhoMin(), search.rhoMax());
+                VotesLayer.paintPlane(g, scene, search, this::screenX, this::screenY);
+            }
             paintAxes(g);
             LabelPlacer labels = new LabelPlacer(getWidth(), getHeight() - BOTTOM);
             labels.block(0, 0, LEFT, getHeight());
             labels.block(0, 0, getWidth(), TOP);
-            paintTracks(g, labels);
-            paintPeaks(g, labels);
+            if (search != null) {
+                VotesLayer.paintCells(g, search, this::screenX, this::screenY, labels);
+            } else {
+                paintTracks(g, labels);
+                paintPeaks(g, labels);
+            }
         }
         g.dispose();
+    }
+
+    /** Of all pairs of sensors together; null: no search is shown. */
+    private Scene.Accumulator newestSearch() {
+        return scene.thoughts().accumulators().stream()
+                .filter(search -> !search.which().hasPair())
+                .max(Comparator.comparingInt(Scene.Accumulator::scan))
+                .orElse(null);
     }
 
     /** Grows at once, shrinks late: the axis must not breathe with every scan. */

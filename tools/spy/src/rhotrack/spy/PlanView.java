@@ -8,17 +8,20 @@ import java.awt.Point;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
+import java.util.function.IntConsumer;
 import javax.swing.JComponent;
 
 import rhotrack.spy.scene.Bounds;
 import rhotrack.spy.scene.Geometry;
 import rhotrack.spy.scene.Place;
 import rhotrack.spy.scene.Scene;
+import rhotrack.spy.scene.TrackMark;
 
 /** The plan view: north is up, east is right. */
 @SuppressWarnings("serial") // nobody stores views
 final class PlanView extends JComponent {
     private static final int FIT_MARGIN = 60;
+    private static final double SELECT_PIXELS = 14;
 
     private final ViewTransform view = new ViewTransform();
     private final ViewOptions options;
@@ -26,6 +29,8 @@ final class PlanView extends JComponent {
     private boolean follows = true;
     private Bounds fitted;
     private Point pointer;
+    private Integer selected;
+    private IntConsumer onSelect = id -> { };
 
     PlanView(ViewOptions options) {
         this.options = options;
@@ -60,6 +65,31 @@ final class PlanView extends JComponent {
         repaint();
     }
 
+    /** Whoever wants to know the track that is clicked; 0: none. */
+    void whenSelected(IntConsumer listener) {
+        onSelect = listener;
+    }
+
+    /** The nearest track within a few pixels; none: nothing is selected any more. */
+    void selectAt(double x, double y) {
+        selected = null;
+        double nearest = SELECT_PIXELS;
+        for (TrackMark track : scene == null ? List.<TrackMark>of() : scene.tracks()) {
+            double away = Math.hypot(view.screenX(track.place().x()) - x, view.screenY(track.place().y()) - y);
+            if (away <= nearest) {
+                nearest = away;
+                selected = track.id();
+            }
+        }
+        onSelect.accept(selected == null ? 0 : selected);
+        repaint();
+    }
+
+    /** Where a place is painted. */
+    Point at(Place place) {
+        return new Point((int) Math.round(view.screenX(place.x())), (int) Math.round(view.screenY(place.y())));
+    }
+
     /** The pointer's place is written into the corner; null: it has left. */
     void pointAt(Point point) {
         pointer = point;
@@ -91,6 +121,9 @@ final class PlanView extends JComponent {
         if (options.shows(ViewOptions.Layer.BEARINGS)) {
             SensorLayer.paintBearings(g, scene, view);
         }
+        if (options.shows(ViewOptions.Layer.GHOSTS)) {
+            ThoughtLayer.paintGhosts(g, scene, view);
+        }
         if (options.shows(ViewOptions.Layer.CLUTTER)) {
             SensorLayer.paintEchoes(g, scene, view);
         }
@@ -106,6 +139,7 @@ final class PlanView extends JComponent {
         if (options.shows(ViewOptions.Layer.ELLIPSES)) {
             TrackLayer.paintEllipses(g, scene, view);
         }
+        ThoughtLayer.paintHypotheses(g, scene, selected, view, seconds);
         TrackLayer.paintTracks(g, scene, view, seconds, labels);
         SensorLayer.paintSensors(g, scene, view, labels);
         if (options.shows(ViewOptions.Layer.LABELS)) {

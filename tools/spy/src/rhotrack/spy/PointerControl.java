@@ -6,7 +6,7 @@ import java.awt.event.MouseAdapter;
 import java.awt.event.MouseEvent;
 import java.awt.event.MouseWheelEvent;
 
-/** The wheel zooms about the pointer, dragging moves the plan view, a double click fits it. */
+/** The wheel zooms about the pointer, dragging moves the plan view, a click selects a track, a double click fits. */
 final class PointerControl extends MouseAdapter {
     private static final double ZOOM_A_NOTCH = 1.2;
 
@@ -52,6 +52,8 @@ final class PointerControl extends MouseAdapter {
     public void mouseClicked(MouseEvent event) {
         if (event.getClickCount() == 2) {
             plan.fit();
+        } else {
+            plan.selectAt(event.getX(), event.getY());
         }
     }
 

@@ -22,6 +22,7 @@ final class TrackTable extends JComponent {
     private static final double[] RIGHT_EDGES = {0.17, 0.39, 0.55, 0.74, 0.86, 1};
 
     private Scene scene;
+    private int selected;
 
     TrackTable() {
         setPreferredSize(new Dimension(420, 300));
@@ -32,12 +33,24 @@ final class TrackTable extends JComponent {
         repaint();
     }
 
+    /** 0: none. */
+    void select(int track) {
+        selected = track;
+        repaint();
+    }
+
     @Override
     protected void paintComponent(Graphics graphics) {
         Graphics2D g = (Graphics2D) graphics.create();
         Palette.smooth(g);
         g.setColor(Palette.BACKGROUND);
         g.fillRect(0, 0, getWidth(), getHeight());
+        Scene.Hypotheses of = scene == null ? null : scene.thoughts().hypotheses().get(selected);
+        if (of != null) {
+            HypothesesTable.paint(g, of, getWidth());
+            g.dispose();
+            return;
+        }
         g.setFont(Palette.SMALL);
         g.setColor(Palette.MUTED);
         row(g, 18, TITLES);

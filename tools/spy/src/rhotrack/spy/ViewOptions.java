@@ -7,7 +7,8 @@ import java.util.EnumSet;
 final class ViewOptions {
     enum Layer {
         PLOTS('P', "Plots"), BEARINGS('B', "Bearings"), TRAILS('H', "Trails"), ELLIPSES('E', "Ellipses"),
-        LABELS('L', "Labels"), TRUTH('T', "Truth"), CLUTTER('M', "Clutter map");
+        LABELS('L', "Labels"), TRUTH('T', "Truth"), CLUTTER('M', "Clutter map"),
+        GHOSTS('G', "Ghosts"), VOTES('V', "Votes");
 
         final char key;
         final String title;

@@ -21,16 +21,19 @@ public final class Viewer {
     static final int HEIGHT = 800;
 
     private static final String USAGE = """
-            usage: rhotrack.spy.Viewer [-l URL | --lcm-url=URL] [--size WIDTHxHEIGHT] [--png FILE [--after SECONDS]]
+            usage: rhotrack.spy.Viewer [-l URL | --lcm-url=URL] [--size WIDTHxHEIGHT] [--png FILE [--after SECONDS]
+                    [--select TRACK]]
               --lcm-url  the LCM network, as in LCM_DEFAULT_URL
               --size     of window or picture, pixels (1280x800)
               --png      no window (and no display): listen for a while, write this picture, and end
-              --after    so long (10)""";
+              --after    so long (10)
+              --select   the track whose hypotheses are in the picture; 0: that with the most""";
 
     private int width = WIDTH;
     private int height = HEIGHT;
     private double seconds = 10;
     private File png;
+    private Integer selected;
     private String url;
 
     private Viewer() {
@@ -85,6 +88,7 @@ public final class Viewer {
                 case "-l", "--lcm-url" -> url = value;
                 case "--size" -> parseSize(value);
                 case "--png" -> png = new File(value);
+                case "--select" -> selected = Integer.valueOf(value);
                 case "--after" -> seconds = Double.parseDouble(value);
                 default -> throw new IllegalArgumentException(name);
             }
@@ -109,7 +113,14 @@ public final class Viewer {
         new Feed(url, model); // never closed: the process ends, and LCM would complain about its socket
         Thread.sleep((long) (1000 * seconds));
         BufferedImage[] image = new BufferedImage[1];
-        SwingUtilities.invokeAndWait(() -> image[0] = new ViewerPanel(model).picture(width, height));
+        SwingUtilities.invokeAndWait(() -> {
+            ViewerPanel panel = new ViewerPanel(model);
+            image[0] = panel.picture(width, height);
+            if (selected != null) {
+                panel.select(selected);
+                image[0] = panel.picture(width, height);
+            }
+        });
         ByteArrayOutputStream bytes = new ByteArrayOutputStream();
         ImageIO.write(image[0], "png", bytes);
         try {

@@ -7,6 +7,7 @@ import java.awt.Component;
 import java.awt.Container;
 import java.awt.Graphics2D;
 import java.awt.image.BufferedImage;
+import java.util.Comparator;
 import javax.swing.BorderFactory;
 import javax.swing.JPanel;
 import javax.swing.JSplitPane;
@@ -28,7 +29,7 @@ final class ViewerPanel extends JPanel {
     private final Model model;
     private final ViewOptions options = new ViewOptions();
     private final PlanView plan = new PlanView(options);
-    private final PeaksView peaks = new PeaksView();
+    private final PeaksView peaks = new PeaksView(options);
     private final TrackTable table = new TrackTable();
     private final StatusLine status = new StatusLine();
     private final Timer timer = new Timer(REFRESH_MS, event -> refreshIfChanged());
@@ -47,6 +48,7 @@ final class ViewerPanel extends JPanel {
         add(split(JSplitPane.HORIZONTAL_SPLIT, plan, side, 0.72), BorderLayout.CENTER);
         add(status, BorderLayout.SOUTH);
         PointerControl.attach(plan);
+        plan.whenSelected(table::select);
     }
 
     void start() {
@@ -116,6 +118,15 @@ final class ViewerPanel extends JPanel {
         peaks.show(scene);
         table.show(scene);
         status.show(scene, paused);
+    }
+
+    /** Selects a track that was painted, as a click on it does; 0: that with the most hypotheses. */
+    void select(int id) {
+        int wanted = id != 0 ? id : scene.thoughts().hypotheses().values().stream()
+                .max(Comparator.comparingInt(of -> of.list().size()))
+                .map(Scene.Hypotheses::trackId).orElse(0);
+        scene.tracks().stream().filter(track -> track.id() == wanted).findFirst()
+                .map(track -> plan.at(track.place())).ifPresent(at -> plan.selectAt(at.x, at.y));
     }
 
     /** Paints what the model holds now. Without a window the layout must be asked for. */

@@ -7,14 +7,24 @@ import java.io.DataOutputStream;
 import java.io.IOException;
 import java.util.Arrays;
 import java.util.List;
+import java.awt.event.InputEvent;
+import java.awt.event.MouseEvent;
 import java.util.Random;
 import lcm.lcm.LCMEncodable;
+import rhotrack.accumulator_cell_t;
+import rhotrack.accumulator_t;
 import rhotrack.bearing_scan_t;
 import rhotrack.clutter_map_t;
 import rhotrack.echo_t;
+import rhotrack.ghost_matrix_t;
+import rhotrack.ghost_t;
+import rhotrack.hypotheses_t;
+import rhotrack.hypothesis_t;
 import rhotrack.learned_t;
 import rhotrack.peak_list_t;
 import rhotrack.peak_t;
+import rhotrack.plane_row_t;
+import rhotrack.plane_t;
 import rhotrack.polar_plot_t;
 import rhotrack.polar_scan_t;
 import rhotrack.sensor_list_t;
@@ -39,6 +49,9 @@ final class MessageTest {
         check.group("bad messages", () -> bad(check));
         check.group("mutated messages", () -> mutated(check));
         check.group("picture", () -> picture(check));
+        check.group("thoughts", () -> thoughts(check));
+        check.group("bad thoughts", () -> badThoughts(check));
+        check.group("pictures of thoughts", () -> thoughtsInPictures(check));
         check.group("fingerprints", () -> {
             check.isTrue("tracks are known", Decoder.knows(track_list_t.LCM_FINGERPRINT));
             check.isTrue("a part of a message is none", !Decoder.knows(track_t.LCM_FINGERPRINT));
@@ -146,6 +159,204 @@ final class MessageTest {
         return message;
     }
 
+    /** The crossing of targets' bearings at (800, 0), and at (200, 300) one with this fate. */
+    private static ghost_matrix_t ghosts(int scan, int part, int numParts, int reason) {
+        ghost_t target = new ghost_t();
+        target.x_m = 800;
+        ghost_t other = new ghost_t();
+        other.x_m = 200;
+        other.y_m = 300;
+        other.reason = (byte) reason;
+        ghost_matrix_t matrix = new ghost_matrix_t();
+        matrix.scan = scan;
+        matrix.sensor_a_id = 2;
+        matrix.sensor_b_id = 3;
+        matrix.part = (short) part;
+        matrix.num_parts = (short) numParts;
+        matrix.num_elements = 2;
+        matrix.elements = new ghost_t[] {target, other};
+        return matrix;
+    }
+
+    private static accumulator_t search(int scan, float votes, int trackId) {
+        accumulator_cell_t cell = new accumulator_cell_t();
+        cell.rho_m = -300;
+        cell.theta_rad = 1;
+        cell.votes = votes;
+        cell.scan_mask = 0xd;
+        cell.track_id = trackId;
+        accumulator_t search = new accumulator_t();
+        search.scan = scan;
+        search.method = accumulator_t.NHT;
+        search.num_scans = 4;
+        search.rho_min_m = -1000;
+        search.rho_max_m = 1000;
+        search.rho_cells = 400;
+        search.theta_cells = 180;
+        search.votes_max = votes;
+        search.num_cells = 1;
+        search.cells = new accumulator_cell_t[] {cell};
+        return search;
+    }
+
+    private static plane_t plane(int scan, int part, int numParts, int votes) {
+        plane_t plane = new plane_t();
+        plane.scan = scan;
+        plane.method = accumulator_t.NHT;
+        plane.part = (short) part;
+        plane.num_parts = (short) numParts;
+        plane.num_rows = plane_t.MAX_ROWS;
+        plane.rows = new plane_row_t[plane_t.MAX_ROWS];
+        for (int i = 0; i < plane.rows.length; i++) {
+            plane.rows[i] = new plane_row_t();
+            Arrays.fill(plane.rows[i].votes, (byte) votes);
+        }
+        return plane;
+    }
+
+    private static hypotheses_t hypotheses(int trackId, float share) {
+        hypotheses_t of = new hypotheses_t();
+        of.track_id = trackId;
+        of.calm = 0.25f;
+        of.steady = 0.5f;
+        of.maneuver = 0.25f;
+        of.evidence = hypotheses_t.PLOTS;
+        of.support = 0.75f;
+        of.shared = 0.25f;
+        of.num_hypotheses = 2;
+        of.hypotheses = new hypothesis_t[] {new hypothesis_t(), new hypothesis_t()};
+        of.hypotheses[0].share = share;
+        of.hypotheses[0].x_m = 500;
+        of.hypotheses[0].plots = new short[] {4, -1, 7};
+        of.hypotheses[1].share = 1 - share;
+        of.hypotheses[1].x_m = 500;
+        of.hypotheses[1].y_m = 200;
+        of.hypotheses[1].vy_mps = 100;
+        return of;
+    }
+
+    private static void thoughts(Checks check) throws IOException {
+        Model model = new Model();
+        Decoder decoder = new Decoder(model);
+        decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
+        decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 0, 2, ghost_t.UNMATCHED)));
+        check.equal("half of a matrix", 0, model.scene().thoughts().ghosts().size());
+        decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 1, 2, ghost_t.APART)));
+        check.equal("crossings of both parts that meet",
+                List.of(new Scene.Crossing(new Place(800, 0), false), new Scene.Crossing(new Place(200, 300), true),
+                        new Scene.Crossing(new Place(800, 0), false)),
+                model.scene().thoughts().ghosts().get(0).crossings());
+        decoder.decode("RHO_ACCUMULATOR", bytes(search(1, 7, 12)));
+        decoder.decode("RHO_ACCUMULATOR", bytes(search(2, 5, 0)));
+        check.equal("the last search", List.of(new Scene.Cell(-300, 1, 5, 3, 0)),
+                model.scene().thoughts().accumulators().get(0).cells());
+        for (int part = 0; part < 4; part++) {
+            check.equal("a plane needs all its parts", 0, model.scene().thoughts().planes().size());
+            decoder.decode("RHO_PLANE", bytes(plane(2, part, 4, 30 * part)));
+        }
+        check.equal("64 rows", 64, model.scene().thoughts().planes().get(0).rows().size());
+        check.equal("in their order", (byte) 90, model.scene().thoughts().planes().get(0).rows().get(63)[5]);
+        decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(12, 0.75f)));
+        Scene.Hypotheses of = model.scene().thoughts().hypotheses().get(12);
+        check.equal("plots", List.of(4, -1, 7), of.list().get(0).plots());
+        check.near("shares", 0.25, of.list().get(1).share());
+        check.near("evidence", 0.75, of.support());
+        check.equal("all taken", 0L, model.scene().health().ignored());
+        decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(13, 0.75f)));
+        check.equal("of a track that is not there", null, model.scene().thoughts().hypotheses().get(13));
+        decoder.decode("RHO_GHOSTS", bytes(ghosts(30, 0, 1, ghost_t.ROW)));
+        check.equal("the newest matrix alone", 2, model.scene().thoughts().ghosts().get(0).crossings().size());
+        model.clear();
+        check.equal("forgotten", new Scene.Thoughts(List.of(), List.of(), List.of(), java.util.Map.of()),
+                model.scene().thoughts());
+    }
+
+    private static void badThoughts(Checks check) throws IOException {
+        Model model = new Model();
+        Decoder decoder = new Decoder(model);
+        decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 0, 1, 7)));
+        decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 1, 1, ghost_t.ROW)));
+        ghost_matrix_t nowhere = ghosts(1, 0, 1, ghost_t.ROW);
+        nowhere.elements[0].x_m = Float.NaN;
+        decoder.decode("RHO_GHOSTS", bytes(nowhere));
+        accumulator_t turned = search(1, 7, 12);
+        turned.rho_max_m = -2000;
+        decoder.decode("RHO_ACCUMULATOR", bytes(turned));
+        decoder.decode("RHO_ACCUMULATOR", bytes(search(1, Float.POSITIVE_INFINITY, 12)));
+        decoder.decode("RHO_PLANE", bytes(plane(1, 0, 1, -3)));
+        decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(12, 1.5f)));
+        hypotheses_t more = hypotheses(12, 0.5f);
+        more.calm = 1.5f;
+        decoder.decode("RHO_HYPOTHESES", bytes(more));
+        check.equal("all refused", 8L, model.scene().health().ignored());
+        check.equal("nothing is thought", new Scene.Thoughts(List.of(), List.of(), List.of(), java.util.Map.of()),
+                model.scene().thoughts());
+        for (int i = 0; i < 300; i++) {
+            ghost_matrix_t pair = ghosts(1, 0, 1, ghost_t.ROW);
+            pair.sensor_a_id = (short) i;
+            decoder.decode("RHO_GHOSTS", bytes(pair));
+            accumulator_t of = search(1, 7, 12);
+            of.has_pair = 1;
+            of.sensor_a_id = (short) i;
+            decoder.decode("RHO_ACCUMULATOR", bytes(of));
+        }
+        check.equal("no more pairs than there can be", 64, model.scene().thoughts().ghosts().size());
+        check.equal("and no more searches", 64, model.scene().thoughts().accumulators().size());
+    }
+
+    private static void thoughtsInPictures(Checks check) throws IOException {
+        Model model = new Model();
+        ViewerPanel panel = new ViewerPanel(model);
+        Decoder decoder = new Decoder(model);
+        decoder.decode("RHO_POLAR_3", bytes(polarScan()));
+        decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
+        BufferedImage before = panel.picture(900, 600);
+        decoder.decode("RHO_GHOSTS", bytes(ghosts(1, 0, 1, ghost_t.ROW)));
+        BufferedImage ghosts = panel.picture(900, 600);
+        check.isTrue("ghosts are struck out", differ(before, ghosts, 0, 40, 640, 560) > 20);
+        int calm = count(ghosts, Palette.ramp(1).getRGB());
+        decoder.decode("RHO_ACCUMULATOR", bytes(search(1, 7, 12)));
+        for (int part = 0; part < 4; part++) {
+            decoder.decode("RHO_PLANE", bytes(plane(1, part, 4, 127)));
+        }
+        BufferedImage votes = panel.picture(900, 600);
+        check.isTrue("a plane is an image", count(votes, Palette.ramp(1).getRGB()) > calm + 5000);
+        decoder.decode("RHO_HYPOTHESES", bytes(hypotheses(12, 0.75f)));
+        BufferedImage unselected = panel.picture(900, 600);
+        check.equal("nobody has asked for hypotheses", 0, differ(votes, unselected, 0, 40, 640, 560));
+        panel.select(12);
+        BufferedImage selected = panel.picture(900, 600);
+        check.isTrue("they are in the plan", differ(unselected, selected, 0, 40, 640, 560) > 20);
+        check.isTrue("and beside it", differ(unselected, selected, 660, 350, 900, 570) > 500);
+        click(panel, 3, 3);
+        check.equal("a click elsewhere", 0, differ(unselected, panel.picture(900, 600), 0, 40, 900, 570));
+        panel.select(0);
+        check.equal("that with the most", 0, differ(selected, panel.picture(900, 600), 0, 40, 900, 570));
+    }
+
+    /** On the plan view, as the pointer does it. */
+    private static void click(java.awt.Container container, int x, int y) {
+        for (java.awt.Component child : container.getComponents()) {
+            if (child instanceof PlanView plan) {
+                plan.dispatchEvent(new MouseEvent(plan, MouseEvent.MOUSE_CLICKED, 0, InputEvent.BUTTON1_DOWN_MASK, x, y,
+                        1, false));
+            } else if (child instanceof java.awt.Container inner) {
+                click(inner, x, y);
+            }
+        }
+    }
+
+    /** Pixels in a rectangle that are not the same. */
+    private static int differ(BufferedImage a, BufferedImage b, int left, int top, int right, int bottom) {
+        int differing = 0;
+        for (int x = left; x < right; x++) {
+            for (int y = top; y < bottom; y++) {
+                differing += a.getRGB(x, y) == b.getRGB(x, y) ? 0 : 1;
+            }
+        }
+        return differing;
+    }
+
     private static void good(Checks check) throws IOException {
         Model model = new Model();
         Decoder decoder = new Decoder(model);
@@ -244,7 +455,8 @@ final class MessageTest {
         byte[][] originals = {bytes(polarScan()), bytes(trackList(1, track_t.CONFIRMED)), bytes(bearings()),
             bytes(peaks()), bytes(new status_t()),
             bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3)),
-            bytes(learned(3, 2, 1, 0.6))};
+            bytes(learned(3, 2, 1, 0.6)), bytes(ghosts(1, 0, 1, ghost_t.ROW)), bytes(search(1, 7, 12)),
+            bytes(plane(1, 0, 4, 127)), bytes(hypotheses(12, 0.7f))};
         int rounds = 20000;
         for (int i = 0; i < rounds; i++) {
             byte[] message = originals[i % originals.length].clone();

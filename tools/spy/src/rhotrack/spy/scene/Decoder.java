@@ -8,11 +8,19 @@ import java.nio.ByteBuffer;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
+import rhotrack.accumulator_cell_t;
+import rhotrack.accumulator_t;
 import rhotrack.bearing_scan_t;
 import rhotrack.clutter_map_t;
 import rhotrack.echo_t;
+import rhotrack.ghost_matrix_t;
+import rhotrack.ghost_t;
+import rhotrack.hypotheses_t;
+import rhotrack.hypothesis_t;
 import rhotrack.learned_t;
 import rhotrack.peak_list_t;
+import rhotrack.plane_row_t;
+import rhotrack.plane_t;
 import rhotrack.plot_scan_t;
 import rhotrack.polar_scan_t;
 import rhotrack.sensor_list_t;
@@ -42,7 +50,9 @@ public final class Decoder {
                 || fingerprint == truth_list_t.LCM_FINGERPRINT || fingerprint == peak_list_t.LCM_FINGERPRINT
                 || fingerprint == sensor_list_t.LCM_FINGERPRINT || fingerprint == status_t.LCM_FINGERPRINT
                 || fingerprint == clutter_map_t.LCM_FINGERPRINT || fingerprint == work_t.LCM_FINGERPRINT
-                || fingerprint == learned_t.LCM_FINGERPRINT;
+                || fingerprint == learned_t.LCM_FINGERPRINT || fingerprint == ghost_matrix_t.LCM_FINGERPRINT
+                || fingerprint == accumulator_t.LCM_FINGERPRINT || fingerprint == plane_t.LCM_FINGERPRINT
+                || fingerprint == hypotheses_t.LCM_FINGERPRINT;
     }
 
     public void decode(String channel, byte[] data) {
@@ -88,6 +98,18 @@ public final class Decoder {
         }
         if (fingerprint == work_t.LCM_FINGERPRINT) {
             return take(new work_t(in), in);
+        }
+        if (fingerprint == ghost_matrix_t.LCM_FINGERPRINT) {
+            return take(new ghost_matrix_t(in), in);
+        }
+        if (fingerprint == accumulator_t.LCM_FINGERPRINT) {
+            return take(new accumulator_t(in), in);
+        }
+        if (fingerprint == plane_t.LCM_FINGERPRINT) {
+            return take(new plane_t(in), in);
+        }
+        if (fingerprint == hypotheses_t.LCM_FINGERPRINT) {
+            return take(new hypotheses_t(in), in);
         }
         return fingerprint == status_t.LCM_FINGERPRINT && take(new status_t(in), in);
     }
@@ -205,6 +227,99 @@ public final class Decoder {
                     peak.sensor_pairs));
         }
         model.addPeaks(list.scan, new Scene.Peaks(peaks));
+        return true;
+    }
+
+    private boolean take(ghost_matrix_t matrix, DataInputStream in) throws IOException {
+        if (in.available() > 0 || matrix.num_elements > ghost_matrix_t.MAX_ELEMENTS
+                || !isPart(matrix.part, matrix.num_parts)) {
+            return false;
+        }
+        List<Scene.Crossing> crossings = new ArrayList<>();
+        for (ghost_t element : matrix.elements) {
+            Place place = new Place(element.x_m, element.y_m);
+            if (!place.isSane() || element.reason < ghost_t.KEPT || element.reason > ghost_t.UNMATCHED) {
+                return false;
+            }
+            boolean meets = element.reason == ghost_t.KEPT || element.reason > ghost_t.RANGE;
+            if (meets) {
+                crossings.add(new Scene.Crossing(place, element.reason != ghost_t.KEPT));
+            }
+        }
+        model.think(thinking -> thinking.addGhosts(matrix.sensor_a_id, matrix.sensor_b_id, matrix.epoch, matrix.scan,
+                matrix.part, matrix.num_parts, crossings));
+        return true;
+    }
+
+    private boolean take(accumulator_t search, DataInputStream in) throws IOException {
+        Place origin = new Place(search.origin_x_m, search.origin_y_m);
+        boolean within = search.rho_min_m >= -1e7 && search.rho_min_m < search.rho_max_m && search.rho_max_m <= 1e7;
+        if (in.available() > 0 || search.num_cells > accumulator_t.MAX_CELLS || !origin.isSane() || !within
+                || !isFinite(search.votes_max)) {
+            return false;
+        }
+        List<Scene.Cell> cells = new ArrayList<>();
+        for (accumulator_cell_t cell : search.cells) {
+            if (!(cell.theta_rad >= 0 && cell.theta_rad <= 6.3) || !isFinite(cell.rho_m, cell.votes)) {
+                return false;
+            }
+            cells.add(new Scene.Cell(cell.rho_m, cell.theta_rad, cell.votes, Integer.bitCount(cell.scan_mask),
+                    cell.track_id));
+        }
+        Scene.Which which =
+                new Scene.Which(search.method, search.has_pair != 0, search.sensor_a_id, search.sensor_b_id);
+        model.think(thinking -> thinking.addAccumulator(new Scene.Accumulator(which, search.scan, origin,
+                search.rho_min_m, search.rho_max_m, cells)));
+        return true;
+    }
+
+    private boolean take(plane_t plane, DataInputStream in) throws IOException {
+        if (in.available() > 0 || plane.num_rows > plane_t.MAX_ROWS || !isPart(plane.part, plane.num_parts)) {
+            return false;
+        }
+        List<byte[]> rows = new ArrayList<>();
+        for (plane_row_t row : plane.rows) {
+            for (byte votes : row.votes) {
+                if (votes < 0) {
+                    return false;
+                }
+            }
+            rows.add(row.votes);
+        }
+        Scene.Which which =
+                new Scene.Which(plane.method, plane.has_pair != 0, plane.sensor_a_id, plane.sensor_b_id);
+        model.think(thinking -> thinking.addPlane(which, plane.epoch, plane.scan, plane.part, plane.num_parts, rows));
+        return true;
+    }
+
+    private boolean take(hypotheses_t of, DataInputStream in) throws IOException {
+        if (in.available() > 0 || of.num_hypotheses > hypotheses_t.MAX_HYPOTHESES || !isFinite(of.score_nat)
+                || !areShares(of.calm, of.steady, of.maneuver, of.support, of.shared, of.clutter)) {
+            return false;
+        }
+        List<Scene.Hypothesis> list = new ArrayList<>();
+        for (hypothesis_t one : of.hypotheses) {
+            Place place = new Place(one.x_m, one.y_m);
+            if (!place.isSane() || !areShares(one.share) || !isFinite(one.vx_mps, one.vy_mps)) {
+                return false;
+            }
+            List<Integer> plots = new ArrayList<>();
+            for (short plot : one.plots) {
+                plots.add((int) plot);
+            }
+            list.add(new Scene.Hypothesis(one.share, place, one.vx_mps, one.vy_mps, plots));
+        }
+        model.think(thinking -> thinking.addHypotheses(new Scene.Hypotheses(of.track_id, of.scan, of.score_nat,
+                of.calm, of.steady, of.maneuver, of.evidence, of.support, of.shared, of.clutter, list)));
+        return true;
+    }
+
+    private static boolean areShares(float... values) {
+        for (float value : values) {
+            if (!(value >= 0 && value <= 1)) {
+                return false;
+            }
+        }
         return true;
     }
 

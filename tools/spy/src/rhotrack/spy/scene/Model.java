@@ -6,6 +6,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.function.Consumer;
 
 /** What the messages have said so far. Messages come in one thread, painting asks from another. */
 public final class Model {
@@ -29,6 +30,7 @@ public final class Model {
     private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
     /** RHO_LEARNED: what of a sensor is not as stated. */
     private final TreeMap<Integer, List<String>> learned = new TreeMap<>();
+    private final Thinking thinking = new Thinking();
     private Scene.Status status;
     private Scene.Work work;
     private long statusNanos;
@@ -74,6 +76,11 @@ public final class Model {
 
     public synchronized void addEchoes(int epoch, int scan, int part, int numParts, List<Scene.Echo> known) {
         echoParts.add(epoch, scan, part, numParts, known).forEach(list -> echoes = List.copyOf(list.items()));
+    }
+
+    /** Messages of what the tracker thought, one after the other. */
+    public synchronized void think(Consumer<Thinking> message) {
+        message.accept(thinking);
     }
 
     public synchronized void setStatus(Scene.Status newStatus) {
@@ -124,6 +131,7 @@ public final class Model {
         tracks = new TrackStore();
         truth = List.of();
         echoes = List.of();
+        thinking.clear();
         changes++;
     }
 
@@ -138,7 +146,7 @@ public final class Model {
         Scene.Health health =
                 new Scene.Health(status, work, faults, age(statusNanos), age(tracksNanos), received, ignored);
         return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,
-                echoes, new TreeMap<>(sensors), health);
+                echoes, new TreeMap<>(sensors), thinking.thoughts(tracks.tracks()), health);
     }
 
     private static double age(long nanos) {

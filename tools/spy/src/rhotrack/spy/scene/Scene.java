@@ -10,7 +10,7 @@ import java.util.Map;
  */
 public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
         List<LookHistory.Faded<Peaks>> peaks, List<TrackMark> tracks, List<List<Place>> trails, List<Truth> truth,
-        List<Echo> echoes, Map<Integer, Place> sensors, Health health) {
+        List<Echo> echoes, Map<Integer, Place> sensors, Thoughts thoughts, Health health) {
     /** Plots of (a part of) one look. */
     public record Plots(int sensorId, List<Place> places) {
     }
@@ -31,6 +31,44 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
 
     /** Clutter that the tracker knows: it comes back to its place. */
     public record Echo(Place place, int sensorId, int hits, double chance) {
+    }
+
+    /** What the tracker thought, where it was asked to show it. */
+    public record Thoughts(List<Ghosts> ghosts, List<Accumulator> accumulators, List<Plane> planes,
+            Map<Integer, Hypotheses> hypotheses) {
+    }
+
+    /** RHO_GHOSTS: the crossings of two sensors' bearings that meet. */
+    public record Ghosts(int scan, List<Crossing> crossings) {
+    }
+
+    /** Pruned: another one is the target of one of its bearings. */
+    public record Crossing(Place place, boolean pruned) {
+    }
+
+    /** Which of a search's accumulators: of all pairs of sensors, or of one. */
+    public record Which(int method, boolean hasPair, int sensorA, int sensorB) {
+    }
+
+    /** RHO_ACCUMULATOR: the fullest cells; rho of the plane is measured from the origin. */
+    public record Accumulator(Which which, int scan, Place origin, double rhoMin, double rhoMax,
+            List<Cell> cells) {
+    }
+
+    /** trackId: of the track that the line started, 0: none. */
+    public record Cell(double rho, double theta, double votes, int scans, int trackId) {
+    }
+
+    /** RHO_PLANE: rows of theta from 0 to pi, in each the votes over rho, 0 .. 127. */
+    public record Plane(Which which, int scan, List<byte[]> rows) {
+    }
+
+    /** RHO_HYPOTHESES of one track; evidence: 0 none, 1 of plots, 2 of the line that started it. */
+    public record Hypotheses(int trackId, int scan, double score, double calm, double steady, double maneuver,
+            int evidence, double support, double shared, double clutter, List<Hypothesis> list) {
+    }
+
+    public record Hypothesis(double share, Place place, double vx, double vy, List<Integer> plots) {
     }
 
     /** RHO_STATUS, the few figures that a status line has room for. */
