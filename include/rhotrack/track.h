@@ -118,6 +118,8 @@ struct rho_track {
     float returns[RHO_ECHO_HIT_CLASSES];
     uint8_t has_taken_back; /* the map has been told */
     uint8_t has_moved;      /* the track was surely elsewhere than where it started */
+    /* scratch of a step: share of looks of its sensor that are blind to the track (notch.h) */
+    uint8_t blind_percent;
     float start_m[2], start_sigma_m;
     /* its second plots: scans in which it had a plot, and others near it; both fade */
     float second_looks, second_plots;

@@ -191,6 +191,13 @@ struct rho_sensor {
      * ambiguous, and no other value is accepted without RHO_AMBIGUOUS_RANGE_RATES
      */
     float range_rate_span_mps;
+    /*
+     * the sensor is blind to targets whose range rate over ground is within notch_mps of 0, or of a
+     * multiple of blind_speed_mps (more than twice notch_mps, or 0: of 0 alone), as a filter
+     * against clutter makes it: misses there say little. 0: it is not. A build without
+     * RHO_DOPPLER_NOTCH does not read them
+     */
+    float notch_mps, blind_speed_mps;
 };
 
 /* The use that a step made of an input: every plot or bearing gets exactly one fate. */

@@ -8,6 +8,7 @@
 
 #include "hypotheses_pool.h"
 #include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/imm_notch.h"
 
 /* The most that a hypothesis loses at once for its speed. */
 #define SPEED_LOSS_MAX_NAT 10.0f
@@ -366,6 +367,8 @@ static void advance(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     at->weight_nat = row == child->row ? child->weight_nat : as_miss;
     if (row >= 0) {
         at->weight_nat -= loss_of_speed(&at->imm, pool->model.speed_max_mps);
+    } else if (RHO_DOPPLER_NOTCH && scan->look && scan->log_miss < 0.0f) {
+        rho_imm_miss(&at->imm, scan->sensor, scan->look);
     }
 }
 

@@ -81,8 +81,12 @@ void rho_tracker_age(struct step *step)
         if (track->status == RHO_TRACK_FREE) {
             continue;
         }
-        const int is_missed = track->plot < 0 && rho_tracker_is_in_view(step, row) &&
-                              rho_tracker_scan_looked_at(step, track);
+        int is_missed = track->plot < 0 && rho_tracker_is_in_view(step, row) &&
+                        rho_tracker_scan_looked_at(step, track);
+        if (is_missed && rho_tracker_is_blind(track) && track->was_confirmed) {
+            is_missed = 0;
+            rho_tracker_note_blind_look(step, track);
+        }
         if (is_missed) {
             count_miss(step, track);
         }

@@ -82,6 +82,9 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
     if (rho_tracker_begin(&step)) {
         open_scan(&step);
         rho_tracker_predict(&step);
+        if (rho_notch_has(step.sensor)) {
+            rho_tracker_find_blind(&step);
+        }
         if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
             rho_tracker_claim_parts(&step); /* claims and updates, part by part */
         } else {
@@ -89,6 +92,9 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_update(&step);
         }
         rho_tracker_age(&step);
+        if (rho_notch_has(step.sensor)) {
+            rho_tracker_forget_blind(&step);
+        }
         if (starts_tracks(&step)) {
             rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {

@@ -85,6 +85,7 @@ static void take_scored_plots(struct step *step, unsigned row)
         .plots = step->scan->plots,
         .sensor = step->sensor,
         .log_miss = log_miss,
+        .look = RHO_DOPPLER_NOTCH && track->blind_percent > 0 ? &step->notch_look : 0,
         .claims = assignment->column_row,
         .own = (int16_t)row,
     };

@@ -64,7 +64,8 @@ static void average_look(const struct step *step, struct rho_tracker_look *look,
         average(&look->seen_share, 1.0f, &look->watched);
         look->sigma_m = rho_plot_sigma_m(&step->scan->plots[plot]);
         average(&look->distance2, chi2_of(step, track, plot), &look->watched_hits);
-    } else if (!step->has_more_parts && rho_tracker_has_passed(step, track)) {
+    } else if (!step->has_more_parts && !rho_tracker_is_blind(track) &&
+               rho_tracker_has_passed(step, track)) {
         average(&look->seen_share, 0.0f, &look->watched);
     }
 }

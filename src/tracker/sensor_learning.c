@@ -54,6 +54,8 @@
 #define PRIOR_OF_ALL 30.0f
 #define PRIOR_OF_RING 20.0f
 #define LOOKS_MAX 1000
+/* Looks of which the notch takes more say nothing of pd. */
+#define BLIND_PERCENT_MAX 2
 /*
  * Standard deviations: below so many, pd is as stated; learned pd is raised by so many, to be
  * cautious.
@@ -274,7 +276,7 @@ static int is_lowered(const struct step *step)
     return learns(&step->tracker->config) && step->learned && step->learned->is_lowered;
 }
 
-struct detection rho_tracker_detection(const struct step *step, const struct rho_track *track)
+struct detection rho_tracker_usual_detection(const struct step *step, const struct rho_track *track)
 {
     const struct detection stated = {step->log_pd, step->log_miss};
     if (!is_lowered(step)) {
@@ -314,6 +316,9 @@ static void note_look(struct step *step, const struct rho_track *track, unsigned
 static void learn_pd(struct step *step, struct rho_track *track, int is_seen)
 {
     const int is_own = track->sensor_id == step->scan->sensor_id;
+    if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
+        return;
+    }
     if (is_seen && is_own) {
         note_look(step, track, track->has_shown & IS_MISSED ? 0u : 1u);
     }

@@ -70,9 +70,10 @@ struct step {
     uint32_t plots_of_box;
     struct rho_track_model model;
     float log_pd;
-    float log_miss;   /* ln(1 - pd) */
-    float needed_nat; /* evidence that a new track needs to be confirmed; 0: none */
-    float miss_nat;   /* what a miss takes from it */
+    float log_miss;                   /* ln(1 - pd) */
+    struct rho_notch_look notch_look; /* of the scan's sensor; 0 where it has no notch */
+    float needed_nat;                 /* evidence that a new track needs to be confirmed; 0: none */
+    float miss_nat;                   /* what a miss takes from it */
     /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; velocities of one axis, m/s */
     float log_height, log_rates;
     float log_range_rates; /* range rates that the sensor tells apart, m/s */
@@ -213,11 +214,39 @@ void rho_tracker_learn(struct step *step);
 int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
 /* Of the scan's sensor, for its initiator: over all ranges. */
 float rho_tracker_mean_pd(const struct step *step);
-/* ln of the probability that the sensor detects this track, and that it misses it. */
+/*
+ * ln of the probability that the sensor detects a target where this track is, and that it misses it;
+ * whatever its range rate
+ */
 struct detection {
     float log_pd, log_miss;
 };
-struct detection rho_tracker_detection(const struct step *step, const struct rho_track *track);
+struct detection rho_tracker_usual_detection(const struct step *step,
+                                             const struct rho_track *track);
+
+/*
+ * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Finds blind_percent of the
+ * tracks in view, before they are offered plots; and forgets it
+ */
+void rho_tracker_find_blind(struct step *step);
+void rho_tracker_forget_blind(struct step *step);
+/* The same with the range rates that the sensor does not see. */
+struct detection rho_tracker_detection_beside_notch(const struct step *step,
+                                                    const struct rho_track *track);
+static inline struct detection rho_tracker_detection(const struct step *step,
+                                                     const struct rho_track *track)
+{
+    return RHO_DOPPLER_NOTCH && track->blind_percent > 0
+               ? rho_tracker_detection_beside_notch(step, track)
+               : rho_tracker_usual_detection(step, track);
+}
+/* More looks at the track than not are blind: that it has no plot is no miss. */
+static inline int rho_tracker_is_blind(const struct rho_track *track)
+{
+    return RHO_DOPPLER_NOTCH && track->blind_percent >= 50;
+}
+/* A blind look at a track that was confirmed: it coasts, and is not missed. */
+void rho_tracker_note_blind_look(const struct step *step, struct rho_track *track);
 
 /* ---- work ------------------------------------------------------------------------------------ */
 

@@ -112,7 +112,7 @@ run experiment rotating --help
 check 'experiment calls the script' grep -q '^usage: rotating.py .*--runs' stdout
 run experiment nothing
 check 'an unknown experiment names all there are' says 2 \
-    '*nothing*air-traffic*false-alarms*initiation*maneuver*papers-initiation*passive*polar*real-skies*'
+    '*nothing*air-traffic*false-alarms*initiation*maneuver*notch*papers-initiation*passive*polar*real-skies*'
 run experiment
 check 'and so does none' exits 2
 mkdir -p elsewhere/bin && cp "$RHOTRACK" elsewhere/bin/rhotrack

@@ -30,6 +30,11 @@
 /* Its range rates, if it has any, are not ambiguous. */
 #define RHO_AMBIGUOUS_RANGE_RATES 0
 
+/* It sees targets at all range rates: 2.3 KB of flash. */
+#ifndef RHO_DOPPLER_NOTCH
+#define RHO_DOPPLER_NOTCH 0
+#endif
+
 /* Nor a memory of clutter, for the same reason. */
 #define RHO_MAX_CLUTTER_CELLS 0
 

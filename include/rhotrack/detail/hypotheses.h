@@ -32,6 +32,7 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/imm.h"
+#include "rhotrack/detail/notch.h"
 #include "rhotrack/kalman.h"
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
@@ -126,6 +127,8 @@ struct rho_hypotheses_scan {
     const struct rho_plot *plots;
     const struct rho_sensor *sensor; /* NULL: at the origin */
     float log_miss;                  /* ln(1 - pd); 0 where the sensor did not look */
+    /* where it looked, and is blind at some range rates; NULL: at none */
+    const struct rho_notch_look *look;
     /*
      * plots of others: row of plots to track, or -1 for no track's; own is this track. NULL: all
      * are free

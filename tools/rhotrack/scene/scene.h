@@ -15,6 +15,7 @@
 #include <stdint.h>
 
 #include "scene/scene_json.h"
+#include "scene/scene_notch.h"
 #include "scene/scene_path.h"
 #include "settings/parameters.h"
 
@@ -43,6 +44,7 @@ struct scene_stated {
     double sigma_m, sigma_mps, sigma_range_m, sigma_azimuth_rad, sigma_range_rate_mps, sigma_rad;
     double range_bias_m, azimuth_bias_rad, time_bias_s;
     struct scene_coverage coverage;
+    struct scene_notch notch;
 };
 
 struct scene_sensor {
@@ -61,7 +63,8 @@ struct scene_sensor {
     double sigma_m, sigma_range_m, sigma_azimuth_rad, sigma_rad;
     bool has_range_rate;
     double sigma_range_rate_mps, range_rate_span_mps;
-    double sigma_mps; /* with sigma_m: plots have velocities; 0: they have none */
+    struct scene_notch notch; /* of plots in range and azimuth, with range rates or without */
+    double sigma_mps;         /* with sigma_m: plots have velocities; 0: they have none */
     double resolution_m, resolution_rad; /* targets nearer in both give one plot; 0: none do */
     double range_bias_m, azimuth_bias_rad, time_bias_s; /* as of struct rho_sensor */
     double late_share, late_s;                          /* so many scans arrive so much late */

@@ -280,6 +280,7 @@ static void write_sensor(const struct scene_sensor *sensor, FILE *file)
             fprintf(file, "range_rate_span_mps = %.9g\n", sensor->range_rate_span_mps);
         }
     }
+    scene_notch_write(&told->notch, file);
     fprintf(file, "range_min_m = %.9g\nrange_max_m = %.9g\n", told->coverage.range_m.lo,
             fmax(1.0, told->coverage.range_m.hi));
     if (told->coverage.has_sector) {

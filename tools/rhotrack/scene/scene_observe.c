@@ -490,7 +490,9 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
     for (size_t i = 0; i < observer->num_sightings; i++) {
         struct sighting *one = &observer->sightings[i];
         struct random random = pass_stream(observer, one);
-        double pd = pd_at(&observer->sensor->pd, one->range_m);
+        double pd = scene_notch_pd(&observer->sensor->notch,
+                                   rate_of(observer->sensor, &one->at, one->range_m),
+                                   pd_at(&observer->sensor->pd, one->range_m));
 
         one->is_seen = random_uniform(&random) <
                        faded_pd(&fades[one->target_id], observer->index, one->t_s, pd);

@@ -120,7 +120,8 @@ static void read_stated(struct json_object *object, struct scene_sensor *sensor)
                                   .sigma_azimuth_rad = sensor->sigma_azimuth_rad,
                                   .sigma_range_rate_mps = sensor->sigma_range_rate_mps,
                                   .sigma_rad = sensor->sigma_rad,
-                                  .coverage = sensor->coverage};
+                                  .coverage = sensor->coverage,
+                                  .notch = sensor->notch};
     if (!json_below(object, "told", &below)) {
         return;
     }
@@ -139,6 +140,7 @@ static void read_stated(struct json_object *object, struct scene_sensor *sensor)
         told->sigma_range_rate_mps =
             json_number(&below, "sigma_range_rate_mps", 1e-3, 1e5, told->sigma_range_rate_mps);
         told->range_bias_m = json_number(&below, "range_bias_m", -1e4, 1e4, 0);
+        told->notch = scene_notch_read_told(&below, told->notch);
     }
     read_xy(&below, "at_m", PLACE_MAX_M, &told->x_m, &told->y_m);
     told->azimuth_bias_rad = json_number(&below, "azimuth_bias_rad", -0.5, 0.5, 0);
@@ -198,6 +200,7 @@ static void read_radar(struct json_object *object, struct scene_sensor *sensor)
         sensor->has_range_rate = json_has(object, "sigma_range_rate_mps");
         sensor->sigma_range_rate_mps = json_number(object, "sigma_range_rate_mps", 1e-3, 1e5, 0);
         sensor->range_rate_span_mps = json_number(object, "range_rate_span_mps", 0, 4e4, 0);
+        sensor->notch = scene_notch_read(object);
         sensor->range_bias_m = json_number(object, "range_bias_m", -1e4, 1e4, 0);
         sensor->azimuth_bias_rad = json_number(object, "azimuth_bias_rad", -0.5, 0.5, 0);
         sensor->time_bias_s = json_number(object, "time_bias_s", -10, 10, 0);

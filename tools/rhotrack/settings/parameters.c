@@ -482,6 +482,15 @@ static void check_area(const struct parameters *parameters)
     check_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
 }
 
+/* Blind speeds whose notches overlap would leave nothing to see. */
+static void check_notch(double notch_mps, double blind_mps, const char *of)
+{
+    if (blind_mps > 0.0 && blind_mps <= 2.0 * notch_mps) {
+        fail(EXIT_USAGE, "%sblind_speed_mps %.9g is not more than twice notch_mps %.9g", of,
+             blind_mps, notch_mps);
+    }
+}
+
 void parameters_check(const struct parameters *parameters)
 {
     double range_min_m = parameters->value[PARAMETER_RANGE_MIN_M];
@@ -491,14 +500,23 @@ void parameters_check(const struct parameters *parameters)
     check_below(parameters, PARAMETER_RANGE_MIN_M, PARAMETER_RANGE_MAX_M);
     check_scans(parameters);
     check_area(parameters);
+    check_notch(parameters->value[PARAMETER_NOTCH_MPS],
+                parameters->value[PARAMETER_BLIND_SPEED_MPS], "");
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         int32_t id = parameters->sensors[i].sensor_id;
         double low = parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
         double high = parameters_of_sensor(parameters, id, SENSOR_RANGE_MAX_M, range_max_m);
+        char of[32];
 
         if (low >= high) {
             fail(EXIT_USAGE, "sensor %d: range_min_m %.9g is not below range_max_m %.9g", (int)id,
                  low, high);
         }
+        snprintf(of, sizeof of, "sensor %d: ", (int)id);
+        check_notch(parameters_of_sensor(parameters, id, SENSOR_NOTCH_MPS,
+                                         parameters->value[PARAMETER_NOTCH_MPS]),
+                    parameters_of_sensor(parameters, id, SENSOR_BLIND_SPEED_MPS,
+                                         parameters->value[PARAMETER_BLIND_SPEED_MPS]),
+                    of);
     }
 }

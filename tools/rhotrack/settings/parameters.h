@@ -45,6 +45,10 @@
       "range-rate noise of a plot")                                                                \
     X(RANGE_RATE_SPAN_MPS, "range_rate_span_mps", "m/s", 0, 0, 4e4, 0, 1,                          \
       "range rates are known up to multiples of it; 0: not ambiguous")                             \
+    X(NOTCH_MPS, "notch_mps", "m/s", 0, 0, 4e4, 0, 1,                                              \
+      "a sensor is blind to range rates over ground within it of 0; 0: to none")                   \
+    X(BLIND_SPEED_MPS, "blind_speed_mps", "m/s", 0, 0, 4e4, 0, 1,                                  \
+      "and within notch_mps of multiples of it, as of pulse repetition frequencies; 0: to none")   \
     X(SIGMA_RAD, "sigma_rad", "rad", 0.00175, 1e-6, 0.5, 0, 1,                                     \
       "bearing noise of a passive sensor")                                                         \
     X(FRAME_TOLERANCE_S, "frame_tolerance_s", "s", 0.05, 0, 60, 0, 1,                              \
@@ -200,6 +204,9 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
       "range-rate noise of a plot")                                                                \
     X(RANGE_RATE_SPAN_MPS, "range_rate_span_mps", "m/s", 0, 4e4,                                   \
       "its range rates are known up to multiples of it")                                           \
+    X(NOTCH_MPS, "notch_mps", "m/s", 0, 4e4, "it is blind to range rates within it of 0")          \
+    X(BLIND_SPEED_MPS, "blind_speed_mps", "m/s", 0, 4e4,                                           \
+      "and within notch_mps of multiples of it")                                                   \
     X(SIGMA_RAD, "sigma_rad", "rad", 1e-6, 0.5, "bearing noise of a passive sensor")               \
     X(RANGE_BIAS_M, "range_bias_m", "m", -1e4, 1e4, "it measures ranges so much too long")         \
     X(AZIMUTH_BIAS_RAD, "azimuth_bias_rad", "rad", -0.5, 0.5,                                      \

@@ -173,6 +173,8 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
         .time_bias_s = OF_SENSOR(SENSOR_TIME_BIAS_S, 0),
         .range_rate_span_mps =
             OF_SENSOR(SENSOR_RANGE_RATE_SPAN_MPS, value[PARAMETER_RANGE_RATE_SPAN_MPS]),
+        .notch_mps = OF_SENSOR(SENSOR_NOTCH_MPS, value[PARAMETER_NOTCH_MPS]),
+        .blind_speed_mps = OF_SENSOR(SENSOR_BLIND_SPEED_MPS, value[PARAMETER_BLIND_SPEED_MPS]),
     };
 #undef OF_SENSOR
     turn_sector(sensor, parameters_turn_rad(parameters, sensor_id));
@@ -204,7 +206,8 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
     if (!parameters_has_sensor(parameters, sensor_id) &&
         !is_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
         !is_asked_for(parameters, PARAMETER_RANGE_MAX_M) &&
-        !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0)) {
+        !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0) &&
+        !(parameters->value[PARAMETER_NOTCH_MPS] > 0.0)) {
         return false;
     }
     parameters_to_any_sensor(parameters, sensor_id, sensor);

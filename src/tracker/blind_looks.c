@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * blind_looks: tracks in the Doppler notch of a sensor (rhotrack/detail/notch.h).
+ *
+ * The share of looks that are blind follows from the range rate that a track's estimate expects.
+ * Where most are, a scan without a plot is no miss: a track that was confirmed coasts, with its
+ * identity, until it leaves the notch, or its place is so uncertain that clutter would take it, or
+ * it was not seen for too long. Neither health nor learned pd of the sensor hear of such looks.
+ */
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/imm_notch.h"
+#include "step.h"
+
+/* Probability that a target in the notch is seen all the same. */
+#define NOTCH_PD 0.03f
+
+#define BLIND_PERCENT_MOST 99.0f
+
+/*
+ * Score that a miss takes of a target that stands. It goes on standing, so that the looks that were
+ * not blind to another one do not add up.
+ */
+#define STAND_MISS_NAT (-1.0e-4f)
+
+/* Expected clutter plots in the gate up to which a track may coast in the notch. */
+#define BLIND_CLUTTER_MAX 3.0f
+
+/* A target that stands has rather gone after so long. */
+#define BLIND_MAX_S 300.0f
+
+/* Standing: no faster than so many times the notch. */
+#define STAND_WIDTHS 2.0f
+
+static float share_of(const struct step *step, const struct rho_track *track)
+{
+    const struct rho_hypotheses *pool = &step->tracker->hypotheses;
+    float sum = 0.0f, shares = 0.0f;
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
+        return rho_notch_share(step->sensor, track->kalman.state, track->kalman.covariance);
+    }
+    for (unsigned i = 0; i < rho_hypotheses_count(pool, track->slot); i++) {
+        const struct rho_hypothesis *at = rho_hypotheses_at(pool, track->slot, i);
+        shares += at->share;
+        sum += at->share * rho_imm_notch_share(&at->imm, step->sensor);
+    }
+    return shares > 0.0f ? sum / shares : 0.0f;
+}
+
+static uint8_t blind_percent_of(const struct step *step, const struct rho_track *track)
+{
+    if (rho_seconds_between(track->updated_us, step->time_us) > BLIND_MAX_S ||
+        rho_tracker_clutter_in_gate(step, track) > BLIND_CLUTTER_MAX) {
+        return 0;
+    }
+    const float percent = 100.0f * share_of(step, track);
+    return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
+}
+
+void rho_tracker_find_blind(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    step->notch_look = (struct rho_notch_look){
+        .pd = rho_exp(step->log_pd),
+        .may_stand = tracker->config.v_min_mps <= step->sensor->notch_mps,
+    };
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->status != RHO_TRACK_FREE && rho_tracker_is_in_view(step, row)) {
+            track->blind_percent = blind_percent_of(step, track);
+        }
+    }
+}
+
+void rho_tracker_forget_blind(struct step *step)
+{
+    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
+        step->tracker->tracks[row].blind_percent = 0;
+    }
+}
+
+static int stands(const struct step *step, const struct rho_track *track)
+{
+    const float *velocity_mps = &track->kalman.state[3];
+    const float most_mps = STAND_WIDTHS * step->sensor->notch_mps;
+    return rho_tracker_is_blind(track) &&
+           velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
+               most_mps * most_mps;
+}
+
+struct detection rho_tracker_detection_beside_notch(const struct step *step,
+                                                    const struct rho_track *track)
+{
+    const float blind = 0.01f * (float)track->blind_percent;
+    const float seen = rho_exp(rho_tracker_usual_detection(step, track).log_pd) * (1.0f - blind);
+    return (struct detection){rho_log(seen + NOTCH_PD * blind),
+                              stands(step, track) ? STAND_MISS_NAT : rho_log(1.0f - seen)};
+}
+
+void rho_tracker_note_blind_look(const struct step *step, struct rho_track *track)
+{
+    track->status =
+        (uint8_t)rho_track_next_status((enum rho_track_status)track->status, RHO_TRACK_MISS);
+    if (!step->is_late) {
+        track->seen_us = step->time_us;
+    }
+}

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Both models beside blind range rates: each takes the miss as it is, and the likelier one gains.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "rhotrack/detail/imm_notch.h"
+
+static const struct rho_sensor radar = {.pd = 0.9f, .range_max_m = 1e5f, .notch_mps = 2.0f};
+
+/* 1 km east, receding at so much; the manoeuvring model by so much more. */
+static struct rho_imm imm_of(float rate_mps, float more_mps)
+{
+    struct rho_imm_model model;
+    struct rho_kalman estimate = {.state = {1000.0f, 0.0f, 0.0f, rate_mps, 20.0f, 0.0f}};
+    struct rho_imm imm;
+    for (int axis = 0; axis < 2; axis++) {
+        estimate.covariance[RHO_AT(axis, axis)] = 1.0f;
+        estimate.covariance[RHO_AT(3 + axis, 3 + axis)] = 0.25f;
+    }
+    rho_imm_model_default(&model, 5.0f, 50.0f);
+    rho_imm_start(&imm, &model, &estimate);
+    imm.probability = 0.25f;
+    imm.state[3] += more_mps;
+    return imm;
+}
+
+static void shares_are_of_both_models(void **state)
+{
+    const struct rho_imm inside = imm_of(0.0f, 0.0f), half = imm_of(0.0f, 30.0f),
+                         outside = imm_of(9.0f, 0.0f);
+    (void)state;
+    assert_float_equal(rho_imm_notch_share(&inside, &radar), 1.0f, 1e-3);
+    assert_float_equal(rho_imm_notch_share(&half, &radar), 0.75f, 1e-3);
+    assert_float_equal(rho_imm_notch_share(&outside, &radar), 0.0f, 1e-3);
+}
+
+static void a_miss_is_evidence_of_the_notch(void **state)
+{
+    const struct rho_notch_look look = {.pd = 0.9f};
+    struct rho_imm imm = imm_of(0.0f, 30.0f), alike = imm_of(3.0f, 0.0f);
+    (void)state;
+    rho_imm_miss(&imm, &radar, &look);
+    /* 0.75 x 1 against 0.25 x 0.1 */
+    assert_float_equal(imm.probability, 0.025f / 0.775f, 1e-3);
+    assert_true(imm.is_coupled);
+    rho_imm_miss(&alike, &radar, &look);
+    assert_float_equal(alike.probability, 0.25f, 1e-3);
+    assert_true(alike.steady.state[3] < 2.9f && alike.state[3] < 2.9f);
+}
+
+static void without_a_notch_nothing_changes(void **state)
+{
+    const struct rho_sensor whole = {.pd = 0.9f, .range_max_m = 1e5f};
+    const struct rho_notch_look look = {.pd = 0.9f};
+    const struct rho_imm before = imm_of(0.0f, 30.0f);
+    struct rho_imm imm = before;
+    (void)state;
+    rho_imm_miss(&imm, &whole, &look);
+    rho_imm_miss(&imm, NULL, &look);
+    assert_memory_equal(&imm, &before, sizeof imm);
+    assert_float_equal(rho_imm_notch_share(&imm, &whole), 0.0f, 0.0f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shares_are_of_both_models),
+        cmocka_unit_test(a_miss_is_evidence_of_the_notch),
+        cmocka_unit_test(without_a_notch_nothing_changes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Tracks in the Doppler notch of their sensor coast, and go on under their identity; the sensor is
+ * not blamed. Where nothing hides them they end as others do.
+ */
+#include "tracker_setup.h"
+
+#define SENSOR 1
+
+static struct rho_sensor radar;
+
+static void describe(float notch_mps, float blind_speed_mps)
+{
+    radar = (struct rho_sensor){.sensor_id = SENSOR,
+                                .pd = 0.9f,
+                                .range_max_m = 60e3f,
+                                .notch_mps = notch_mps,
+                                .blind_speed_mps = blind_speed_mps};
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+}
+
+static void prepare(float v_max_mps, float accel_max_mps2, float v_min_mps)
+{
+    draw(3);
+    config.v_max_mps = initiation.v_max_mps = v_max_mps;
+    config.v_min_mps = v_min_mps;
+    config.accel_max_mps2 = accel_max_mps2;
+    begin();
+}
+
+/* Seen where its range rate over ground is beyond the notch of `true_notch_mps`. */
+static int see(double t_s, double x_m, double y_m, double vx_mps, double vy_mps, double sigma_m,
+               double true_notch_mps)
+{
+    const double dx_m = x_m - (double)radar.x_m, dy_m = y_m - (double)radar.y_m;
+    const double rate_mps = (dx_m * vx_mps + dy_m * vy_mps) / hypot(dx_m, dy_m);
+    const int is_seen = fabs(rate_mps) >= true_notch_mps;
+    if (is_seen) {
+        add_noisy(x_m, y_m, sigma_m);
+    }
+    step_scan((struct rho_scan){.time_us = llround(t_s * 1e6), .sensor_id = SENSOR});
+    return is_seen;
+}
+
+/* Reports in which the track is neither confirmed nor coasting, and how it ends. */
+struct passage {
+    unsigned unseen, lost, misses;
+    uint32_t first_id, last_id;
+    int is_there;
+};
+
+static void note(struct passage *passage, int k, int is_seen)
+{
+    const struct rho_track_report *track = report.num_tracks > 0 ? &report.tracks[0] : NULL;
+    passage->unseen += !is_seen;
+    passage->is_there = track && track->status != RHO_TRACK_TENTATIVE;
+    passage->lost += k >= 8 && !passage->is_there;
+    if (track) {
+        passage->first_id = passage->first_id ? passage->first_id : track->track_id;
+        passage->last_id = track->track_id;
+        passage->misses = track->misses;
+    }
+}
+
+/* An aircraft of 75 m/s that passes 12 km away; the radar may move with it sideways. */
+static struct passage fly(double platform_mps)
+{
+    struct passage passage = {0};
+    for (int k = 0; k < 110; k++) {
+        const double t_s = 4.0 * k;
+        radar.x_m = (float)(platform_mps * (t_s - 220.0));
+        assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+        note(&passage, k, see(t_s, 75.0 * (t_s - 220.0), 12000.0, 75.0, 0.0, 30.0, 12.0));
+    }
+    return passage;
+}
+
+static void an_aircraft_passes(void **state)
+{
+    (void)state;
+    prepare(350.0f, 20.0f, 30.0f);
+    describe(12.0f, 0.0f);
+    const struct passage passage = fly(0.0);
+    assert_true(passage.unseen > 10);
+    assert_int_equal(passage.lost, 0);
+    assert_int_equal(passage.first_id, passage.last_id);
+    /* looks that were blind are no misses; those at its edge are a few */
+    assert_true(passage.misses <= 3);
+}
+
+static void not_told_it_is_lost(void **state)
+{
+    (void)state;
+    prepare(350.0f, 20.0f, 30.0f);
+    describe(0.0f, 0.0f);
+    const struct passage passage = fly(0.0);
+    assert_true(passage.lost > 5);
+}
+
+/* A radar that flies beside it sees it at the range rate of the line of sight, not of the two. */
+static void a_platform_moves(void **state)
+{
+    (void)state;
+    prepare(350.0f, 20.0f, 30.0f);
+    describe(12.0f, 0.0f);
+    const struct passage passage = fly(45.0);
+    assert_true(passage.unseen > 20);
+    assert_int_equal(passage.lost, 0);
+    assert_int_equal(passage.first_id, passage.last_id);
+}
+
+/* A car that brakes, stands for 20 s within the notch, and drives on, 20 looks a second. */
+static struct passage stop_at_a_light(double for_s, float *off_m)
+{
+    struct passage passage = {0};
+    double x_m = 150.0, v_mps = -14.0, stood_s = 0.0;
+    *off_m = 0.0f;
+    for (int k = 0; k < 20 * 40; k++) {
+        const double accel_mps2 = x_m > 95.0 ? 0.0 : stood_s < for_s ? 3.0 : -2.0;
+        if (accel_mps2 > 0.0 && v_mps >= 0.0) {
+            stood_s += 0.05;
+            v_mps = 0.0;
+        } else {
+            v_mps += 0.05 * accel_mps2;
+            v_mps = v_mps > 0.0 ? 0.0 : v_mps < -14.0 ? -14.0 : v_mps;
+            x_m += 0.05 * v_mps;
+        }
+        note(&passage, k, see(0.05 * k, x_m, 3.0, v_mps, 0.0, 0.3, 0.3));
+        if (stood_s > 0.0 && stood_s < for_s && report.num_tracks > 0) {
+            const float *at = report.tracks[0].state;
+            *off_m = fmaxf(*off_m, hypotf(at[0] - (float)x_m, at[1] - 3.0f));
+        }
+    }
+    return passage;
+}
+
+static void a_car_stops(void **state)
+{
+    float off_m;
+    (void)state;
+    prepare(40.0f, 6.0f, 0.0f);
+    describe(0.3f, 0.0f);
+    const struct passage passage = stop_at_a_light(20.0, &off_m);
+    assert_true(passage.unseen > 390);
+    assert_int_equal(passage.lost, 0);
+    assert_int_equal(passage.first_id, passage.last_id);
+    assert_true(off_m < 1.0f); /* it does not run away */
+    prepare(40.0f, 6.0f, 0.0f);
+    describe(0.0f, 0.0f);
+    assert_true(stop_at_a_light(20.0, &off_m).lost > 300);
+}
+
+/* One that never drives on is given up in the end. */
+static void it_does_not_wait_for_ever(void **state)
+{
+    int k = 0;
+    (void)state;
+    prepare(40.0f, 6.0f, 0.0f);
+    describe(0.3f, 0.0f);
+    for (; k < 100; k++) {
+        (void)see(0.5 * k, 150.0 - 0.5 * k, 3.0, -1.0, 0.0, 0.3, 0.3);
+    }
+    /* it brakes within a look */
+    for (; k < 106; k++) {
+        (void)see(0.5 * k, 100.0 - 0.2 * (k - 100), 3.0, -0.4, 0.0, 0.1, 0.3);
+    }
+    for (; k < 106 + 200; k++) {
+        (void)see(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
+    }
+    assert_int_equal(report.num_tracks, 1);
+    for (; k < 106 + 700; k++) {
+        (void)see(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
+    }
+    assert_int_equal(report.num_tracks, 0);
+}
+
+/* One that has gone is missed where its range rate would show it. */
+static void what_has_gone_ends(void **state)
+{
+    (void)state;
+    for (int blind = 0; blind < 2; blind++) {
+        prepare(350.0f, 20.0f, 30.0f);
+        describe(12.0f, blind ? 40.0f : 0.0f);
+        for (int k = 0; k < 40; k++) {
+            (void)see(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, k < 24 ? 0.0 : 1e9);
+        }
+        /* 75 m/s is within 12 of a multiple of 40 m/s: nothing says that it has gone */
+        assert_int_equal(report.num_tracks, blind);
+    }
+}
+
+/* Aircraft on straight ways past the radar, that others follow: range rates of -190 .. 190 m/s. */
+static void fly_past(int k)
+{
+    for (int i = 0; i < 12; i++) {
+        const int life = (k + 7 * i) / 40, age = (k + 7 * i) % 40;
+        const double azimuth = 6.2832 * i / 12 + 2.4 * life, x = cos(azimuth), y = sin(azimuth);
+        const double along_m = 200.0 * 4.0 * (age - 20), range_m = hypot(9000.0, along_m);
+        const double rate_mps = 200.0 * along_m / range_m;
+        const double noise_x = 20.0 * normal(), noise_y = 20.0 * normal();
+        if (uniform(0.0, 1.0) < 0.9 && fabs(remainder(rate_mps, 60.0)) >= 12.0) {
+            (void)add(9000.0 * x - along_m * y + noise_x, 9000.0 * y + along_m * x + noise_y, 20.0);
+        }
+    }
+    step_scan((struct rho_scan){.time_us = INT64_C(4000000) * k, .sensor_id = SENSOR});
+}
+
+/* pd is learned beside the notches; a sensor whose notches are not told is taken for a bad one. */
+static void the_sensor_is_not_blamed(void **state)
+{
+    struct rho_tracker_known known;
+    (void)state;
+    for (int is_told = 0; is_told < 2; is_told++) {
+        prepare(350.0f, 20.0f, 30.0f);
+        describe(is_told ? 12.0f : 0.0f, is_told ? 60.0f : 0.0f);
+        for (int k = 0; k < 400; k++) {
+            fly_past(k);
+        }
+        assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
+        assert_true(known.looks > 500);
+        assert_true(is_told ? known.pd[0] > 0.85f : known.pd[0] < 0.7f);
+    }
+}
+
+static void a_notch_is_checked(void **state)
+{
+    (void)state;
+    prepare(350.0f, 20.0f, 30.0f);
+    describe(12.0f, 25.0f);
+    radar.blind_speed_mps = 24.0f;
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_ERROR_CONFIG);
+    radar.blind_speed_mps = 0.0f;
+    radar.notch_mps = -1.0f;
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_ERROR_CONFIG);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_aircraft_passes),        cmocka_unit_test(not_told_it_is_lost),
+        cmocka_unit_test(a_platform_moves),          cmocka_unit_test(a_car_stops),
+        cmocka_unit_test(it_does_not_wait_for_ever), cmocka_unit_test(what_has_gone_ends),
+        cmocka_unit_test(the_sensor_is_not_blamed),  cmocka_unit_test(a_notch_is_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

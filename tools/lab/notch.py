@@ -1,0 +1,148 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+# Debian's interpreter: numpy, scipy and matplotlib are its packages (tools/setup.sh lab).
+"""Experiment notch: radars that are blind at some range rates.
+
+Scenes notch (aircraft that pass tangentially) and traffic-light (cars that stop) are tracked as
+they are, by a tracker that is not told the notch, and without any notch; aircraft also with
+measured range rates, and with blind speeds. Identities a target are 1 and its changes of track.
+"""
+import dataclasses
+import json
+import pathlib
+import tempfile
+
+import numpy as np
+
+import lab
+import real_skies
+import scene_files
+import scoring
+
+RUNS = 20
+NOT_TOLD = 'radars.0.told={"notch_mps": 0}'
+NO_NOTCH = "radars.0.notch_mps=0"
+
+
+@dataclasses.dataclass
+class Case:
+    scene: str
+    name: str
+    sets: tuple = ()
+    bars: tuple = ()  # identities a target at most, completeness at least
+    is_shown: bool = False
+
+
+RATES = "radars.0.sigma_range_rate_mps=1"
+BLIND = ("radars.0.notch_mps=8", "radars.0.blind_speed_mps=50")
+CASES = (
+    Case("notch", "notch of 12 m/s", bars=(1.05, 0.97), is_shown=True),
+    Case("notch", "not told", (NOT_TOLD,), is_shown=True),
+    Case("notch", "no notch", (NO_NOTCH,)),
+    Case("notch", "with range rates", (RATES,), bars=(1.05, 0.97)),
+    Case("notch", "with range rates, not told", (RATES, NOT_TOLD)),
+    Case("notch", "200 clutter plots a turn", ("clutter.0.plots=200",)),
+    Case("notch", "200 clutter plots, not told", ("clutter.0.plots=200", NOT_TOLD)),
+    Case("notch", "8 m/s, blind speed 50 m/s", BLIND),
+    Case("notch", "8 m/s, blind speed 50 m/s, not told", (*BLIND, NOT_TOLD)),
+    Case("traffic-light", "notch of 0.3 m/s", bars=(1.05, 0.93), is_shown=True),
+    Case("traffic-light", "not told", (NOT_TOLD,), is_shown=True),
+    Case("traffic-light", "no notch", (NO_NOTCH,), bars=(1.0, 0.97)),
+)
+
+
+def run(job):
+    """Figures of one run; of the first one also what a picture needs."""
+    number, seed, is_kept = job
+    case = CASES[number]
+    path = scene_files.path_of(lab.ROOT / "tools" / "scenes", case.scene)
+    scene = json.loads(path.read_text(encoding="utf-8"))
+    with tempfile.TemporaryDirectory(prefix="rhotrack-") as name:
+        folder = pathlib.Path(name)
+        sets = [word for one in case.sets for word in ("--set", one)]
+        real_skies.run_program(lab.BUILD / "rhotrack",
+                               ["simulate", path, "--seed", seed, "-o", folder, *sets])
+        settings = scene_files.Settings(folder / "scenario.ini")
+        sensors = settings.sensors()
+        plots = scene_files.read_plots(folder / "plots.csv", sensors, 0.0)
+        truth = scene_files.read_truth(folder, plots.scan_times_us)
+        real_skies.run_program(lab.BUILD / "rhotrack", [
+            "track", folder / "plots.csv", "--config", folder / "scenario.ini", "--covariance",
+            "-o", folder / "tracks.csv"])
+        tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
+        figures, _ = scoring.score(truth, tracks, scoring.gate_m(sensors),
+                                   scoring.forgiven_scans(scene))
+    targets = int(truth.visible.any(axis=0).sum())
+    return {
+        "identities": 1.0 + figures["switches"] / targets,
+        "completeness": figures["completeness"], "false_per_scan": figures["false_per_scan"],
+        "rms_m": figures["rms_m"]
+    }, (truth, tracks) if is_kept else None
+
+
+def range_rates(truth, place_m):
+    """Of the truth's targets, by differences of places: the radar stands at the origin."""
+    seconds = (truth.times_us[1:] - truth.times_us[:-1]) * 1e-6
+    range_m = np.linalg.norm(place_m, axis=2)
+    return np.diff(range_m, axis=0) / seconds[:, None]
+
+
+def draw(report, case, shown):
+    """Range over time: the truth, pale in the notch, and the tracks, a colour for each number."""
+    import matplotlib.pyplot as plt
+    truth, tracks = shown
+    figure, axes = plt.subplots(figsize=(9, 4.5))
+    t_s = truth.times_us * 1e-6
+    width = 12.0 if case.scene == "notch" else 0.3
+    range_m = np.where(truth.visible, np.linalg.norm(truth.place_m, axis=2), np.nan)
+    is_blind = np.abs(range_rates(truth, truth.place_m)) < width
+    for j in range(range_m.shape[1]):
+        axes.plot(t_s, range_m[:, j], color="#2a9d5c", linewidth=4, alpha=0.25,
+                  label="truth" if j == 0 else None)
+        blind = np.where(np.r_[is_blind[:, j], False], range_m[:, j], np.nan)
+        axes.plot(t_s, blind, color="#d1242f", linewidth=4, alpha=0.35,
+                  label="in the notch" if j == 0 else None)
+    lines = {}
+    for k, (ids, places) in enumerate(zip(tracks.ids, tracks.place_m)):
+        for number, place in zip(ids.tolist(), places):
+            lines.setdefault(number, []).append((t_s[k], float(np.hypot(*place[:2]))))
+    for number, points in lines.items():
+        x, y = np.array(points).T
+        step_s = np.median(np.diff(t_s))
+        y = np.where(np.r_[False, np.diff(x) > 1.5 * step_s], np.nan, y)
+        axes.plot(x, y, color=f"C{number % 10}", linewidth=1.1)
+    axes.set(xlabel="s", ylabel="m from the radar")
+    axes.legend(loc="upper right")
+    name = f"{case.scene}-{case.name}".replace(" ", "-").replace(".", "").replace("/", "")
+    report.figure(name, figure, f"{case.scene}, {case.name}: a line a track, a colour a number.")
+
+
+def main():
+    options = lab.options_of(__doc__, RUNS)
+    report = lab.Report("Radars that are blind at some range rates", options)
+    done = report.map(run, [(number, options.seed + k, case.is_shown and k == 0)
+                            for number, case in enumerate(CASES) for k in range(options.runs)])
+    rows, facts = [], []
+    for number, case in enumerate(CASES):
+        runs = done[number * options.runs:(number + 1) * options.runs]
+        of = {key: lab.mean_of([one[key] for one, _ in runs]) for key in runs[0][0]}
+        rows.append([case.scene, case.name, f"{of['identities'][0]:.3f}",
+                     f"{of['completeness'][0]:.3f}", f"{of['false_per_scan'][0]:.3f}",
+                     f"{of['rms_m'][0]:.1f}"])
+        facts.append({"scene": case.scene, "case": case.name, **lab.values_of(of)})
+        if case.bars:
+            name = f"{case.scene}, {case.name}"
+            report.at_most(f"{name}: identities a target", of["identities"][0], case.bars[0],
+                           of["identities"][1])
+            report.at_least(f"{name}: completeness", of["completeness"][0], case.bars[1],
+                            of["completeness"][1])
+        if runs[0][1]:
+            draw(report, case, runs[0][1])
+    report.table(["scene", "case", "identities a target", "completeness", "false a scan", "rms m"],
+                 rows)
+    report.fact("cases", facts)
+    report.close()
+
+
+if __name__ == "__main__":
+    main()
