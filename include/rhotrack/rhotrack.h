@@ -20,6 +20,7 @@
 #include "rhotrack/initiator.h"
 #include "rhotrack/measurement.h"
 #include "rhotrack/passive.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/settings.h"
 #include "rhotrack/snapshot.h"
 #include "rhotrack/tracker.h"

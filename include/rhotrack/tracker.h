@@ -62,6 +62,7 @@
 #include "rhotrack/detail/window.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/passive.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/status.h"
 #include "rhotrack/track.h"
 #include "rhotrack/types.h"
@@ -285,6 +286,8 @@ struct rho_tracker {
     struct rho_tracker_strips strips;
     struct rho_clutter_map clutter_map;
     struct rho_second_plots second_plots[RHO_MAX_SENSORS]; /* of the sensors that came first */
+    uint16_t num_reflectors;
+    struct rho_reflector reflectors[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
 };
 
 /*

@@ -205,7 +205,8 @@ enum rho_fate {
     RHO_FATE_CLAIMED = 0, /* updated a track */
     RHO_FATE_HELD,        /* kept for initiation; may start a track now or later */
     /*
-     * a bearing with false crossings alone; kept, as the other sensors may have missed its target
+     * a bearing with false crossings alone; kept, as the other sensors may have missed its target.
+     * Or a plot where a wall would show the image of a track (reflectors.h)
      */
     RHO_FATE_GHOST,
     RHO_FATE_STALE, /* its scan is older than the scans that were already processed */

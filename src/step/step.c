@@ -95,10 +95,17 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         if (rho_notch_has(step.sensor)) {
             rho_tracker_forget_blind(&step);
         }
+        const int has_images = RHO_MAX_REFLECTORS > 0 && tracker->num_reflectors > 0;
+        if (has_images) {
+            rho_tracker_mark_images(&step);
+        }
         if (starts_tracks(&step)) {
             rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {
             rho_tracker_refuse_stale(&step);
+        }
+        if (has_images && !step.is_late) {
+            rho_tracker_end_images(&step);
         }
         if (RHO_SECTORS && step.is_late) {
             rho_tracker_end_late(&step);

@@ -248,6 +248,16 @@ static inline int rho_tracker_is_blind(const struct rho_track *track)
 /* A blind look at a track that was confirmed: it coasts, and is not missed. */
 void rho_tracker_note_blind_look(const struct step *step, struct rho_track *track);
 
+/* ---- images ---------------------------------------------------------------------------------- */
+
+/*
+ * reflectors.c (RHO_MAX_REFLECTORS): unclaimed plots where a track's image would be are ghosts,
+ * before starts; tracks that move as one end, after them
+ */
+void rho_tracker_mark_images(struct step *step);
+void rho_tracker_end_images(struct step *step);
+int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker);
+
 /* ---- work ------------------------------------------------------------------------------------ */
 
 /*
@@ -262,6 +272,7 @@ void rho_tracker_note_blind_look(const struct step *step, struct rho_track *trac
 #define RHO_WORK_TRACKS_SHARE 4u
 #define RHO_WORK_SECOND_SHARE 16u
 #define RHO_WORK_STARTS_SHARE 16u
+#define RHO_WORK_IMAGES_SHARE 16u
 /* So many plots that a box passes over cost one unit. */
 #define RHO_WORK_PASSED_A_UNIT 4u
 struct plot_choice {

@@ -143,6 +143,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            rho_is_stored_time(tracker->counted_us) && is_sound_extent(&tracker->extent) &&
            has_sound_sensors(tracker) && has_sound_paces(tracker) &&
            (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
+           (RHO_MAX_REFLECTORS == 0 || rho_tracker_has_sound_reflectors(tracker)) &&
            (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_clutter_map(tracker) &&
                                     rho_tracker_has_sound_second_plots(tracker))) &&
            has_sound_tracks(tracker);

@@ -30,6 +30,11 @@
 /* Its range rates, if it has any, are not ambiguous. */
 #define RHO_AMBIGUOUS_RANGE_RATES 0
 
+/* No walls before it. */
+#ifndef RHO_MAX_REFLECTORS
+#define RHO_MAX_REFLECTORS 0
+#endif
+
 /* It sees targets at all range rates: 2.3 KB of flash. */
 #ifndef RHO_DOPPLER_NOTCH
 #define RHO_DOPPLER_NOTCH 0

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 # Debian's interpreter: numpy, scipy and matplotlib are its packages (tools/setup.sh lab).
-"""Experiment notch: radars that are blind at some range rates.
+"""Experiment notch: radars that are blind at some range rates, or see targets twice.
 
-Scenes notch (aircraft that pass tangentially) and traffic-light (cars that stop) are tracked as
-they are, by a tracker that is not told the notch, and without any notch; aircraft also with
-measured range rates, and with blind speeds. Identities a target are 1 and its changes of track.
+Scenes notch (aircraft that pass tangentially), traffic-light (cars that stop) and guard-rail (a
+rail that shows cars twice) are tracked as they are, by a tracker that is not told the notch or the
+rail, and without it. Identities a target are 1 and its changes of track; false are tracks a scan
+that are no target's, ghosts those beyond the ones without a rail.
 """
 import dataclasses
 import json
@@ -22,6 +23,8 @@ import scoring
 RUNS = 20
 NOT_TOLD = 'radars.0.told={"notch_mps": 0}'
 NO_NOTCH = "radars.0.notch_mps=0"
+NO_RAIL, RAIL_NOT_TOLD = "reflectors=[]", "reflectors.0.is_told=false"
+OFTEN = "reflectors.0.probability=0.9"
 
 
 @dataclasses.dataclass
@@ -48,6 +51,11 @@ CASES = (
     Case("traffic-light", "notch of 0.3 m/s", bars=(1.05, 0.93), is_shown=True),
     Case("traffic-light", "not told", (NOT_TOLD,), is_shown=True),
     Case("traffic-light", "no notch", (NO_NOTCH,), bars=(1.0, 0.97)),
+    Case("guard-rail", "mirrors 0.3 of the plots", bars=(1.05, 0.97), is_shown=True),
+    Case("guard-rail", "not told", (RAIL_NOT_TOLD,), is_shown=True),
+    Case("guard-rail", "mirrors 0.9", (OFTEN,)),
+    Case("guard-rail", "mirrors 0.9, not told", (OFTEN, RAIL_NOT_TOLD)),
+    Case("guard-rail", "no rail", (NO_RAIL,)),
 )
 
 
@@ -76,7 +84,8 @@ def run(job):
     return {
         "identities": 1.0 + figures["switches"] / targets,
         "completeness": figures["completeness"], "false_per_scan": figures["false_per_scan"],
-        "rms_m": figures["rms_m"]
+        "rms_m": figures["rms_m"], "numbers": float(len({number for ids in tracks.ids
+                                                         for number in ids.tolist()}))
     }, (truth, tracks) if is_kept else None
 
 
@@ -87,11 +96,33 @@ def range_rates(truth, place_m):
     return np.diff(range_m, axis=0) / seconds[:, None]
 
 
+def name_of(case):
+    return f"{case.scene}-{case.name}".replace(" ", "-").replace(".", "").replace("/", "")
+
+
+def draw_map(axes, truth, tracks):
+    place_m = np.where(truth.visible[..., None], truth.place_m, np.nan)
+    axes.plot(place_m[..., 0], place_m[..., 1], color="#2a9d5c", linewidth=4, alpha=0.25)
+    lines = {}
+    for ids, places in zip(tracks.ids, tracks.place_m):
+        for number, place in zip(ids.tolist(), places):
+            lines.setdefault(number, []).append(place[:2])
+    for number, points in lines.items():
+        axes.plot(*np.array(points).T, color=f"C{number % 10}", linewidth=1.1)
+    axes.axhline(14, color="#333333", linestyle=(0, (4, 2)), linewidth=1)
+    axes.set(xlabel="m", ylabel="m; the rail at 14 m", ylim=(0, 30))
+
+
 def draw(report, case, shown):
-    """Range over time: the truth, pale in the notch, and the tracks, a colour for each number."""
+    """Range over time, beside a rail a map: the truth, red in the notch, and the tracks, a colour for
+    each number."""
     import matplotlib.pyplot as plt
     truth, tracks = shown
     figure, axes = plt.subplots(figsize=(9, 4.5))
+    if case.scene == "guard-rail":
+        draw_map(axes, truth, tracks)
+        report.figure(name_of(case), figure, f"{case.scene}, {case.name}: a line a track.")
+        return
     t_s = truth.times_us * 1e-6
     width = 12.0 if case.scene == "notch" else 0.3
     range_m = np.where(truth.visible, np.linalg.norm(truth.place_m, axis=2), np.nan)
@@ -113,13 +144,12 @@ def draw(report, case, shown):
         axes.plot(x, y, color=f"C{number % 10}", linewidth=1.1)
     axes.set(xlabel="s", ylabel="m from the radar")
     axes.legend(loc="upper right")
-    name = f"{case.scene}-{case.name}".replace(" ", "-").replace(".", "").replace("/", "")
-    report.figure(name, figure, f"{case.scene}, {case.name}: a line a track, a colour a number.")
+    report.figure(name_of(case), figure, f"{case.scene}, {case.name}: a line a track, a colour a number.")
 
 
 def main():
     options = lab.options_of(__doc__, RUNS)
-    report = lab.Report("Radars that are blind at some range rates", options)
+    report = lab.Report("Radars that are blind at some range rates, or see targets twice", options)
     done = report.map(run, [(number, options.seed + k, case.is_shown and k == 0)
                             for number, case in enumerate(CASES) for k in range(options.runs)])
     rows, facts = [], []
@@ -128,7 +158,7 @@ def main():
         of = {key: lab.mean_of([one[key] for one, _ in runs]) for key in runs[0][0]}
         rows.append([case.scene, case.name, f"{of['identities'][0]:.3f}",
                      f"{of['completeness'][0]:.3f}", f"{of['false_per_scan'][0]:.3f}",
-                     f"{of['rms_m'][0]:.1f}"])
+                     f"{of['numbers'][0]:.1f}", f"{of['rms_m'][0]:.1f}"])
         facts.append({"scene": case.scene, "case": case.name, **lab.values_of(of)})
         if case.bars:
             name = f"{case.scene}, {case.name}"
@@ -138,8 +168,11 @@ def main():
                             of["completeness"][1])
         if runs[0][1]:
             draw(report, case, runs[0][1])
-    report.table(["scene", "case", "identities a target", "completeness", "false a scan", "rms m"],
-                 rows)
+    report.table(["scene", "case", "identities a target", "completeness", "false a scan",
+                  "numbers in all", "rms m"], rows)
+    false = {one["case"]: one["false_per_scan"] for one in facts if one["scene"] == "guard-rail"}
+    report.at_most("guard-rail: ghosts a scan", false["mirrors 0.3 of the plots"]
+                   - false["no rail"], 0.02)
     report.fact("cases", facts)
     report.close()
 

@@ -222,6 +222,9 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
     pipeline->initiator = add_initiator(pipeline, 0)->initiator;
     must_succeed(rho_tracker_init(pipeline->tracker, sizeof *pipeline->tracker, &maintain),
                  "tracker");
+    must_succeed(rho_tracker_set_reflectors(pipeline->tracker, parameters->reflectors,
+                                            parameters->num_reflectors),
+                 "reflectors");
     open_starts(pipeline, parameters);
     open_zones(pipeline, parameters);
 }

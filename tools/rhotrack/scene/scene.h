@@ -17,6 +17,7 @@
 #include "scene/scene_json.h"
 #include "scene/scene_notch.h"
 #include "scene/scene_path.h"
+#include "scene/scene_reflectors.h"
 #include "settings/parameters.h"
 
 #define SCENE_SENSORS_MAX 16 /* radars, and as many passive sensors */
@@ -140,6 +141,7 @@ struct scene {
     bool has_heights; /* some target is said to have one */
     size_t num_clutter;
     struct scene_clutter clutter[SCENE_ITEMS_MAX];
+    struct scene_reflectors reflectors;
     size_t num_events;
     struct scene_event events[SCENE_ITEMS_MAX];
 };

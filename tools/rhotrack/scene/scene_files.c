@@ -321,6 +321,7 @@ static void write_settings(const struct scene *scene, const char *name, const ch
         fprintf(output.file, "area_y_min_m = %.3f\narea_y_max_m = %.3f\n", scene->area_m[2],
                 scene->area_m[3]);
     }
+    scene_reflectors_write(&scene->reflectors, output.file);
     for (size_t i = 0; i < scene->num_sensors; i++) {
         if (!scene->sensors[i].is_cartesian) {
             write_sensor(&scene->sensors[i], output.file);

@@ -375,6 +375,30 @@ static void split(struct observer *observer, const struct sighting *sighting)
     }
 }
 
+/* Images of what was seen, in the walls; they are plots of no target. */
+static void reflect(struct observer *observer, const struct sighting *sighting)
+{
+    const struct scene_sensor *sensor = observer->sensor;
+
+    for (size_t i = 0; !sensor->is_passive && i < observer->scene->reflectors.count; i++) {
+        const struct scene_reflector *wall = &observer->scene->reflectors.items[i];
+        struct random random =
+            scene_stream(observer->seed, observer->run, STREAM_IMAGE, i * 64 + observer->index,
+                         (uint64_t)sighting->target_id, sighting->pass);
+        struct sighting image = *sighting;
+
+        if (random_uniform(&random) >= wall->probability ||
+            !scene_reflector_image(wall, sensor->x_m, sensor->y_m, &sighting->at, &image.at) ||
+            !sees_place(observer->scene, sensor, image.at.x_m, image.at.y_m)) {
+            continue;
+        }
+        image.target_id = -1;
+        image.range_m = portable_hypot(image.at.x_m - sensor->x_m, image.at.y_m - sensor->y_m);
+        image.azimuth_rad = portable_atan2(image.at.y_m - sensor->y_m, image.at.x_m - sensor->x_m);
+        keep_plot(observer, measure(sensor, &image, &random));
+    }
+}
+
 static int by_time(const void *a, const void *b)
 {
     const struct sighting *one = a, *other = b;
@@ -507,6 +531,7 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
             if (middle.is_seen) {
                 keep_plot(observer, measure(observer->sensor, &middle, &random));
                 split(observer, &middle);
+                reflect(observer, &middle);
             }
         }
     }

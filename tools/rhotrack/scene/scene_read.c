@@ -644,6 +644,7 @@ struct scene *scene_read(const char *name, char *text, size_t length, const char
 
         read_clutter(scene, &one);
     }
+    scene->reflectors = scene_reflectors_read(&root);
     list = json_list_of(&root, "events", SCENE_ITEMS_MAX);
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);

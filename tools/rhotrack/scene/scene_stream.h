@@ -20,7 +20,8 @@ enum stream_kind {
     STREAM_CLUTTER,  /* source and sensor, scan, or thing and pass */
     STREAM_BEARINGS, /* sensor, scan */
     STREAM_ARRIVAL,  /* sensor, scan */
-    STREAM_START     /* sensor: when it begins, and where its antenna points then */
+    STREAM_START,    /* sensor: when it begins, and where its antenna points then */
+    STREAM_IMAGE     /* reflector and sensor, target, pass */
 };
 
 struct random scene_stream(uint64_t seed, uint64_t run, enum stream_kind kind, uint64_t source,

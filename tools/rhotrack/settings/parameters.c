@@ -120,9 +120,10 @@ const char *parameters_source_name(enum parameter_source source)
 
 static const char *text_name(size_t index)
 {
-    return index < NUM_PARAMETERS    ? texts[index].name
-           : index == NUM_PARAMETERS ? "sensors_allowed"
-                                     : NULL;
+    return index < NUM_PARAMETERS        ? texts[index].name
+           : index == NUM_PARAMETERS     ? "sensors_allowed"
+           : index == NUM_PARAMETERS + 1 ? "reflectors"
+                                         : NULL;
 }
 
 static const char *sensor_text_name(size_t index)
@@ -350,6 +351,9 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
 
     if (!strcmp(key, "sensors_allowed")) {
         return allow(parameters, value, source, reason);
+    }
+    if (!strcmp(key, "reflectors")) {
+        return parameters_assign_reflectors(parameters, value, source, reason);
     }
     if (!strncmp(key, prefix, sizeof prefix - 1)) {
         return assign_sensor(parameters, key + sizeof prefix - 1, value, source, reason);

@@ -263,6 +263,9 @@ struct parameters {
     enum parameter_source allowed_source;
     size_t num_zones;
     struct zone_parameters zones[RHO_MAX_ZONES];
+    uint16_t num_reflectors;
+    struct rho_reflector reflectors[RHO_MAX_REFLECTORS];
+    enum parameter_source reflectors_source;
 };
 
 void parameters_default(struct parameters *parameters);
@@ -328,6 +331,15 @@ void parameters_set_method(struct parameters *parameters, const char *method);
 #define PARAMETER_REASON_BYTES 256
 bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
                        enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
+
+/* The same of "reflectors": x y x y of each wall, with commas between them; empty: none. */
+bool parameters_assign_reflectors(struct parameters *parameters, const char *value,
+                                  enum parameter_source source,
+                                  char reason[PARAMETER_REASON_BYTES]);
+/* These walls as one would type them; "-" where there is none. */
+#define PARAMETER_REFLECTORS_BYTES (72 * RHO_MAX_REFLECTORS)
+void parameters_reflectors_text(const struct parameters *parameters,
+                                char text[PARAMETER_REFLECTORS_BYTES]);
 
 /* The table's entry of a parameter, for the command `config`. */
 struct parameter_text {

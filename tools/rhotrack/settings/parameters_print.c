@@ -75,6 +75,18 @@ static void print_allowed(const struct parameters *parameters, FILE *out)
     print_row(out, &text, list, parameters->allowed_source);
 }
 
+static void print_reflectors(const struct parameters *parameters, FILE *out)
+{
+    const struct parameter_text text = {.name = "reflectors",
+                                        .unit = "m",
+                                        .choices = "x y x y of a wall, ...",
+                                        .text = "walls that show targets a second time"};
+    char list[PARAMETER_REFLECTORS_BYTES];
+
+    parameters_reflectors_text(parameters, list);
+    print_row(out, &text, list, parameters->reflectors_source);
+}
+
 void parameters_print(const struct parameters *parameters, FILE *out)
 {
     fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", "name", "unit", "default", "range",
@@ -89,6 +101,7 @@ void parameters_print(const struct parameters *parameters, FILE *out)
         print_row(out, &text, value, parameters->source[i]);
     }
     print_allowed(parameters, out);
+    print_reflectors(parameters, out);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         print_sensor(out, &parameters->sensors[i]);
     }

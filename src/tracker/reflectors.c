@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * reflectors: images of tracks in the walls that the tracker knows: their plots start nothing, and
+ * tracks that are images end.
+ */
+#include "rhotrack/reflectors.h"
+
+#include <string.h>
+
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/linalg.h"
+#include "step.h"
+
+#define WALL_LEAST_M 1.0f
+
+/* The line of sight to an image may miss the wall by so many of its sigmas. */
+#define BESIDE_SIGMAS 3.0f
+
+/* Hits from which a track has images: fewer may be clutter. */
+#define IMAGED_HITS 3
+
+/*
+ * A track that is not established, and was where another one's image would be at so many looks in a
+ * row, by place and velocity, is that image. 99.9 % of images are within the limit of chi-square in
+ * four dimensions.
+ */
+#define IMAGE_LOOKS 1
+#define IMAGE_CHI2 18.5f
+/* One that is seen less often than so may be one for longer: hits over looks. */
+#define IMAGE_SHARE 0.6f
+
+/* Units of work: a gate test; an image that is made, or compared with a track. */
+#define TEST_UNITS 3u
+#define IMAGE_UNITS 12u
+
+/* ---- walls ----------------------------------------------------------------------------------- */
+
+static int is_usable(const struct rho_reflector *reflector)
+{
+    const float x_m = reflector->to_x_m - reflector->from_x_m,
+                y_m = reflector->to_y_m - reflector->from_y_m;
+    return rho_is_coordinate(reflector->from_x_m) && rho_is_coordinate(reflector->from_y_m) &&
+           rho_is_coordinate(reflector->to_x_m) && rho_is_coordinate(reflector->to_y_m) &&
+           x_m * x_m + y_m * y_m >= WALL_LEAST_M * WALL_LEAST_M;
+}
+
+enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
+                                           const struct rho_reflector *reflectors,
+                                           unsigned num_reflectors)
+{
+    if (!tracker || (num_reflectors > 0 && !reflectors)) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (num_reflectors > RHO_MAX_REFLECTORS) {
+        return RHO_ERROR_CAPACITY;
+    }
+    for (unsigned i = 0; i < num_reflectors; i++) {
+        if (!is_usable(&reflectors[i])) {
+            return RHO_ERROR_VALUE;
+        }
+    }
+    memset(tracker->reflectors, 0, sizeof tracker->reflectors);
+    for (unsigned i = 0; i < num_reflectors; i++) {
+        tracker->reflectors[i] = reflectors[i];
+    }
+    tracker->num_reflectors = (uint16_t)num_reflectors;
+    return RHO_OK;
+}
+
+int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker)
+{
+    if (tracker->num_reflectors > RHO_MAX_REFLECTORS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < tracker->num_reflectors; i++) {
+        if (!is_usable(&tracker->reflectors[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* A wall: its direction and length. */
+struct wall {
+    float x_m, y_m, along_x, along_y, length_m;
+};
+
+static struct wall wall_of(const struct rho_reflector *reflector)
+{
+    const float x_m = reflector->to_x_m - reflector->from_x_m,
+                y_m = reflector->to_y_m - reflector->from_y_m;
+    const float length_m = rho_sqrt(x_m * x_m + y_m * y_m);
+    return (struct wall){reflector->from_x_m, reflector->from_y_m, x_m / length_m, y_m / length_m,
+                         length_m};
+}
+
+/* How far before the wall a place is, below 0 behind it; and how far along. */
+static float before(const struct wall *wall, float x_m, float y_m, float *along_m)
+{
+    const float dx_m = x_m - wall->x_m, dy_m = y_m - wall->y_m;
+    *along_m = dx_m * wall->along_x + dy_m * wall->along_y;
+    return dy_m * wall->along_x - dx_m * wall->along_y;
+}
+
+/* ---- images ---------------------------------------------------------------------------------- */
+
+/* The components of x and y from `first` on: those along the wall stay, those across turn round. */
+static void reflect(const struct wall *wall, float *x, float *y)
+{
+    const float along = *x * wall->along_x + *y * wall->along_y;
+    const float kept = 2.0f * along;
+    *x = kept * wall->along_x - *x;
+    *y = kept * wall->along_y - *y;
+}
+
+/*
+ * A covariance is turned into the directions of the wall, where signs change, and back: row and
+ * column of a component across the wall.
+ */
+static void reflect_covariance(const struct wall *wall, float p[21])
+{
+    const float c = wall->along_x, s = wall->along_y;
+    rho_linalg_turn6(p, RHO_X, RHO_Y, c, s);
+    rho_linalg_turn6(p, RHO_VX, RHO_VY, c, s);
+    for (int i = 0; i < RHO_KALMAN_STATES; i++) {
+        if (i != RHO_Y && i != RHO_VY) {
+            float *y = &p[i > RHO_Y ? RHO_AT(i, RHO_Y) : RHO_AT(RHO_Y, i)];
+            float *vy = &p[i > RHO_VY ? RHO_AT(i, RHO_VY) : RHO_AT(RHO_VY, i)];
+            *y = -*y;
+            *vy = -*vy;
+        }
+    }
+    rho_linalg_turn6(p, RHO_X, RHO_Y, c, -s);
+    rho_linalg_turn6(p, RHO_VX, RHO_VY, c, -s);
+}
+
+/* The line of sight from the sensor to the image crosses the wall. */
+static int is_seen(const struct step *step, const struct wall *wall, const struct rho_track *track,
+                   const struct rho_kalman *image)
+{
+    float sensor_along_m, image_along_m;
+    const float sensor_m = before(wall, step->sensor ? step->sensor->x_m : 0.0f,
+                                  step->sensor ? step->sensor->y_m : 0.0f, &sensor_along_m);
+    const float image_m = before(wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
+    if (!(sensor_m * image_m < 0.0f)) {
+        return 0;
+    }
+    const float slack_m = BESIDE_SIGMAS * rho_track_sigma_m(track);
+    const float crossing_m =
+        sensor_along_m + (image_along_m - sensor_along_m) * sensor_m / (sensor_m - image_m);
+    return crossing_m >= -slack_m && crossing_m <= wall->length_m + slack_m;
+}
+
+/* 0: none is seen. */
+static int make_image(struct step *step, unsigned reflector, const struct rho_track *track,
+                      struct rho_kalman *image)
+{
+    const struct wall wall = wall_of(&step->tracker->reflectors[reflector]);
+    rho_tracker_spend(step, IMAGE_UNITS);
+    *image = track->kalman;
+    image->state[RHO_X] -= wall.x_m;
+    image->state[RHO_Y] -= wall.y_m;
+    reflect(&wall, &image->state[RHO_X], &image->state[RHO_Y]);
+    reflect(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
+    image->state[RHO_X] += wall.x_m;
+    image->state[RHO_Y] += wall.y_m;
+    if (!is_seen(step, &wall, track, image)) {
+        return 0;
+    }
+    reflect_covariance(&wall, image->covariance);
+    return 1;
+}
+
+/* A target may have images where it has plots of its own, and not from behind. */
+static int has_images(const struct step *step, unsigned row)
+{
+    const struct rho_track *track = &step->tracker->tracks[row];
+    return track->status != RHO_TRACK_FREE && track->hits >= IMAGED_HITS &&
+           track->time_us == step->time_us;
+}
+
+/* ---- plots ----------------------------------------------------------------------------------- */
+
+static void mark_plots(struct step *step, const struct rho_kalman *image)
+{
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    float half_m[2];
+    rho_gate_open(&gate, image, step->model.noise_density, step->sensor, step->scan->measures);
+    rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
+    struct plots_near near = rho_tracker_plots_near(
+        step, image->state[RHO_X] - half_m[0], image->state[RHO_X] + half_m[0],
+        image->state[RHO_Y] - half_m[1], image->state[RHO_Y] + half_m[1]);
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i) && !rho_tracker_is_spent(step);) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        const float dx_m = plot->x_m - image->state[RHO_X], dy_m = plot->y_m - image->state[RHO_Y];
+        if (step->report->fates[i] == RHO_FATE_HELD && dx_m <= half_m[0] && dx_m >= -half_m[0] &&
+            dy_m <= half_m[1] && dy_m >= -half_m[1]) {
+            rho_tracker_spend(step, TEST_UNITS);
+            if (rho_gate_test(&gate, plot, &result)) {
+                step->report->fates[i] = RHO_FATE_GHOST;
+            }
+        }
+    }
+}
+
+void rho_tracker_mark_images(struct step *step)
+{
+    struct rho_kalman image;
+    rho_tracker_begin_share(step, RHO_WORK_IMAGES_SHARE);
+    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
+        for (unsigned i = 0; has_images(step, row) && i < step->tracker->num_reflectors; i++) {
+            if (rho_tracker_is_spent(step)) {
+                step->is_partial = 1;
+                return;
+            }
+            if (make_image(step, i, &step->tracker->tracks[row], &image)) {
+                mark_plots(step, &image);
+            }
+        }
+    }
+}
+
+/* ---- tracks ---------------------------------------------------------------------------------- */
+
+static int may_be_image(const struct step *step, const struct rho_track *track)
+{
+    const float looks = (float)track->hits + (float)track->misses;
+    return track->status != RHO_TRACK_FREE && track->time_us == step->time_us &&
+           (!rho_tracker_is_established(track) || (float)track->hits < IMAGE_SHARE * looks);
+}
+
+/* By place and velocity in the plane. */
+static int is_at_image(const struct rho_track *track, const struct rho_kalman *image)
+{
+    static const uint8_t of[4] = {RHO_X, RHO_Y, RHO_VX, RHO_VY};
+    float s[RHO_TRIANGLE(4)], off[4], chi2, log_det;
+    int place = 0;
+    for (int i = 0; i < 4; i++) {
+        off[i] = track->kalman.state[of[i]] - image->state[of[i]];
+        for (int j = 0; j <= i; j++, place++) {
+            s[place] = track->kalman.covariance[RHO_AT(of[i], of[j])] +
+                       image->covariance[RHO_AT(of[i], of[j])];
+        }
+    }
+    return rho_linalg_match(4, s, off, IMAGE_CHI2, &chi2, &log_det);
+}
+
+static int is_image(struct step *step, unsigned row)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    struct rho_kalman image;
+    for (unsigned other = 0; other < tracker->num_tracks; other++) {
+        const struct rho_track *of = &tracker->tracks[other];
+        for (unsigned i = 0; other != row && has_images(step, other) && i < tracker->num_reflectors;
+             i++) {
+            if (make_image(step, i, of, &image) && is_at_image(&tracker->tracks[row], &image)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+void rho_tracker_end_images(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (!may_be_image(step, track)) {
+            continue;
+        }
+        track->image_looks = (uint8_t)(is_image(step, row) ? track->image_looks + 1u : 0u);
+        if (track->image_looks >= IMAGE_LOOKS) {
+            rho_tracker_end_track(step, track);
+        }
+    }
+    rho_tracker_remove_ended(tracker);
+}
