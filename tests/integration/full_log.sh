@@ -199,6 +199,35 @@ play
 check 'standard error into a full pipe: SIGTERM ends the node with 0' exits 0
 check "standard error into a full pipe: within a second ($took_ms ms)" test "$took_ms" -lt 1000
 check "standard error into a full pipe: tracks went on ($live_steps steps)" test "$live_steps" -ge 560
+# ---- a broker that takes the connection and says nothing ----
+cat >silent.py <<'PYTHON'
+import os, socket, time
+here = socket.create_server(("127.0.0.1", 0))
+with open("port.part", "w") as out:
+    print(here.getsockname()[1], file=out)
+os.rename("port.part", "port")
+time.sleep(300)
+PYTHON
+python3 silent.py &
+wait_until 10 test -s port
+"$program" node --lcm "tcpq://127.0.0.1:$(cat port)" 2>node.err </dev/null &
+node=$!
+sleep 1
+end_node
+check 'a silent broker: SIGTERM ends the node' test "$status" -le 1
+check "a silent broker: within a second ($took_ms ms)" test "$took_ms" -lt 1000
+
+# ---- a table that nobody reads ----
+mkfifo table
+python3 hold.py table table-filled full &
+wait_until 10 test -e table-filled
+rm -f work
+"$program" node --config scene/scenario.ini --set hold_ms=500 --print 2>node.err </dev/null >table &
+node=$!
+wait_until 5 test -s work
+play
+check "a table that nobody reads: within a second ($took_ms ms)" test "$took_ms" -lt 1000
+
 # ---- a snapshot onto a disk that does not answer: the program waits for it, but not for long ----
 cat >stall.c <<'C'
 int pause(void);

@@ -35,8 +35,8 @@ enum {
     WARNING_US = 1000000, /* from one warning of a cause to the next */
     MISSING_US = 3000000, /* that a scan must be missing for before it is called lost */
     SNAPSHOT_US = 60000000,
-    END_US = 500000,     /* for the outputs at the end */
-    END_MOST_US = 900000 /* for the whole program, once it is told to end */
+    END_US = 350000,     /* for the outputs at the end */
+    END_MOST_US = 500000 /* for the whole program, once it is told to end */
 };
 
 struct warning {
@@ -61,6 +61,7 @@ struct node {
     struct clutter_file clutter;
     int signals;               /* descriptor */
     int64_t status_us, end_us; /* clock_us: when the next status is due; when it is over */
+    int64_t finish_us;         /* clock_us: until when outputs are waited for at the end */
     unsigned statuses;         /* that were sent */
     bool is_over, is_waiting;  /* waiting: nothing is left to receive */
     int exit_code;
@@ -519,6 +520,7 @@ static void run(struct node *node)
         wait_for_work(node);
         take_messages(node);
     }
+    node->finish_us = clock_us() + END_US;
     node_core_flush(node->core);
     node->statuses = 0;
     send_status(node);
@@ -528,10 +530,8 @@ static void run(struct node *node)
 /* Outputs that take nothing are waited for END_US at most, all together. */
 static void finish(struct node *node)
 {
-    const int64_t until_us = clock_us() + END_US;
-
-    node_print_end(&node->print, until_us);
-    node_log_end(node->log, until_us);
+    node_print_end(&node->print, node->finish_us);
+    node_log_end(node->log, node->finish_us);
     note_saved(node, node_log_watch(node->log));
     print_summary(node);
     write_last_snapshot(node);
