@@ -138,6 +138,16 @@ class Scenes(unittest.TestCase):
             self.assertLess(abs(np.mean(along)), 0.0192)
             self.assertLess(np.abs(np.bincount(np.ravel(rows)) - 1580 / 8).max(), 52)
 
+    def test_the_whole_beam_and_the_printed_start_are_as_they_say(self):
+        def first(**setting):
+            return Scene(replace(maneuver.PAPER, **setting), SEED, 0, 0, 2)
+
+        half, whole, printed = first(), first(beam_deg=1.2), first(is_printed=True)
+        np.testing.assert_allclose(half.radius_m[:, 0], 639.2, atol=0.1)  # |(50, 35, .3) km| sin .6
+        np.testing.assert_allclose(whole.radius_m[:, 0], 1278.2, atol=0.1)
+        np.testing.assert_allclose(whole.offsets[:, 0], half.offsets[:, 0] * 1.99989, rtol=1e-4)
+        np.testing.assert_allclose(printed.truth[0, 0], [5e3, 53e3, 300, -6, -5, 0])
+
     def test_a_target_outside_the_beam_is_not_seen(self):
         for beam, radii, is_seen in (("prediction", 0.99, True), ("prediction", 1.01, False),
                                      ("all round", 1.01, True)):
@@ -506,15 +516,16 @@ class Script(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             found = json.loads(done.stdout)
             self.assertEqual([len(found[name]) for name in (
-                "paper", "process_noise", "closed_loop", "assumed_pd")], [8, 1, 25, 1])
+                "paper", "process_noise", "closed_loop", "assumed_pd", "as_read")],
+                             [8, 1, 25, 1, 5])
             self.assertEqual(len(found["bars"]), 80)
             row = found["closed_loop"][3]
             self.assertEqual((row["case"], row["sigma_m"], len(row["methods"])),
                              ("10, 10, 10, .9", 10, 5))
             self.assertLess(row["methods"][1]["rms_m"], 25)
             page = (folder / "index.html").read_text()
-            self.assertEqual(page.count("<table>"), 6)
-            for name in ("taken", "pop-up", "weave", "narrow"):
+            self.assertEqual(page.count("<table>"), 7)
+            for name in ("taken", "pop-up", "weave", "narrow", "narrow-weave"):
                 self.assertIn(f'src="{name}.svg"', page)
                 self.assertGreater((folder / f"{name}.svg").stat().st_size, 10000)
 

@@ -16,6 +16,7 @@ import numpy as np
 import paper_targets as paper
 import papers_initiation as papers
 import papers_initiation_figures as known
+import papers_initiation_tracks as tracks
 
 RUNS, SEED = 10, 4711
 SCRIPT = harness.ROOT / "tools" / "lab" / "papers_initiation.py"
@@ -134,6 +135,36 @@ class Lines(unittest.TestCase):
         self.assertEqual(papers.votes_of_table_3(SEED), 1)
 
 
+class Claims(unittest.TestCase):
+    def test_process_noise_is_equation_33(self):
+        """A path bends by T / 2 (w + the next w), and its plots lie on it."""
+        paths = paper.wandering([paper.TABLE_1[0]] * 400, paper.PROCESS_MPS,
+                                       np.random.default_rng(SEED))
+        bends = np.diff(paths, 2, axis=0)  # T / 2 (w_k + w_k+1)
+        self.assertAlmostEqual(bends.std() / (2 * 10 / 2**0.5), 1, delta=0.05)
+        flown, plots = papers.flown(papers.I._replace(process_mps=10, pd=1.0),
+                                    np.random.default_rng(SEED))
+        for at_m, (places, target) in zip(flown.paths_m, plots):
+            np.testing.assert_allclose(places[np.argsort(target)], at_m)
+
+    def test_recursive_least_squares_is_the_fit_of_all(self):
+        rng = np.random.default_rng(SEED)
+        t_s = np.array([0.0, 2, 4, 8, 10])
+        places = np.stack([30 + 7 * t_s, -4 * t_s], axis=1) + rng.standard_normal((5, 2))
+        found, velocity = tracks.filtered(t_s, places)
+        fit = np.polyfit(t_s, places, 1)
+        np.testing.assert_allclose(velocity, fit[0])
+        np.testing.assert_allclose(found[-1], fit[0] * 10 + fit[1])
+        np.testing.assert_allclose(found[:2], places[:2])
+
+    def test_initialised_tracks_end_at_their_targets(self):
+        situation = papers.THIN._replace(pd=1.0)
+        plots = papers.plots_of(situation, np.random.default_rng(SEED))
+        found = tracks.initialised(papers.initiator_of("default", situation), situation, plots, 3)
+        self.assertEqual(len(found), 3)
+        self.assertTrue(all(tracks.off_m(track, situation) < 40 for track in found))
+
+
 class Reference(unittest.TestCase):
     def test_figures_are_read_with_their_rounding(self):
         for of, value, rounding in ((("IV", "HT", "votes"), 2.26e6, 5e3),
@@ -182,7 +213,8 @@ class EndToEnd(unittest.TestCase):
             self.assertEqual((len(report["cases"]), report["table3_nht_a_votes"]), (14, 1))
             page = (folder / "index.html").read_text()
             names = ["situation-I", "situation-II", "situation-III", "situation-IV",
-                     "situation-real-10", "situation-real-100", "noise", "times"]
+                     "situation-real-10", "situation-real-100", "noise", "times", "histograms-I",
+                     "histograms-real-100"]
             for name in names:
                 self.assertIn(f'src="{name}.svg"', page)
                 self.assertTrue(8000 < (folder / f"{name}.svg").stat().st_size < 600000, name)

@@ -4,6 +4,7 @@
 targets are paired, which bars are missed when, and few runs of the script against the figures of
 many. Bounds are four standard deviations of a sample of the many-run figure beside them."""
 import argparse
+import itertools
 import json
 import math
 import os
@@ -23,6 +24,7 @@ import lab
 import numpy as np
 import passive
 import passive_chain
+import passive_claims
 import passive_figures
 from bearings import Scene, Setting
 
@@ -326,12 +328,18 @@ class Script(unittest.TestCase):
             self.assertGreater(one["tracked"], 0.85)
             self.assertTrue(8 <= one["confirmed_at_frame"] < 9, one)
             self.assertTrue(0.9 < one["rms_m"] / one["filter_rms_m"] < 1.3, one)
-        self.assertEqual(len(report["bars"]), 92)
+        self.assertEqual(len(report["bars"]), 93)
         verdicts = {bar["what"]: bar["verdict"] for bar in report["bars"]}
         self.assertFalse(any(" ms " in what for what in verdicts))  # so few runs tell no time
         self.assertEqual(verdicts["default, 2s no target FA 4: ghosts a run"], "needs 300 runs")
+        psi = {one["case"]: one["psi_off_deg"] for one in report["summed"]}
+        self.assertLess(psi["3s 2t .05 clean"], 3)  # .9, of cells of 2
+        cost = {one["sensors"]: one for one in report["cost"]}
+        self.assertLess(cost[3]["hough_by_crossings"] + 1, cost[3]["tuples_by_bearings"])
+        self.assertLess(cost[3]["tuples_by_bearings"], cost[4]["tuples_by_bearings"])
         page = (self.folder / "out" / "index.html").read_text()
-        for name in ("figures-2-and-3", "figures-4-and-5", "figures-6-to-9"):
+        for name in ("figures-2-and-3", "figures-4-and-5", "figures-6-to-9",
+                     "figures-5-to-9-histograms"):
             self.assertIn(f'src="{name}.svg"', page)
             self.assertGreater((self.folder / "out" / f"{name}.svg").stat().st_size, 15000)
 
@@ -353,6 +361,31 @@ class Script(unittest.TestCase):
         self.assertEqual(first, pruning("--jobs", "1"))
         self.assertNotEqual(first["pruning"], pruning("--seed", "2")["pruning"])
         self.assertEqual(self.run_it("--part", "nothing").returncode, 2)
+
+
+class Assignment(unittest.TestCase):
+    def test_the_least_cost_is_that_of_every_choice(self):
+        """Two targets, three sensors: all sets of tuples without a common bearing, by brute
+        force."""
+        scene = bearings.Scene(bearings.Setting(3, 2, 0.1), np.random.default_rng(11))
+        looks = [scene.looks()[0, s]["bearing_rad"].astype(float) for s in range(3)]
+        costs, members = passive_claims.tuples_of(looks, 3, np.radians(0.1))
+        self.assertEqual(len(costs), 3**3 - 1 - 3 * 2)
+        least = 0.0
+        for count in (1, 2, 3):
+            for chosen in itertools.combinations(range(len(costs)), count):
+                used = [(s, members[i][s]) for i in chosen for s in range(3) if members[i][s] >= 0]
+                if len(set(used)) == len(used):
+                    least = min(least, costs[list(chosen)].sum())
+        chosen = passive_claims.assign(costs, members, looks)
+        self.assertAlmostEqual(costs[chosen].sum(), least, places=6)
+
+    def test_a_tuple_of_one_target_fits(self):
+        scene = bearings.Scene(bearings.Setting(3, 1, 0.001), np.random.default_rng(5))
+        looks = [scene.looks()[0, s]["bearing_rad"].astype(float) for s in range(3)]
+        near = scene.start[0, :2] + 500
+        self.assertLess(passive_claims.cost_of(np.concatenate(looks), bearings.PLACES_M[:3],
+                                               np.radians(0.001), near), 12)
 
 
 if __name__ == "__main__":

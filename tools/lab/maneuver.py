@@ -106,9 +106,22 @@ CLOSED_CASES = [  # g, sigma in metres, clutter plots, P_D
 
 PD_CASE = Case("10, 10, 10, .9", FIELD,
                tuple(Method(f"{pd:g}", pd=pd) for pd in (0.7, 0.8, 0.9, 0.97, 0.99)))
-CASES = [*PAPER_CASES, NOISE_CASE, *CLOSED_CASES, PD_CASE]
+
+# What the paper leaves open, or prints otherwise than it is read here.
+WEAVE_CASE = Case("weave, N 4, true Q 1e-4 I", replace(NOISE_CASE.setting, profile="weave"),
+                  NOISE_CASE.methods)
+READ_CASES = [
+    Case("the full beam, R sin(1.2 degrees)", replace(PAPER, beam_deg=1.2), PAPER_METHODS[:4]),
+    Case("start values in the printed order of digits", replace(PAPER, is_printed=True),
+         PAPER_METHODS[:4]),
+    *[Case(f"{profile}: methods as they may be meant", replace(PAPER, profile=profile), (
+        METHOD_I, METHOD_II, Method("input estimation, plot at random", "none"),
+        Method("none of both, plot at random", "none", estimates=False)))
+      for profile in ("pop-up", "weave")]]
+CASES = [*PAPER_CASES, NOISE_CASE, *CLOSED_CASES, PD_CASE, WEAVE_CASE, *READ_CASES]
 PICTURED = {0: ("I", "II", "III", "default"), 4: ("I", "II", "III", "default"),
-            len(PAPER_CASES): ("II", "I, gamma .5")}  # case: methods; of the last case the last Q
+            len(PAPER_CASES): ("II", "I, gamma .5"),  # of several Q the last
+            len(CASES) - len(READ_CASES) - 1: ("II", "I, gamma .5")}
 
 # Measured elsewhere: inside, wrong, most m, rms m, by case and method.
 ELSEWHERE = {
@@ -222,6 +235,23 @@ def tell_noise(report, summaries):
                   (inside, NAN, NAN, rms_m))
         for i, (method, summary, (inside, rms_m)) in enumerate(
             zip(NOISE_CASE.methods, summaries, NOISE_ELSEWHERE))])
+
+
+def tell_read(report, weave, summaries):
+    report.heading("The paper's contrast in the weave, and what its text leaves open")
+    report.text(
+        "Scenario 2 with a true process noise of 1e-4 I: as in the pop-up. Then the paper's pop-up "
+        "with Q = R = I and 4 clutter plots within the whole width of the beam, as (33) is printed; "
+        "from x 5 km, y 53 km, -6 and -5 m/s, as the digits are printed (here they are read "
+        "backwards: 50 and 35 km, -600 and -500 m/s); and with what Methods II and III may be, as "
+        "the page that says it is lost.")
+    each = len(WEAVE_CASE.methods) // len(NOISES)
+    report.table(["filter's Q, case", *PAPER_HEADINGS], [
+        *(paper_row(f"{NOISES[i // each]:g} I" if i % each == 0 else "", method, summary, [NAN] * 4)
+          for i, (method, summary) in enumerate(zip(WEAVE_CASE.methods, weave))),
+        *(paper_row(case.name if i == 0 else "", method, summary, [NAN] * 4)
+          for case, row in zip(READ_CASES, summaries)
+          for i, (method, summary) in enumerate(zip(case.methods, row)))])
 
 
 def tell_closed(report, summaries):
@@ -364,6 +394,8 @@ def draw(report, pictures):
     draw_errors(report, "narrow", pictures[len(PAPER_CASES)],
                 "The paper's contrast: Method II, and Method I with gamma .5, pop-up, with "
                 "Q = 1e-4 I.")
+    draw_errors(report, "narrow-weave", pictures[CASES.index(WEAVE_CASE)],
+                "The same, weave.")
 
 
 def facts_of(cases, summaries):
@@ -378,12 +410,16 @@ def main():
     report = lab.Report("Targets that manoeuvre in clutter", options)
     summaries, pictures = run_all(report)
     paper, closed_from = len(PAPER_CASES), len(PAPER_CASES) + 1
+    pd_at = closed_from + len(CLOSED_CASES)
     tell_paper(report, summaries[:paper])
     tell_noise(report, summaries[paper])
-    tell_closed(report, summaries[closed_from:-1])
-    tell_pd(report, summaries[-1])
+    tell_read(report, summaries[pd_at + 1], summaries[pd_at + 2:])
+    tell_closed(report, summaries[closed_from:pd_at])
+    tell_pd(report, summaries[pd_at])
     for name, part in (("paper", slice(paper)), ("process_noise", slice(paper, closed_from)),
-                       ("closed_loop", slice(closed_from, -1)), ("assumed_pd", slice(-1, None))):
+                       ("closed_loop", slice(closed_from, pd_at)),
+                       ("assumed_pd", slice(pd_at, pd_at + 1)),
+                       ("as_read", slice(pd_at + 1, None))):
         report.fact(name, facts_of(CASES[part], summaries[part]))
     for case, row in zip(PAPER_CASES, summaries):
         if case.setting.clutter == 4:

@@ -15,8 +15,9 @@ import rhotrack
 SCANS, INTERVAL_S = 161, 0.25
 CLEAN_SCANS = 3  # the target alone, and always seen
 G_MPS2 = 9.80665
-HALF_BEAM = math.sin(math.radians(0.6))  # of the range, to either side
+HALF_BEAM_DEG = 0.6  # of the paper's 1.2, to either side
 START = np.array([50e3, 35e3, 300.0, -600.0, -500.0, 0.0])
+PRINTED_START = np.array([5e3, 53e3, 300.0, -6.0, -5.0, 0.0])  # the digits in the paper's order
 START_SIGMA = math.sqrt(500.0)  # of the paper's P(0|0) = 500 I, which its first plot tells
 CLUTTER_MIN = 0.1  # plots that a scan without clutter counts as having
 PLACE_MAX_M, SPEED_MAX_MPS = 2e6, 2e4  # of plots; tracks that are lost go there
@@ -53,6 +54,8 @@ class Setting:
     pd: float = 0.9
     beam: str = "prediction"  # truth, prediction, all round
     told_g: float = 12.0  # what the tracker is told of the targets' accelerations
+    beam_deg: float = HALF_BEAM_DEG  # its radius is the range by the sine
+    is_printed: bool = False  # starts at PRINTED_START
 
     @property
     def axes(self):
@@ -110,7 +113,7 @@ class Scene:
         self.inputs[:, axes:] = 0
         self.truth = self._fly(process)
         self.range_m = np.linalg.norm(self.truth[..., :3], axis=-1)
-        self.radius_m = self.range_m * HALF_BEAM
+        self.radius_m = self.range_m * math.sin(math.radians(setting.beam_deg))
         self.offsets *= self.radius_m[:, :, None, None]
         self.measured = self._measure(noise)
 
@@ -122,7 +125,7 @@ class Scene:
             steps = setting.noise * process[:, :, :1] * setting.effect[:, None]
             steps[..., setting.axes:] = 0
         steps = (steps + setting.effect[:, None] * self.inputs[:, None]).reshape(*truth.shape)
-        truth[:, 0] = START
+        truth[:, 0] = PRINTED_START if setting.is_printed else START
         truth[:, 0, setting.axes:3] = 0
         for scan in range(1, SCANS):
             truth[:, scan] = truth[:, scan - 1] + steps[:, scan - 1]

@@ -12,6 +12,7 @@ V_MIN_MPS, V_MAX_MPS = 100.0, 400.0  # of Table 1's targets
 TABLE_1 = ((300, 280.0, 400, 49.0), (3000, -173.2, 300, -100.0), (2100, -173.2, 1300, -100.0))
 TABLE_1_INTERVAL_S = 2.0
 TABLE_1_SIGMA_M = 10.0
+PROCESS_MPS = 10.0  # of w in equation (33)
 TABLE_1_BOX_M = (0, 4000, -1000, 1500)  # x, x, y, y
 
 # Table 3: real plots, x and y (m) by scan and aircraft; 10 s a scan

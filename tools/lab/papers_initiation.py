@@ -24,6 +24,7 @@ import lab
 import paper_targets as paper
 import papers_initiation_figures as known
 import papers_initiation_pictures as pictures
+import papers_initiation_tracks as tracks
 import rhotrack
 
 RUNS = 200
@@ -31,6 +32,7 @@ METHODS = {"HT": ("ht", {}), "MHT": ("mht", {}), "IHT": ("iht", {}),
            "NHT A": ("nht", {"nht_reading": "a"}), "NHT C": ("nht", {"nht_reading": "c"}),
            "default": ("kernel", {})}
 COLOURS = {method: f"C{i}" for i, method in enumerate(METHODS)}
+SWEPT_FIGURES = ("detected", "met", "false peaks", "discrimination", "top 3")
 SWEPT = ["IHT", "NHT A", "NHT C", "default"]
 RHO_CELL_M, THETA_CELL_RAD, TAU = 5.0, 0.001, 0.5
 WINDOW_RHO_M, WINDOW_THETA_RAD, PEAKS_MAX, TOP = 40.0, 0.008, 4096, 3
@@ -49,9 +51,13 @@ class Situation(NamedTuple):
     per_scan: float = 0.0
     is_real: bool = False
     pd: float = 0.99
+    process_mps: float = 0.0  # of w in equation (33)
+    flown_m: np.ndarray | None = None  # paths of a run with process noise
 
     @property
     def paths_m(self):
+        if self.flown_m is not None:
+            return self.flown_m
         return paper.TABLE_3 if self.is_real else paper.straight(paper.TABLE_1)
 
     @property
@@ -93,6 +99,14 @@ def plots_of(situation, rng):
     mean = situation.per_scan + 1e-6 * situation.per_km2 * paper.area_m2(situation.box_m)
     return paper.observed(situation.paths_m, situation.noise_m, situation.pd,
                           [(situation.box_m, mean)], rng)
+
+
+def flown(situation, rng):
+    """The situation as it was flown, with process noise if it has any, and its plots."""
+    if situation.process_mps:
+        situation = situation._replace(flown_m=paper.wandering(paper.TABLE_1, situation.process_mps,
+                                                               rng))
+    return situation, plots_of(situation, rng)
 
 
 def true_lines(paths_m):
@@ -183,7 +197,7 @@ def run_method(method, situation, plots, ideal_votes):
 
 def run(job):
     situation, methods, ideal_votes, *seed = job
-    plots = plots_of(situation, np.random.default_rng(seed))
+    situation, plots = flown(situation, np.random.default_rng(seed))
     return {method: run_method(method, situation, plots, ideal_votes) for method in methods}
 
 
@@ -290,9 +304,8 @@ def words_table(report, summaries):
 
 def sweep_table(report, sweep):
     report.table(["noise m", "method", "detected", "met", "false", "discrim.", "top 3"], [
-        [f"{noise_m:g}", method, *(text_of(figure, summary.get(figure, (np.nan, 0))[0]) for figure
-                                   in ("detected", "met", "false peaks", "discrimination",
-                                       "top 3"))]
+        [f"{noise_m:g}", method, *(text_of(figure, summary.get(figure, (np.nan, 0))[0])
+                                   for figure in SWEPT_FIGURES)]
         for noise_m, of in zip(NOISES_M, sweep) for method, summary in of.items()])
 
 
@@ -397,6 +410,30 @@ def heights_without_chance(methods):
             for method in methods if method != "default"}
 
 
+def tell_claims(report, methods, ideal_votes):
+    """What the paper claims or shows besides."""
+    process = [situation._replace(name=f"{situation.name} w", process_mps=paper.PROCESS_MPS)
+               for situation in SITUATIONS[:4]]
+    summaries = measured(report, process, methods, ideal_votes,
+                         max(report.options.runs // 2, min(report.options.runs, 2)), 5000)
+    report.heading("The Situations with process noise, equation (33)")
+    report.text("The state takes w, 10 m/s in each axis, at every scan, and the place T/2 w: paths "
+                "leave the straight line. The true line is the best one through the true places.")
+    report.table(["case", "method", "detected", "met", "false", "discrim.", "top 3"], [
+        [situation.name, method, *(text_of(figure, summary.get(figure, (np.nan, 0))[0])
+                                   for figure in SWEPT_FIGURES)]
+        for situation, of in zip(process, summaries) for method, summary in of.items()])
+    report.fact("process_noise", facts_of([of.name for of in process], "case", summaries))
+    report.fact("initialised", tracks.tell(report, initiator_of, plots_of, {
+        "simulated": IV, "simulated, 0.5 m": IV._replace(noise_m=0.5), "real": REAL_DENSE}))
+
+
+def facts_of(keys, name, summaries):
+    return [{name: key, "method": method,
+             **{figure: None if np.isnan(value) else value for figure, (value, _) in summary.items()}}
+            for key, of in zip(keys, summaries) for method, summary in of.items()]
+
+
 def add_options(parser):
     parser.add_argument("--method", choices=sorted({name for name, _ in METHODS.values()}),
                         help="one alone; the default is kernel")
@@ -435,8 +472,10 @@ def main():
         words_table(report, summaries)
         for number, situation in enumerate(SITUATIONS):
             if situation.figure:
+                votes_of = planes(situation, papers, options.seed, 4000, number)
                 pictures.planes(report, situation, true_lines(situation.paths_m), RHO_CELL_M,
-                                planes(situation, papers, options.seed, 4000, number))
+                                votes_of)
+                pictures.histograms(report, situation, RHO_CELL_M, votes_of)
     if swept:
         report.heading("Situation IV at other noises")
         report.text("Up to about 0.6 m the paper's order holds: NHT C detects most, with far fewer "
@@ -452,13 +491,16 @@ def main():
     times_table(report, times, methods)
     pictures.times(report, DENSITIES, times, COLOURS)
     if methods == list(METHODS):
+        tell_claims(report, methods, ideal_votes)
         known.findings(report, dict(zip((of.name for of in SITUATIONS), summaries)),
                        dict(zip(DENSITIES, times)), alone_votes)
     bars(report, summaries, sweep, times, alone_votes)
-    report.fact("cases", [
-        {"case": situation.name, "method": method,
-         **{figure: None if np.isnan(value) else value for figure, (value, _) in summary.items()}}
-        for situation, of in zip(SITUATIONS, summaries) for method, summary in of.items()])
+    report.fact("cases", facts_of([of.name for of in SITUATIONS], "case", summaries))
+    report.fact("noise", facts_of(NOISES_M, "noise_m", sweep))
+    report.fact("times", [{"per_km2": per_km2, "method": method, "ms": ms,
+                           "votes": None if np.isnan(votes) else votes}
+                          for per_km2, of in zip(DENSITIES, times)
+                          for method, (ms, votes) in of.items()])
     report.fact("table3_nht_a_votes", alone_votes)
     report.close()
 

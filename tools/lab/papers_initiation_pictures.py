@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 
 BLOCKS = (100, 125)  # of cells, along theta and rho
+HISTOGRAM = (48, 56)
 GREY_BELOW_TAU = LinearSegmentedColormap.from_list("votes", [
     (0, "#ffffff"), (0.001, "#d8d8d8"), (0.499, "#8a8a8a"), (0.5, "#f0d000"), (0.75, "#e06000"),
     (1, "#8b0000")])
@@ -17,10 +18,7 @@ def planes(report, situation, true_lines, rho_cell_m, votes_of):
     figure, axes = plt.subplots(rows, min(len(votes_of), 3), squeeze=False,
                                 figsize=(12, 3.6 * rows), layout="constrained")
     for (method, votes), at in zip(votes_of.items(), axes.flat):
-        blocks = votes
-        for axis, count in enumerate(BLOCKS):
-            size = -(-votes.shape[axis] // count)
-            blocks = np.maximum.reduceat(blocks, np.arange(0, votes.shape[axis], size), axis=axis)
+        blocks = highest(votes, BLOCKS)
         half_km = votes.shape[1] * rho_cell_m / 2e3
         image = at.imshow(blocks / blocks.max(), GREY_BELOW_TAU, vmin=0, vmax=1, origin="lower",
                           aspect="auto", extent=(-half_km, half_km, 0, np.pi))
@@ -35,6 +33,38 @@ def planes(report, situation, true_lines, rho_cell_m, votes_of):
                     label="highest cell of a block / highest of all\ngrey: below tau, not listed")
     report.figure(f"situation-{situation.name.replace(' ', '-')}", figure,
                   f"As {situation.figure}. {situation.text}. One run.")
+
+
+def highest(votes, counts):
+    """The highest cell of each block, of about so many along each axis."""
+    for axis, count in enumerate(counts):
+        size = -(-votes.shape[axis] // count)
+        votes = np.maximum.reduceat(votes, np.arange(0, votes.shape[axis], size), axis=axis)
+    return votes
+
+
+def histograms(report, situation, rho_cell_m, votes_of):
+    """As the paper draws them: votes over rho and theta, one panel each of (a) HT, (b) MHT, (c)
+    IHT, (d) NHT, reading C."""
+    panels = [(letter, method, votes_of[method]) for letter, method in zip(
+        "abcd", ("HT", "MHT", "IHT", "NHT C")) if method in votes_of]
+    figure = plt.figure(figsize=(12, 9))
+    figure.subplots_adjust(0, 0, 0.96, 0.96, 0.02, 0.06)
+    for place, (letter, method, votes) in enumerate(panels, 1):
+        axes = figure.add_subplot(2, 2, place, projection="3d")
+        blocks = highest(votes, HISTOGRAM)
+        at = np.nonzero(blocks)
+        half_km, height = votes.shape[1] * rho_cell_m / 2e3, blocks[at]
+        width = 2 * half_km / blocks.shape[1], np.pi / blocks.shape[0]
+        axes.bar3d(at[1] * width[0] - half_km, at[0] * width[1], 0, *width, height, rasterized=True,
+                   color=plt.get_cmap("turbo")(height / height.max()))
+        axes.set(title=f"({letter}) {method}: votes", xlabel="rho (km)",
+                 ylabel="theta (rad)", xlim=(-half_km, half_km), ylim=(0, np.pi))
+        axes.view_init(28, -55)
+        axes.set_box_aspect((4, 4, 2.6))
+    report.figure(f"histograms-{situation.name.replace(' ', '-')}", figure,
+                  f"{situation.figure} as in the paper. {situation.text}. One run; a bar is the "
+                  "highest cell of a block.")
 
 
 def sweep(report, noises_m, summaries, colours):

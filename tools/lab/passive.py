@@ -17,6 +17,7 @@ import lab  # before numpy, whose threads it limits
 import numpy as np
 
 import passive_chain
+import passive_claims
 import passive_figures
 import passive_further
 import rhotrack
@@ -357,7 +358,8 @@ def tell_default(report):
 
 
 PARTS = {"pruning": tell_pruning, "paper": tell_paper, "default": tell_default,
-         "chain": passive_chain.tell, "further": passive_further.tell}
+         "chain": passive_chain.tell, "further": passive_further.tell,
+         "claims": passive_claims.tell}
 
 
 def main():

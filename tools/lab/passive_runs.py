@@ -8,7 +8,8 @@ import numpy as np
 
 from bearings import Scene
 
-SHARE = {"pruning": 3 / 4, "paper": 1 / 2, "default": 1, "chain": 1 / 2, "further": 1 / 8}  # of --runs
+SHARE = {"pruning": 3 / 4, "paper": 1 / 2, "default": 1, "chain": 1 / 2, "further": 1 / 8,
+         "claims": 1 / 4}  # of --runs
 RULES = {"none": "elimination alone", "literal": "literal", "safe": "safe"}  # of pruning
 
 
