@@ -90,7 +90,8 @@ static struct record_columns find_plots(const struct table *table,
     columns = (struct record_columns){
         .t_s = table_need(table, "t_s"),
         .received_s = table_find(table, "received_s"),
-        .sensor_id = needs_sensor ? table_need(table, "sensor_id") : table_find(table, "sensor_id"),
+        .sensor_id = needs_sensor && parameters->num_sensors > 0 ? table_need(table, "sensor_id")
+                                                                 : table_find(table, "sensor_id"),
         .x_m = has_no_xy ? table_find(table, "x_m") : table_need(table, "x_m"),
         .y_m = has_no_xy ? -1 : table_need(table, "y_m"),
         .z_m = is_polar ? -1 : table_find(table, "z_m"),
@@ -292,10 +293,10 @@ static bool read_azimuth(const struct checking *checking, float *azimuth_rad)
     float azimuth_deg = 0.0f;
 
     if (columns->azimuth_deg < 0) {
-        return row_float(&checking->cells, columns->azimuth_rad, -(float)PI, (float)PI,
-                         azimuth_rad);
+        return row_angle(&checking->cells, columns->azimuth_rad, azimuth_rad);
     }
-    if (!row_float(&checking->cells, columns->azimuth_deg, -360.0f, 360.0f, &azimuth_deg)) {
+    if (!row_float(&checking->cells, columns->azimuth_deg, -(float)ROW_ANGLE_MAX,
+                   (float)ROW_ANGLE_MAX, &azimuth_deg)) {
         return false;
     }
     *azimuth_rad = from_compass(azimuth_deg);
@@ -444,8 +445,6 @@ static bool read_sensor(const struct checking *checking, const struct parameters
 
 /* ---- Bearings ---- */
 
-#define BEARING_MAX 3.1415927f /* the nearest float, a little more than pi: as files have it */
-
 /* Takes the sensor's azimuth bias off; the time bias comes off the scan's time. */
 static void take_off_bias(const struct parameters *parameters, struct record *row)
 {
@@ -466,8 +465,7 @@ static bool read_bearing(const struct checking *checking, const struct parameter
                                             parameters->value[PARAMETER_SIGMA_RAD]);
 
     row->has_measurement = true;
-    if (!row_float(check, columns->bearing_rad, -BEARING_MAX, BEARING_MAX,
-                   &row->bearing.bearing_rad)) {
+    if (!row_angle(check, columns->bearing_rad, &row->bearing.bearing_rad)) {
         return false;
     }
     take_off_bias(parameters, row);

@@ -58,7 +58,8 @@ bool record_is_of_bearings(const struct table *table);
 
 /*
  * Finds the columns; exit 2 where one is missing that is needed, or the file holds the other kind.
- * Plots need sensor_id where needs_sensor, else all is sensor 0's; bearings always do. To be freed
+ * Plots need sensor_id where needs_sensor and the parameters describe a
+ * sensor, else all is sensor 0's; bearings always do. To be freed
  * before the parameters go.
  */
 struct record_columns record_columns_find(const struct table *table,

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "io/csv/row_check.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
 #include "rhotrack/types.h"
+
+#define TURN 6.283185307179586
 
 bool row_refuse(const struct row_check *check, const char *format, ...)
 {
@@ -58,6 +61,18 @@ bool row_float(const struct row_check *check, int column, float min, float max, 
         return false;
     }
     *value = (float)number;
+    return true;
+}
+
+bool row_angle(const struct row_check *check, int column, float *angle_rad)
+{
+    static const double half_turn = 3.1415927410125732; /* the nearest float, as files have it */
+    double number = 0.0;
+
+    if (!row_double(check, column, -ROW_ANGLE_MAX, ROW_ANGLE_MAX, &number)) {
+        return false;
+    }
+    *angle_rad = (float)(fabs(number) > half_turn ? remainder(number, TURN) : number);
     return true;
 }
 

@@ -36,6 +36,10 @@ bool row_has(const struct row_check *check, int column);
  */
 bool row_float(const struct row_check *check, int column, float min, float max, float *value);
 bool row_double(const struct row_check *check, int column, double min, double max, double *value);
+/* An angle of any turn, within half a turn to either side. */
+#define ROW_ANGLE_MAX 1e6
+bool row_angle(const struct row_check *check, int column, float *angle_rad);
+
 bool row_position(const struct row_check *check, int column, float *value);
 bool row_sigma_rad(const struct row_check *check, int column, double otherwise, float *value);
 

@@ -10,6 +10,7 @@
 
 #include "base/common.h"
 #include "base/number_text.h"
+#include "io/csv/table_form.h"
 
 void table_need_rows(const struct table *table)
 {
@@ -27,6 +28,7 @@ void table_free(struct table *table)
     free((void *)table->names);
     free(table->columns);
     free(table->numbers);
+    free(table->factors);
     free(table->times_us);
     free(table->cells);
     free(table->lines);
@@ -49,11 +51,19 @@ int table_find(const struct table *table, const char *name)
 int table_need(const struct table *table, const char *name)
 {
     int column = table_find(table, name);
+    char names[160], found[240] = "";
+    size_t used = 0;
 
-    if (column < 0) {
-        table_fail(table, TABLE_HEADER, "no column '%s'", name);
+    if (column >= 0) {
+        return column;
     }
-    return column;
+    table_form_names_of(name, names, sizeof names);
+    for (size_t i = 0; i < table->num_columns && used < sizeof found; i++) {
+        used += (size_t)snprintf(found + used, sizeof found - used, "%s%.40s", i > 0 ? ", " : "",
+                                 table->names[i]);
+    }
+    table_fail(table, TABLE_HEADER, "no column '%s'%s%s%s; the file has: %s", name,
+               *names ? " (or " : "", names, *names ? ")" : "", found);
 }
 
 /* The row's cell as text; of a table of numbers NULL. */
@@ -65,6 +75,12 @@ static const char *text_of(const struct table *table, size_t row, int column)
 static double number_of(const struct table *table, size_t row, int column)
 {
     return table->numbers[row * table->num_columns + (size_t)column];
+}
+
+/* What the cell's number is to be multiplied by; 0: nothing. */
+static double factor_of(const struct table *table, int column)
+{
+    return table->factors ? table->factors[column] : 0;
 }
 
 bool table_is_empty(const struct table *table, size_t row, int column)
@@ -119,7 +135,12 @@ const char *table_number(const struct table *table, size_t row, int column, doub
     const char *text = text_of(table, row, column);
 
     if (text) {
-        return text_to_number(text, value);
+        const char *why = text_to_number(text, value);
+
+        if (!why && factor_of(table, column) > 0) {
+            *value *= factor_of(table, column);
+        }
+        return why;
     }
     *value = column == 0 ? (double)table->times_us[row] * 1e-6 : number_of(table, row, column);
     return isnan(*value) ? "is empty" : NULL;
@@ -131,7 +152,25 @@ const char *table_float(const struct table *table, size_t row, int column, float
     double number = 0.0;
     const char *why = table_number(table, row, column, &number);
 
-    *value = why ? 0.0f : text ? strtof(text, NULL) : (float)number;
+    *value = why                                       ? 0.0f
+             : text && !(factor_of(table, column) > 0) ? strtof(text, NULL)
+                                                       : (float)number;
+    return why;
+}
+
+static const char *text_time_us(const char *text, double factor, int64_t *time_us)
+{
+    double seconds;
+    const char *why = text_to_time_us(text, time_us);
+
+    if (why) {
+        return table_form_iso_us(text, time_us) ? NULL : why;
+    }
+    if (!(factor > 0)) {
+        return NULL;
+    }
+    why = text_to_number(text, &seconds);
+    *time_us = why ? 0 : (int64_t)llround(seconds * factor * 1e6);
     return why;
 }
 
@@ -140,7 +179,7 @@ const char *table_time_us(const struct table *table, size_t row, int column, int
     const char *text = text_of(table, row, column);
 
     if (text) {
-        return text_to_time_us(text, time_us);
+        return text_time_us(text, factor_of(table, column), time_us);
     }
     *time_us = table->times_us[row]; /* no table of numbers has another column of times */
     return NULL;

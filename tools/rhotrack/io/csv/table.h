@@ -31,6 +31,7 @@ struct table {
     int64_t *times_us;            /* of a table of numbers: t_s of the rows, */
     double *numbers;              /* num_rows x num_columns; NaN where a cell is empty */
     struct table_column *columns; /* num_columns */
+    double *factors;              /* of the columns, 0: none; NULL: none has one (table_form.h) */
     size_t capacity;              /* of its rows */
     uint32_t *lines;              /* num_rows: the first line of the row in the file */
     uint32_t header_line;
@@ -58,7 +59,7 @@ void table_free(struct table *table);
 /* A header without rows is refused here: exit 2. */
 void table_need_rows(const struct table *table);
 
-/* Index of a column, or -1; table_need exits with 2 where it is missing. */
+/* Index of a column, or -1; table_need exits with 2 where it is missing, and names what is there. */
 int table_find(const struct table *table, const char *name);
 int table_need(const struct table *table, const char *name);
 

@@ -16,6 +16,7 @@
 #include "base/number_text.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_records.h"
+#include "io/csv/table_form.h"
 
 #define FIRST_CAPACITY (1u << 16)
 #define FIRST_TEXT 1024u
@@ -32,6 +33,9 @@ struct table_stream {
     struct asterix_records *asterix; /* a recording; or NULL */
     const char *own;                 /* the path to look at again; NULL: standard input */
     struct csv_parser parser;
+    char delimiter; /* 0: no header yet */
+    char *joined;   /* a line with commas for its blanks */
+    size_t joined_capacity;
     char *content;
     size_t bytes, capacity, position;
     uint64_t offset; /* of the content in the file */
@@ -148,6 +152,15 @@ static bool is_idle(const char *line, size_t length)
 
 /* ---- Rows ---- */
 
+/* A name that the file has; others are constants (table_form.h). */
+static bool is_in_text(const struct table_stream *stream, const char *name)
+{
+    const char *text = stream->table->text;
+
+    return (uintptr_t)name >= (uintptr_t)text &&
+           (uintptr_t)name < (uintptr_t)text + stream->text_used;
+}
+
 /* Room for a cell. Names and cells that are there keep their places in the text. */
 static void grow_text(struct table_stream *stream, size_t bytes)
 {
@@ -161,7 +174,9 @@ static void grow_text(struct table_stream *stream, size_t bytes)
     text = must_alloc(stream->text_capacity);
     memcpy(text, table->text, stream->text_used);
     for (size_t i = 0; table->names && i < table->num_columns; i++) {
-        table->names[i] = text + (table->names[i] - table->text);
+        if (is_in_text(stream, table->names[i])) {
+            table->names[i] = text + (table->names[i] - table->text);
+        }
     }
     for (size_t i = 0; i < stream->row_cells; i++) {
         stream->row[i] = text + (stream->row[i] - table->text);
@@ -183,6 +198,9 @@ static void on_cell(void *cell, size_t bytes, void *user)
     text = stream->table->text + stream->text_used;
     memcpy(text, cell, bytes);
     text[bytes] = '\0';
+    if (stream->delimiter != ',') {
+        table_form_point(text);
+    }
     stream->text_used += bytes + 1;
     stream->row[stream->row_cells++] = text;
 }
@@ -199,6 +217,9 @@ static void start_parser(struct table_stream *stream)
         fail(EXIT_RUNTIME, "out of memory");
     }
     csv_set_blk_size(&stream->parser, 4096);
+    if (stream->delimiter == ';' || stream->delimiter == '\t') {
+        csv_set_delim(&stream->parser, (unsigned char)stream->delimiter);
+    }
     stream->row_is_open = stream->row_is_complete = false;
 }
 
@@ -253,6 +274,7 @@ static void keep_header(struct table_stream *stream)
             }
         }
     }
+    table_form_name_columns(table);
 }
 
 static void keep_row(struct table_stream *stream)
@@ -291,6 +313,24 @@ static void end_row(struct table_stream *stream)
     refuse_row(stream, what);
 }
 
+/* The header line tells what separates the cells. */
+static void find_delimiter(struct table_stream *stream, const char *line, size_t length)
+{
+    stream->delimiter = table_form_delimiter(line, length);
+    csv_free(&stream->parser);
+    start_parser(stream);
+}
+
+static const char *join_blanks(struct table_stream *stream, const char *line, size_t *length)
+{
+    if (*length > stream->joined_capacity) {
+        stream->joined_capacity = 2 * *length;
+        stream->joined = must_realloc(stream->joined, stream->joined_capacity);
+    }
+    *length = table_form_join_blanks(line, *length, stream->joined);
+    return stream->joined;
+}
+
 static const char too_long[] = "a row of more than 1 MiB: a quoted cell has no end";
 
 /* Gives the line at the current position to libcsv. */
@@ -298,6 +338,9 @@ static void parse_line(struct table_stream *stream, size_t length)
 {
     const char *line = stream->content + stream->position;
 
+    if (!stream->delimiter) {
+        find_delimiter(stream, line, length);
+    }
     if (!stream->row_is_open) {
         begin_row(stream, length);
     }
@@ -307,6 +350,9 @@ static void parse_line(struct table_stream *stream, size_t length)
     if (!stream->is_whole && stream->row_bytes > TABLE_STREAM_ROW_BYTES) {
         refuse_row(stream, too_long);
         return;
+    }
+    if (stream->delimiter == ' ') {
+        line = join_blanks(stream, line, &length);
     }
     if (csv_parse(&stream->parser, line, length, on_cell, on_row_end, stream) != length) {
         if (csv_error(&stream->parser) != CSV_EPARSE) {
@@ -553,6 +599,7 @@ static void free_stream(struct table_stream *stream)
     asterix_records_close(stream->asterix);
     csv_free(&stream->parser);
     free(stream->row);
+    free(stream->joined);
     free(stream->content);
     free(stream);
 }

@@ -29,7 +29,8 @@ enum rows_column_flag {
     COLUMN_NO_ROOM = 1 << 8,    /* messages do not have it */
     COLUMN_ALWAYS = 1 << 9,     /* written; all others where a cell is not empty */
     COLUMN_NOT_ZERO = 1 << 10,  /* where a cell is neither empty nor 0 */
-    COLUMN_COVARIANCE = 1 << 11 /* where asked for */
+    COLUMN_COVARIANCE = 1 << 11, /* where asked for */
+    COLUMN_ANGLE = 1 << 12       /* of any turn */
 };
 
 struct rows_column {

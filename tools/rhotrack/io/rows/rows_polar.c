@@ -43,8 +43,8 @@ static double from_degrees(double value)
 
 static const struct rows_column columns[NUM_COLUMNS] = {
     [RANGE_M] = {"range_m", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP, NULL, NULL},
-    [AZIMUTH_RAD] = {"azimuth_rad", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP,
-                     "azimuth_deg", from_compass},
+    [AZIMUTH_RAD] = {"azimuth_rad", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS | COLUMN_ANGLE,
+                     NO_GROUP, "azimuth_deg", from_compass},
     [ELEVATION_RAD] = {"elevation_rad", COLUMN_MEASURED, NO_GROUP, "elevation_deg", from_degrees},
     [RANGE_RATE_MPS] = {"range_rate_mps", COLUMN_MEASURED, NO_GROUP, NULL, NULL},
     [SNR_DB] = {"snr_db", 0, NO_GROUP, NULL, NULL},

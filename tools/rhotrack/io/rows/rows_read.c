@@ -77,7 +77,12 @@ static void find_columns(struct reading *reading)
     const struct rows_kind *kind = reading->file->rows.kind;
 
     reading->t_s = table_need(table, "t_s");
-    reading->sensor_id = kind->has_sensor ? table_need(table, "sensor_id") : -1;
+    reading->sensor_id = -1;
+    if (kind->has_sensor) {
+        bool is_needed = kind == &rows_kind_bearings || reading->parameters->num_sensors > 0;
+
+        reading->sensor_id = (is_needed ? table_need : table_find)(table, "sensor_id");
+    }
     reading->received_s = kind->has_received ? table_find(table, "received_s") : -1;
     reading->file->rows.has_received = reading->received_s >= 0;
     reading->scan = table_find(table, "scan");
@@ -146,8 +151,8 @@ static bool read_degrees(const struct row_check *check, int column,
     if (why) {
         return row_refuse_cell(check, column, why);
     }
-    if (fabs(degrees) > 360.0) {
-        return row_refuse_cell(check, column, "is outside -360 .. 360");
+    if (fabs(degrees) > ROW_ANGLE_MAX) {
+        return row_refuse_cell(check, column, "is outside -1000000 .. 1000000");
     }
     *value = (double)(float)described->from_degrees(degrees);
     return true;
@@ -159,7 +164,14 @@ static bool read_cell(const struct reading *reading, const struct row_check *che
     const struct rows_column *described = &reading->file->rows.kind->columns[index];
     int column = reading->columns[index];
     int32_t whole = 0;
+    float angle_rad = 0;
 
+    if (described->flags & COLUMN_ANGLE && !reading->is_degrees[index]) {
+        bool is_good = row_angle(check, column, &angle_rad);
+
+        *value = (double)angle_rad;
+        return is_good;
+    }
     if (reading->is_degrees[index]) {
         return read_degrees(check, column, described, value);
     }

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * table_form: the forms in which CSV files come: what separates their cells, decimal commas, times
+ * of ISO 8601, and other names and units of the columns.
+ */
+#ifndef RHOTRACK_TOOL_TABLE_FORM_H
+#define RHOTRACK_TOOL_TABLE_FORM_H
+
+#include "io/csv/table.h"
+
+/*
+ * What separates the cells of a header line: a comma where there is one outside quotes, else a
+ * semicolon, else a tab, else a blank (one or more of them).
+ */
+char table_form_delimiter(const char *line, size_t length);
+
+/* Copies a line whose cells are separated by blanks with one comma between them; returns its length
+ * in `copy`, which has room for `length` bytes. */
+size_t table_form_join_blanks(const char *line, size_t length, char *copy);
+
+/* A number with a decimal comma gets a point; other texts stay. */
+void table_form_point(char *cell);
+
+/*
+ * Names the columns of a header as the readers do, in any case and with the units that
+ * tools/README.md has. A header that already names its time and a place, and a name that is known,
+ * stay as they are. Sets factors, by which numbers are to be multiplied, where one is not 1.
+ */
+void table_form_name_columns(struct table *table);
+
+/* Other names of a column ("time, timestamp"); "" where there are none. */
+void table_form_names_of(const char *column, char *text, size_t bytes);
+
+/* YYYY-MM-DDThh:mm:ss[.f][Z|+hh:mm] as microseconds since 1970, UTC where no zone is said. */
+bool table_form_iso_us(const char *text, int64_t *time_us);
+
+#endif
