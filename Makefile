@@ -16,6 +16,8 @@
 
 VERSION := 0.1.0
 BUILD := build
+# One folder has one name: objects built as one path are found by it.
+override BUILD := $(patsubst $(CURDIR)/%,%,$(BUILD))
 RHO_CONFIG_FILE :=
 PROFILE := embedded
 PREFIX := /usr/local
