@@ -307,8 +307,8 @@ static void the_last_frames_may_be_taken_alone(void **state)
 
 static void bad_rows_are_skipped_and_counted(void **state)
 {
-    struct given given = given_text(HEADER "0,1,0,0,1\n0,1,0,0,4\n" /* beyond pi */
-                                           "0,2,0,0,1\n"            /* where sensor 1 is */
+    struct given given = given_text(HEADER "0,1,0,0,1\n0,1,0,0,4e6\n" /* no angle */
+                                           "0,2,0,0,1\n"              /* where sensor 1 is */
                                            "0,2,9,0,1\n"
                                            "10,2,10,0,1\n" /* has moved */
                                            "-1,2,9,0,1\n"  /* time goes back */

@@ -290,7 +290,7 @@ static void bad_rows_of_both_kinds_are_skipped_and_counted(void **state)
     (void)state;
 
     write_file(&given, PLOTS "0,1,5,5\n0,1,nan,5\n1,1,5,5\n");
-    write_file(&given, BEARINGS "0,8,0,0,4\n0,8,0,0,1\n0,9,9,0,1\n1,9,8,0,1\n");
+    write_file(&given, BEARINGS "0,8,0,0,4e6\n0,8,0,0,1\n0,9,9,0,1\n1,9,8,0,1\n");
     open_inputs(&given, true);
     assert_inputs(&given, (const char *[]){"0: s1(1)", "0: f 8(1) 9(1)", "1000: s1(1)", "end"});
     counts = inputs_counts(given.inputs);

@@ -120,3 +120,78 @@ const char *text_to_int32(const char *cell, int32_t *value)
     *value = (int32_t)number;
     return NULL;
 }
+
+/* ---- ISO 8601 ---- */
+
+/* Days since 1970-01-01 of the Gregorian calendar. */
+static int64_t days_of(int year, int month, int day)
+{
+    int64_t from_march = month > 2 ? month - 3 : month + 9;
+    int64_t years = month > 2 ? year : year - 1;
+
+    return 365 * years + years / 4 - years / 100 + years / 400 + (153 * from_march + 2) / 5 + day -
+           1 - 719468;
+}
+
+/* Numbers where the pattern has 9s of as many digits; its other characters stand for themselves. */
+static bool read_numbers(const char *text, const char *pattern, int *numbers)
+{
+    for (; *pattern; pattern++, text++) {
+        if (*pattern != '9') {
+            if (*text != *pattern) {
+                return false;
+            }
+            numbers++;
+        } else if ((*text >= '0' && *text <= '9')) {
+            *numbers = 10 * *numbers + (*text - '0');
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The zone's offset in minutes. */
+static bool read_zone(const char *text, int *minutes)
+{
+    int parts[2] = {0};
+
+    *minutes = 0;
+    if (*text == '\0' || strcmp(text, "Z") == 0) {
+        return true;
+    }
+    if ((*text != '+' && *text != '-') || strlen(text) != 6 ||
+        !read_numbers(text + 1, "99:99", parts) || parts[0] > 23 || parts[1] > 59) {
+        return false;
+    }
+    *minutes = (*text == '-' ? -1 : 1) * (60 * parts[0] + parts[1]);
+    return true;
+}
+
+bool text_to_iso_us(const char *text, int64_t *time_us)
+{
+    int at[6] = {0}, zone;
+    int64_t part_us = 0;
+
+    if ((!read_numbers(text, "9999-99-99T99:99:99", at) &&
+         (memset(at, 0, sizeof at), !read_numbers(text, "9999-99-99 99:99:99", at))) ||
+        at[1] < 1 || at[1] > 12 || at[2] < 1 || at[2] > 31 || at[3] > 23 || at[4] > 59 ||
+        at[5] > 60) {
+        return false;
+    }
+    text += 19;
+    if (*text == '.' || *text == ',') {
+        int64_t weight_us = 100000;
+
+        for (text++; (*text >= '0' && *text <= '9'); text++, weight_us /= 10) {
+            part_us += weight_us * (*text - '0');
+        }
+    }
+    if (!read_zone(text, &zone)) {
+        return false;
+    }
+    *time_us = (((days_of(at[0], at[1], at[2]) * 24 + at[3]) * 60 + at[4] - zone) * 60 + at[5]) *
+                   INT64_C(1000000) +
+               part_us;
+    return true;
+}

@@ -3,6 +3,7 @@
 #ifndef RHOTRACK_TOOL_NUMBER_TEXT_H
 #define RHOTRACK_TOOL_NUMBER_TEXT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* All return NULL and set the value, or return the reason as a constant text. */
@@ -15,6 +16,12 @@ const char *text_to_number(const char *cell, double *value);
  * point where it has no exponent; |t| <= 4e12 s.
  */
 const char *text_to_time_us(const char *cell, int64_t *time_us);
+
+/*
+ * YYYY-MM-DDThh:mm:ss[.f][Z|+hh:mm], or a blank for the T, in microseconds since 1970, UTC where no
+ * zone is said. false: it is none.
+ */
+bool text_to_iso_us(const char *text, int64_t *time_us);
 
 /* A whole number within int32_t. */
 const char *text_to_int32(const char *cell, int32_t *value);

@@ -164,7 +164,7 @@ static const char *text_time_us(const char *text, double factor, int64_t *time_u
     const char *why = text_to_time_us(text, time_us);
 
     if (why) {
-        return table_form_iso_us(text, time_us) ? NULL : why;
+        return text_to_iso_us(text, time_us) ? NULL : why;
     }
     if (!(factor > 0)) {
         return NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * table_form: the forms in which CSV files come: what separates their cells, decimal commas, times
- * of ISO 8601, and other names and units of the columns.
+ * table_form: the forms in which CSV files come: what separates their cells, decimal commas, and
+ * other names and units of the columns.
  */
 #ifndef RHOTRACK_TOOL_TABLE_FORM_H
 #define RHOTRACK_TOOL_TABLE_FORM_H
@@ -30,8 +30,5 @@ void table_form_name_columns(struct table *table);
 
 /* Other names of a column ("time, timestamp"); "" where there are none. */
 void table_form_names_of(const char *column, char *text, size_t bytes);
-
-/* YYYY-MM-DDThh:mm:ss[.f][Z|+hh:mm] as microseconds since 1970, UTC where no zone is said. */
-bool table_form_iso_us(const char *text, int64_t *time_us);
 
 #endif
