@@ -42,8 +42,8 @@ struct rho_reflector {
  * near each other); nothing is changed. Constant cost.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
-                                                       const struct rho_reflector *reflectors,
-                                                       unsigned num_reflectors);
+                                                          const struct rho_reflector *reflectors,
+                                                          unsigned num_reflectors);
 
 #ifdef __cplusplus
 }

@@ -18,17 +18,17 @@
 #include "rhotrack/message.h"
 
 enum rows_column_flag {
-    COLUMN_NEEDED = 1 << 0,     /* the header has it */
-    COLUMN_FILLED = 1 << 1,     /* no cell is empty */
-    COLUMN_MEASURED = 1 << 2,   /* a row without any of these is a scan that saw nothing */
-    COLUMN_OF_SCAN = 1 << 3,    /* the same in all rows of a scan */
-    COLUMN_OF_PLOTS = 1 << 4,   /* the same, but for a row that saw nothing */
-    COLUMN_INT16 = 1 << 5,      /* whole numbers */
-    COLUMN_INT32 = 1 << 6,      /* the same */
-    COLUMN_STATUS = 1 << 7,     /* a word: RHO_MESSAGE_TRACK_TENTATIVE and so on */
-    COLUMN_NO_ROOM = 1 << 8,    /* messages do not have it */
-    COLUMN_ALWAYS = 1 << 9,     /* written; all others where a cell is not empty */
-    COLUMN_NOT_ZERO = 1 << 10,  /* where a cell is neither empty nor 0 */
+    COLUMN_NEEDED = 1 << 0,      /* the header has it */
+    COLUMN_FILLED = 1 << 1,      /* no cell is empty */
+    COLUMN_MEASURED = 1 << 2,    /* a row without any of these is a scan that saw nothing */
+    COLUMN_OF_SCAN = 1 << 3,     /* the same in all rows of a scan */
+    COLUMN_OF_PLOTS = 1 << 4,    /* the same, but for a row that saw nothing */
+    COLUMN_INT16 = 1 << 5,       /* whole numbers */
+    COLUMN_INT32 = 1 << 6,       /* the same */
+    COLUMN_STATUS = 1 << 7,      /* a word: RHO_MESSAGE_TRACK_TENTATIVE and so on */
+    COLUMN_NO_ROOM = 1 << 8,     /* messages do not have it */
+    COLUMN_ALWAYS = 1 << 9,      /* written; all others where a cell is not empty */
+    COLUMN_NOT_ZERO = 1 << 10,   /* where a cell is neither empty nor 0 */
     COLUMN_COVARIANCE = 1 << 11, /* where asked for */
     COLUMN_ANGLE = 1 << 12       /* of any turn */
 };
