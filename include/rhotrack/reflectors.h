@@ -30,7 +30,8 @@ extern "C" {
 
 struct rho_tracker;
 
-/* A straight wall, between two places at least a metre apart. */
+/* A straight wall, between two places at least so far apart. */
+#define RHO_REFLECTOR_LEAST_M 1.0f
 struct rho_reflector {
     float from_x_m, from_y_m, to_x_m, to_y_m;
 };

@@ -120,8 +120,6 @@ struct rho_track {
     uint8_t has_moved;      /* the track was surely elsewhere than where it started */
     /* scratch of a step: share of looks of its sensor that are blind to the track (notch.h) */
     uint8_t blind_percent;
-    /* looks in a row at which it was where another track's image would be (reflectors.h) */
-    uint8_t image_looks;
     float start_m[2], start_sigma_m;
     /* its second plots: scans in which it had a plot, and others near it; both fade */
     float second_looks, second_plots;

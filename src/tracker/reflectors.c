@@ -11,8 +11,6 @@
 #include "rhotrack/detail/linalg.h"
 #include "step.h"
 
-#define WALL_LEAST_M 1.0f
-
 /* The line of sight to an image may miss the wall by so many of its sigmas. */
 #define BESIDE_SIGMAS 3.0f
 
@@ -20,11 +18,9 @@
 #define IMAGED_HITS 3
 
 /*
- * A track that is not established, and was where another one's image would be at so many looks in a
- * row, by place and velocity, is that image. 99.9 % of images are within the limit of chi-square in
- * four dimensions.
+ * A track that is not established, and is where another one's image would be, by place and velocity,
+ * is that image. 99.9 % of images are within the limit of chi-square in four dimensions.
  */
-#define IMAGE_LOOKS 1
 #define IMAGE_CHI2 18.5f
 /* One that is seen less often than so may be one for longer: hits over looks. */
 #define IMAGE_SHARE 0.6f
@@ -41,7 +37,16 @@ static int is_usable(const struct rho_reflector *reflector)
                 y_m = reflector->to_y_m - reflector->from_y_m;
     return rho_is_coordinate(reflector->from_x_m) && rho_is_coordinate(reflector->from_y_m) &&
            rho_is_coordinate(reflector->to_x_m) && rho_is_coordinate(reflector->to_y_m) &&
-           x_m * x_m + y_m * y_m >= WALL_LEAST_M * WALL_LEAST_M;
+           x_m * x_m + y_m * y_m >= RHO_REFLECTOR_LEAST_M * RHO_REFLECTOR_LEAST_M;
+}
+
+static int are_usable(const struct rho_reflector *reflectors, unsigned num_reflectors)
+{
+    unsigned i = 0;
+    while (i < num_reflectors && is_usable(&reflectors[i])) {
+        i++;
+    }
+    return i == num_reflectors;
 }
 
 enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
@@ -57,10 +62,8 @@ enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
     if (num_reflectors > RHO_MAX_REFLECTORS) {
         return RHO_ERROR_CAPACITY;
     }
-    for (unsigned i = 0; i < num_reflectors; i++) {
-        if (!is_usable(&reflectors[i])) {
-            return RHO_ERROR_VALUE;
-        }
+    if (!are_usable(reflectors, num_reflectors)) {
+        return RHO_ERROR_VALUE;
     }
     memset(tracker->reflectors, 0, sizeof tracker->reflectors);
     for (unsigned i = 0; i < num_reflectors; i++) {
@@ -72,15 +75,8 @@ enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
 
 int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker)
 {
-    if (tracker->num_reflectors > RHO_MAX_REFLECTORS) {
-        return 0;
-    }
-    for (unsigned i = 0; i < tracker->num_reflectors; i++) {
-        if (!is_usable(&tracker->reflectors[i])) {
-            return 0;
-        }
-    }
-    return 1;
+    return tracker->num_reflectors <= RHO_MAX_REFLECTORS &&
+           are_usable(tracker->reflectors, tracker->num_reflectors);
 }
 
 /* A wall: its direction and length. */
@@ -257,6 +253,10 @@ static int is_image(struct step *step, unsigned row)
         const struct rho_track *of = &tracker->tracks[other];
         for (unsigned i = 0; other != row && has_images(step, other) && i < tracker->num_reflectors;
              i++) {
+            if (rho_tracker_is_spent(step)) {
+                step->is_partial = 1;
+                return 0;
+            }
             if (make_image(step, i, of, &image) && is_at_image(&tracker->tracks[row], &image)) {
                 return 1;
             }
@@ -268,13 +268,10 @@ static int is_image(struct step *step, unsigned row)
 void rho_tracker_end_images(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
+    rho_tracker_begin_share(step, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (!may_be_image(step, track)) {
-            continue;
-        }
-        track->image_looks = (uint8_t)(is_image(step, row) ? track->image_looks + 1u : 0u);
-        if (track->image_looks >= IMAGE_LOOKS) {
+        if (may_be_image(step, track) && is_image(step, row)) {
             rho_tracker_end_track(step, track);
         }
     }

@@ -7,7 +7,8 @@
  * of the rest a track takes a quarter at most. A track that has more plots near it than it may
  * score takes those nearest to its expected place. Before the claims an eighth of work_max is for
  * echoes of clutter; after them a sixteenth is for second plots, and another is reserved for those
- * of tracks that start. The search has what is left.
+ * of tracks that start. Where walls are told, a sixteenth is for their images before the search, and
+ * another is reserved for those after it. The search has what is left.
  */
 #include "step.h"
 
@@ -141,7 +142,10 @@ uint32_t rho_tracker_work_left(const struct step *step)
     if (all == 0) {
         return most;
     }
-    const uint32_t kept = all / RHO_WORK_STARTS_SHARE, used = rho_count(step->work, kept);
+    const int has_images = RHO_MAX_REFLECTORS > 0 && step->tracker->num_reflectors > 0;
+    const uint32_t kept =
+        all / RHO_WORK_STARTS_SHARE + (has_images ? all / RHO_WORK_IMAGES_SHARE : 0u);
+    const uint32_t used = rho_count(step->work, kept);
     const uint32_t left = all > used ? all - used : 1u; /* 0 is no limit */
     return most > 0 && most < left ? most : left;
 }

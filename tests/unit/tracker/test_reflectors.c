@@ -178,6 +178,35 @@ static void an_established_track_stays(void **state)
     assert_int_equal(report.num_tracks, 2);
 }
 
+#define CARS (RHO_MAX_TRACKS < 400 ? RHO_MAX_TRACKS : 400)
+#define BEYOND RHO_TRACKER_WORK_BEYOND
+
+/* Young tracks in front of all walls that there can be: each is compared with images of the others. */
+static void many_young_tracks_and_walls_cost_no_more_than_they_may(void **state)
+{
+    struct rho_reflector walls[RHO_MAX_REFLECTORS];
+    uint32_t partial = 0;
+    (void)state;
+    prepare(0);
+    for (int i = 0; i < RHO_MAX_REFLECTORS; i++) {
+        walls[i] = (struct rho_reflector){-2e3f, 900.0f + (float)i, 2e3f, 900.0f + (float)i};
+    }
+    assert_int_equal(rho_tracker_set_reflectors(&tracker, walls, RHO_MAX_REFLECTORS), RHO_OK);
+    tracker.config.work_max = initiator.config.work_max = 200000;
+    for (int k = 0; k < 12; k++) {
+        for (int i = 0; i < CARS; i++) {
+            const struct car car = {40.0 * (i % 20) - 400.0, 20.0 + 40.0 * (i / 20 % 20), 8.0, 0.0};
+            see(&car, 0.1 * k);
+        }
+        look(k);
+        assert_true(tracker.work.work <= 200000 + BEYOND);
+        partial += report.is_partial;
+    }
+    assert_true(report.num_tracks > CARS / 2u);
+    print_message("%u tracks, %u units at most, %u partial steps\n", (unsigned)report.num_tracks,
+                  (unsigned)tracker.work.work_worst, (unsigned)partial);
+}
+
 static void walls_are_checked(void **state)
 {
     struct rho_reflector walls[RHO_MAX_REFLECTORS + 1];
@@ -218,6 +247,7 @@ int main(void)
         cmocka_unit_test(no_image_is_where_the_wall_is_not),
         cmocka_unit_test(range_rates_tell_images_apart),
         cmocka_unit_test(an_established_track_stays),
+        cmocka_unit_test(many_young_tracks_and_walls_cost_no_more_than_they_may),
         cmocka_unit_test(walls_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
