@@ -4,7 +4,7 @@
  * has no initiator, what no track has claimed goes to a Hough transform.
  *
  *     rho_tracker_step(tracker, NULL, scan, report)
- *     rho_paper_starts_step(starts, tracker, scan, sensor, report)            plots: hough.h
+ *     rho_paper_starts_step(starts, tracker, scan, report)                    plots: hough.h
  *
  *     rho_tracker_step_frame(tracker, NULL, frame, report)
  *     rho_passive_paper_step(paper, tracker, frame, report)                   bearings:
@@ -91,8 +91,7 @@ RHO_MUST_CHECK enum rho_status rho_paper_starts_init(struct rho_paper_starts *st
  * Takes the plots of the tracker's last step whose fate is NO_ROOM: they become HELD, in the report
  * and in the tracker's counters, as an initiator would have kept them. Then searches the window,
  * and starts tracks, which the report has from then on.
- *   scan    as it was stepped; an out-of-sequence scan is left alone
- *   sensor  as the tracker knows it, or NULL
+ *   scan  as it was stepped; an out-of-sequence scan is left alone
  * Errors: NULL, STATE (not initialised, or the report is not of the tracker's last step), and those
  * of rho_hough_find. Cost: rho_hough_find of the window; a line rho_hough_track, N look-ups and
  * rho_tracker_start_track. Stack: 4 KB.
@@ -100,7 +99,6 @@ RHO_MUST_CHECK enum rho_status rho_paper_starts_init(struct rho_paper_starts *st
 RHO_MUST_CHECK enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts,
                                                      struct rho_tracker *tracker,
                                                      const struct rho_scan *scan,
-                                                     const struct rho_sensor *sensor,
                                                      struct rho_report *report);
 
 /*

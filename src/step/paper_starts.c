@@ -110,8 +110,9 @@ static uint32_t count_of(const uint8_t *fates, uint32_t num, enum rho_fate fate)
 /* ---- plots ----------------------------------------------------------------------------------- */
 
 static enum rho_status keep_plots(struct rho_paper_starts *starts, const struct step *step,
-                                  const struct rho_scan *scan, const struct rho_sensor *sensor)
+                                  const struct rho_scan *scan)
 {
+    const struct rho_sensor *sensor = rho_tracker_find_sensor(step->tracker, scan->sensor_id);
     struct rho_scan held = *scan;
     uint8_t *fates = step->report->fates;
     held.num_plots = held.num_plots < step->num_gated ? held.num_plots : step->num_gated;
@@ -238,8 +239,7 @@ static unsigned enough_scans(unsigned scans_min, unsigned scans)
 }
 
 enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rho_tracker *tracker,
-                                      const struct rho_scan *scan, const struct rho_sensor *sensor,
-                                      struct rho_report *report)
+                                      const struct rho_scan *scan, struct rho_report *report)
 {
     if (!starts || !tracker || !scan || !report) {
         return RHO_ERROR_NULL;
@@ -254,7 +254,7 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
         !rho_window_accepts(&starts->window, scan->time_us)) {
         return RHO_OK;
     }
-    enum rho_status status = keep_plots(starts, &step, scan, sensor);
+    enum rho_status status = keep_plots(starts, &step, scan);
     const unsigned scans_min = enough_scans(starts->config.scans_min, starts->config.scans);
     if (status != RHO_OK || starts->window.num_scans < scans_min) {
         return status;

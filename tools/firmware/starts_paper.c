@@ -41,16 +41,6 @@ void starts_of_bearings(struct rho_node_config *config)
     config->apart_max_m = paper.batch.apart_max_m;
 }
 
-static const struct rho_sensor *sensor_of(const struct rho_tracker *tracker, int32_t sensor_id)
-{
-    for (uint32_t i = 0; i < tracker->num_sensors; i++) {
-        if (tracker->sensors[i].sensor_id == sensor_id) {
-            return &tracker->sensors[i];
-        }
-    }
-    return NULL;
-}
-
 /* Sensors that do not go with those of the batch begin another one. */
 static enum rho_status start_from_bearings(const struct rho_node_config *node)
 {
@@ -71,9 +61,7 @@ enum rho_status starts_step(struct rho_node *node)
         return status;
     }
     return is_frame ? start_from_bearings(config)
-                    : rho_paper_starts_step(&starts, config->tracker, &node->scan,
-                                            sensor_of(config->tracker, node->scan.sensor_id),
-                                            config->report);
+                    : rho_paper_starts_step(&starts, config->tracker, &node->scan, config->report);
 }
 
 const struct rho_initiator *starts_initiator(void)

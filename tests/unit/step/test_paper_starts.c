@@ -50,7 +50,7 @@ static void step_with_starts(int k)
 {
     const struct rho_scan scan = scan_at(k);
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
-    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report), RHO_OK);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
 }
 
 static uint32_t counted(enum rho_fate fate)
@@ -161,7 +161,7 @@ static void stale_and_short_lines_start_nothing(void **state)
         struct rho_scan scan = scan_at(k);
         scan.num_plots = k == 3 ? 0 : 1; /* the target, without clutter, for three scans */
         assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
-        assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report), RHO_OK);
+        assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
         assert_int_equal(report.num_tracks, 0);
     }
     assert_int_equal(starts.work.peaks, 1);
@@ -198,13 +198,12 @@ static void bad_calls_are_refused(void **state)
     (void)state;
     begin_by(RHO_HOUGH_IHT);
     const struct rho_scan scan = scan_at(0);
-    assert_int_equal(rho_paper_starts_step(NULL, &tracker, &scan, NULL, &report), RHO_ERROR_NULL);
-    assert_int_equal(rho_paper_starts_step(&starts, NULL, &scan, NULL, &report), RHO_ERROR_NULL);
-    assert_int_equal(rho_paper_starts_step(&starts, &tracker, NULL, NULL, &report), RHO_ERROR_NULL);
-    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_step(NULL, &tracker, &scan, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_step(&starts, NULL, &scan, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, NULL, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL), RHO_ERROR_NULL);
     /* no step was made yet */
-    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report),
-                     RHO_ERROR_STATE);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_ERROR_STATE);
     assert_int_equal(rho_paper_starts_init(NULL, sizeof starts, &lines), RHO_ERROR_NULL);
     assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_paper_starts_init(&starts, sizeof starts - 1, &lines), RHO_ERROR_SIZE);
@@ -219,7 +218,7 @@ static void bad_calls_are_refused(void **state)
     wrong.hough.rho_cell_m = -1.0f;
     assert_int_equal(rho_paper_starts_init(&starts, sizeof starts, &wrong), RHO_ERROR_CONFIG);
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
-    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report),
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report),
                      RHO_ERROR_STATE); /* the last init was refused */
 }
 

@@ -116,7 +116,7 @@ static void step_plots(int k, int clutter)
     const struct rho_scan scan = {
         .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = num_plots, .plots = plots};
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
-    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, NULL, &report), RHO_OK);
+    assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
 }
 
 /* Of every method: cells are the search's peaks, and one of them started the track. */

@@ -42,19 +42,6 @@ void pipeline_free(struct pipeline *pipeline)
     free(pipeline->plots);
 }
 
-static enum method method_of(const struct parameters *parameters)
-{
-    return (enum method)(METHOD_KERNEL + (int)parameters->value[PARAMETER_METHOD]);
-}
-
-static enum method bearings_method_of(const struct parameters *parameters)
-{
-    return (enum method)(METHOD_PASSIVE + (int)parameters->value[PARAMETER_BEARINGS_METHOD]);
-}
-
-/* The window of rho_paper_starts_config_default. */
-#define PAPER_SCANS 4
-
 static void suggest_pipeline(struct parameters *parameters, const char *name)
 {
     if (strcmp(name, "paper") != 0) {
@@ -82,9 +69,12 @@ void pipeline_set_options(struct parameters *parameters, const struct pipeline_o
         fail(EXIT_USAGE, "gate none draws plots at random: that is for `maintain`; there are best, "
                          "hough and nearest");
     }
-    if (method_of(parameters) != METHOD_KERNEL) {
-        parameters_suggest(parameters, PARAMETER_SCANS, PAPER_SCANS);
-        method_suggest(method_of(parameters), parameters);
+    if (method_of_plots(parameters) != METHOD_KERNEL) {
+        struct rho_paper_starts_config customary;
+
+        rho_paper_starts_config_default(&customary, RHO_HOUGH_NHT_C);
+        parameters_suggest(parameters, PARAMETER_SCANS, customary.scans);
+        method_suggest(method_of_plots(parameters), parameters);
     }
 }
 
@@ -182,12 +172,12 @@ static void open_starts(struct pipeline *pipeline, const struct parameters *para
     struct rho_paper_starts_config config;
     const double range_m = parameters->value[PARAMETER_RANGE_MAX_M];
 
-    if (method_of(parameters) == METHOD_KERNEL) {
+    if (method_of_plots(parameters) == METHOD_KERNEL) {
         return;
     }
     method_fit_cells(&fitted, range_m);
     config = (struct rho_paper_starts_config){
-        .hough = method_hough(method_of(parameters), &fitted, range_m),
+        .hough = method_hough(method_of_plots(parameters), &fitted, range_m),
         .scans = (uint16_t)parameters->value[PARAMETER_SCANS],
         .scans_min = (uint16_t)parameters->value[PARAMETER_MIN_SCANS]};
     if (!pipeline->starts) {
@@ -254,19 +244,9 @@ void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *p
     }
     must_succeed(rho_passive_init(pipeline->passive, sizeof *pipeline->passive, &config),
                  "passive");
-    if (bearings_method_of(parameters) == METHOD_PASSIVE_PAPER) {
+    if (method_of_bearings(parameters) == METHOD_PASSIVE_PAPER) {
         open_paper(pipeline, parameters);
     }
-}
-
-static const struct rho_sensor *sensor_of(const struct rho_tracker *tracker, int32_t sensor_id)
-{
-    for (uint32_t i = 0; i < tracker->num_sensors; i++) {
-        if (tracker->sensors[i].sensor_id == sensor_id) {
-            return &tracker->sensors[i];
-        }
-    }
-    return NULL;
 }
 
 void pipeline_reopen_paper(struct pipeline *pipeline)
@@ -283,10 +263,9 @@ void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *sca
                            const struct rho_frame *frame)
 {
     if (scan && pipeline->starts) {
-        must_succeed(rho_paper_starts_step(pipeline->starts, pipeline->tracker, scan,
-                                           sensor_of(pipeline->tracker, scan->sensor_id),
-                                           pipeline->report),
-                     "method");
+        must_succeed(
+            rho_paper_starts_step(pipeline->starts, pipeline->tracker, scan, pipeline->report),
+            "method");
     } else if (frame && pipeline->paper &&
                rho_passive_paper_step(pipeline->paper, pipeline->tracker, frame,
                                       pipeline->report) != RHO_OK) {

@@ -17,13 +17,12 @@ static const char *const names[RHO_NUM_SHOW_KINDS] = {"ghosts", "votes", "hypoth
 
 static bool has_paper(const struct parameters *parameters)
 {
-    return (int)parameters->value[PARAMETER_BEARINGS_METHOD] ==
-           METHOD_PASSIVE_PAPER - METHOD_PASSIVE;
+    return method_of_bearings(parameters) == METHOD_PASSIVE_PAPER;
 }
 
 static bool has_starts(const struct parameters *parameters)
 {
-    return parameters->value[PARAMETER_METHOD] > 0;
+    return method_of_plots(parameters) != METHOD_KERNEL;
 }
 
 static unsigned kind_of(const char *word, size_t length)

@@ -19,6 +19,16 @@ bool method_takes_bearings(enum method method)
     return method == METHOD_PASSIVE || method == METHOD_PASSIVE_PAPER;
 }
 
+enum method method_of_plots(const struct parameters *parameters)
+{
+    return (enum method)(METHOD_KERNEL + (int)parameters->value[PARAMETER_METHOD]);
+}
+
+enum method method_of_bearings(const struct parameters *parameters)
+{
+    return (enum method)(METHOD_PASSIVE + (int)parameters->value[PARAMETER_BEARINGS_METHOD]);
+}
+
 enum method method_find(const char *name)
 {
     for (int i = 0; i < NUM_METHODS; i++) {

@@ -29,6 +29,10 @@ const char *method_name(enum method method);
 /* It takes bearings, not plots. */
 bool method_takes_bearings(enum method method);
 
+/* The parameters method and bearings_method. */
+enum method method_of_plots(const struct parameters *parameters);
+enum method method_of_bearings(const struct parameters *parameters);
+
 /* Unknown: exit 2 with the list. */
 enum method method_find(const char *name);
 
