@@ -8,10 +8,11 @@
  *         send(channel, buffer, size);
  *     }
  *
- * It changes nothing of what is shown, and nothing pays for it that is not linked with it. Each kind
- * has a rate. A picture (all pairs of sensors of a frame, or all planes of a search) is sent whole
- * or not at all: it begins while the kind is within its rate, and what is beyond it delays the next
- * one. Tracks take turns. Messages that were left out are counted, and told in each message.
+ * It changes nothing of what is shown, and nothing pays for it that is not linked with it. Each
+ * kind has a rate. A picture (all pairs of sensors of a frame, or all planes of a search) is sent
+ * whole or not at all: it begins while the kind is within its rate, and what is beyond it delays
+ * the next one. Tracks take turns. Messages that were left out are counted, and told in each
+ * message.
  *
  * Stack: 64 bytes at most where nothing else is said.
  */

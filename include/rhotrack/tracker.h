@@ -386,8 +386,8 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
 /*
  * Of the last step, for one track: how its evidence divides among what may be true. Each plot that
  * the track's gate offered has the odds e^gain over none being the target's, the gain that the gate
- * compares plots by, before plots are given to one track each. So its probability p is e^gain / (1 +
- * sum of e^gain); r is the share of this e^gain among those of all tracks for the same plot.
+ * compares plots by, before plots are given to one track each. So its probability p is e^gain / (1
+ * + sum of e^gain); r is the share of this e^gain among those of all tracks for the same plot.
  *
  *     support = sum of p r      shared = sum of p (1 - r)      clutter = 1 - sum of p
  *

@@ -36,6 +36,11 @@ extern "C" {
 #define RHO_ZONE_CORNERS 8
 #define RHO_ZONE_EVENTS 64 /* of a step */
 
+/* Largest values of a zone's fields, either way of the heading. */
+#define RHO_ZONE_HEADING_MAX_RAD 7.0f
+#define RHO_ZONE_MARGIN_MAX_M 1e5f
+#define RHO_ZONE_QUEUE_MAX_MPS 1e3f
+
 struct rho_zone {
     int32_t zone_id;      /* another one for each zone */
     uint16_t num_corners; /* 3 .. RHO_ZONE_CORNERS, in either sense; sides must not cross */
@@ -108,8 +113,8 @@ RHO_MUST_CHECK enum rho_status rho_zones_add(struct rho_zones *zones, const stru
 /*
  * Counts the tracks of a report. Of a report whose time is before the last one's all tracks in
  * zones have ended first.
- * Errors: NULL, STATE, VALUE (more than RHO_MAX_TRACKS tracks). Cost: tracks times zones, and corners where a track is near. Stack: 720
- * bytes.
+ * Errors: NULL, STATE, VALUE (more than RHO_MAX_TRACKS tracks). Cost: tracks times zones, and
+ * corners where a track is near. Stack: 720 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_zones_step(struct rho_zones *zones,
                                               const struct rho_report *report);

@@ -26,9 +26,8 @@
 #define VARIANCE_MIN 1.0e-9f
 #define VARIANCE_MAX 1.0e12f
 
-/* Standing: so many sigmas of the speed across the line of sight, and widths of the notch. */
+/* Standing: so many sigmas of the speed across the line of sight. */
 #define STAND_SIGMAS 2.0f
-#define STAND_WIDTHS 2.0f
 /* Below this share of looks that were blind, a target that stands is not thought of. */
 #define STAND_SHARE 0.5f
 
@@ -172,7 +171,7 @@ static void stand(const struct view *rate, float notch_mps, int num_states, floa
     float projected[6];
     across.mean = across.row[3] * state[3] + across.row[4] * state[4];
     across.variance = rho_linalg_project6(covariance, across.row, projected);
-    const float most_mps = STAND_WIDTHS * notch_mps;
+    const float most_mps = RHO_NOTCH_STAND_WIDTHS * notch_mps;
     if (across.variance > VARIANCE_MIN &&
         across.mean * across.mean <
             STAND_SIGMAS * STAND_SIGMAS * across.variance + most_mps * most_mps) {

@@ -28,9 +28,6 @@
 /* A target that stands has rather gone after so long. */
 #define BLIND_MAX_S 300.0f
 
-/* Standing: no faster than so many times the notch. */
-#define STAND_WIDTHS 2.0f
-
 static float share_of(const struct step *step, const struct rho_track *track)
 {
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
@@ -81,7 +78,7 @@ void rho_tracker_forget_blind(struct step *step)
 static int stands(const struct step *step, const struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
-    const float most_mps = STAND_WIDTHS * step->sensor->notch_mps;
+    const float most_mps = RHO_NOTCH_STAND_WIDTHS * step->sensor->notch_mps;
     return rho_tracker_is_blind(track) &&
            velocity_mps[0] * velocity_mps[0] + velocity_mps[1] * velocity_mps[1] <=
                most_mps * most_mps;

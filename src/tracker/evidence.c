@@ -44,7 +44,9 @@ static float sum_of(const struct rho_assignment *assignment, unsigned row, int32
     return sum;
 }
 
-/* How much likelier the column's plot is the row's than another one's: 1 where no other offers it. */
+/*
+ * How much likelier the column's plot is the row's than another one's: 1 where no other offers it.
+ */
 static float share_of(const struct rho_assignment *assignment, unsigned row, int16_t column,
                       int32_t cost)
 {

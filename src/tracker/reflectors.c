@@ -18,8 +18,8 @@
 #define IMAGED_HITS 3
 
 /*
- * A track that is not established, and is where another one's image would be, by place and velocity,
- * is that image. 99.9 % of images are within the limit of chi-square in four dimensions.
+ * A track that is not established, and is where another one's image would be, by place and
+ * velocity, is that image. 99.9 % of images are within the limit of chi-square in four dimensions.
  */
 #define IMAGE_CHI2 18.5f
 /* One that is seen less often than so may be one for longer: hits over looks. */

@@ -215,8 +215,8 @@ int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
 /* Of the scan's sensor, for its initiator: over all ranges. */
 float rho_tracker_mean_pd(const struct step *step);
 /*
- * ln of the probability that the sensor detects a target where this track is, and that it misses it;
- * whatever its range rate
+ * ln of the probability that the sensor detects a target where this track is, and that it misses
+ * it; whatever its range rate
  */
 struct detection {
     float log_pd, log_miss;

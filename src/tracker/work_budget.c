@@ -7,8 +7,8 @@
  * of the rest a track takes a quarter at most. A track that has more plots near it than it may
  * score takes those nearest to its expected place. Before the claims an eighth of work_max is for
  * echoes of clutter; after them a sixteenth is for second plots, and another is reserved for those
- * of tracks that start. Where walls are told, a sixteenth is for their images before the search, and
- * another is reserved for those after it. The search has what is left.
+ * of tracks that start. Where walls are told, a sixteenth is for their images before the search,
+ * and another is reserved for those after it. The search has what is left.
  */
 #include "step.h"
 

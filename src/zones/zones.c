@@ -11,10 +11,6 @@
 
 #define ZONES_MAGIC 0x5a4f4e45u
 
-#define MARGIN_MAX_M 1e5f
-#define QUEUE_MAX_MPS 1e3f
-#define HEADING_MAX_RAD 7.0f
-
 /* A track leaves the queue at so many times the speed at which it joins it. */
 #define QUEUE_LEFT 2.0f
 
@@ -58,9 +54,9 @@ static int has_area(const struct rho_zone *zone)
 static int is_usable(const struct rho_zone *zone)
 {
     if (zone->num_corners < 3 || zone->num_corners > RHO_ZONE_CORNERS || zone->has_heading > 1 ||
-        !rho_is_within(zone->heading_rad, -HEADING_MAX_RAD, HEADING_MAX_RAD) ||
-        !rho_is_within(zone->margin_m, 0.0f, MARGIN_MAX_M) ||
-        !rho_is_within(zone->queue_mps, 0.0f, QUEUE_MAX_MPS)) {
+        !rho_is_within(zone->heading_rad, -RHO_ZONE_HEADING_MAX_RAD, RHO_ZONE_HEADING_MAX_RAD) ||
+        !rho_is_within(zone->margin_m, 0.0f, RHO_ZONE_MARGIN_MAX_M) ||
+        !rho_is_within(zone->queue_mps, 0.0f, RHO_ZONE_QUEUE_MAX_MPS)) {
         return 0;
     }
     for (unsigned i = 0; i < zone->num_corners; i++) {

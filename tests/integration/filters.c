@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * filters: what a build with RHO_FILTERS takes, and the same bytes as the full build's of it, for
- * filters.sh. Prints a line for each gate, with and without input estimation: the outcome of init, and
- * a sum over all reports of a scene; and one for a scan and a frame that are to start tracks.
+ * filters.sh. Prints a line for each gate, with and without input estimation: the outcome of init,
+ * and a sum over all reports of a scene; and one for a scan and a frame that are to start tracks.
  */
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # RHO_FILTERS: a build with some filters refuses what asks for the others, and gives the full
-# build's bytes of what it has. RHO_FAST_UPDATES=0 gives the same bytes. RHO_SEARCHES=0 refuses searches. Runs beside others.
+# build's bytes of what it has. RHO_FAST_UPDATES=0 gives the same bytes. RHO_SEARCHES=0 refuses
+# searches.
+# Runs beside others.
 root=$(realpath "$(dirname "$0")/../..")
 build=$(realpath "${BUILD:-$root/build}")
 # shellcheck source=tests/integration/checks.bash

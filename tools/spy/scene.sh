@@ -5,12 +5,8 @@
 # after the other and fly straight or turn, played to a tracker, ten times as fast as it happened.
 # Usage: RHOTRACK=program scene.sh [SECONDS], on the LCM network of LCM_DEFAULT_URL. Everything ends
 # with it.
-set -eu
-program=$(realpath "${RHOTRACK:-$(dirname "$0")/../../build/rhotrack}")
-seconds=${1:-30}
-folder=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
-cd "$folder"
+# shellcheck source=tools/spy/scene.bash
+. "$(dirname "$0")/scene.bash"
 python3 - <<'PYTHON'
 import math
 import random

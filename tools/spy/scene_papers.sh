@@ -3,14 +3,10 @@
 #
 # The passive paper's method to look at: three bearing sensors see aircraft that come three at a
 # time, and a radar sees clutter; played to a tracker that shows ghosts, votes and hypotheses,
-# sixteen times as fast as it happened. Usage: RHOTRACK=program scene_papers.sh [SECONDS], on the LCM
-# network of LCM_DEFAULT_URL. Everything ends with it.
-set -eu
-program=$(realpath "${RHOTRACK:-$(dirname "$0")/../../build/rhotrack}")
-seconds=${1:-30}
-folder=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
-cd "$folder"
+# sixteen times as fast as it happened. Usage: RHOTRACK=program scene_papers.sh [SECONDS], on the
+# LCM network of LCM_DEFAULT_URL. Everything ends with it.
+# shellcheck source=tools/spy/scene.bash
+. "$(dirname "$0")/scene.bash"
 python3 - <<'PYTHON'
 import math
 import random

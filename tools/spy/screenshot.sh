@@ -3,8 +3,9 @@
 #
 # A picture of the viewer while COMMAND publishes, without a display: the viewer listens for SECONDS
 # and paints itself. Usage: screenshot.sh FILE.png SECONDS COMMAND...     (after `make spy`; BUILD,
-# SIZE=1280x800 and SELECT=TRACK, 0 for that with the most hypotheses, from the environment) Where the system allows it, both run in a network of their
-# own: no other LCM traffic gets into the picture.
+# SIZE=1280x800 and SELECT=TRACK, 0 for that with the most hypotheses, from the environment) Where
+# the system allows it, both run in a network of their own: no other LCM traffic gets into the
+# picture.
 set -eu
 if [ $# -lt 3 ]; then
     sed -n 's/^# Usage: /usage: /p' "$0" >&2

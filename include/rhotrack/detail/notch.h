@@ -25,6 +25,9 @@
 extern "C" {
 #endif
 
+/* A target that is no faster than so many times the notch may stand. */
+#define RHO_NOTCH_STAND_WIDTHS 2.0f
+
 /* A look that yields no plot of a target. */
 struct rho_notch_look {
     float pd; /* of range rates that the radar sees */

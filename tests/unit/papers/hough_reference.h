@@ -87,6 +87,24 @@ static inline void add_plot(double x, double y, double t)
     t_s[(*end)++] = (float)t;
 }
 
+/*
+ * Two kernels of two scans and a plot of the third: the pair along y = 1000 is 12 m from one
+ * kernel, 30 m from the other, 9 m from the line between.
+ */
+static inline void lay_two_kernels(void)
+{
+    points.at.num_scans = 0;
+    start_scan();
+    add_plot(100.0, 1012.0, 0.0);
+    add_plot(100.0, 970.0, 0.0);
+    start_scan();
+    add_plot(500.0, 1012.0, 2.0);
+    add_plot(500.0, 970.0, 2.0);
+    add_plot(500.0, 1000.0, 2.0);
+    start_scan();
+    add_plot(1100.0, 1000.0, 4.0);
+}
+
 /* x first: the order in which a call's arguments are computed is the compiler's. */
 static inline void add_noisy(double x, double y, double t, double noise_m)
 {

@@ -47,26 +47,11 @@ static struct rho_hough_memberships vote_of(unsigned first, unsigned second)
 
 /* ---- one vote -------------------------------------------------------------------------------- */
 
-/* As in test_hough_weights.c: 12 m from one kernel, 30 m from the other, 9 m from between. */
-static void lay_two_kernels(void)
-{
-    points.at.num_scans = 0;
-    start_scan();
-    add_plot(100.0, 1012.0, 0.0);
-    add_plot(100.0, 970.0, 0.0);
-    start_scan();
-    add_plot(500.0, 1012.0, 2.0);
-    add_plot(500.0, 970.0, 2.0);
-    add_plot(500.0, 1000.0, 2.0);
-    start_scan();
-    add_plot(1100.0, 1000.0, 4.0);
-    add_plot(500.0, 3000.0, 4.0); /* too far for a target of 400 m/s */
-}
-
 static void a_vote_has_truth_indeterminacy_and_falsity(void **state)
 {
     (void)state;
     lay_two_kernels();
+    add_plot(500.0, 3000.0, 4.0); /* too far for a target of 400 m/s */
     paper_all(RHO_HOUGH_NHT_A);
     prepare();
     struct rho_hough_memberships of = vote_of(4, 5);
@@ -161,8 +146,8 @@ static uint32_t part_of(const struct rho_hough_memberships *of, enum rho_hough_c
 }
 
 /*
- * Eqs. (16) to (18), and the sum of (24): cell by cell, but for pairs whose line is at the border of
- * its cell.
+ * Eqs. (16) to (18), and the sum of (24): cell by cell, but for pairs whose line is at the border
+ * of its cell.
  */
 static void matrices_are_sums_of_memberships(void **state)
 {
@@ -337,6 +322,7 @@ static void what_is_no_vote_and_no_plane_is_refused(void **state)
     (void)state;
     struct rho_hough_memberships of;
     lay_two_kernels();
+    add_plot(500.0, 3000.0, 4.0);
     coarse(RHO_HOUGH_IHT);
     prepare();
     struct rho_plane plane = whole(RHO_HOUGH_TRUTH);

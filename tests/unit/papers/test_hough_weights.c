@@ -33,22 +33,10 @@ static void indeterminacy_raises_votes_as_in_double_precision(void **state)
     assert_true(raised > 0);
 }
 
-/*
- * The pair along y = 1000 is 12 m from one kernel, 30 m from the other, 9 m from the line between.
- */
 static void two_kernels_vouch_for_the_line_between(void **state)
 {
     (void)state;
-    points.at.num_scans = 0;
-    start_scan();
-    add_plot(100.0, 1012.0, 0.0);
-    add_plot(100.0, 970.0, 0.0);
-    start_scan();
-    add_plot(500.0, 1012.0, 2.0);
-    add_plot(500.0, 970.0, 2.0);
-    add_plot(500.0, 1000.0, 2.0);
-    start_scan();
-    add_plot(1100.0, 1000.0, 4.0);
+    lay_two_kernels();
     for (int run = 0; run < 4; run++) {
         paper_all(RHO_HOUGH_NHT_A);
         config.uses_indeterminacy = run & 1;

@@ -181,7 +181,9 @@ static void an_established_track_stays(void **state)
 #define CARS (RHO_MAX_TRACKS < 400 ? RHO_MAX_TRACKS : 400)
 #define BEYOND RHO_TRACKER_WORK_BEYOND
 
-/* Young tracks in front of all walls that there can be: each is compared with images of the others. */
+/*
+ * Young tracks in front of all walls that there can be: each is compared with images of the others.
+ */
 static void many_young_tracks_and_walls_cost_no_more_than_they_may(void **state)
 {
     struct rho_reflector walls[RHO_MAX_REFLECTORS];

@@ -65,6 +65,22 @@ const char *text_to_number(const char *cell, double *value)
     return NULL;
 }
 
+const char *text_to_next_number(const char **list, double *value)
+{
+    const size_t bytes = strcspn(*list, " \t,");
+    char cell[32];
+    const char *reason;
+
+    if (bytes >= sizeof cell) {
+        return "is too long for a number";
+    }
+    memcpy(cell, *list, bytes);
+    cell[bytes] = '\0';
+    reason = text_to_number(cell, value);
+    *list += reason ? 0 : bytes;
+    return reason;
+}
+
 /* Seconds without exponent, digit by digit; the caller has checked form and range. */
 static int64_t exact_time_us(const char *cell)
 {

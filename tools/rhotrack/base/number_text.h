@@ -12,6 +12,12 @@
 const char *text_to_number(const char *cell, double *value);
 
 /*
+ * The number at the head of a list, up to a blank or a comma; *list is behind it then, else it
+ * stays.
+ */
+const char *text_to_next_number(const char **list, double *value);
+
+/*
  * A decimal number of seconds in microseconds, rounded to nearest, without a detour over floating
  * point where it has no exponent; |t| <= 4e12 s.
  */

@@ -13,9 +13,9 @@
 
 /*
  * The scans that vote: the last `scans`, at most RHO_MAX_SCANS, which is as many as an initiation
- * window can hold, the sectors of a turn being one. The files with plots are read once more; without a column sensor_id
- * all is sensor 0's. Exit 2 where these have no plots, or are refused: before a picture is begun.
- * To be freed by revolutions_free.
+ * window can hold, the sectors of a turn being one. The files with plots are read once more;
+ * without a column sensor_id all is sensor 0's. Exit 2 where these have no plots, or are refused:
+ * before a picture is begun. To be freed by revolutions_free.
  */
 struct revolutions plot_parameter_space_read(const struct plot_data *data,
                                              const struct parameters *parameters, size_t scans);

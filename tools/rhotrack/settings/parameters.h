@@ -274,14 +274,14 @@ void parameters_default(struct parameters *parameters);
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
 
 /*
- * "key=value", "sensor.N.key=value" or "zone.N.key=value" from --set. On error prints `rhotrack: --set key=value: what
- * is wrong` and exits with 2.
+ * "key=value", "sensor.N.key=value" or "zone.N.key=value" from --set. On error prints `rhotrack:
+ * --set key=value: what is wrong` and exits with 2.
  */
 void parameters_set(struct parameters *parameters, const char *assignment);
 
 /*
- * INI file (no section, [rhotrack], [sensor N] or [zone N]); errors as `rhotrack: FILE:LINE: what is wrong`,
- * exit 2.
+ * INI file (no section, [rhotrack], [sensor N] or [zone N]); errors as `rhotrack: FILE:LINE: what
+ * is wrong`, exit 2.
  */
 void parameters_load(struct parameters *parameters, const char *path);
 

@@ -13,22 +13,20 @@
 static const char *read_number(const char *value, double *number,
                                char reason[PARAMETER_REASON_BYTES])
 {
-    const size_t bytes = strcspn(value, " \t,");
-    char digits[32];
+    const char *behind = value;
+    const int bytes = (int)strcspn(value, " \t,");
 
-    snprintf(digits, sizeof digits, "%.*s", (int)bytes, value);
-    if (bytes >= sizeof digits || text_to_number(digits, number)) {
+    if (text_to_next_number(&behind, number)) {
         snprintf(reason, PARAMETER_REASON_BYTES, "reflectors '%.*s' is not a number",
-                 bytes < 60 ? (int)bytes : 60, value);
+                 bytes < 60 ? bytes : 60, value);
         return NULL;
     }
     if (fabs(*number) > (double)RHO_LIMIT_POSITION_M) {
-        snprintf(reason, PARAMETER_REASON_BYTES, "reflectors %s is outside -%g .. %g m", digits,
-                 (double)RHO_LIMIT_POSITION_M, (double)RHO_LIMIT_POSITION_M);
+        snprintf(reason, PARAMETER_REASON_BYTES, "reflectors %.*s is outside -%g .. %g m", bytes,
+                 value, (double)RHO_LIMIT_POSITION_M, (double)RHO_LIMIT_POSITION_M);
         return NULL;
     }
-    value += bytes;
-    return value + strspn(value, " \t");
+    return behind + strspn(behind, " \t");
 }
 
 bool parameters_assign_reflectors(struct parameters *parameters, const char *value,
@@ -52,9 +50,9 @@ bool parameters_assign_reflectors(struct parameters *parameters, const char *val
                      value);
             return false;
         }
-        if (hypot(at[2] - at[0], at[3] - at[1]) < 1.0) {
-            snprintf(reason, PARAMETER_REASON_BYTES, "reflectors: wall %d is shorter than 1 m",
-                     count + 1);
+        if (hypot(at[2] - at[0], at[3] - at[1]) < (double)RHO_REFLECTOR_LEAST_M) {
+            snprintf(reason, PARAMETER_REASON_BYTES, "reflectors: wall %d is shorter than %g m",
+                     count + 1, (double)RHO_REFLECTOR_LEAST_M);
             return false;
         }
         if (count == RHO_MAX_REFLECTORS) {

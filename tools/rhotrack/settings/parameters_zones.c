@@ -37,17 +37,12 @@ static bool read_corners(const char *value, struct rho_zone *zone, char *reason)
     unsigned count = 0;
 
     for (value += strspn(value, between); *value; value += strspn(value, between)) {
-        const int bytes = (int)strcspn(value, between);
-        char digits[32];
         double number;
 
-        snprintf(digits, sizeof digits, "%.*s", bytes, value);
-        if (bytes >= (int)sizeof digits || text_to_number(digits, &number) ||
-            count == 2 * RHO_ZONE_CORNERS) {
+        if (count == 2 * RHO_ZONE_CORNERS || text_to_next_number(&value, &number)) {
             break;
         }
         numbers[count++] = (float)number;
-        value += bytes;
     }
     if (*value || count < 6 || count % 2) {
         snprintf(reason, PARAMETER_REASON_BYTES,
@@ -69,7 +64,9 @@ static bool read_number(enum zone_parameter_id id, const char *value, struct rho
     static const struct {
         double min, max;
     } ranges[NUM_ZONE_PARAMETERS] = {
-        [ZONE_HEADING_RAD] = {-7, 7}, [ZONE_MARGIN_M] = {0, 1e5}, [ZONE_QUEUE_MPS] = {0, 1e3}};
+        [ZONE_HEADING_RAD] = {-RHO_ZONE_HEADING_MAX_RAD, RHO_ZONE_HEADING_MAX_RAD},
+        [ZONE_MARGIN_M] = {0, RHO_ZONE_MARGIN_MAX_M},
+        [ZONE_QUEUE_MPS] = {0, RHO_ZONE_QUEUE_MAX_MPS}};
     float *const fields[NUM_ZONE_PARAMETERS] = {[ZONE_HEADING_RAD] = &zone->heading_rad,
                                                 [ZONE_MARGIN_M] = &zone->margin_m,
                                                 [ZONE_QUEUE_MPS] = &zone->queue_mps};

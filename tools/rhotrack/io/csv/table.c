@@ -38,16 +38,6 @@ void table_free(struct table *table)
 
 /* ---- Columns and cells ---- */
 
-int table_find(const struct table *table, const char *name)
-{
-    for (size_t i = 0; i < table->num_columns; i++) {
-        if (!strcmp(table->names[i], name)) {
-            return (int)i;
-        }
-    }
-    return -1;
-}
-
 int table_need(const struct table *table, const char *name)
 {
     int column = table_find(table, name);

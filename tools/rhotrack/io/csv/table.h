@@ -14,6 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 /* A column of a table of numbers: how its numbers are told as text. */
 #define TABLE_SHORTEST (-1) /* decimals: the fewest digits that keep float32 */
@@ -59,8 +60,19 @@ void table_free(struct table *table);
 /* A header without rows is refused here: exit 2. */
 void table_need_rows(const struct table *table);
 
-/* Index of a column, or -1; table_need exits with 2 where it is missing, and names what is there. */
-int table_find(const struct table *table, const char *name);
+/*
+ * Index of a column, or -1; table_need exits with 2 where it is missing, and names what is there.
+ */
+static inline int table_find(const struct table *table, const char *name)
+{
+    for (size_t i = 0; i < table->num_columns; i++) {
+        if (!strcmp(table->names[i], name)) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
 int table_need(const struct table *table, const char *name);
 
 /*

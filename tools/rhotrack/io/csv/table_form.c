@@ -194,16 +194,6 @@ static const char *column_of(const char *name, double *factor)
     return NULL;
 }
 
-static bool has_column(const struct table *table, const char *name)
-{
-    size_t column = 0;
-
-    while (column < table->num_columns && strcmp(table->names[column], name) != 0) {
-        column++;
-    }
-    return column < table->num_columns;
-}
-
 /* A header that the readers know needs no other names; extra columns of any name are ignored. */
 static bool is_known(const struct table *table)
 {
@@ -212,9 +202,9 @@ static bool is_known(const struct table *table)
     bool has_place = false;
 
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        has_place |= has_column(table, places[i]);
+        has_place |= table_find(table, places[i]) >= 0;
     }
-    return has_place && has_column(table, "t_s");
+    return has_place && table_find(table, "t_s") >= 0;
 }
 
 void table_form_name_columns(struct table *table)
@@ -226,7 +216,7 @@ void table_form_name_columns(struct table *table)
         double factor = 1;
         const char *column = column_of(table->names[i], &factor);
 
-        if (!column || has_column(table, column)) {
+        if (!column || table_find(table, column) >= 0) {
             continue; /* not known, or there already: the first one counts */
         }
         table->names[i] = column;
