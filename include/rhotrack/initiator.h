@@ -168,6 +168,9 @@ struct rho_initiator {
     int32_t sensor_id[RHO_MAX_SCANS];
     struct rho_clutter_memory memory;
     struct rho_initiator_budget budget;
+    float thin_clutter; /* plots in a plot's noise where it is least, but for a tenth */
+    /* by the first scan of a set: hits that it needs where clutter is no thinner */
+    uint8_t span_hits[RHO_MAX_SCANS];
     uint8_t cost_class[RHO_MAX_PLOTS]; /* scratch of the search */
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
     struct rho_window window;

@@ -12,6 +12,12 @@
 #define GAIN_MAX_NAT 60.0f
 #define NEVER_NAT (-1.0e6f)
 
+/*
+ * Scores may be so much above those of the model: votes may be nearer to each other than in the
+ * mean, and the set's own plots are not in the density.
+ */
+#define BEST_MARGIN_NAT 2.0f
+
 #define RINGS 8 /* of speeds, for the share of tracks that stay in the area */
 #define SHARE_MIN 1.0e-6f
 
@@ -517,4 +523,28 @@ int rho_initiator_allows_targets(const struct false_tracks *model, float start_n
         }
     }
     return 0;
+}
+
+unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigned first,
+                                       float start_nat)
+{
+    for (unsigned k = 0; k < model->num_patterns; k++) {
+        const struct pattern *pattern = &model->patterns[k];
+        if (pattern->first == first && pattern->hits >= model->least_hits &&
+            best_in_any_class(model, k) >= start_nat - BEST_MARGIN_NAT) {
+            return pattern->hits;
+        }
+    }
+    return model->search->num_scans + 1u;
+}
+
+float rho_initiator_thin_clutter(const struct false_tracks *model)
+{
+    float least = 0.0f;
+    for (unsigned i = 0; i < model->num_classes; i++) {
+        const struct place_class *place = &model->classes[i];
+        const float here = place->log_density + place->log_range + place->log_cross;
+        least = here < least ? here : least;
+    }
+    return rho_exp(least);
 }

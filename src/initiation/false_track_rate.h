@@ -78,6 +78,16 @@ float rho_initiator_stay_inside(const struct false_tracks *model, float start_na
  */
 float rho_initiator_gain_of_hit(const struct false_tracks *model);
 
+/*
+ * Fewest hits, the model's least at least, with which sets from scan `first` to the newest reach
+ * the threshold in any class; N + 1 where none do.
+ */
+unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigned first,
+                                       float start_nat);
+
+/* Clutter plots in the noise of a plot, in the class with the least. */
+float rho_initiator_thin_clutter(const struct false_tracks *model);
+
 /* True where targets with the least number of hits reach the threshold in spite of their chi2. */
 int rho_initiator_allows_targets(const struct false_tracks *model, float start_nat);
 

@@ -12,6 +12,12 @@
 /* Rounding error of a place computed from sums of coordinates, as a share of these. */
 #define ROUNDING_SHARE 1e-6f
 
+/* Units of boxes that are charged together. */
+#define CHARGED_UNITS 64u
+
+/* Boxes whose gates are narrower than this share of a target's travel need not be cut off there. */
+#define NARROW_SHARE 0.25f
+
 /* Near plots are counted bin by bin up to this number of rows. */
 #define NEAR_ROWS 16
 
@@ -78,6 +84,11 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
     span->scan_b = rho_window_scan_at(window, span->b);
     span->gap_s = search->time_s[span->b] - search->time_s[span->a];
     span->misses_max = (uint8_t)(span->b - span->a + 1u - search->min_scans);
+    if (HAS_SPAN_HITS) {
+        unsigned hits = search->initiator->span_hits[span->a];
+        hits = hits > search->min_scans ? hits : search->min_scans;
+        span->misses_amid = (int8_t)(span->b - span->a + 1 - (int)hits);
+    }
     span->is_ordered = (uint8_t)is_ordered(search, span);
     span->voters = voters;
     span->slack_m = 0.0f;
@@ -89,6 +100,30 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
     for (unsigned m = span->a + 1u; m < span->b; m++) {
         voters[span->b - m - 1u] = voter_of(search, span, m);
     }
+}
+
+/*
+ * True where some spans need more votes than M. The rule holds where all scans before the end are
+ * one sensor's looks in the same sector: other misses may say less.
+ */
+static int has_span_hits(struct search *search, const struct fan *fan)
+{
+    struct rho_window *window = &search->initiator->window;
+    int has_more = 0;
+    for (unsigned n = 0; n < fan->num_spans; n++) {
+        has_more |= fan->spans[n].misses_amid < (int)fan->spans[n].misses_max;
+    }
+    const struct rho_window_scan *first = rho_window_scan_at(window, 0);
+    for (unsigned m = 1; m < search->num_scans; m++) {
+        const struct rho_window_scan *scan = rho_window_scan_at(window, m);
+        has_more &=
+            scan->sensor.sensor_id == first->sensor.sensor_id &&
+            (m + 1u == search->num_scans ||
+             (rho_is_within(scan->sector_from_rad, first->sector_from_rad,
+                            first->sector_from_rad) &&
+              rho_is_within(scan->sector_to_rad, first->sector_to_rad, first->sector_to_rad)));
+    }
+    return has_more && search->keeps_rate;
 }
 
 /* A kernel of M votes spans at least M scans; scans of one instant make none. */
@@ -105,6 +140,7 @@ void rho_initiator_open_fan(struct search *search, unsigned b, struct fan *fan)
             voters += b - a - 1u;
         }
     }
+    fan->has_span_hits = HAS_SPAN_HITS && has_span_hits(search, fan);
 }
 
 /* ---- plots in a square ----------------------------------------------------------------------- */
@@ -117,6 +153,12 @@ static struct box box_about(const struct rho_window_plot *plot, float gate_radiu
 {
     return (struct box){plot->x_m - gate_radius_m, plot->x_m + gate_radius_m,
                         plot->y_m - gate_radius_m, plot->y_m + gate_radius_m};
+}
+
+static int is_in_box(const struct rho_window_plot *plot, const struct box *box)
+{
+    return plot->x_m >= box->x0_m && plot->x_m <= box->x1_m && plot->y_m >= box->y0_m &&
+           plot->y_m <= box->y1_m;
 }
 
 static struct rho_window_bins bins_under(struct search *search, const struct rho_window_scan *scan,
@@ -199,51 +241,69 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
-/* A vote before the ending, and the velocity between the two. */
+/* Gates of the third plot and of the vote in the box, and what noise adds to a target's travel. */
+struct reach {
+    float third_m, own_m, slack_m;
+};
+
+/* A vote before the ending, and the way between the two. */
 struct third {
     struct first_vote first;
-    float before_s; /* its time before the ending's; 0: plots of one instant */
-    float vx_mps, vy_mps;
+    float per_s; /* 1 / its time before the ending's; 0: plots of one instant */
+    float dx_m, dy_m;
 };
 
 /*
- * The box in scan a in which kernels with this vote begin: the gate of the vote, extrapolated from
- * the ending. Returns 0 where it is empty.
+ * Makes room for the plots' own times, which spread over this share of the way to the third plot,
+ * and cuts off where no target can have come from. At least an edge is left.
  */
-static int predict_box(const struct search *search, const struct span *span,
-                       const struct ending *ending, const struct third *third, struct box *box)
+static struct box fit_box(const struct box *box, const struct ending *ending,
+                          const struct third *third, float spread, float far_m)
 {
-    const struct rho_window_plot *to = ending->plot;
-    float begin_s = span->gap_s + to->offset_s - span->scan_a->offset_min_s;
-    float end_s = span->gap_s + to->offset_s - span->scan_a->offset_max_s;
-    float far_m = search->initiator->config.v_max_mps * begin_s + span->slack_m;
-    *box = box_about(to, far_m);
-    if (!(third->before_s > 0.0f)) {
-        return 1;
-    }
-    float gate_radius_m =
-        begin_s / third->before_s *
-        (GATE_ROUNDING * ending->gate_share * span->voters[third->first.gap - 1u].gate_radius_m +
-         ending->rounding_m);
-    float x0_m = to->x_m - third->vx_mps * begin_s, x1_m = to->x_m - third->vx_mps * end_s;
-    float y0_m = to->y_m - third->vy_mps * begin_s, y1_m = to->y_m - third->vy_mps * end_s;
-    box->x0_m = larger(box->x0_m, smaller(x0_m, x1_m) - gate_radius_m);
-    box->x1_m = smaller(box->x1_m, larger(x0_m, x1_m) + gate_radius_m);
-    box->y0_m = larger(box->y0_m, smaller(y0_m, y1_m) - gate_radius_m);
-    box->y1_m = smaller(box->y1_m, larger(y0_m, y1_m) + gate_radius_m);
-    return box->x0_m <= box->x1_m && box->y0_m <= box->y1_m;
+    const struct box all = box_about(ending->plot, far_m);
+    const float x_m = spread * third->dx_m, y_m = spread * third->dy_m;
+    struct box fitted = {.x0_m = larger(box->x0_m - larger(x_m, 0.0f), all.x0_m),
+                         .y0_m = larger(box->y0_m - larger(y_m, 0.0f), all.y0_m)};
+    fitted.x1_m = larger(fitted.x0_m, smaller(box->x1_m - smaller(x_m, 0.0f), all.x1_m));
+    fitted.y1_m = larger(fitted.y0_m, smaller(box->y1_m - smaller(y_m, 0.0f), all.y1_m));
+    return third->per_s > 0.0f ? fitted : all;
 }
 
-/* Tries the kernels of the span that begin in that box. */
-static void try_first_plots(struct search *search, const struct span *span,
-                            const struct ending *ending, const struct third *third)
+/*
+ * The box in an earlier scan with the kernels that have this vote: the gate of the vote,
+ * extrapolated from the ending.
+ */
+static inline struct box predict_box(const struct search *search,
+                                     const struct rho_window_scan *scan,
+                                     const struct ending *ending, const struct third *third,
+                                     float gap_s, const struct reach *reach)
+{
+    const struct rho_window_plot *to = ending->plot;
+    float begin_s = gap_s + to->offset_s - scan->offset_min_s, ratio = begin_s * third->per_s;
+    float far_m = search->initiator->config.v_max_mps * begin_s + reach->slack_m;
+    float own_m = HAS_SPAN_HITS ? ending->gate_rounded * reach->own_m : 0.0f;
+    float gate_radius_m =
+        ratio * (ending->gate_rounded * reach->third_m + ending->rounding_m) + own_m;
+    float x_m = to->x_m + third->dx_m * ratio, y_m = to->y_m + third->dy_m * ratio;
+    struct box box = {x_m - gate_radius_m, x_m + gate_radius_m, y_m - gate_radius_m,
+                      y_m + gate_radius_m};
+    if (HAS_SPAN_HITS && ratio > 0.0f && gate_radius_m < NARROW_SHARE * far_m &&
+        scan->offset_min_s >= scan->offset_max_s) {
+        return box;
+    }
+    return fit_box(&box, ending, third, (scan->offset_max_s - scan->offset_min_s) * third->per_s,
+                   far_m);
+}
+
+/* Tries the kernels of the span that begin in that box. Returns the units that the box takes. */
+static uint32_t try_first_plots(struct search *search, const struct span *span,
+                                const struct ending *ending, const struct third *third)
 {
     const struct rho_window_scan *scan = span->scan_a;
-    struct box box;
+    const struct reach reach = {span->voters[third->first.gap - 1u].gate_radius_m, 0.0f,
+                                span->slack_m};
+    struct box box = predict_box(search, scan, ending, third, span->gap_s, &reach);
     uint32_t passed = 0;
-    if (!predict_box(search, span, ending, third, &box)) {
-        return;
-    }
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -251,28 +311,67 @@ static void try_first_plots(struct search *search, const struct span *span,
         unsigned i = start[bins.column_first], end = start[bins.column_last + 1];
         passed += end - i + 1u;
         for (; i < end; i++) {
-            const struct rho_window_plot *plot = &scan->plots[i];
-            if (plot->x_m >= box.x0_m && plot->x_m <= box.x1_m && plot->y_m >= box.y0_m &&
-                plot->y_m <= box.y1_m) {
+            if (is_in_box(&scan->plots[i], &box)) {
                 try_pair(search, span, ending, &third->first, i);
             }
         }
     }
-    rho_initiator_charge(search, passed);
+    return passed;
+}
+
+/* True where a plot of the scan before the third plot may vote for kernels with this one. */
+static int may_vote_next(const struct search *search, const struct rho_window_scan *scan,
+                         float gap_s, const struct ending *ending, const struct third *third,
+                         const struct reach *reach, uint32_t *passed)
+{
+    const struct box box = predict_box(search, scan, ending, third, gap_s, reach);
+    const struct rho_window_bins bins =
+        rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
+    for (int row = bins.row_first; row <= bins.row_last; row++) {
+        const uint16_t *start = &scan->bin_start[row * scan->bins_x];
+        unsigned i = start[bins.column_first], end = start[bins.column_last + 1];
+        *passed += end - i + 1u;
+        for (; i < end; i++) {
+            if (is_in_box(&scan->plots[i], &box)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
 }
 
 /*
  * The spans whose first vote may be `gap` scans before the end, of those in by_votes; a bit each.
  */
-static unsigned spans_of_gap(const struct fan *fan, unsigned by_votes, unsigned gap)
+static unsigned spans_of_gap(const struct fan *fan, const struct ending *ending, unsigned by_votes,
+                             unsigned gap)
 {
     unsigned spans = 0;
     for (unsigned n = 0; n < fan->num_spans; n++) {
-        if ((by_votes >> n & 1u) && gap <= fan->spans[n].misses_max + 1u) {
+        if ((by_votes >> n & 1u) &&
+            (int)gap <= rho_initiator_misses_max(&fan->spans[n], ending) + 1) {
             spans |= 1u << n;
         }
     }
     return spans;
+}
+
+/* The widest gates of these spans. */
+static struct reach widest_reach(const struct fan *fan, unsigned spans, unsigned gap)
+{
+    struct reach reach = {0.0f, 0.0f, 0.0f};
+    for (unsigned n = 0; n < fan->num_spans; n++) {
+        const struct span *span = &fan->spans[n];
+        if (spans >> n & 1u) {
+            reach.third_m = larger(reach.third_m, span->voters[gap - 1u].gate_radius_m);
+            reach.slack_m = larger(reach.slack_m, span->slack_m);
+            if (span->a + gap + 1u < span->b) {
+                reach.own_m = larger(reach.own_m, span->voters[gap].gate_radius_m);
+            }
+        }
+    }
+    reach.slack_m += GATE_ROUNDING * reach.own_m;
+    return reach;
 }
 
 /*
@@ -294,26 +393,6 @@ static float vote_distance_max_m(const struct search *search, const struct fan *
     return far_m + ending->rounding_m + GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);
 }
 
-static void try_third_plot(struct search *search, const struct fan *fan,
-                           const struct ending *ending, unsigned spans, unsigned gap, unsigned k)
-{
-    unsigned b = fan->spans[0].b;
-    const struct rho_window_plot *plot =
-        &rho_window_scan_at(&search->initiator->window, b - gap)->plots[k];
-    const struct rho_window_plot *to = ending->plot;
-    float before_s = search->time_s[b] - search->time_s[b - gap] + to->offset_s - plot->offset_s;
-    float per_s = before_s > 0.0f ? 1.0f / before_s : 0.0f;
-    const struct third third = {.first = {.gap = gap, .index = k},
-                                .before_s = before_s,
-                                .vx_mps = (to->x_m - plot->x_m) * per_s,
-                                .vy_mps = (to->y_m - plot->y_m) * per_s};
-    for (unsigned n = 0; spans >> n; n++) {
-        if (spans >> n & 1u) {
-            try_first_plots(search, &fan->spans[n], ending, &third);
-        }
-    }
-}
-
 /* Tries the kernels of these spans whose first vote is `gap` scans before the end. */
 static int try_third_plots(struct search *search, const struct fan *fan,
                            const struct ending *ending, unsigned spans, unsigned gap)
@@ -323,24 +402,53 @@ static int try_third_plots(struct search *search, const struct fan *fan,
     float far_m = vote_distance_max_m(search, fan, ending, spans, gap);
     struct box box = box_about(ending->plot, far_m);
     struct rho_window_bins bins = bins_under(search, scan, &box);
+    const unsigned b = fan->spans[0].b;
+    const float gap_s = search->time_s[b] - search->time_s[b - gap] + ending->plot->offset_s;
+    /* spans without further misses: where the next scan has no vote there is no kernel of them */
+    const unsigned full = !HAS_SPAN_HITS || ending->is_clear
+                              ? 0u
+                              : spans & ~spans_of_gap(fan, ending, spans, gap + 1u);
+    const struct reach reach = full != 0 ? widest_reach(fan, full, gap) : (struct reach){0};
+    const struct rho_window_scan *next =
+        rho_window_scan_at(&search->initiator->window, b - gap - 1u);
+    const float next_s = search->time_s[b] - search->time_s[b - gap - 1u];
+    struct third third = {.first = {.gap = gap}};
+    uint32_t passed = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
-        rho_initiator_charge(search, end - start[bins.column_first]);
+        passed += end - start[bins.column_first];
         for (unsigned k = start[bins.column_first]; k < end; k++) {
-            float dx_m = scan->plots[k].x_m - ending->plot->x_m;
-            float dy_m = scan->plots[k].y_m - ending->plot->y_m;
-            if (dx_m * dx_m + dy_m * dy_m > far_m * far_m ||
+            float before_s = gap_s - scan->plots[k].offset_s;
+            third.dx_m = scan->plots[k].x_m - ending->plot->x_m;
+            third.dy_m = scan->plots[k].y_m - ending->plot->y_m;
+            if (third.dx_m * third.dx_m + third.dy_m * third.dy_m > far_m * far_m ||
                 (scan->marks[k] & search->skip_flags)) {
                 continue;
             }
-            try_third_plot(search, fan, ending, spans, gap, k);
-            if (rho_initiator_is_spent(search)) {
-                return 0;
+            third.first.index = k;
+            third.per_s = before_s > 0.0f ? 1.0f / before_s : 0.0f;
+            unsigned tried = spans;
+            if ((full & (full - 1u)) != 0 &&
+                !may_vote_next(search, next, next_s, ending, &third, &reach, &passed)) {
+                tried &= ~full;
+            }
+            for (unsigned n = 0; tried >> n; n++) {
+                if (tried >> n & 1u) {
+                    passed += try_first_plots(search, &fan->spans[n], ending, &third);
+                }
+            }
+            if (passed >= CHARGED_UNITS) {
+                rho_initiator_charge(search, passed);
+                passed = 0;
+                if (rho_initiator_is_spent(search)) {
+                    return 0;
+                }
             }
         }
     }
-    return 1;
+    rho_initiator_charge(search, passed);
+    return !rho_initiator_is_spent(search);
 }
 
 /* ---- which way ------------------------------------------------------------------------------- */
@@ -352,7 +460,8 @@ static int try_third_plots(struct search *search, const struct fan *fan,
 static int votes_are_cheaper(struct search *search, const struct span *span,
                              const struct ending *ending, const unsigned *counts)
 {
-    unsigned width = span->b - span->a, thirds = counts[span->misses_max + 1u];
+    unsigned width = span->b - span->a;
+    unsigned gaps = (unsigned)rho_initiator_misses_max(span, ending) + 1u, thirds = counts[gaps];
     unsigned pairs = counts[width] - counts[width - 1u];
     if (!span->is_ordered || pairs == 0 || thirds == 0) {
         return span->is_ordered &&
@@ -368,7 +477,7 @@ static int votes_are_cheaper(struct search *search, const struct span *span,
     float lookup = LOOKUP_PLOTS + (float)count_in(search, before, &gate);
     float found = (float)count_in(search, span->scan_a, &firsts), by_votes = 0.0f;
     float in_gate = SHARE_IN_GATE * ending->along_share / ending->gate_share;
-    for (unsigned gap = 1; gap <= span->misses_max + 1u; gap++) {
+    for (unsigned gap = 1; gap <= gaps; gap++) {
         float kernel = KERNEL_PLOTS + (float)(gap + 1u) * lookup;
         by_votes +=
             (float)(counts[gap] - counts[gap - 1u]) *
@@ -413,6 +522,18 @@ static void count_reachable(struct search *search, const struct fan *fan,
     }
 }
 
+/*
+ * True where clutter is thinner than at the sampled places: sets that end here may start tracks
+ * with fewer hits than their spans want elsewhere.
+ */
+static int is_clear(const struct search *search, const struct rho_window_plot *plot)
+{
+    const struct rho_initiator *initiator = search->initiator;
+    return rho_initiator_mean_density(initiator, plot->x_m, plot->y_m) *
+               rho_window_sigma(plot->sigma_range) * rho_window_sigma(plot->sigma_cross) <
+           initiator->thin_clutter;
+}
+
 int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, unsigned j)
 {
     const struct span *widest = &fan->spans[0];
@@ -429,16 +550,22 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
     }
     rho_initiator_find_vote_gate(search, far_m + widest->slack_m + widest->voters[0].gate_radius_m,
                                  &ending);
+    ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
+    ending.is_clear = !HAS_SPAN_HITS || !fan->has_span_hits || is_clear(search, ending.plot);
     count_reachable(search, fan, &ending, counts);
     for (unsigned n = 0; n < fan->num_spans; n++) {
+        if (rho_initiator_misses_max(&fan->spans[n], &ending) < 0) {
+            continue;
+        }
         if (votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
             by_votes |= 1u << n;
         } else if (!try_pairs(search, &fan->spans[n], &ending)) {
             return 0;
         }
     }
-    for (unsigned gap = 1; spans_of_gap(fan, by_votes, gap) != 0; gap++) {
-        if (!try_third_plots(search, fan, &ending, spans_of_gap(fan, by_votes, gap), gap)) {
+    for (unsigned gap = 1; spans_of_gap(fan, &ending, by_votes, gap) != 0; gap++) {
+        const unsigned spans = spans_of_gap(fan, &ending, by_votes, gap);
+        if (!try_third_plots(search, fan, &ending, spans, gap)) {
             return 0;
         }
     }

@@ -12,6 +12,7 @@ struct kernel {
     float dx_m, dy_m;
     float duration_s;
     float gate_share;
+    int misses_max;
     float from_m2, to_m2;                     /* isotropic: the variances of the ends */
     struct rho_window_query query;            /* ... and what every scan is asked alike */
     struct rho_window_noise noise_a, noise_b; /* anisotropic: the covariances of the ends */
@@ -168,7 +169,8 @@ static int collect_votes(struct search *search, const struct span *span,
     if (first->gap > 0 && !has_first_vote(search, span, first, kernel, set)) {
         return 0;
     }
-    unsigned misses = first->gap > 0 ? first->gap - 1u : 0u, middle = (span->a + span->b + 1u) / 2u;
+    int misses = first->gap > 0 ? (int)first->gap - 1 : 0;
+    unsigned middle = (span->a + span->b + 1u) / 2u;
     for (unsigned k = 0; k + 1u < (unsigned)span->b - span->a; k++) {
         unsigned m = k % 2u ? middle - (k + 1u) / 2u : middle + k / 2u;
         if (m + first->gap >= span->b && first->gap > 0) {
@@ -177,7 +179,7 @@ static int collect_votes(struct search *search, const struct span *span,
         int plot = vote(search, span, m, kernel);
         if (plot >= 0) {
             add_vote(set, m, plot);
-        } else if (++misses > span->misses_max) {
+        } else if (++misses > kernel->misses_max) {
             return 0;
         }
     }
@@ -297,6 +299,7 @@ int rho_initiator_vote(struct search *search, const struct span *span, const str
     kernel.dy_m = to->y_m - from->y_m;
     kernel.duration_s = span->gap_s + to->offset_s - from->offset_s;
     kernel.gate_share = ending->gate_share;
+    kernel.misses_max = rho_initiator_misses_max(span, ending);
     kernel.noise_b = ending->noise;
     if ((span->scan_a->marks[i] & search->skip_flags) || !has_target_speed(search, span, &kernel) ||
         !may_have_first_vote(search, span, ending, first, &kernel) ||

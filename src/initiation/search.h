@@ -23,6 +23,12 @@
 /* Meanings of an ambiguous range rate to either side that are tried. More of them say little. */
 #define ALIASES_MAX 8
 
+/*
+ * Whether long spans may need more votes than M. Where few plots are held that saves little, and
+ * its code is left out.
+ */
+#define HAS_SPAN_HITS (RHO_MAX_PLOTS > 64)
+
 struct search {
     struct rho_initiator *initiator;
     enum rho_search kind;
@@ -180,7 +186,8 @@ struct voter {
 /* The values common to all kernels from scan a to scan b. */
 struct span {
     uint8_t a, b;
-    uint8_t misses_max; /* scans between that need not vote */
+    uint8_t misses_max; /* scans between that need not vote, by M */
+    int8_t misses_amid; /* ... amid clutter; below 0: no kernel of the span can start a track */
     uint8_t is_ordered; /* no plot of a scan from a to b is earlier than one of the scan before */
     const struct rho_window_scan *scan_a, *scan_b;
     float gap_s;                /* between the scans' times */
@@ -196,10 +203,18 @@ struct ending {
      * needs: in any direction, and along the line of sight.
      */
     float gate_share, along_share;
+    float gate_rounded;            /* the first one, with what rounding may add */
     float along_x, along_y;        /* the line of sight, or 0, 0 */
     float rounding_m;              /* of a place that is extrapolated from here, in float32 */
+    int is_clear;                  /* M holds for all spans */
     struct rho_window_noise noise; /* covariance of the plot, not in the isotropic path */
 };
+
+/* Scans between that need not vote for kernels with this end; below 0: there are none. */
+static inline int rho_initiator_misses_max(const struct span *span, const struct ending *ending)
+{
+    return !HAS_SPAN_HITS || ending->is_clear ? (int)span->misses_max : (int)span->misses_amid;
+}
 
 /* The vote of a kernel that is nearest to its end: plot `index`, `gap` scans before. gap 0: any. */
 struct first_vote {
@@ -209,7 +224,8 @@ struct first_vote {
 /* All kernels that end in one scan. */
 struct fan {
     unsigned num_spans;
-    struct span spans[SPANS_MAX];                         /* the longest first */
+    int has_span_hits;            /* some spans need more votes than M, where that holds */
+    struct span spans[SPANS_MAX]; /* the longest first */
     struct voter voters[SPANS_MAX * (SPANS_MAX + 1) / 2]; /* theirs, span by span */
 };
 

@@ -36,6 +36,9 @@
  */
 #define FALSE_TRACKS_MAX 0.1f
 
+/* Clutter so much thinner than at the sampled places is no thinner: classes are as wide. */
+#define THIN_SHARE 0.9f
+
 /* Scores that start and confirm tracks, and the least number of votes. */
 struct thresholds {
     float start_nat, confirm_nat;
@@ -257,6 +260,19 @@ static unsigned choose_least_hits(struct false_tracks *model, float *start_nat)
     return num_scans == model->search->initiator->config.scans ? num_scans : num_scans + 1u;
 }
 
+/*
+ * Long spans have room for more misses, each of which lowers the score: they need more hits than M.
+ */
+static void find_span_hits(struct rho_initiator *initiator, const struct false_tracks *model,
+                           float start_nat)
+{
+    initiator->thin_clutter = THIN_SHARE * rho_initiator_thin_clutter(model);
+    for (unsigned first = 0; first < RHO_MAX_SCANS; first++) {
+        initiator->span_hits[first] =
+            (uint8_t)rho_initiator_least_hits_from(model, first, start_nat);
+    }
+}
+
 static void find_thresholds(const struct search *search, struct thresholds *thresholds)
 {
     const struct rho_initiator_config *config = &search->initiator->config;
@@ -264,6 +280,9 @@ static void find_thresholds(const struct search *search, struct thresholds *thre
     thresholds->start_nat = THRESHOLD_MAX_NAT;
     rho_initiator_model_false_tracks(search, &model);
     thresholds->min_scans = choose_least_hits(&model, &thresholds->start_nat);
+    if (HAS_SPAN_HITS) {
+        find_span_hits(search->initiator, &model, thresholds->start_nat);
+    }
     thresholds->confirm_nat =
         confirm_threshold(&model, config->false_tracks_per_hour * search->interval_s / 3600.0f,
                           thresholds->start_nat);

@@ -3,12 +3,12 @@
 # Instructions that the library executes for typical jobs (tools/instructions): on this machine,
 # counted by valgrind, and on Cortex-M4F and M7 under QEMU, where arm-none-eabi-gcc and
 # qemu-system-arm are installed. Mean and worst of several inputs. Bars hold on the M4F. Then the
-# initiator's window with each plot's own covariance against the isotropic path, and what the
-# accumulator takes a vote. Exit 1 where a bar does not hold; under CI=true also where nothing is
-# counted on a Cortex-M. Environment: BUILD, CC.
+# initiator's window with each plot's own covariance against the isotropic path, what the accumulator
+# takes a vote, and how a step grows from 1000 to 5000 plots in one area. Exit 1 where a bar does not
+# hold; under CI=true also where nothing is counted on a Cortex-M. Environment: BUILD, CC.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-build=${BUILD:-build} most_ratio=1.5 failed=0
+build=${BUILD:-build} most_ratio=1.5 most_growth=7 failed=0
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -23,6 +23,9 @@ done
 ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -DRHO_PROFILE_WORKSTATION -Wl,-z,now -o \
     "$folder/hough" \
     tools/instructions/hough.c "$build/workstation/librhotrack.a"
+${CC:-gcc} -std=c11 -O2 -ffp-contract=off -Iinclude -DRHO_PROFILE_WORKSTATION -Wl,-z,now -o \
+    "$folder/growth" \
+    tools/instructions/growth.c "$build/workstation/librhotrack.a"
 cores=''
 if command -v arm-none-eabi-gcc >/dev/null && command -v qemu-system-arm >/dev/null; then
     cores='m4 m7'
@@ -159,4 +162,26 @@ printf '%-8s %12s %12s %15s %15s\n' points instructions 'not pruned' 'a vote' 'n
 votes 30
 votes 300
 votes 3000
+
+# growth V_MIN V_MAX: steps of 1000 and of 5000 plots a scan; their search alone
+growth() {
+    local plots few=0 few_search=0 search
+    for plots in 1000 5000; do
+        count_here growth "$plots" "$1" "$2"
+        grep -q '^0 partial' "$folder/said" || { echo "growth: a partial step"; failed=1; }
+        search=$(callgrind_annotate --inclusive=yes "$folder/out" |
+            awk '/rho_initiator_search_within/ {gsub(",", "", $1); print $1; exit}')
+        [ "$plots" = 1000 ] && few=$sum few_search=$search
+    done
+    awk -v speeds="$1 to $2" -v few="$few" -v many="$sum" -v calls="$calls" -v most="$most_growth" \
+        -v few_search="$few_search" -v search="$search" 'BEGIN {
+        printf "%-12s %12.0f %12.0f %8.2f %8.2f  (at most %s)\n", speeds, few / calls, \
+            many / calls, many / few, search / few_search, most
+        exit many > most * few }' || failed=1
+}
+
+printf '\na step in clutter spread evenly over 500 x 500 km, workstation profile, %s\n' "$(uname -m)"
+printf '%-12s %12s %12s %8s %8s\n' 'speeds, m/s' '1000 plots' '5000 plots' times 'search'
+growth 50 300
+growth 0 700
 exit "$failed"

@@ -118,13 +118,16 @@ static void start(uint32_t work_max)
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &config), RHO_OK);
 }
 
+/* Of two sensors in turn: M holds for every span, and the limit alone leaves kernels out. */
 static void push(int k)
 {
     static uint8_t fates[RHO_MAX_PLOTS];
     uint32_t unused = 0;
     memset(fates, RHO_FATE_HELD, sizeof fates);
-    struct rho_scan scan = {
-        .time_us = (int64_t)(SCAN_S * 1e6) * k, .num_plots = num_plots, .plots = plots};
+    struct rho_scan scan = {.time_us = (int64_t)(SCAN_S * 1e6) * k,
+                            .sensor_id = k % 2,
+                            .num_plots = num_plots,
+                            .plots = plots};
     assert_int_equal(rho_initiator_push(&initiator, &scan, NULL, fates, &unused), RHO_OK);
     num_plots = 0;
 }
