@@ -69,7 +69,7 @@ program_flags := -std=c11 -D_GNU_SOURCE -DRHO_PROFILE_WORKSTATION $(common_flags
                  -Wconversion -pthread -Itools/rhotrack
 test_flags := -std=c11 -D_GNU_SOURCE $(common_flags) -Itests -Itests/unit -Itools/rhotrack -Itools/lab/c $(warnings) $(TEST_CFLAGS)
 capacities := $(if $(RHO_CONFIG_FILE),-DRHO_CONFIG_FILE='"$(abspath $(RHO_CONFIG_FILE))"')
-program_libraries := -llcm -lcsv -linih -lcjson -lproj -pthread -lm
+program_libraries := -llcm -lcsv -linih -lcjson -lproj -lpcap -pthread -lm
 
 compile = @mkdir -p $(@D) && echo "  cc       $@" && $(CC) $(1) $(OPT) $(CFLAGS)
 

@@ -24,6 +24,7 @@ libcsv-dev          # the program reads CSV
 libinih-dev         # ... and INI
 libcjson-dev        # ... and writes JSON
 libproj-dev         # ... and knows latitude and longitude
+libpcap-dev         # ... and reads network recordings
 liblcm-dev          # LCM: providers other than UDP multicast
 libcmocka-dev       # unit and scenario tests
 liblcm-bin          # lcm-gen: tests of the codec beside the C and the Python that it makes

@@ -59,6 +59,30 @@ cp turns.ast no_ending
 run convert no_ending no_ending.csv
 check 'a recording is known by what is in it' cmp turns.csv no_ending.csv
 
+# A recording that begins between the sectors of a turn, or in the first of them.
+cat >begin.py <<'PYTHON'
+import sys
+data, at, left = open(sys.argv[1], "rb").read(), 0, int(sys.argv[3])
+with open(sys.argv[2], "wb") as out:
+    while at < len(data):
+        size = int.from_bytes(data[at + 1:at + 3], "big")
+        if data[at] != 34 or left == 0:
+            out.write(data[at:at + size])
+        else:
+            left -= 1
+        at += size
+PYTHON
+for missing in 1 10; do
+    python3 begin.py turns.ast begun.ast "$missing"
+    run convert begun.ast begun.csv
+    check "without the first $missing sector messages: every plot is there" python3 same.py \
+        sim/plots.csv begun.csv
+    run track begun.ast --config sim/scenario.ini
+    check '... and all tracks' grep -q ' scans, 1821 plots, 20 tracks confirmed' stderr
+done
+run convert begun.ast begun_turns.csv --set asterix_scans=turn
+check '... by turns too' python3 same.py sim/plots.csv begun_turns.csv
+
 # ---- The same tracks ----
 run track turns.ast --config sim/scenario.ini -o turns.tracks.csv
 check 'sectors: 20 targets, 20 tracks' grep -q '480 scans, 1821 plots, 20 tracks confirmed' stderr
@@ -91,6 +115,44 @@ check 'plot scans reads them' exits 0
 run track turns.ast --follow
 check 'follow does not' says 2 \
     'rhotrack: turns.ast: --follow takes CSV files, and this is a recording in ASTERIX'
+
+# ---- As the network carried it ----
+capture="$tests/write_capture.py"
+python3 "$capture" turns.ast plain.pcap
+python3 "$capture" turns.ast tagged.pcapng --vlan --noise
+python3 "$capture" turns.ast cooked.pcap --link cooked --noise
+python3 "$capture" turns.ast raw.pcapng --link raw --ipv6
+for name in plain.pcap tagged.pcapng cooked.pcap raw.pcapng; do
+    run track "$name" --config sim/scenario.ini
+    check "$name: the tracks of the recording" writes_same_as turns.tracks.csv
+done
+run convert tagged.pcapng tagged.csv
+check 'convert reads them as well' cmp turns.csv tagged.csv
+check 'datagrams of other content are counted' grep -qx \
+    'rhotrack: tagged.pcapng: [1-9][0-9]* datagrams that are not ASTERIX left out' stderr
+check 'and those of which a part is missing' grep -qx \
+    'rhotrack: tagged.pcapng: [1-9][0-9]* datagrams left out: fragments, or cut short' stderr
+cp tagged.pcapng no_name
+run convert no_name no_name.csv
+check 'a network recording is known by what is in it' cmp turns.csv no_name.csv
+head -c 100000 plain.pcap >cut.pcap
+run convert cut.pcap cut.csv
+check 'one that ends within a packet' says 2 'rhotrack: cut.pcap: behind packet [0-9]*: truncated *'
+check 'leaves nothing behind' test ! -e cut.csv
+run convert cut.pcap cut.csv --keep-going
+check 'and gives what there is with --keep-going' exits 0
+printf '\60\0\10\377\377\377\0\0' | cat turns.ast - >bad_end.ast
+python3 "$capture" bad_end.ast bad.pcap
+run convert bad.pcap bad.csv
+check 'a bad record has its packet and byte' says 2 \
+    'rhotrack: bad.pcap: packet 2318, byte 7 of its content: I048/010 goes beyond its data block'
+printf '\324\303\262\241no' >no.pcap
+run track no.pcap
+check 'no recording at all' says 2 'rhotrack: no.pcap: not a network recording that can be read: *'
+printf '\241\262\303\324\0\2\0\4\0\0\0\0\0\0\0\0\0\0\377\377\0\0\0\151' >air.pcap
+run track air.pcap
+check 'nor one of a link that is not read' says 2 \
+    'rhotrack: air.pcap: packets of the link IEEE802_11 are not read'
 
 # ---- Places ----
 python3 "$write" sim/plots.csv placed.ast --place 47.5,8.5,430 --sac 200 --sic 7

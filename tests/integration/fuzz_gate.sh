@@ -35,7 +35,7 @@ build_of_program() { # target, file of the program
     clang $flags -Itools/rhotrack/scene -DRHO_PROFILE_WORKSTATION $wraps -o "$folder/$1" \
         "tests/fuzz/$1.c" \
         tests/fuzz/refusal.c "$2" "$folder/program.a" "$build/workstation/librhotrack.a" \
-        -lcsv -linih -lcjson -lproj -pthread -lm
+        -lcsv -linih -lcjson -lproj -lpcap -pthread -lm
 }
 build_tables() { build_of_program fuzz_tables "$1"; }
 build_config() { build_of_program fuzz_config "$1"; }

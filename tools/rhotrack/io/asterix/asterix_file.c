@@ -8,16 +8,19 @@
 #include <sys/stat.h>
 
 #include "base/common.h"
+#include "io/asterix/captured_datagrams.h"
 
 #define CAPACITY ((size_t)4 * 65536)
 
 struct asterix_file {
     char *path;
-    FILE *file;
-    bool keep_going, is_end; /* end: nothing comes behind the bytes */
-    uint8_t *bytes;          /* CAPACITY of them */
+    FILE *file;                          /* blocks one after the other ... */
+    struct captured_datagrams *captured; /* ... or, instead, in a network recording's datagrams */
+    bool keep_going, is_end;             /* end: nothing comes behind the bytes */
+    uint8_t *bytes;                      /* CAPACITY of them; of a datagram, its own */
     size_t size, at;
-    uint64_t offset; /* of the bytes in the file */
+    uint64_t offset;  /* of the bytes in the file, or beside all datagrams' */
+    uint64_t foreign; /* datagrams without blocks */
     uint8_t category;
     size_t block_end; /* of the block under way; at: outside one */
     uint64_t records, bytes_skipped, places_skipped;
@@ -68,7 +71,8 @@ bool asterix_file_is_asterix(const char *path)
 {
     struct stat status;
 
-    if (path_ends_with(path, ".ast") || path_ends_with(path, ".asterix")) {
+    if (path_ends_with(path, ".ast") || path_ends_with(path, ".asterix") ||
+        captured_datagrams_is_capture(path)) {
         return true;
     }
     return !stat(path, &status) && S_ISREG(status.st_mode) && begins_good(path);
@@ -76,11 +80,54 @@ bool asterix_file_is_asterix(const char *path)
 
 /* ---- Bytes ---- */
 
+/* Whether the bytes are blocks, of any category, from the first to the last one. */
+static bool is_of_blocks(const uint8_t *data, size_t size)
+{
+    struct asterix_block block;
+    struct asterix_error error;
+
+    while (size > 0) {
+        if (!asterix_block_read(data, size, &block, &error)) {
+            return false;
+        }
+        data += ASTERIX_HEADER_BYTES + block.size;
+        size -= ASTERIX_HEADER_BYTES + block.size;
+    }
+    return true;
+}
+
+/* The next datagram of blocks, where the one before is read. */
+static void fill_from_capture(struct asterix_file *file)
+{
+    const uint8_t *data;
+    size_t size;
+
+    if (file->at < file->size) {
+        return;
+    }
+    file->offset += file->size;
+    file->size = file->at = 0;
+    while (file->size == 0 &&
+           captured_datagrams_next(file->captured, file->keep_going, &data, &size)) {
+        if (is_of_blocks(data, size)) {
+            memcpy(file->bytes, data, size);
+            file->size = size;
+        } else {
+            file->foreign++;
+        }
+    }
+    file->is_end = file->size == 0;
+}
+
 /* A whole block, if there is one, and another one behind it are in memory from the position on. */
 static void fill(struct asterix_file *file)
 {
     size_t got;
 
+    if (file->captured) {
+        fill_from_capture(file);
+        return;
+    }
     if (file->is_end || file->size - file->at >= 2 * (size_t)ASTERIX_BLOCK_MAX) {
         return;
     }
@@ -108,11 +155,15 @@ struct asterix_file *asterix_file_open(const char *path, bool keep_going)
              "%s: a recording in ASTERIX is looked at twice, so that only a plain file will do",
              path);
     }
+    file->bytes = must_alloc(CAPACITY);
+    if (captured_datagrams_is_capture(path)) {
+        file->captured = captured_datagrams_open(path);
+        return file;
+    }
     file->file = fopen(path, "rb");
     if (!file->file) {
         fail(EXIT_USAGE, "%s: %s", path, strerror(errno));
     }
-    file->bytes = must_alloc(CAPACITY);
     fill(file);
     if (file->size == 0) {
         fail(EXIT_USAGE, "%s: byte 0: the file is empty", path);
@@ -135,6 +186,16 @@ static void find_block(struct asterix_file *file)
     }
 }
 
+static _Noreturn void fail_at(const struct asterix_file *file, const struct asterix_error *error)
+{
+    if (file->captured) {
+        fail(EXIT_USAGE, "%s: packet %" PRIu64 ", byte %zu of its content: %s", file->path,
+             captured_datagrams_packet(file->captured), file->at + error->at, error->reason);
+    }
+    fail(EXIT_USAGE, "%s: byte %" PRIu64 ": %s", file->path, file->offset + file->at + error->at,
+         error->reason);
+}
+
 /*
  * The block at the position is bad, as `error` says: the reading ends, or skips it. A block's own
  * length is believed where another good one, or the end, is behind it.
@@ -145,7 +206,7 @@ static void skip_bad(struct asterix_file *file, const struct asterix_error *erro
     size_t end = file->block_end;
 
     if (!file->keep_going) {
-        fail(EXIT_USAGE, "%s: byte %" PRIu64 ": %s", file->path, start + error->at, error->reason);
+        fail_at(file, error);
     }
     if (end > file->at &&
         (end == file->size || asterix_block_is_good(file->bytes + end, file->size - end))) {
@@ -271,12 +332,23 @@ void asterix_file_report(const struct asterix_file *file)
                 file->path, file->bytes_skipped, file->places_skipped);
     }
     report_others(file);
+    if (file->foreign > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams that are not ASTERIX left out\n",
+                file->path, file->foreign);
+    }
+    if (file->captured && captured_datagrams_incomplete(file->captured) > 0) {
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams left out: fragments, or cut short\n",
+                file->path, captured_datagrams_incomplete(file->captured));
+    }
 }
 
 void asterix_file_close(struct asterix_file *file)
 {
     if (file) {
-        fclose(file->file);
+        if (file->file) {
+            fclose(file->file);
+        }
+        captured_datagrams_close(file->captured);
         free(file->bytes);
         free(file->path);
         free(file);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * asterix_file: the records of CAT034 and CAT048 of a recording: data blocks one after the other,
- * as they were sent.
+ * as they were sent; or those in the UDP datagrams of a network recording (captured_datagrams.h).
  *
  * Blocks of other categories are skipped and counted. A bad place is an error, `rhotrack: FILE:
  * byte N: what is wrong`, exit 2; with keep_going the rest of its block is skipped, and where its
  * length is not to be believed all bytes up to the next block of these categories that is good as a
- * whole.
+ * whole. In a network recording the place is `packet N, byte M of its content`; datagrams that are
+ * not blocks from the first byte to the last are left out and counted.
  */
 #ifndef RHOTRACK_TOOL_ASTERIX_FILE_H
 #define RHOTRACK_TOOL_ASTERIX_FILE_H
@@ -17,7 +18,7 @@
 
 /*
  * Whether a file is a recording: a name that ends with .ast or .asterix, or a plain file that
- * begins with a data block of CAT034 or CAT048 that is good as a whole.
+ * begins with a data block of CAT034 or CAT048 that is good as a whole, or as a network recording.
  */
 bool asterix_file_is_asterix(const char *path);
 
@@ -38,7 +39,7 @@ struct asterix_file *asterix_file_open(const char *path, bool keep_going);
 /* The next record, valid until the next call. Returns false after the last. */
 bool asterix_file_next(struct asterix_file *file, struct asterix_record *record);
 
-/* How many bytes of the file are taken. */
+/* How many bytes of the file, or of the blocks in its datagrams, are taken. */
 uint64_t asterix_file_position(const struct asterix_file *file);
 
 /* How many records there were so far. */

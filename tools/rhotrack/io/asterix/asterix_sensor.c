@@ -130,23 +130,29 @@ static bool is_at_start(const struct asterix_sensor *sensor)
 }
 
 /*
- * Before the first whole turn: the part of a turn since the first plot, as the antenna then turned.
+ * Before the first look: back to the first plot, but at most a turn, as the antenna then turned. As
+ * wide as that look, the earliest one as wide as is left.
  */
-static void begin_before(struct asterix_sensor *sensor, const struct asterix_look *turn)
+static void begin_before(struct asterix_sensor *sensor, const struct asterix_look *first)
 {
-    int64_t took_128 = turn->start_128 - first_waiting(sensor, turn->start_128);
-    int64_t turn_128 = asterix_look_turn_128(turn);
-    struct asterix_look look = {.end_128 = turn->start_128};
+    const int64_t turn_128 = asterix_look_turn_128(first);
+    int64_t took_128 = first->start_128 - first_waiting(sensor, first->start_128);
+    uint32_t before, width; /* of the antenna's way to the first look; of a look */
 
-    if (!is_at_start(sensor) || turn->advance != ASTERIX_TURN || took_128 == 0) {
+    if (!is_at_start(sensor)) {
         return;
     }
     took_128 = took_128 < turn_128 ? took_128 : turn_128;
-    look.start_128 = look.end_128 - took_128;
-    look.advance = (uint32_t)(took_128 * ASTERIX_TURN / turn_128);
-    look.from = (uint16_t)(turn->from - look.advance);
-    if (look.advance > 0) {
-        begin(sensor, &look, true);
+    for (before = (uint32_t)(took_128 * ASTERIX_TURN / turn_128); before > 0; before -= width) {
+        struct asterix_look look = {.from = (uint16_t)(first->from - before)};
+
+        width = (before - 1) % first->advance + 1;
+        look.advance = width;
+        look.start_128 = first->start_128 - before * turn_128 / ASTERIX_TURN;
+        look.end_128 = first->start_128 - (before - width) * turn_128 / ASTERIX_TURN;
+        if (look.end_128 > look.start_128) {
+            begin(sensor, &look, true);
+        }
     }
 }
 

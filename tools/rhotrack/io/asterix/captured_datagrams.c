@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/asterix/captured_datagrams.h"
+
+#include <pcap/pcap.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/common.h"
+
+#define TYPE_IPV4 0x0800u
+#define TYPE_IPV6 0x86ddu
+#define TYPE_VLAN 0x8100u
+#define TYPE_VLANS 0x88a8u /* an outer one */
+#define VLAN_BYTES 4u
+#define PROTOCOL_UDP 17u
+#define IPV4_BYTES 20u
+#define IPV6_BYTES 40u
+#define UDP_BYTES 8u
+#define FRAGMENT 0x3fffu /* of a datagram: more follow, or it is not the first */
+
+struct captured_datagrams {
+    char *path;
+    pcap_t *capture;
+    int link;
+    uint64_t packets, incomplete;
+};
+
+/* ---- What sort of file ---- */
+
+bool captured_datagrams_is_capture(const char *path)
+{
+    static const uint8_t beginnings[][4] = {
+        {0xa1, 0xb2, 0xc3, 0xd4}, {0xd4, 0xc3, 0xb2, 0xa1}, /* pcap, microseconds */
+        {0xa1, 0xb2, 0x3c, 0x4d}, {0x4d, 0x3c, 0xb2, 0xa1}, /* ... and nanoseconds */
+        {0x0a, 0x0d, 0x0d, 0x0a},                           /* pcapng */
+    };
+    uint8_t bytes[4];
+    struct stat status;
+    FILE *file = !stat(path, &status) && S_ISREG(status.st_mode) && status.st_size > 0
+                     ? fopen(path, "rb")
+                     : NULL;
+    bool is_capture = false;
+
+    if (file && fread(bytes, 1, sizeof bytes, file) == sizeof bytes) {
+        for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++) {
+            is_capture |= !memcmp(bytes, beginnings[i], sizeof bytes);
+        }
+    }
+    if (file) {
+        fclose(file);
+    }
+    return is_capture;
+}
+
+struct captured_datagrams *captured_datagrams_open(const char *path)
+{
+    struct captured_datagrams *captured = must_calloc(1, sizeof *captured);
+    char reason[PCAP_ERRBUF_SIZE] = "";
+
+    captured->path = must_copy(path);
+    captured->capture = pcap_open_offline(path, reason);
+    if (!captured->capture) {
+        fail(EXIT_USAGE, "%s: not a network recording that can be read: %s", path, reason);
+    }
+    captured->link = pcap_datalink(captured->capture);
+    switch (captured->link) {
+    case DLT_EN10MB:
+    case DLT_LINUX_SLL:
+    case DLT_LINUX_SLL2:
+    case DLT_RAW:
+    case DLT_IPV4:
+    case DLT_IPV6:
+    case DLT_NULL:
+    case DLT_LOOP:
+        return captured;
+    default:
+        fail(EXIT_USAGE, "%s: packets of the link %s are not read", path,
+             pcap_datalink_val_to_name(captured->link) ? pcap_datalink_val_to_name(captured->link)
+                                                       : "of an unknown type");
+    }
+}
+
+/* ---- Headers ---- */
+
+/* What is left of a packet. */
+struct rest {
+    const uint8_t *data;
+    size_t size;
+};
+
+static unsigned two_bytes(const uint8_t *data)
+{
+    return (unsigned)data[0] << 8 | data[1];
+}
+
+/* Takes so many bytes off; false where there are fewer. */
+static bool pass(struct rest *rest, size_t size)
+{
+    if (rest->size < size) {
+        return false;
+    }
+    rest->data += size;
+    rest->size -= size;
+    return true;
+}
+
+/* Type of the packet behind the link's header; 0: none that is read. */
+static unsigned pass_link(const struct captured_datagrams *captured, struct rest *rest)
+{
+    static const struct {
+        int link;
+        size_t bytes, type_at;
+    } links[] = {{DLT_EN10MB, 14, 12}, {DLT_LINUX_SLL, 16, 14}, {DLT_LINUX_SLL2, 20, 0}};
+    unsigned type;
+
+    for (size_t i = 0; i < sizeof links / sizeof links[0]; i++) {
+        if (links[i].link != captured->link) {
+            continue;
+        }
+        if (rest->size < links[i].bytes) {
+            return 0;
+        }
+        type = two_bytes(rest->data + links[i].type_at);
+        pass(rest, links[i].bytes);
+        while ((type == TYPE_VLAN || type == TYPE_VLANS) && rest->size >= VLAN_BYTES) {
+            type = two_bytes(rest->data + 2);
+            pass(rest, VLAN_BYTES);
+        }
+        return type;
+    }
+    if ((captured->link == DLT_NULL || captured->link == DLT_LOOP) && !pass(rest, 4)) {
+        return 0;
+    }
+    return rest->size > 0 && rest->data[0] >> 4 == 6 ? TYPE_IPV6 : TYPE_IPV4;
+}
+
+/* To the UDP header. Sets what is left to what belongs to the packet: frames may be longer. */
+static bool pass_ipv4(struct rest *rest, bool *is_incomplete)
+{
+    size_t header, total;
+
+    if (rest->size < IPV4_BYTES || rest->data[0] >> 4 != 4 || rest->data[9] != PROTOCOL_UDP) {
+        return false;
+    }
+    header = (size_t)(rest->data[0] & 15u) * 4u;
+    total = two_bytes(rest->data + 2);
+    if (header < IPV4_BYTES || total < header) {
+        return false;
+    }
+    *is_incomplete = (two_bytes(rest->data + 6) & FRAGMENT) != 0 || total > rest->size;
+    if (*is_incomplete) {
+        return false;
+    }
+    rest->size = total;
+    return pass(rest, header);
+}
+
+/* Without extension headers. */
+static bool pass_ipv6(struct rest *rest)
+{
+    if (rest->size < IPV6_BYTES || rest->data[0] >> 4 != 6 || rest->data[6] != PROTOCOL_UDP) {
+        return false;
+    }
+    return pass(rest, IPV6_BYTES);
+}
+
+/* A datagram's content; false where the packet is none. */
+static bool find_content(struct captured_datagrams *captured, struct rest *rest)
+{
+    const unsigned type = pass_link(captured, rest);
+    bool is_incomplete = false;
+    size_t size;
+
+    if (!(type == TYPE_IPV4 ? pass_ipv4(rest, &is_incomplete)
+                            : type == TYPE_IPV6 && pass_ipv6(rest)) ||
+        rest->size < UDP_BYTES) {
+        captured->incomplete += is_incomplete;
+        return false;
+    }
+    size = two_bytes(rest->data + 4);
+    if (size > rest->size) {
+        captured->incomplete++;
+        return false;
+    }
+    rest->size = size;
+    return pass(rest, UDP_BYTES) && rest->size > 0;
+}
+
+/* ---- Packets ---- */
+
+bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_going,
+                             const uint8_t **data, size_t *size)
+{
+    struct pcap_pkthdr *header;
+    const u_char *bytes;
+    int got;
+
+    while ((got = pcap_next_ex(captured->capture, &header, &bytes)) == 1) {
+        struct rest rest = {bytes, header->caplen};
+        captured->packets++;
+        if (find_content(captured, &rest)) {
+            *data = rest.data;
+            *size = rest.size;
+            return true;
+        }
+    }
+    if (got == PCAP_ERROR && !keep_going) {
+        fail(EXIT_USAGE, "%s: behind packet %llu: %s", captured->path,
+             (unsigned long long)captured->packets, pcap_geterr(captured->capture));
+    }
+    return false;
+}
+
+uint64_t captured_datagrams_packet(const struct captured_datagrams *captured)
+{
+    return captured->packets;
+}
+
+uint64_t captured_datagrams_incomplete(const struct captured_datagrams *captured)
+{
+    return captured->incomplete;
+}
+
+void captured_datagrams_close(struct captured_datagrams *captured)
+{
+    if (captured) {
+        pcap_close(captured->capture);
+        free(captured->path);
+        free(captured);
+    }
+}
