@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "refusal.h"
 
+#include <pcap/pcap.h>
 #include <sanitizer/allocator_interface.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -111,6 +112,34 @@ static void close_streams(void)
     }
 }
 
+/* ---- Network recordings, which have streams of their own ---- */
+
+static pcap_t *capture; /* that a run has open: one at a time */
+
+pcap_t *__real_pcap_open_offline(const char *path, char *reason);
+pcap_t *__wrap_pcap_open_offline(const char *path, char *reason);
+pcap_t *__wrap_pcap_open_offline(const char *path, char *reason)
+{
+    CHECK(!capture);
+    capture = __real_pcap_open_offline(path, reason);
+    return capture;
+}
+
+void __real_pcap_close(pcap_t *open);
+void __wrap_pcap_close(pcap_t *open);
+void __wrap_pcap_close(pcap_t *open)
+{
+    capture = NULL;
+    __real_pcap_close(open);
+}
+
+static void close_capture(void)
+{
+    if (capture) {
+        __wrap_pcap_close(capture);
+    }
+}
+
 /* ---- fail() ---- */
 
 static jmp_buf refused;
@@ -130,6 +159,7 @@ _Noreturn void __wrap_fail(int exit_code, const char *format, ...)
     CHECK(exit_code == EXIT_USAGE);
     /* before the jump: a stream into memory writes where its opener's variables are */
     close_streams();
+    close_capture();
     longjmp(refused, 1);
 }
 
@@ -156,7 +186,7 @@ bool refusal_ends(void (*read)(void *context), void *context)
     if (setjmp(refused) == 0) {
         read(context);
         forget_kept();
-        CHECK(num_streams == 0);
+        CHECK(num_streams == 0 && !capture);
         return false;
     }
     free_kept();

@@ -9,6 +9,8 @@ import struct
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "integration"))
+import write_capture  # pylint: disable=wrong-import-position
 
 
 def main():
@@ -170,6 +172,11 @@ def write_asterix(folder):
              f"radar-{sectors}-{rules}").write_bytes(bytes((rules, )) + radar)
             (folder / "fuzz_tables" /
              f"asterix-{sectors}-{rules}").write_bytes(bytes((rules, )) + radar)
+        for i, form in enumerate((".pcap --noise", ".pcapng --vlan", ".pcap --link cooked --ipv6",
+                                  ".pcapng --link raw --noise")):
+            args = write_capture.arguments(["", *form.split()])
+            (folder / "fuzz_tables" / f"capture-{sectors}-{i}").write_bytes(
+                b"\1" + write_capture.capture(args, radar))
 
 
 def write_logs(folder):

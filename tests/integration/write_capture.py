@@ -54,29 +54,37 @@ def packets(args, data):
             yield frame(args, ipv4(udp(content)))[:40], 90
 
 
-def main():
+def capture(args, data):
+    """The recording's bytes."""
+    link = {"ethernet": 1, "cooked": 113, "raw": 101}[args.link]
+    if not args.output.endswith(".pcapng"):
+        return struct.pack(">IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, link) + b"".join(
+            struct.pack(">IIII", 0, 0, len(packet), size) + packet
+            for packet, size in packets(args, data))
+    out = [struct.pack("<IIIHHqI", 0x0A0D0D0A, 28, 0x1A2B3C4D, 1, 0, -1, 28),
+           struct.pack("<IIHHII", 1, 20, link, 0, 65535, 20)]
+    for packet, size in packets(args, data):
+        padded = packet + b"\0" * (-len(packet) % 4)
+        total = struct.pack("<I", 32 + len(padded))
+        out.append(struct.pack("<I", 6) + total +
+                   struct.pack("<IIIII", 0, 0, 0, len(packet), size) + padded + total)
+    return b"".join(out)
+
+
+def arguments(given=None):
     parser = argparse.ArgumentParser()
     parser.add_argument("source")
     parser.add_argument("output")
     parser.add_argument("--link", choices=("ethernet", "cooked", "raw"), default="ethernet")
     for name in ("--vlan", "--ipv6", "--noise"):
         parser.add_argument(name, action="store_true")
-    args = parser.parse_args()
-    link = {"ethernet": 1, "cooked": 113, "raw": 101}[args.link]
-    data = open(args.source, "rb").read()
-    with open(args.output, "wb") as out:
-        if args.output.endswith(".pcapng"):
-            out.write(struct.pack("<IIIHHqI", 0x0A0D0D0A, 28, 0x1A2B3C4D, 1, 0, -1, 28))
-            out.write(struct.pack("<IIHHII", 1, 20, link, 0, 65535, 20))
-            for packet, size in packets(args, data):
-                padded = packet + b"\0" * (-len(packet) % 4)
-                total = 32 + len(padded)
-                out.write(struct.pack("<IIIIIII", 6, total, 0, 0, 0, len(packet), size) + padded +
-                          struct.pack("<I", total))
-        else:
-            out.write(struct.pack(">IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, link))
-            for packet, size in packets(args, data):
-                out.write(struct.pack(">IIII", 0, 0, len(packet), size) + packet)
+    return parser.parse_args(given)
+
+
+def main():
+    args = arguments()
+    with open(args.source, "rb") as source, open(args.output, "wb") as out:
+        out.write(capture(args, source.read()))
 
 
 if __name__ == "__main__":
