@@ -153,7 +153,7 @@ demo-live:
 	@$(MAKE) --no-print-directory $(jobs) all
 	@RHOTRACK=$(abspath $(program)) tools/demo_live.sh $(BUILD)/demo-live
 
-experiment_names := air_traffic dense_windows doppler false_alarms initiation maneuver papers_initiation \
+experiment_names := air_traffic claims dense_windows doppler false_alarms initiation maneuver papers_initiation \
                     passive polar real_skies rotating several_radars two_radars
 ## Set up what is missing, build, and run all experiments of the lab (build/experiment; LAB=options; hours)
 experiments:
@@ -261,7 +261,7 @@ uninstall:
 
 # The inner loop: unit tests in the embedded profile, tests of the program's parts, every command from end to end with the
 # golden files, and the checks of the sources that take seconds. test-all runs everything else behind it.
-quick_scripts := $(addprefix tests/integration/,command_line.sh documents.sh examples.sh headers.sh layers.sh security.sh)
+quick_scripts := $(addprefix tests/integration/,claims.sh command_line.sh documents.sh examples.sh headers.sh layers.sh security.sh)
 quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
                  $(addprefix tools/gates/,layers.py tested.py poison.sh extract_example.sh)
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs))
@@ -463,14 +463,18 @@ cppcheck_flags := --quiet -j 2 --error-exitcode=1 --enable=warning,performance,p
                   --inline-suppr --suppress=missingIncludeSystem --suppress=invalidTestForOverflow \
                   --suppress=uninitvar -URHO_CONFIG_FILE -D_Noreturn='__attribute__((noreturn))' -Iinclude
 
-## Run clang-tidy, cppcheck and the format check (`make -k lint` shows the findings of all three)
-lint: tidy cppcheck format-check
+## Run clang-tidy, cppcheck, the format check and the check of the register of claims (`make -k lint`: all findings)
+lint: tidy cppcheck format-check claims-check
 
 tidy:
 	@echo "  tidy     src tools/rhotrack tools/firmware"
 	@$(call tidy,$(library_sources),$(library_flags)) || failed=1; \
 	$(call tidy,$(program_sources),$(program_flags)) || failed=1; \
 	$(call tidy,$(firmware_portable),$(library_flags) -Itools/firmware) || failed=1; test -z "$$failed"
+
+.PHONY: claims-check
+claims-check:
+	@tools/gates/claims.py
 
 cppcheck:
 	@echo "  cppcheck src tools/rhotrack tools/firmware"

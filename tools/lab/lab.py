@@ -4,7 +4,7 @@
 An experiment is one script: it makes a Report, runs its cases with Report.map, and says what it
 found with heading, text, table, figure, at_least and at_most, in the order of the reading. Report
 prints this as text, or as one JSON object (--json), and writes it with all pictures as
-OUTPUT/index.html.
+OUTPUT/index.html, beside the object as OUTPUT/figures.json.
 """
 import argparse
 import html
@@ -210,12 +210,14 @@ class Report:
                  f"<= {bar['at_most']:.4g}" if "at_most" in bar else f">= {bar['at_least']:.4g}",
                  bar["verdict"]] for bar in self.bars])
             self.text(f"{held} bars held, {missed} missed, {undecided} undecided by so few runs")
+        figures = json.dumps({
+            "experiment": self.options.name, "runs": self.options.runs, "seed": self.options.seed,
+            **self.facts, "bars": self.bars, "bars_held": held, "bars_missed": missed,
+            "bars_undecided": undecided}, indent=1)
         if self.options.json:
-            print(json.dumps({
-                "experiment": self.options.name, "runs": self.options.runs,
-                "seed": self.options.seed, **self.facts, "bars": self.bars, "bars_held": held,
-                "bars_missed": missed, "bars_undecided": undecided}, indent=1))
+            print(figures)
         self.options.output.mkdir(parents=True, exist_ok=True)
+        (self.options.output / "figures.json").write_text(figures + "\n", encoding="utf-8")
         path = self.options.output / "index.html"
         part = path.with_suffix(".html.part")
         part.write_text(
