@@ -295,8 +295,13 @@ test-rest:
 
 test-programs: $(unit_programs) $(tool_programs)
 
-$(BUILD)/tests/embedded/%: tests/%.c $(library) Makefile
-	$(call compile,$(test_flags)) -MF $@.d $(LDFLAGS) -o $@ $< $(library) -lcmocka -lm
+# A change of the library links these anew, and compiles none: make mutate does so for each mutant.
+.SECONDARY: $(unit_sources:tests/%.c=$(BUILD)/tests/embedded/%.o)
+$(BUILD)/tests/embedded/%.o: tests/%.c Makefile
+	$(call compile,$(test_flags)) -c -o $@ $<
+
+$(BUILD)/tests/embedded/%: $(BUILD)/tests/embedded/%.o $(library)
+	@$(CC) $(OPT) $(CFLAGS) $(LDFLAGS) -o $@ $< $(library) -lcmocka -lm
 
 $(BUILD)/tests/workstation/%: tests/%.c $(workstation_library) Makefile
 	$(call compile,$(test_flags) -DRHO_PROFILE_WORKSTATION) -MF $@.d $(LDFLAGS) -o $@ $< \

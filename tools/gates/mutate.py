@@ -4,22 +4,29 @@
 row from which a claim counts from 0 to 1, and says which change no test notices.
 
 A constant is a `#define NAME number` or a `static const` number in src/. Constants that are no
-policy are left out: magic numbers, bits, the coefficients of src/base, numbers of 1e6 and more,
-which only keep arithmetic finite, and the cost models of ALIKE, which choose between two ways to
-the same result. A mutant is noticed where
-it does not compile, or a golden file differs, or a unit test of its room or of another one fails.
-Each is tried in a copy of the sources, in BUILD/mutate.
+policy are left out: magic numbers, bits, units, check sums, the coefficients of src/base, floating
+point numbers of 1e6 and more, which only keep arithmetic finite, and the cost models of ALIKE,
+which choose between two ways to the same result. A mutant is noticed where it does not compile, or
+a golden file differs, or a unit test of its room or of another one fails or does not end; and does
+so again, since a machine under load fails tests that are right. A program that somebody kills says
+nothing: the run ends. Programs whose bytes the mutant leaves as they were are not run. Each is
+tried in a copy of the sources, in BUILD/mutate; one copy for each of the --jobs.
 
-Usage: mutate.py [--sample N] [--seed S] [--only REGEX]. Prints each mutant; exit 1 where fewer than nine in ten are noticed.
+Usage: mutate.py [--sample N] [--seed S] [--only REGEX] [--jobs N]. Prints each mutant; exit 1 where
+fewer than nine in ten are noticed.
 """
 import argparse
+import hashlib
 import os
 import pathlib
+import queue
 import random
 import re
 import shutil
+import signal
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDERS = ["src", "include", "tools", "tests", "lcm_types", "Makefile"]
@@ -28,6 +35,7 @@ CONSTANT = re.compile(
     r"(?P<suffix>[fuULl]*)(?=\s*(?:;|/\*|$))")
 NO_POLICY = re.compile(
     r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|PER_|HALF|OFFSET|PRIME|POLYNOM|ROUND|EPSILON|TURN_(HIGH|MIDDLE|LOW)"
+    r"|^SECOND_US$|^CHECK_(START|FACTOR)$"
 )
 GUARD_MIN = 1e6
 # file: constants by which only the time of a call changes
@@ -39,6 +47,8 @@ NO_POLICY_FILES = {
 }
 ROW = re.compile(r"\b(?P<name>(?:plot|row|claim|opened|claims\[\w+\])) >= (?P<number>0)\b")
 NOTICED_MIN = 0.9
+PROGRAMS = ["build/rhotrack", "build/rhotrack-lab"]
+TIME_MAX_S = 600
 
 
 def mutants_of(root):
@@ -50,15 +60,16 @@ def mutants_of(root):
         for number, line in enumerate(path.read_text().splitlines()):
             found = CONSTANT.match(line)
             constant = found and (found["define"] or found["const"])
-            if found and is_policy(name, constant, float(found["number"])):
+            if found and is_policy(name, constant, found["number"]):
                 for value in filter(None, (changed(found, 2), changed(found, 0.5))):
-                    yield path, number, constant, found, value
+                    yield name, number, constant, found, value
             for found in ROW.finditer(line):
-                yield path, number, found["name"], found, "1"
+                yield name, number, found["name"], found, "1"
 
 
 def is_policy(path, constant, number):
-    return (number != 0 and number < GUARD_MIN and not NO_POLICY.search(constant)
+    is_guard = re.search("[.e]", number) and float(number) >= GUARD_MIN
+    return (float(number) != 0 and not is_guard and not NO_POLICY.search(constant)
             and not re.match(ALIKE.get(path, "$^"), constant))
 
 
@@ -83,6 +94,11 @@ class Tree:
                                 copy_function=self.copy)
             else:
                 self.copy(ROOT / name, folder / name)
+        self.bytes = {}  # hash of each program of the sources without a change
+        what = self.noticed_by("base")
+        if what:
+            sys.exit(f"mutate: {what} notices the sources without a change")
+        self.bytes = {program: self.hash(program) for program in PROGRAMS + self.tests("*")}
 
     @staticmethod
     def copy(source, target):
@@ -96,26 +112,57 @@ class Tree:
         environment = os.environ | {
             "BUILD": "build", "RHOTRACK": str(self.folder / "build/rhotrack")
         }
-        return subprocess.run(command, cwd=self.folder, env=environment, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.DEVNULL, timeout=900).returncode == 0
+        with subprocess.Popen(command, cwd=self.folder, env=environment, start_new_session=True,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            try:
+                code = process.wait(TIME_MAX_S)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                return False
+        if code in (-signal.SIGTERM, -signal.SIGKILL, -signal.SIGINT, -signal.SIGHUP):
+            sys.exit(f"mutate: {command[0]} was killed")
+        return code == 0
 
-    def unit_programs(self, room):
+    def fails(self, *command):
+        return not self.run(*command) and not self.run(*command)
+
+    def hash(self, program):
+        return hashlib.sha256((self.folder / program).read_bytes()).digest()
+
+    def is_changed(self, program):
+        return self.hash(program) != self.bytes.get(program)
+
+    def tests(self, room):
         tests = sorted((self.folder / "tests/unit").glob(f"{room}/test_*.c"))
         return [f"build/tests/embedded/unit/{test.parent.name}/{test.stem}" for test in tests]
 
     def noticed_by(self, room):
         """What notices the sources as they are now; None: nothing."""
-        if not self.run("make", "-j2", "build/rhotrack", "build/rhotrack-lab"):
+        if self.fails("make", *PROGRAMS):
             return "the compiler"
-        if not self.run("tests/regression/golden.py", "--first"):
+        if any(map(self.is_changed, PROGRAMS)) and self.fails("tests/regression/golden.py",
+                                                              "--first"):
             return "the golden files"
-        for programs in (self.unit_programs(room), self.unit_programs("*")):
-            if not self.run("make", "-j2", "-k", *programs):
+        for programs in (self.tests(room), self.tests("*")):
+            if self.fails("make", "-k", *programs):
                 return "the compiler"
-            failed = next((program for program in programs if not self.run(program)), None)
-            if failed:
-                return failed
+            for program in filter(self.is_changed, programs):
+                if self.fails(program):
+                    return program
         return None
+
+    def try_mutant(self, name, line, found, value):
+        """What notices this mutant; None: nothing."""
+        path = self.folder / name
+        text = path.read_text()
+        lines = text.splitlines(keepends=True)
+        first, last = found.span("number")
+        lines[line] = lines[line][:first] + value + lines[line][last:]
+        try:
+            path.write_text("".join(lines))
+            return self.noticed_by(path.parent.name)
+        finally:
+            path.write_text(text)
 
 
 def main():
@@ -124,34 +171,34 @@ def main():
     parser.add_argument("--sample", type=int, metavar="N", help="so many mutants, drawn at random")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", metavar="REGEX", help="files and names that match")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="at a time (default 1)")
     options = parser.parse_args()
-    tree = Tree(ROOT / os.environ.get("BUILD", "build") / "mutate")
-    mutants = [mutant for mutant in mutants_of(tree.folder)
-               if re.search(options.only, f"{mutant[0].relative_to(tree.folder)} {mutant[2]}")]
+    mutants = [mutant for mutant in mutants_of(ROOT)
+               if re.search(options.only, f"{mutant[0]} {mutant[2]}")]
     if options.sample and options.sample < len(mutants):
         mutants = sorted(
             random.Random(options.seed).sample(mutants, options.sample),
             key=lambda mutant: mutant[:2])
     if not mutants:
         sys.exit("mutate: nothing matches")
-    what = tree.noticed_by("base")
-    if what:
-        sys.exit(f"mutate: {what} notices the sources without a change")
-    noticed = 0
-    for path, line, name, found, value in mutants:
-        text = path.read_text()
-        lines = text.splitlines(keepends=True)
-        first, last = found.span("number")
-        lines[line] = lines[line][:first] + value + lines[line][last:]
+    folder = ROOT / os.environ.get("BUILD", "build") / "mutate"
+    trees = queue.SimpleQueue()
+
+    def attempt(mutant):
+        name, line, constant, found, value = mutant
+        tree = trees.get()
         try:
-            path.write_text("".join(lines))
-            by = tree.noticed_by(path.parent.name)
+            by = tree.try_mutant(name, line, found, value)
         finally:
-            path.write_text(text)
-        noticed += by is not None
-        print(
-            f"{path.relative_to(tree.folder)}:{line + 1}: {name} {found['number']} -> {value}: {by or 'NOT NOTICED'}",
-            flush=True)
+            trees.put(tree)
+        print(f"{name}:{line + 1}: {constant} {found['number']} -> {value}: {by or 'NOT NOTICED'}",
+              flush=True)
+        return by is not None
+
+    with ThreadPoolExecutor(options.jobs) as pool:
+        for tree in pool.map(Tree, (folder / str(job) for job in range(options.jobs))):
+            trees.put(tree)
+        noticed = sum(pool.map(attempt, mutants))
     print(f"{noticed} of {len(mutants)} mutants noticed")
     sys.exit(noticed < NOTICED_MIN * len(mutants))
 

@@ -297,6 +297,37 @@ static void plots_of_a_tracked_target_teach_nothing(void **state)
     assert_true(returns_with < returns + 3.0);
 }
 
+/*
+ * Where targets may stand, a track is a target's when it is surely elsewhere than where it started:
+ * after twelve plots, and eight standard deviations of both places.
+ */
+static void a_target_that_crawls_has_moved_in_the_end(void **state)
+{
+    (void)state;
+    int early = 0, late = 0;
+    start(9, 0.0f);
+    for (int turn = 0; turn < 120; turn++) {
+        add(20000.0 + 8.0 * TURN_S * turn, 5000.0, 30.0);
+        step(TURN_S * turn);
+        if (report.num_tracks != 1) {
+            continue;
+        }
+        const struct rho_track *track = &tracker.tracks[0];
+        const double x_m = (double)(report.tracks[0].state[0] - track->start_m[0]);
+        const double y_m = (double)(report.tracks[0].state[1] - track->start_m[1]);
+        const double sigma_m = (double)(report.tracks[0].sigma_m + track->start_sigma_m);
+        const double sigmas = hypot(x_m, y_m) / sigma_m;
+        if (sigmas < 7.5) {
+            early++;
+            assert_int_equal(track->has_moved, 0);
+        } else if (sigmas > 8.5) {
+            late++;
+            assert_int_equal(track->has_moved, 1);
+        }
+    }
+    assert_true(early > 5 && late > 5);
+}
+
 /* ---- taught, saved --------------------------------------------------------------------------- */
 
 /* A map that another run has learned, as a file keeps it. */
@@ -751,6 +782,7 @@ int main(void)
         cmocka_unit_test(the_chance_of_a_return_is_learned_and_forgotten),
         cmocka_unit_test(clutter_that_comes_nowhere_twice_has_no_chance),
         cmocka_unit_test(plots_of_a_tracked_target_teach_nothing),
+        cmocka_unit_test(a_target_that_crawls_has_moved_in_the_end),
         cmocka_unit_test(what_was_learned_is_known_from_the_first_scan),
         cmocka_unit_test(towers_by_hand_start_no_tracks),
         cmocka_unit_test(taught_echoes_that_are_not_there_are_forgotten),

@@ -275,6 +275,41 @@ static void between_looks_a_report_goes_on_with_the_turn(void **state)
     assert_true(sqrt(sum / count) < 75.0); /* 58; 93 without the acceleration */
 }
 
+/*
+ * A second radar at the same place sees a target beyond its range as far as eight standard
+ * deviations of the track's place and a twentieth of its own range away, and no farther.
+ */
+static void the_margin_of_the_range_is_as_derived(void **state)
+{
+    static struct rho_tracker before;
+    const float range_m = 2000.0f; /* of the target from it: both parts of the margin count */
+
+    (void)state;
+    start(RHO_TRACKER_NEAREST);
+    describe(NEAR, 0.0f, 50000.0f);
+    for (int k = 0; k < 20; k++) {
+        step(&initiator, NEAR, 2 * k * SECOND_US, 10000.0 + 200.0 * k, 0.0, k);
+    }
+    assert_int_equal(report.num_tracks, 1);
+    const struct rho_track_report track = report.tracks[0];
+    const float margin_m = 8.0f * track.sigma_m + 0.05f * range_m;
+    before = tracker;
+    for (int is_within = 0; is_within <= 1; is_within++) {
+        const float share = is_within ? 0.95f : 1.05f;
+        const struct rho_plot plot = {.x_m = track.state[0],
+                                      .y_m = track.state[1],
+                                      .sigma_range_m = 60.0f, /* it may be a plot of the radar */
+                                      .sigma_cross_m = 60.0f};
+        const struct rho_scan scan = {
+            .time_us = 38 * SECOND_US, .sensor_id = FAR, .num_plots = 1, .plots = &plot};
+
+        tracker = before;
+        describe(FAR, track.state[0] - range_m, range_m - share * margin_m);
+        assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+        assert_int_equal(report.tracks[0].plot, is_within ? 0 : -1);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -283,6 +318,7 @@ int main(void)
         cmocka_unit_test(what_nobody_looks_at_ends),
         cmocka_unit_test(no_plot_is_lost_at_the_edge_of_a_sector),
         cmocka_unit_test(a_plot_far_off_in_its_own_time_is_claimed),
+        cmocka_unit_test(the_margin_of_the_range_is_as_derived),
         cmocka_unit_test(between_looks_a_report_goes_on_with_the_turn),
     };
 
