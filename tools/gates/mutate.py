@@ -5,10 +5,9 @@ row from which a claim counts from 0 to 1, and says which change no test notices
 
 A constant is a `#define NAME number` or a `static const` number in src/. Constants that are no
 policy are left out: magic numbers, bits, units, check sums, the coefficients of src/base, floating
-point numbers of 1e6 and more, which only keep arithmetic finite, and the cost models of ALIKE,
-which choose between two ways to the same result. A mutant is noticed where it does not compile, or
-a golden file differs, or a unit test of its room or of another one fails or does not end; and does
-so again, since a machine under load fails tests that are right. A program that somebody kills says
+point numbers of 1e12 and more, which only keep arithmetic finite, and those of ALIKE. A mutant is
+noticed where it does not compile, or a golden file differs, or a compiled test of `make test` fails
+or does not end; and does so again, since a machine under load fails tests that are right. A program that somebody kills says
 nothing: the run ends. Programs whose bytes the mutant leaves as they were are not run. Each is
 tried in a copy of the sources, in BUILD/mutate; one copy for each of the --jobs.
 
@@ -34,13 +33,15 @@ CONSTANT = re.compile(
     r"^(?:#define\s+(?P<define>\w+)|static const \w+ (?P<const>\w+) =)\s+(?P<number>[0-9][0-9.]*(?:e[-+]?\d+)?)"
     r"(?P<suffix>[fuULl]*)(?=\s*(?:;|/\*|$))")
 NO_POLICY = re.compile(
-    r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|PER_|HALF|OFFSET|PRIME|POLYNOM|ROUND|EPSILON|TURN_(HIGH|MIDDLE|LOW)"
-    r"|^SECOND_US$|^CHECK_(START|FACTOR)$"
-)
-GUARD_MIN = 1e6
-# file: constants by which only the time of a call changes
+    r"MAGIC|VERSION|BITS|MASK|SHIFT|EXPONENT|_H$|PI\b|HALF|OFFSET|PRIME|POLYNOM|ROUNDING|EPSILON"
+    r"|TURN_(HIGH|MIDDLE|LOW)|^SECOND_US$|^CHECK_(START|FACTOR)$|^NAT_PER_MNAT$|^M2_PER_KM2$")
+GUARD_MIN = 1e12
+# file: constants by which only the time or the stack of a call changes: cost models that choose
+# between two ways to the same result, and how many elements one pass takes
 ALIKE = {
-    "src/papers/accumulator_prune.c": r"WORK_|HALVINGS_MAX|_KEPT",
+    "src/association/hypotheses_validate.c": r"PASS_NODES$",
+    "src/tracker/tracker_validate.c": r"PASS_SLOTS$",
+    "src/papers/accumulator_prune.c": r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|_KEPT$",
 }
 NO_POLICY_FILES = {
     "src/base/approx.c", "src/base/angle.c", "src/wire/message.c", "src/wire/message_names.c"
@@ -95,10 +96,10 @@ class Tree:
             else:
                 self.copy(ROOT / name, folder / name)
         self.bytes = {}  # hash of each program of the sources without a change
-        what = self.noticed_by("base")
+        what = self.noticed_by("base", "status")
         if what:
             sys.exit(f"mutate: {what} notices the sources without a change")
-        self.bytes = {program: self.hash(program) for program in PROGRAMS + self.tests("*")}
+        self.bytes = {program: self.hash(program) for program in PROGRAMS + self.all_tests()}
 
     @staticmethod
     def copy(source, target):
@@ -132,24 +133,34 @@ class Tree:
     def is_changed(self, program):
         return self.hash(program) != self.bytes.get(program)
 
-    def tests(self, room):
-        tests = sorted((self.folder / "tests/unit").glob(f"{room}/test_*.c"))
-        return [f"build/tests/embedded/unit/{test.parent.name}/{test.stem}" for test in tests]
+    def tests(self, *patterns):
+        """Programs whose sources are tests/PATTERN/test_*.c, or tests/PATTERN."""
+        folder = self.folder / "tests"
+        sources = sorted({path for pattern in patterns for path in folder.glob(pattern)})
+        names = [str(path.relative_to(folder).with_suffix("")) for path in sources]
+        return [f"build/tests/{'embedded/' * name.startswith('unit/')}{name}" for name in names]
 
-    def noticed_by(self, room):
-        """What notices the sources as they are now; None: nothing."""
+    def all_tests(self):
+        return self.tests("unit/*/test_*.c", "tools/*/test_*.c", "scenario/test_*.c")
+
+    def failing(self, programs):
+        """The first of these programs that the sources as they are now break; None: none."""
+        if programs and self.fails("make", "-k", *programs):
+            return "the compiler"
+        return next((program for program in filter(self.is_changed, programs)
+                     if self.fails(program)), None)
+
+    def noticed_by(self, room, module):
+        """What notices the sources as they are now; None: nothing. The likeliest comes first."""
+        by = self.failing(self.tests(f"unit/{room}/test_{module}.c"))
+        if by:
+            return by
         if self.fails("make", *PROGRAMS):
             return "the compiler"
         if any(map(self.is_changed, PROGRAMS)) and self.fails("tests/regression/golden.py",
                                                               "--first"):
             return "the golden files"
-        for programs in (self.tests(room), self.tests("*")):
-            if self.fails("make", "-k", *programs):
-                return "the compiler"
-            for program in filter(self.is_changed, programs):
-                if self.fails(program):
-                    return program
-        return None
+        return self.failing(self.tests(f"unit/{room}/test_*.c")) or self.failing(self.all_tests())
 
     def try_mutant(self, name, line, found, value):
         """What notices this mutant; None: nothing."""
@@ -160,7 +171,7 @@ class Tree:
         lines[line] = lines[line][:first] + value + lines[line][last:]
         try:
             path.write_text("".join(lines))
-            return self.noticed_by(path.parent.name)
+            return self.noticed_by(path.parent.name, path.stem)
         finally:
             path.write_text(text)
 

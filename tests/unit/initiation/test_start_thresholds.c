@@ -384,9 +384,38 @@ static void clutter_starts_tracks_that_process_noise_bends(void **state)
     assert_true(starts > 0.01 * searches && starts < 0.2 * searches);
 }
 
+/* ---- figures ---------------------------------------------------------------------------------- */
+
+/*
+ * By clutter and rate, in mnat, to a millinat: those whose false tracks were counted above. Each
+ * bound, step and prior of the model moves them.
+ */
+static void thresholds_of_known_clutter(void **state)
+{
+    static const struct {
+        int count;
+        float rate;
+        int32_t start_mnat, confirm_mnat;
+        int min_scans;
+    } cases[] = {
+        {5, 1e-4f, -4771, 12670, 3}, {5, 1.0f, -4771, 5036, 3},
+        {25, 1e-4f, 49, 13093, 3},   {25, 1.0f, 49, 4745, 3},
+        {100, 1e-4f, -381, 12883, 4}, {250, 1.0f, -1954, 4307, 6},
+    };
+    (void)state;
+    for (size_t i = 0; i < NUM(cases); i++) {
+        struct rho_initiator_config config = usual(cases[i].rate);
+        search_clutter(&config, cases[i].count);
+        assert_float_equal(initiator.start_mnat, cases[i].start_mnat, 1.0);
+        assert_float_equal(initiator.confirm_mnat, cases[i].confirm_mnat, 1.0);
+        assert_int_equal(initiator.min_scans, cases[i].min_scans);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thresholds_of_known_clutter),
         cmocka_unit_test(a_clear_sky_confirms_a_target_at_its_third_plot),
         cmocka_unit_test(confirming_falls_as_more_false_tracks_are_allowed_but_not_below_starting),
         cmocka_unit_test(more_false_tracks_allowed_are_never_fewer_tracks),

@@ -139,6 +139,17 @@ static void each_way_of_not_meeting_has_its_name(void **state)
     assert_string_equal(rho_crossing_fate_name(RHO_NUM_CROSSING_FATES), "unknown");
 }
 
+/* Two lines of sight to the east, a kilometre apart: they meet 10^9 m off at a microradian. */
+static void lines_meet_from_a_microradian_on(void **state)
+{
+    (void)state;
+    set_base(0.0, 0.0, 0.0, 1000.0);
+    assert_int_equal(rho_crossing_find(&base, 0.0f, -0.8e-6f, RANGE_MAX_M, &crossing),
+                     RHO_CROSSING_APART);
+    assert_int_equal(rho_crossing_find(&base, 0.0f, -1.3e-6f, RANGE_MAX_M, &crossing),
+                     RHO_CROSSING_RANGE);
+}
+
 static void a_target_behind_the_base_is_seen_as_well(void **state)
 {
     (void)state;
@@ -228,6 +239,7 @@ int main(void)
         cmocka_unit_test(crossings_are_those_of_the_rays),
         cmocka_unit_test(places_are_right_to_a_metre),
         cmocka_unit_test(each_way_of_not_meeting_has_its_name),
+        cmocka_unit_test(lines_meet_from_a_microradian_on),
         cmocka_unit_test(a_target_behind_the_base_is_seen_as_well),
         cmocka_unit_test(delta_is_the_angle_between),
         cmocka_unit_test(both_sensors_say_the_same),

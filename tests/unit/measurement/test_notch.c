@@ -180,6 +180,80 @@ static void the_slow_stand(void **state)
     assert_float_equal(fast.state[4], 6.0f, 0.01);
 }
 
+/* Whether a target across the line of sight is taken to stand after a miss. */
+static int stands(float along_mps, float across_mps)
+{
+    const struct rho_sensor sensor = radar_of(0.3f, 0.0f);
+    const struct rho_notch_look look = {.pd = 0.9f, .may_stand = 1};
+    struct estimate at = estimate_of(along_mps, across_mps, 0.4f);
+    (void)rho_notch_miss(&sensor, &look, 9, at.state, at.covariance);
+    return at.state[4] < 0.5f * across_mps;
+}
+
+/* Up to the root of the squares of two sigmas and of two widths of the notch: 1.0 m/s here. */
+static void the_slow_are_within_two_sigmas_and_two_widths(void **state)
+{
+    (void)state;
+    assert_true(stands(0.1f, 0.95f));
+    assert_false(stands(0.1f, 1.05f));
+}
+
+/* A miss is half due to the notch where the share of blind looks is 1 / 11. */
+static void a_target_stands_where_the_notch_explains_the_miss(void **state)
+{
+    (void)state;
+    assert_true(stands(0.78f, 0.6f));  /* 0.11 */
+    assert_false(stands(0.85f, 0.6f)); /* 0.083 */
+}
+
+static float share_of(float notch_mps, float blind_speed_mps, float mean_mps, float sigma_mps)
+{
+    const struct rho_sensor sensor = radar_of(notch_mps, blind_speed_mps);
+    const struct estimate at = estimate_of(mean_mps, 0.0f, sigma_mps);
+    return rho_notch_share(&sensor, at.state, at.covariance);
+}
+
+static void zones_count_within_four_sigmas(void **state)
+{
+    (void)state;
+    assert_float_equal(share_of(12.0f, 0.0f, 12.0f + 3.9f * 3.0f, 3.0f), 4.8e-5, 1e-6);
+    assert_float_equal(share_of(12.0f, 0.0f, 12.0f + 4.1f * 3.0f, 3.0f), 0.0, 0.0);
+    /* up to a millionth blind speed, and a standard deviation of 3e-5 m/s */
+    assert_float_equal(share_of(0.4f, 1.0f, 7e5f, 0.2f), 0.95, 0.01);
+    assert_float_equal(share_of(0.4f, 1.0f, 1.5e6f, 0.2f), 0.0, 0.0);
+    assert_float_equal(share_of(12.0f, 0.0f, 0.0f, 3.7e-5f), 1.0, 1e-6);
+    assert_float_equal(share_of(12.0f, 0.0f, 0.0f, 2.6e-5f), 0.0, 0.0);
+}
+
+/* The range rate and its variance, as a share of what it was, after a look that sees all there is. */
+static float kept_after(float notch_mps, float blind_speed_mps, struct estimate *at)
+{
+    const struct rho_sensor sensor = radar_of(notch_mps, blind_speed_mps);
+    const struct rho_notch_look look = {.pd = 1.0f};
+    const float before = at->covariance[RHO_AT(3, 3)];
+    (void)rho_notch_miss(&sensor, &look, 6, at->state, at->covariance);
+    return at->covariance[RHO_AT(3, 3)] / before;
+}
+
+/* Zones within four sigmas each way: more than nine of them are a share, which moves nothing. */
+static void nine_zones_are_summed(void **state)
+{
+    struct estimate many = estimate_of(133.0f, 0.0f, 22.6f), few = estimate_of(133.0f, 0.0f, 21.4f);
+    (void)state;
+    (void)kept_after(2.0f, 20.0f, &many);
+    (void)kept_after(2.0f, 20.0f, &few);
+    assert_float_equal(many.state[3], 133.0, 0.0);
+    assert_true(fabsf(few.state[3] - 133.0f) > 1e-4f);
+}
+
+static void a_miss_keeps_a_hundredth_to_four_times_the_variance(void **state)
+{
+    struct estimate narrow = estimate_of(0.0f, 0.0f, 10.0f), between = estimate_of(50.0f, 0.0f, 14.0f);
+    (void)state;
+    assert_float_equal(kept_after(1.0f, 0.0f, &narrow), 0.01, 1e-4);     /* 0.0033 by the moments */
+    assert_float_equal(kept_after(10.0f, 100.0f, &between), 4.0, 0.001); /* 9.4 */
+}
+
 static void limits_are_checked(void **state)
 {
     /* notch, blind speed, and whether that will do */
@@ -225,6 +299,11 @@ int main(void)
         cmocka_unit_test(the_place_of_the_sensor_counts),
         cmocka_unit_test(without_a_notch_nothing_changes),
         cmocka_unit_test(the_slow_stand),
+        cmocka_unit_test(the_slow_are_within_two_sigmas_and_two_widths),
+        cmocka_unit_test(a_target_stands_where_the_notch_explains_the_miss),
+        cmocka_unit_test(zones_count_within_four_sigmas),
+        cmocka_unit_test(nine_zones_are_summed),
+        cmocka_unit_test(a_miss_keeps_a_hundredth_to_four_times_the_variance),
         cmocka_unit_test(limits_are_checked),
         cmocka_unit_test(nothing_breaks),
     };

@@ -46,6 +46,17 @@ static void errors_are_brought_within_half_the_span(void **state)
     assert_float_equal(rho_measurement_range_rate_error_mps(&sensor, 1e30f, 0.0f), 1e30f, 0.0);
 }
 
+/* What is a million spans off is no range rate. */
+static void errors_beyond_a_million_spans_stay(void **state)
+{
+    const struct rho_sensor sensor = radar_of(10.0f);
+    (void)state;
+    assert_float_equal(rho_measurement_range_rate_error_mps(&sensor, 0.0f, 7.0e6f + 2.0f), -2.0,
+                       0.0);
+    assert_float_equal(rho_measurement_range_rate_error_mps(&sensor, 0.0f, 1.5e7f + 2.0f),
+                       -1.5e7 - 2.0, 0.0);
+}
+
 static void three_deviations_must_be_within_half_the_span(void **state)
 {
     (void)state;
@@ -351,6 +362,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_are_brought_within_half_the_span),
+        cmocka_unit_test(errors_beyond_a_million_spans_stay),
         cmocka_unit_test(three_deviations_must_be_within_half_the_span),
         cmocka_unit_test(other_innovations_tell_which_is_meant),
         cmocka_unit_test(spans_beyond_the_limits_are_refused),

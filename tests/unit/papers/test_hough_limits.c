@@ -49,8 +49,10 @@ static void bad_planes_are_refused(void **state)
     ACCEPTED(rho_max_m, 2.5f * RHO_MAX_RHO_CELLS);
     REFUSED(theta_cell_rad, 9e-5f);
     REFUSED(theta_cell_rad, 3.2f);
-    REFUSED(eps_rho_m, 9e-5f);
+    REFUSED(eps_rho_m, 0.0009f);
+    ACCEPTED(eps_rho_m, 0.0011f);
     REFUSED(eps_theta_rad, 9e-5f);
+    ACCEPTED(eps_theta_rad, 1.1e-4f);
     REFUSED(eps_rho_m, 5.0f * 128.0f); /* 256 cells */
     ACCEPTED(eps_rho_m, 5.0f * 127.0f);
     REFUSED(eps_theta_rad, 0.128f);
@@ -85,7 +87,10 @@ static void bad_thresholds_are_refused(void **state)
     ACCEPTED(p_false, 1.0f);
     ACCEPTED(lambda_k, 0.0f);
     ACCEPTED(tau, 1.0f);
-    ACCEPTED(votes_min, 60000.0f);
+    ACCEPTED(lambda_k, 9e5f);
+    REFUSED(lambda_k, 1.1e6f);
+    ACCEPTED(votes_min, 65000.0f);
+    REFUSED(votes_min, 66000.0f);
     REFUSED(method, (enum rho_hough_method)5);
     REFUSED(method, (enum rho_hough_method)77);
     paper(RHO_HOUGH_HT);

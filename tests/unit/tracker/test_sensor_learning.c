@@ -309,6 +309,86 @@ static void sensors_are_told_apart_and_forgotten(void **state)
     assert_int_equal(known.innovations, 0);
 }
 
+/* ---- what counts so far mean ------------------------------------------------------------------ */
+
+static struct rho_tracker_known known_now(void)
+{
+    struct rho_tracker_known known;
+    assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
+    return known;
+}
+
+/* Of a radar with the stated pd 0.9, in ring 2 of these looks; all others are seen as stated. */
+static float pd_after(unsigned looks, unsigned hits)
+{
+    tracker.learned[0].looks[2] = (uint16_t)looks;
+    tracker.learned[0].hits[2] = (uint16_t)hits;
+    return known_now().pd[2];
+}
+
+/* (hits + prior pd) / (looks + prior), with 30 prior looks at all rings and 20 at one. */
+static double seen_pd(double looks, double hits, double *sigma)
+{
+    const double all = (hits + 30.0 * 0.9) / (looks + 30.0);
+    const double pd = (hits + 20.0 * all) / (looks + 20.0);
+    *sigma = sqrt(pd * (1.0 - pd) / (looks + 20.0));
+    return pd;
+}
+
+/* One sigma above what was seen, where that is 2.5 sigmas below what is stated. */
+static void learned_pd_has_priors_and_caution(void **state)
+{
+    (void)state;
+    prepare(90);
+    describe(&as_stated);
+    tracker.learned[0].is_lowered = 1u << 2;
+    for (unsigned hits = 20; hits <= 54; hits++) {
+        double sigma, pd = seen_pd(60.0, hits, &sigma);
+        const double expected = pd + 2.5 * sigma < 0.9 ? pd + sigma : 0.9;
+        assert_float_equal(pd_after(60, hits), expected > 0.45 ? expected : 0.45, 1e-5);
+    }
+}
+
+static float factor_after(unsigned innovations, double log_noise)
+{
+    tracker.learned[0].innovations = (uint16_t)innovations;
+    tracker.learned[0].log_noise[0] = tracker.learned[0].log_noise[1] = (float)log_noise;
+    return known_now().range_factor;
+}
+
+/* From 100 innovations, and beyond 0.25 + 4 / root of them: 0.65 of 100, 0.376 of 1000. */
+static void learned_noise_counts_beyond_chance(void **state)
+{
+    (void)state;
+    prepare(91);
+    describe(&as_stated);
+    assert_float_equal(factor_after(99, 0.8), 1.0, 0.0);
+    assert_float_equal(factor_after(100, 0.8), exp(0.4), 1e-5);
+    assert_float_equal(factor_after(100, 0.64), 1.0, 0.0);
+    assert_float_equal(factor_after(100, 0.66), exp(0.33), 1e-5);
+    assert_float_equal(factor_after(1000, 0.37), 1.0, 0.0);
+    assert_float_equal(factor_after(1000, 0.39), exp(0.195), 1e-5);
+}
+
+/* Up to 4.6, 1000 innovations and 1000 looks; what is beyond is no image of a tracker. */
+static void what_is_learned_has_limits(void **state)
+{
+    (void)state;
+    prepare(92);
+    describe(&as_stated);
+    const struct rho_tracker_learned none = tracker.learned[0];
+    (void)factor_after(1000, 4.6);
+    (void)pd_after(1000, 1000);
+    assert_true(rho_tracker_is_sound(&tracker));
+    for (int i = 0; i < 3; i++) {
+        tracker.learned[0] = none;
+        tracker.learned[0].log_noise[1] = i == 0 ? 4.7f : 0.0f;
+        tracker.learned[0].innovations = i == 1 ? 1001 : 0;
+        tracker.learned[0].looks[2] = i == 2 ? 1001 : 0;
+        assert_false(rho_tracker_is_sound(&tracker));
+    }
+}
+
 static void bounds_are_checked(void **state)
 {
     static const float bad[][3] = {{0.09f, 4.0f, 0.5f}, {1.01f, 4.0f, 0.5f}, {0.7f, 0.99f, 0.5f},
@@ -336,6 +416,9 @@ int main(void)
         cmocka_unit_test(the_gate_nearest_learns_nothing),
         cmocka_unit_test(pd_is_not_lowered_by_what_is_gone_nor_raised),
         cmocka_unit_test(sensors_are_told_apart_and_forgotten),
+        cmocka_unit_test(learned_pd_has_priors_and_caution),
+        cmocka_unit_test(learned_noise_counts_beyond_chance),
+        cmocka_unit_test(what_is_learned_has_limits),
         cmocka_unit_test(bounds_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -380,6 +380,126 @@ static void a_sensor_alone_is_never_suspect(void **state)
     assert_int_equal(tracker.counters.sensors_suspected, 0);
 }
 
+/* ---- thresholds ------------------------------------------------------------------------------- */
+
+#define PD 0.9f
+
+/* Sensor 1 is off or blind, 2 and 3 are witnesses; all with the least that is compared. */
+static struct rho_tracker_look seen[SENSORS_MAX];
+
+static void compare(void)
+{
+    start();
+    for (int i = 0; i < SENSORS_MAX; i++) {
+        seen[i] = (struct rho_tracker_look){.watched = 12,
+                                            .watched_hits = 12,
+                                            .seen_share = PD,
+                                            .distance2 = 1.0f,
+                                            .sigma_m = 30.0f};
+    }
+}
+
+static void hear(int32_t sensor_id, int64_t time_us)
+{
+    const struct rho_scan scan = {.time_us = time_us, .sensor_id = sensor_id};
+    assert_int_equal(rho_tracker_step(&tracker, &initiators[sensor_id - 1], &scan, &report),
+                     RHO_OK);
+}
+
+/* Whether sensor 1 is suspect at its next scan, so many seconds after the others'. */
+static int is_suspect_after(double t_s)
+{
+    for (int32_t id = SENSORS_MAX; id >= 1; id--) {
+        hear(id, SENSORS_MAX - id);
+    }
+    for (unsigned i = 0; i < tracker.num_looks; i++) {
+        struct rho_tracker_look *look = &tracker.looks[i];
+        const struct rho_tracker_look *as = &seen[look->sensor_id - 1];
+        look->watched = as->watched;
+        look->watched_hits = as->watched_hits;
+        look->seen_share = as->seen_share;
+        look->distance2 = as->distance2;
+        look->sigma_m = as->sigma_m;
+        look->is_suspect = as->is_suspect;
+    }
+    hear(1, (int64_t)(1e6 * t_s));
+    return is_suspect(1);
+}
+
+/* It sees less than 0.3 of what it should, and one other sees 0.6 of it, in its place. */
+static void the_blind_are_suspect_by_one_witness(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 6; i++) {
+        compare();
+        seen[0].seen_share = (i == 1 ? 0.32f : 0.28f) * PD;
+        seen[0].watched = i == 2 ? 11 : 12;
+        seen[1].seen_share = (i == 3 ? 0.58f : 0.62f) * PD;
+        seen[1].watched = i == 4 ? 11 : 12;
+        seen[1].distance2 = i == 5 ? 2.6f : 2.4f;
+        seen[2].seen_share = 0.0f;
+        assert_int_equal(is_suspect_after(i == 6 ? 61.0 : 59.0), i == 0);
+    }
+}
+
+/* Its plots are four times as far off as they should be, and two others agree. */
+static void the_biased_are_suspect_by_two_witnesses(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 4; i++) {
+        compare();
+        seen[0].distance2 = i == 1 ? 3.9f : 4.1f;
+        seen[0].watched_hits = i == 2 ? 11 : 12;
+        seen[1].distance2 = i == 3 ? 2.9f : 2.4f; /* 0.7 of 4.1: 2.87 */
+        seen[2].sigma_m = (i == 4 ? 1.95f : 1.85f) * 30.0f;
+        assert_int_equal(is_suspect_after(1.0), i == 0);
+    }
+}
+
+/*
+ * Two that are less biased, by 0.7, and as fine; it is trusted again at once, as none that is right
+ * remains to compare with.
+ */
+static void the_less_biased_are_witnesses(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 1; i++) {
+        compare();
+        seen[0].distance2 = 4.5f;
+        seen[1].distance2 = seen[2].distance2 = i == 1 ? 3.2f : 3.1f;
+        (void)is_suspect_after(1.0);
+        assert_int_equal(tracker.counters.sensors_suspected > 0, i == 0);
+    }
+}
+
+static void the_suspect_are_trusted_when_they_agree(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 2; i++) {
+        compare();
+        seen[0].is_suspect = 1;
+        seen[0].distance2 = i == 1 ? 2.6f : 2.4f;
+        seen[0].seen_share = (i == 2 ? 0.58f : 0.62f) * PD;
+        assert_int_equal(is_suspect_after(1.0), i > 0);
+    }
+}
+
+/* Its plots count with as much more noise as they show, up to twenty times. */
+static void the_noise_of_the_suspect_is_what_they_show(void **state)
+{
+    static const float shown[] = {0.5f, 15.0f, 19.0f, 30.0f};
+    static const int percent[] = {100, 1500, 1900, 2000};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        compare();
+        seen[0].is_suspect = 1;
+        seen[0].seen_share = 0.1f;
+        seen[0].distance2 = shown[i];
+        assert_int_equal(is_suspect_after(1.0), 1);
+        assert_int_equal(tracker.sensors[0].sigma_range_percent, percent[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +514,11 @@ int main(void)
         cmocka_unit_test(one_of_very_many_plots_is_watched_too),
         cmocka_unit_test(of_two_that_contradict_each_other_none_is_suspect),
         cmocka_unit_test(a_sensor_alone_is_never_suspect),
+        cmocka_unit_test(the_blind_are_suspect_by_one_witness),
+        cmocka_unit_test(the_biased_are_suspect_by_two_witnesses),
+        cmocka_unit_test(the_less_biased_are_witnesses),
+        cmocka_unit_test(the_suspect_are_trusted_when_they_agree),
+        cmocka_unit_test(the_noise_of_the_suspect_is_what_they_show),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
