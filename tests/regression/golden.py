@@ -198,6 +198,45 @@ CASES = {
         track in/plots.csv --config in/scenario.ini --set turn_mps2=0 --set sensor.1.pd=0.6 \
             --json -o sensor.csv
         """,
+    "work-limits": """
+        simulate guard-rail --seed 3 --set duration_s=40 -o rail
+        track rail/plots.csv --config rail/scenario.ini --set work_max=1200 --json -o rail.csv
+        simulate split-plots --seed 3 --set duration_s=60 -o split
+        track split/plots.csv --config split/scenario.ini --set work_max=6000 --json -o few.csv
+        track split/plots.csv --config split/scenario.ini --set work_max=12000 --json -o more.csv
+        track split/plots.csv --config split/scenario.ini --set work_max=30000 --json -o most.csv
+        track split/plots.csv --config split/scenario.ini --set work_max=1000 --gate nearest \
+            --json -o nearest.csv
+        simulate rain --seed 3 --set duration_s=40 -o rain
+        track rain/plots.csv --config rain/scenario.ini --set work_max=5000 --json -o rain.csv
+        """,
+    # What the shipped scenes do not reach: coarse bearings, plots that gates choose among, and
+    # learning where little is seen.
+    "seldom": """
+        simulate passive-three --seed 7 --set targets.0.count=12 --set passive.0.pd=0.7 \
+            --set passive.1.sigma_rad=0.02 --set passive.2.false_bearings=6 \
+            --set duration_s=200 -o three
+        track three/bearings.csv --config three/scenario.ini --covariance --json -o three.csv
+        simulate passive-two --seed 7 --set targets.0.count=8 --set passive.0.false_bearings=6 \
+            --set passive.1.sigma_rad=0.02 -o two
+        initiate two/bearings.csv --config two/scenario.ini --json -o two.csv
+        simulate sea-spikes --seed 5 --set duration_s=100 -o spikes
+        track spikes/plots.csv --config spikes/scenario.ini --covariance --json -o spikes.csv
+        simulate masked --seed 3 --set duration_s=200 -o masked
+        track masked/plots.csv --config masked/scenario.ini --covariance --json -o masked.csv
+        simulate birds --seed 5 --set duration_s=60 -o birds
+        track birds/plots.csv --config birds/scenario.ini --covariance --json -o birds.csv
+        simulate formation --seed 3 --set duration_s=160 -o formation
+        track formation/plots.csv --config formation/scenario.ini --gate hough --json \
+            -o formation.csv
+        simulate parallel --seed 3 --set clutter=[] --set radars.0.sigma_mps=2 -o pair
+        track pair/plots.csv --config pair/scenario.ini --gate hough --covariance --json \
+            -o pair.csv
+        simulate popup --seed 3 --set radars.0.sigma_mps=3 -o popup
+        track popup/plots.csv --config popup/scenario.ini --gate hough --json -o popup.csv
+        simulate weave --seed 5 --set radars.0.sigma_mps=10 --set radars.0.pd=0.7 -o weave
+        track weave/plots.csv --config weave/scenario.ini --gate hough --json -o weave.csv
+        """,
     "doppler-ambiguous": """
         simulate doppler --seed 3 --set radars.0.range_rate_span_mps=100 --set duration_s=120 -o in
         track in/plots.csv --config in/scenario.ini --covariance --json -o tracks.csv

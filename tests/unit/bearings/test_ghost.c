@@ -368,8 +368,9 @@ static void bad_arguments_are_refused(void **state)
 {
     (void)state;
     float bearings[RHO_MAX_BEARINGS + 1] = {0};
-    const float bad[] = {0.1f, NAN};
+    const float bad[] = {0.1f, NAN}, far[] = {99.0f}, farther[] = {101.0f};
     set_base();
+    assert_int_equal(rho_ghost_fill(&matrix, &base, far, 1, far, 1, 1.0f), RHO_OK);
     memset(&matrix, 0x5a, sizeof matrix);
     struct rho_ghost_matrix before = matrix;
     assert_int_equal(rho_ghost_fill(NULL, &base, bearings, 1, bearings, 1, 1.0f), RHO_ERROR_NULL);
@@ -380,6 +381,7 @@ static void bad_arguments_are_refused(void **state)
         rho_ghost_fill(&matrix, &base, bearings, RHO_MAX_BEARINGS + 1, bearings, 1, 1.0f),
         RHO_ERROR_CAPACITY);
     assert_int_equal(rho_ghost_fill(&matrix, &base, bad, 2, bearings, 1, 1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_ghost_fill(&matrix, &base, farther, 1, far, 1, 1.0f), RHO_ERROR_VALUE);
     assert_int_equal(rho_ghost_fill(&matrix, &base, bearings, 1, bad, 2, 1.0f), RHO_ERROR_VALUE);
     assert_int_equal(rho_ghost_fill(&matrix, &base, bearings, 1, bearings, 1, 0.0f),
                      RHO_ERROR_VALUE);

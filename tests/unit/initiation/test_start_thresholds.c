@@ -412,10 +412,30 @@ static void thresholds_of_known_clutter(void **state)
     }
 }
 
+/*
+ * A pause counts as three usual intervals: of 2 s, five times, it is 6 s long. Each factor of two
+ * of the mean interval moves the threshold by about 0.7 nat.
+ */
+static void a_pause_is_three_intervals(void **state)
+{
+    const struct rho_initiator_config config = usual(1.0f);
+    (void)state;
+    random_state = 3;
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        add_clutter(&config.area, 25);
+        push(SCAN_S * k + (k == SCANS - 1 ? 30.0 : 0.0));
+    }
+    search(RHO_SEARCH_NEWEST);
+    assert_float_equal(initiator.start_mnat, -10000, 1.0);
+    assert_float_equal(initiator.confirm_mnat, -655, 1.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thresholds_of_known_clutter),
+        cmocka_unit_test(a_pause_is_three_intervals),
         cmocka_unit_test(a_clear_sky_confirms_a_target_at_its_third_plot),
         cmocka_unit_test(confirming_falls_as_more_false_tracks_are_allowed_but_not_below_starting),
         cmocka_unit_test(more_false_tracks_allowed_are_never_fewer_tracks),

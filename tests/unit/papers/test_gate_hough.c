@@ -273,6 +273,8 @@ static void bad_arguments_are_refused(void **state)
             assert_refuses(1, 0.1f, good, velocity_mps, RHO_ERROR_VALUE);
         }
     }
+    struct rho_gate_hough finest;
+    assert_int_equal(rho_gate_hough_open(&finest, 1, 1.01e-3f, good, good), RHO_OK);
     const float most[3] = {FLT_MAX, 0.0f, 0.0f}, least[3] = {-FLT_MAX, 0.0f, 0.0f};
     assert_refuses(1, 0.1f, least, most, RHO_ERROR_VALUE);
 }

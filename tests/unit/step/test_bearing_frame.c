@@ -55,6 +55,36 @@ static void a_target_is_found_when_the_batch_is_full(void **state)
     expect_found_with(3);
 }
 
+/* Margins of 2.3 to 9.2 nat about the least one, ln 100: those below start no track. */
+static void tracks_start_where_odds_are_a_hundred_to_one(void **state)
+{
+    unsigned below = 0, above = 0;
+    (void)state;
+    for (unsigned seed = 1; seed <= 60; seed++) {
+        unsigned expected = 0;
+        random_state = seed;
+        scene = scene_of(2, 4, 0.5, 0.8, 3.0);
+        for (unsigned i = 0; i < 4; i++) {
+            scene.target[i] = random_target(120.0);
+        }
+        start_chain(5.0f);
+        fly(0, BATCH, 10.0);
+        for (unsigned i = 0; i < passive.num_tracks; i++) {
+            const struct rho_passive_track *found = &passive.tracks[i];
+            const int is_fresh = found->scans >> (BATCH - 2) != 0;
+            if (found->score_mnat < passive.start_mnat || !is_fresh) {
+                continue;
+            }
+            expected += found->margin_mnat >= 4605;
+            below += found->margin_mnat >= 2302 && found->margin_mnat < 4605;
+            above += found->margin_mnat >= 4605 && found->margin_mnat < 9210;
+        }
+        assert_int_equal(tracker.counters.tracks_started, expected);
+    }
+    print_message("margins just below %u, just above %u\n", below, above);
+    assert_true(below > 0 && above > 0);
+}
+
 /*
  * Seen in all frames but `missing` ones: a bit a frame. Found by the search, of the full batch, and
  * a track or not.
@@ -262,6 +292,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_target_is_found_when_the_batch_is_full),
+        cmocka_unit_test(tracks_start_where_odds_are_a_hundred_to_one),
         cmocka_unit_test(a_track_starts_from_what_was_just_seen),
         cmocka_unit_test(a_later_target_is_found_while_others_are_followed),
         cmocka_unit_test(false_bearings_alone_make_no_track),
