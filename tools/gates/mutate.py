@@ -7,9 +7,10 @@ A constant is a `#define NAME number` or a `static const` number in src/. Consta
 policy are left out: magic numbers, bits, units, check sums, the coefficients of src/base, floating
 point numbers of 1e12 and more, which only keep arithmetic finite, and those of ALIKE. A mutant is
 noticed where it does not compile, or a golden file differs, or a compiled test of `make test` fails
-or does not end; and does so again, since a machine under load fails tests that are right. A program that somebody kills says
-nothing: the run ends. Programs whose bytes the mutant leaves as they were are not run. Each is
-tried in a copy of the sources, in BUILD/mutate; one copy for each of the --jobs.
+or does not end; and does so again, since a machine under load fails tests that are right. A program
+that somebody kills says nothing: the run ends. Programs whose bytes the mutant leaves as they were
+are not run. Each is tried in a copy of the sources, in BUILD/mutate; one copy for each of the
+--jobs.
 
 Usage: mutate.py [--sample N] [--seed S] [--only REGEX] [--jobs N]. Prints each mutant; exit 1 where
 fewer than nine in ten are noticed.

@@ -384,7 +384,7 @@ static void clutter_starts_tracks_that_process_noise_bends(void **state)
     assert_true(starts > 0.01 * searches && starts < 0.2 * searches);
 }
 
-/* ---- figures ---------------------------------------------------------------------------------- */
+/* ---- figures --------------------------------------------------------------------------------- */
 
 /*
  * By clutter and rate, in mnat, to a millinat: those whose false tracks were counted above. Each
@@ -398,9 +398,8 @@ static void thresholds_of_known_clutter(void **state)
         int32_t start_mnat, confirm_mnat;
         int min_scans;
     } cases[] = {
-        {5, 1e-4f, -4771, 12670, 3}, {5, 1.0f, -4771, 5036, 3},
-        {25, 1e-4f, 49, 13093, 3},   {25, 1.0f, 49, 4745, 3},
-        {100, 1e-4f, -381, 12883, 4}, {250, 1.0f, -1954, 4307, 6},
+        {5, 1e-4f, -4771, 12670, 3}, {5, 1.0f, -4771, 5036, 3},    {25, 1e-4f, 49, 13093, 3},
+        {25, 1.0f, 49, 4745, 3},     {100, 1e-4f, -381, 12883, 4}, {250, 1.0f, -1954, 4307, 6},
     };
     (void)state;
     for (size_t i = 0; i < NUM(cases); i++) {

@@ -225,7 +225,7 @@ static void zones_count_within_four_sigmas(void **state)
     assert_float_equal(share_of(12.0f, 0.0f, 0.0f, 2.6e-5f), 0.0, 0.0);
 }
 
-/* The range rate and its variance, as a share of what it was, after a look that sees all there is. */
+/* The share of the range rate's variance that is left after a look that sees all there is. */
 static float kept_after(float notch_mps, float blind_speed_mps, struct estimate *at)
 {
     const struct rho_sensor sensor = radar_of(notch_mps, blind_speed_mps);
@@ -248,7 +248,8 @@ static void nine_zones_are_summed(void **state)
 
 static void a_miss_keeps_a_hundredth_to_four_times_the_variance(void **state)
 {
-    struct estimate narrow = estimate_of(0.0f, 0.0f, 10.0f), between = estimate_of(50.0f, 0.0f, 14.0f);
+    struct estimate narrow = estimate_of(0.0f, 0.0f, 10.0f),
+                    between = estimate_of(50.0f, 0.0f, 14.0f);
     (void)state;
     assert_float_equal(kept_after(1.0f, 0.0f, &narrow), 0.01, 1e-4);     /* 0.0033 by the moments */
     assert_float_equal(kept_after(10.0f, 100.0f, &between), 4.0, 0.001); /* 9.4 */

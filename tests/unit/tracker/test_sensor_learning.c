@@ -309,7 +309,7 @@ static void sensors_are_told_apart_and_forgotten(void **state)
     assert_int_equal(known.innovations, 0);
 }
 
-/* ---- what counts so far mean ------------------------------------------------------------------ */
+/* ---- what counts so far mean ----------------------------------------------------------------- */
 
 static struct rho_tracker_known known_now(void)
 {

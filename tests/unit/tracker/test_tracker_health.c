@@ -380,7 +380,7 @@ static void a_sensor_alone_is_never_suspect(void **state)
     assert_int_equal(tracker.counters.sensors_suspected, 0);
 }
 
-/* ---- thresholds ------------------------------------------------------------------------------- */
+/* ---- thresholds ------------------------------------------------------------------------------ */
 
 #define PD 0.9f
 

@@ -53,7 +53,7 @@ static void a_sensor_that_turns_elsewhere_has_another_interval(void **state)
     assert_true(before_s > 5.0 * after_s);
 }
 
-/* ---- intervals -------------------------------------------------------------------------------- */
+/* ---- intervals ------------------------------------------------------------------------------- */
 
 /* Of a sensor that is heard at these times, in seconds. */
 static double interval_after(const double *at_s, int num)
