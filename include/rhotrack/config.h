@@ -350,6 +350,14 @@
 #endif
 
 /*
+ * Areas that an operator can exclude (rhotrack/excluded_areas.h). 0 leaves them and frozen tracks out of
+ * the program. RAM: 16 bytes each. 0 .. 64.
+ */
+#ifndef RHO_MAX_EXCLUDED_AREAS
+#define RHO_MAX_EXCLUDED_AREAS RHO_CONFIG_PICK(4, 16)
+#endif
+
+/*
  * Strips that the plots of a scan are sorted into, so that a track is compared with near plots
  * alone: of use from a million of tracks times plots. 1: no sorting. RAM: 2 bytes each, and 2 a
  * plot. 1 .. 16384.
@@ -516,6 +524,9 @@
 #if RHO_MAX_REFLECTORS < 0 || RHO_MAX_REFLECTORS > 64
 #error "RHO_MAX_REFLECTORS must be 0 .. 64"
 #endif
+#if RHO_MAX_EXCLUDED_AREAS < 0 || RHO_MAX_EXCLUDED_AREAS > 64
+#error "RHO_MAX_EXCLUDED_AREAS must be 0 .. 64"
+#endif
 #if RHO_PLOT_STRIPS < 1 || RHO_PLOT_STRIPS > 16384
 #error "RHO_PLOT_STRIPS must be 1 .. 16384"
 #endif
@@ -564,7 +575,7 @@
     (RHO_MAX_TRACKS * (520 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
      (144 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \
      RHO_RAM_STRIPS_BYTES + RHO_RAM_CLUTTER_MAP_BYTES + RHO_RAM_SECOND_PLOTS_BYTES +               \
-     16 * RHO_MAX_REFLECTORS + 672)
+     16 * (RHO_MAX_REFLECTORS + RHO_MAX_EXCLUDED_AREAS) + 672)
 #define RHO_RAM_SCAN_ASSEMBLER_BYTES                                                               \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      256 * RHO_MAX_SENSORS + 528)

@@ -17,8 +17,10 @@
 #include "rhotrack/types.h"
 
 /* tracking */
+#include "rhotrack/excluded_areas.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/measurement.h"
+#include "rhotrack/operator.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/reflectors.h"
 #include "rhotrack/settings.h"

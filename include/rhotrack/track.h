@@ -120,6 +120,7 @@ struct rho_track {
     uint8_t has_moved;      /* the track was surely elsewhere than where it started */
     /* scratch of a step: share of looks of its sensor that are blind to the track (notch.h) */
     uint8_t blind_percent;
+    uint8_t is_frozen; /* by an operator: it coasts, and does not end */
     float start_m[2], start_sigma_m;
     /* its second plots: scans in which it had a plot, and others near it; both fade */
     float second_looks, second_plots;

@@ -165,6 +165,8 @@ struct rho_tracker_counters {
     uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
     uint32_t scans_retrodicted;  /* of the accepted: late, by late_max_s at most */
     uint32_t sensors_suspected;  /* times that a sensor became suspect */
+    /* by an operator: of the ended; plots in excluded areas that no track claimed */
+    uint32_t tracks_dropped, plots_excluded;
 };
 
 /*
@@ -287,7 +289,9 @@ struct rho_tracker {
     struct rho_clutter_map clutter_map;
     struct rho_second_plots second_plots[RHO_MAX_SENSORS]; /* of the sensors that came first */
     uint16_t num_reflectors;
+    uint16_t num_excluded;
     struct rho_reflector reflectors[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
+    struct rho_extent excluded[RHO_MAX_EXCLUDED_AREAS > 0 ? RHO_MAX_EXCLUDED_AREAS : 1];
 };
 
 /*

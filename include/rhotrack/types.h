@@ -206,7 +206,8 @@ enum rho_fate {
     RHO_FATE_HELD,        /* kept for initiation; may start a track now or later */
     /*
      * a bearing with false crossings alone; kept, as the other sensors may have missed its target.
-     * Or a plot where a wall would show the image of a track (reflectors.h)
+     * Or a plot where a wall would show the image of a track (reflectors.h), or in an excluded
+     * area (excluded_areas.h)
      */
     RHO_FATE_GHOST,
     RHO_FATE_STALE, /* its scan is older than the scans that were already processed */

@@ -78,7 +78,7 @@ void rho_tracker_age(struct step *step)
     rho_tracker_find_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status == RHO_TRACK_FREE) {
+        if (track->status == RHO_TRACK_FREE || rho_tracker_is_frozen(track)) {
             continue;
         }
         int is_missed = track->plot < 0 && rho_tracker_is_in_view(step, row) &&

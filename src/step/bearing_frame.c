@@ -91,6 +91,12 @@ static struct look open_look(struct step *step, const struct rho_bearing_scan *s
     return look;
 }
 
+/* Frozen tracks stay as they are. */
+static int takes_part(const struct rho_track *track)
+{
+    return track->status != RHO_TRACK_FREE && !rho_tracker_is_frozen(track);
+}
+
 /* ---- claim and update ------------------------------------------------------------------------ */
 
 static int64_t time_of(const struct look *look, uint32_t i)
@@ -136,7 +142,7 @@ static void claim_look(struct step *step, const struct look *look)
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (tracker->tracks[row].status != RHO_TRACK_FREE) {
+        if (takes_part(&tracker->tracks[row])) {
             gate_bearings(step, look, row);
         }
     }
@@ -176,9 +182,8 @@ static void update_look(struct step *step, const struct look *look)
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         int bearing = rho_assignment_column(&tracker->assignment, row);
-        if (track->status == RHO_TRACK_FREE ||
-            (bearing != RHO_ASSIGNMENT_NONE &&
-             update_track(step, look, track, (uint32_t)bearing))) {
+        if (!takes_part(track) || (bearing != RHO_ASSIGNMENT_NONE &&
+                                   update_track(step, look, track, (uint32_t)bearing))) {
             continue;
         }
         if (rho_tracker_looked_at(step, look->scan->sector_from_rad, look->scan->sector_to_rad,
@@ -203,7 +208,9 @@ static void learn_unclaimed(struct step *step, const struct look *look)
 static void merge_estimates(struct step *step)
 {
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
-        rho_track_merge_estimates(&step->tracker->tracks[i], step->time_us, &step->model);
+        if (!rho_tracker_is_frozen(&step->tracker->tracks[i])) {
+            rho_track_merge_estimates(&step->tracker->tracks[i], step->time_us, &step->model);
+        }
     }
 }
 
@@ -215,7 +222,9 @@ static void predict(struct step *step)
         if (RHO_SECTORS) {
             rho_tracker_note_ahead(&tracker->tracks[i]);
         }
-        rho_tracker_predict_track(step, &tracker->tracks[i]);
+        if (!rho_tracker_is_frozen(&tracker->tracks[i])) {
+            rho_tracker_predict_track(step, &tracker->tracks[i]);
+        }
     }
     merge_estimates(step);
 }
@@ -261,7 +270,7 @@ static void age(struct step *step)
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE && track->plot < 0 && is_looked_at(step, track)) {
+        if (takes_part(track) && track->plot < 0 && is_looked_at(step, track)) {
             rho_track_miss(track, 0);
         }
     }
@@ -269,7 +278,7 @@ static void age(struct step *step)
     rho_tracker_find_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->status != RHO_TRACK_FREE) {
+        if (takes_part(track)) {
             rho_tracker_age_track(step, track, track->plot < 0 && track->misses_in_row > 0,
                                   &limits);
         }

@@ -24,7 +24,7 @@ void rho_tracker_predict(struct step *step)
         if (RHO_SECTORS) {
             rho_tracker_note_ahead(track);
         }
-        if (rho_tracker_may_see(step, track) &&
+        if (!rho_tracker_is_frozen(track) && rho_tracker_may_see(step, track) &&
             !(RHO_SECTORS && rho_tracker_was_seen(step, track)) &&
             !rho_tracker_is_only_seen_by_suspect_sensor(step, track)) {
             step->in_view[i / 32] |= 1u << i % 32;

@@ -99,6 +99,9 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         if (has_images) {
             rho_tracker_mark_images(&step);
         }
+        if (RHO_MAX_EXCLUDED_AREAS > 0 && tracker->num_excluded > 0) {
+            rho_tracker_mark_excluded(&step);
+        }
         if (starts_tracks(&step)) {
             rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {

@@ -258,6 +258,17 @@ void rho_tracker_mark_images(struct step *step);
 void rho_tracker_end_images(struct step *step);
 int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker);
 
+/* ---- an operator ---------------------------------------------------------------------------- */
+
+/* excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): unclaimed plots in them are ghosts, before starts */
+void rho_tracker_mark_excluded(struct step *step);
+int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker);
+/* A frozen track is in no scan's view, and does not age. */
+static inline int rho_tracker_is_frozen(const struct rho_track *track)
+{
+    return RHO_MAX_EXCLUDED_AREAS > 0 && track->is_frozen;
+}
+
 /* ---- work ------------------------------------------------------------------------------------ */
 
 /*

@@ -42,12 +42,14 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
     return (!RHO_SECTORS || rho_tracker_is_sound_ahead(track)) &&
            (RHO_MAX_ECHOES == 0 ||
             (rho_tracker_has_sound_returns(track) && rho_tracker_has_sound_older_track(track))) &&
-           (!RHO_DOPPLER_NOTCH || track->blind_percent == 0) && track->status > RHO_TRACK_FREE &&
-           track->status < RHO_NUM_TRACK_STATUS && rho_tracker_is_score(track->score_mnat) &&
-           rho_tracker_is_score(track->score_max_mnat) && rho_is_stored_time(track->time_us) &&
-           rho_is_stored_time(track->updated_us) && rho_is_stored_time(track->seen_us) &&
-           rho_is_within(track->seen_every_s, 0.0f, 1e13f) && is_sound_filter(tracker, track) &&
-           is_sound_input(track) && rho_are_finite(track->kalman.state, RHO_KALMAN_STATES) &&
+           (!RHO_DOPPLER_NOTCH || track->blind_percent == 0) &&
+           (RHO_MAX_EXCLUDED_AREAS == 0 || track->is_frozen <= 1) &&
+           track->status > RHO_TRACK_FREE && track->status < RHO_NUM_TRACK_STATUS &&
+           rho_tracker_is_score(track->score_mnat) && rho_tracker_is_score(track->score_max_mnat) &&
+           rho_is_stored_time(track->time_us) && rho_is_stored_time(track->updated_us) &&
+           rho_is_stored_time(track->seen_us) && rho_is_within(track->seen_every_s, 0.0f, 1e13f) &&
+           is_sound_filter(tracker, track) && is_sound_input(track) &&
+           rho_are_finite(track->kalman.state, RHO_KALMAN_STATES) &&
            rho_are_finite(track->kalman.covariance, RHO_TRIANGLE(RHO_KALMAN_STATES)) &&
            rho_are_finite(track->accel_mps2, 3) && rho_are_finite(track->newest_mps, 3) &&
            rho_are_finite(track->before_mps, 3) &&
@@ -144,6 +146,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            has_sound_sensors(tracker) && has_sound_paces(tracker) &&
            (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
            (RHO_MAX_REFLECTORS == 0 || rho_tracker_has_sound_reflectors(tracker)) &&
+           (RHO_MAX_EXCLUDED_AREAS == 0 || rho_tracker_has_sound_excluded(tracker)) &&
            (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_clutter_map(tracker) &&
                                     rho_tracker_has_sound_second_plots(tracker))) &&
            has_sound_tracks(tracker);

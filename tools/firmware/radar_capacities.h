@@ -35,6 +35,11 @@
 #define RHO_MAX_REFLECTORS 0
 #endif
 
+/* No operator. */
+#ifndef RHO_MAX_EXCLUDED_AREAS
+#define RHO_MAX_EXCLUDED_AREAS 0
+#endif
+
 /* It sees targets at all range rates: 2.3 KB of flash. */
 #ifndef RHO_DOPPLER_NOTCH
 #define RHO_DOPPLER_NOTCH 0

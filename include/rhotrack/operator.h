@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * operator: tracks that a person starts, drops, renumbers and freezes by hand, between two steps.
+ *
+ *     rho_tracker_step(&tracker, &initiator, &scan, &report);
+ *     if (rho_tracker_drop_track(&tracker, 12, &report) != RHO_OK) {
+ *         ... there is no such track
+ *     }
+ *
+ * Functions that take a report take the last step's, and change what it says of the tracks: they
+ * are to be called before the report is used, or published. What is refused changes nothing.
+ *
+ * Tracks by hand are counted as all others (tracks_started, tracks_ended), those that were dropped
+ * in tracks_dropped, too. rhotrack/command.h does the same by messages.
+ *
+ * Stack: 100 bytes at most where nothing else is said.
+ */
+#ifndef RHOTRACK_OPERATOR_H
+#define RHOTRACK_OPERATOR_H
+
+#include <stdint.h>
+
+#include "rhotrack/config.h"
+#include "rhotrack/status.h"
+#include "rhotrack/tracker.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A target as a person sees it, at the time of the last step. */
+struct rho_operator_start {
+    float x_m, y_m, sigma_m;         /* place, within RHO_LIMIT_POSITION_M; 1e-3 .. 1e5 m */
+    float vx_mps, vy_mps, sigma_mps; /* velocity, 1e-3 .. 1e5 m/s; sigma 0: not known */
+};
+
+/*
+ * Starts a track at a place, as if the sensor that was heard last had seen it there. It is
+ * confirmed at once, or tentative where too many tracks end early (tracker.h), and ends as others
+ * do where no plots follow. A full tracker gives up its lowest tentative track for it.
+ * Errors: NULL, STATE (not initialised, no step so far, the report is not the last step's), VALUE
+ * (a number outside its range), CAPACITY (no room), and those of rho_track_start. Cost: the report.
+ * Stack: 3.1 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
+                                                    const struct rho_operator_start *start,
+                                                    struct rho_report *report);
+
+/*
+ * Ends a track. Its plots may start another one: rho_tracker_exclude_area (excluded_areas.h)
+ * prevents that.
+ * Errors: NULL, STATE (as above), VALUE (no such track), CAPACITY (the report has no room for
+ * another ended track: drop it after the next step). Cost: the report. Stack: 1.5 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker,
+                                                      uint32_t track_id, struct rho_report *report);
+
+/*
+ * Gives a track another identity, as that of a lost track which it continues. The report says of
+ * the old one that it has ended.
+ *   new_id  1 .. INT32_MAX, of no live track; the next track's is above it
+ * Errors: as rho_tracker_drop_track, and VALUE for new_id. Cost: the report. Stack: 2 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker,
+                                                          uint32_t track_id, uint32_t new_id,
+                                                          struct rho_report *report);
+
+/*
+ * Freezes a confirmed or coasting track, or thaws it. A frozen track coasts straight on: it takes
+ * no plots, has no misses and does not end, until it is thawed or dropped. So it passes clutter, a
+ * jammer or a crossing that would lead it away. Others may start from its plots. With input
+ * estimation it keeps its inputs. A thawed track goes on from where it would be, with an
+ * uncertainty that has grown meanwhile.
+ * Errors: NULL, CONFIG (RHO_MAX_EXCLUDED_AREAS is 0), STATE (as above, or the track is tentative),
+ * VALUE (no such track). Cost: the report. Stack: 1.5 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker,
+                                                        uint32_t track_id, int is_frozen,
+                                                        struct rho_report *report);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * operator: tracks that a person starts, ends, renumbers and freezes between two steps.
+ */
+#include "rhotrack/operator.h"
+
+#include "phases.h"
+
+/* A step that changes by hand go on from: the newest, whose report it still is. */
+static enum rho_status resume(struct rho_tracker *tracker, struct rho_report *report,
+                              struct step *step)
+{
+    if (!tracker || !report) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker) || !tracker->has_time ||
+        report->time_us != tracker->time_us) {
+        return RHO_ERROR_STATE;
+    }
+    *step = (struct step){.tracker = tracker, .report = report, .time_us = tracker->time_us};
+    rho_tracker_set_model(step);
+    return RHO_OK;
+}
+
+/* Row of a live track; num_tracks: there is none. */
+static unsigned row_of(const struct rho_tracker *tracker, uint32_t track_id)
+{
+    unsigned row = 0;
+    while (row < tracker->num_tracks && tracker->tracks[row].track_id != track_id) {
+        row++;
+    }
+    return row;
+}
+
+/* The same, and the track of that row. */
+static enum rho_status find_track(struct rho_tracker *tracker, uint32_t track_id,
+                                  struct rho_report *report, struct step *step,
+                                  struct rho_track **track)
+{
+    const enum rho_status status = resume(tracker, report, step);
+    if (status != RHO_OK) {
+        return status;
+    }
+    const unsigned row = row_of(tracker, track_id);
+    *track = &tracker->tracks[row < tracker->num_tracks ? row : 0];
+    return row < tracker->num_tracks ? RHO_OK : RHO_ERROR_VALUE;
+}
+
+/* ---- start ----------------------------------------------------------------------------------- */
+
+/* The sensor that was heard last. */
+static int32_t newest_sensor(const struct rho_tracker *tracker)
+{
+    const struct rho_tracker_pace *newest = &tracker->paces[0];
+    for (unsigned i = 1; i < tracker->num_paces; i++) {
+        newest = tracker->paces[i].time_us > newest->time_us ? &tracker->paces[i] : newest;
+    }
+    return newest->sensor_id;
+}
+
+enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
+                                     const struct rho_operator_start *start,
+                                     struct rho_report *report)
+{
+    if (!tracker || !start || !report) {
+        return RHO_ERROR_NULL;
+    }
+    const int has_velocity = !rho_is_within(start->sigma_mps, 0.0f, 0.0f);
+    const struct rho_track_plot seen = {
+        .time_us = tracker->time_us,
+        .measures = has_velocity ? RHO_MEASURES_VELOCITY : 0,
+        .sensor_id = newest_sensor(tracker),
+        .plot = {.x_m = start->x_m,
+                 .y_m = start->y_m,
+                 .vx_mps = start->vx_mps,
+                 .vy_mps = start->vy_mps,
+                 .sigma_range_m = start->sigma_m,
+                 .sigma_cross_m = start->sigma_m,
+                 .sigma_mps = start->sigma_mps},
+        .row = -1,
+    };
+    return rho_tracker_start_track(tracker, &seen, 1,
+                                   tracker->confirm_mnat > 0 ? tracker->confirm_mnat : 0, report);
+}
+
+/* ---- end and identity ------------------------------------------------------------------------ */
+
+static int has_room(const struct rho_report *report)
+{
+    return report->num_ended < RHO_MAX_TRACKS;
+}
+
+enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t track_id,
+                                       struct rho_report *report)
+{
+    struct step step;
+    struct rho_track *track;
+    const enum rho_status status = find_track(tracker, track_id, report, &step, &track);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (!has_room(report)) {
+        return RHO_ERROR_CAPACITY;
+    }
+    rho_tracker_end_track(&step, track);
+    rho_tracker_remove_ended(tracker);
+    tracker->counters.tracks_dropped = rho_count(tracker->counters.tracks_dropped, 1);
+    rho_tracker_report_tracks(&step);
+    return RHO_OK;
+}
+
+/* Tracks stay in the order of their identities; of those that move, no evidence is known. */
+static void move_track(struct rho_tracker *tracker, unsigned row)
+{
+    const struct rho_track track = tracker->tracks[row];
+    unsigned to = row;
+    for (; to > 0 && tracker->tracks[to - 1].track_id > track.track_id; to--) {
+        tracker->tracks[to] = tracker->tracks[to - 1];
+    }
+    const unsigned first = to;
+    for (; to + 1u < tracker->num_tracks && tracker->tracks[to + 1].track_id < track.track_id;
+         to++) {
+        tracker->tracks[to] = tracker->tracks[to + 1];
+    }
+    tracker->tracks[to] = track;
+    if (RHO_KEEPS_OFFERS && to != row && tracker->assignment.num_rows > first) {
+        tracker->assignment.num_rows = (uint16_t)first;
+    }
+}
+
+enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t track_id,
+                                           uint32_t new_id, struct rho_report *report)
+{
+    struct step step;
+    struct rho_track *track;
+    const enum rho_status status = find_track(tracker, track_id, report, &step, &track);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (new_id < 1 || new_id > INT32_MAX || row_of(tracker, new_id) < tracker->num_tracks) {
+        return RHO_ERROR_VALUE;
+    }
+    if (!has_room(report)) {
+        return RHO_ERROR_CAPACITY;
+    }
+    if (track->was_confirmed) {
+        report->ended[report->num_ended++] = track_id;
+    }
+    track->track_id = new_id;
+    for (unsigned i = 0; i < tracker->num_tracks; i++) {
+        struct rho_track *other = &tracker->tracks[i];
+        other->older_id = other->older_id == track_id ? new_id : other->older_id;
+    }
+    move_track(tracker, (unsigned)(track - tracker->tracks));
+    tracker->next_track_id = tracker->next_track_id > new_id ? tracker->next_track_id : new_id + 1u;
+    rho_tracker_report_tracks(&step);
+    return RHO_OK;
+}
+
+/* ---- freeze ---------------------------------------------------------------------------------- */
+
+enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t track_id,
+                                         int is_frozen, struct rho_report *report)
+{
+    struct step step;
+    struct rho_track *track;
+    const enum rho_status status = find_track(tracker, track_id, report, &step, &track);
+    if (status != RHO_OK) {
+        return status;
+    }
+    if (RHO_MAX_EXCLUDED_AREAS == 0) {
+        return RHO_ERROR_CONFIG;
+    }
+    if (track->status == RHO_TRACK_TENTATIVE) {
+        return RHO_ERROR_STATE;
+    }
+    track->is_frozen = is_frozen != 0;
+    track->status = RHO_TRACK_COASTING;
+    track->plot = -1;
+    track->accel_mps2[0] = track->accel_mps2[1] = track->accel_mps2[2] = 0.0f;
+    /* the time of the silence is not the target's */
+    track->seen_us = tracker->time_us;
+    track->misses_in_row = 0;
+    rho_tracker_report_tracks(&step);
+    return RHO_OK;
+}

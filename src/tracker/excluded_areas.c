@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * excluded_areas: places in which no plot starts a track.
+ */
+#include "rhotrack/excluded_areas.h"
+
+#include <string.h>
+
+#include "step.h"
+
+/* Comparisons of a plot with an area that cost one unit of work. */
+#define COMPARED_A_UNIT 8u
+
+static int is_usable(const struct rho_extent *area)
+{
+    return rho_is_coordinate(area->x_min_m) && rho_is_coordinate(area->x_max_m) &&
+           rho_is_coordinate(area->y_min_m) && rho_is_coordinate(area->y_max_m) &&
+           area->x_min_m < area->x_max_m && area->y_min_m < area->y_max_m;
+}
+
+static int holds(const struct rho_extent *area, float x_m, float y_m)
+{
+    return x_m >= area->x_min_m && x_m <= area->x_max_m && y_m >= area->y_min_m &&
+           y_m <= area->y_max_m;
+}
+
+enum rho_status rho_tracker_exclude_area(struct rho_tracker *tracker, const struct rho_extent *area)
+{
+    if (!tracker || !area) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!is_usable(area)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (tracker->num_excluded + 1 > RHO_MAX_EXCLUDED_AREAS) {
+        return RHO_ERROR_CAPACITY;
+    }
+    tracker->excluded[tracker->num_excluded++] = *area;
+    return RHO_OK;
+}
+
+enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m, float y_m)
+{
+    if (!tracker) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    unsigned kept = 0;
+    for (unsigned i = 0; i < tracker->num_excluded; i++) {
+        if (!holds(&tracker->excluded[i], x_m, y_m)) {
+            tracker->excluded[kept++] = tracker->excluded[i];
+        }
+    }
+    if (kept == tracker->num_excluded) {
+        return RHO_ERROR_VALUE;
+    }
+    memset(&tracker->excluded[kept], 0,
+           (tracker->num_excluded - kept) * sizeof tracker->excluded[0]);
+    tracker->num_excluded = (uint16_t)kept;
+    return RHO_OK;
+}
+
+int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker)
+{
+    const int num = tracker->num_excluded;
+    int i = 0;
+    while (i < num && num <= RHO_MAX_EXCLUDED_AREAS && is_usable(&tracker->excluded[i])) {
+        i++;
+    }
+    return i == num;
+}
+
+void rho_tracker_mark_excluded(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    rho_tracker_spend(step, step->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        for (unsigned k = 0; k < tracker->num_excluded && step->report->fates[i] == RHO_FATE_HELD;
+             k++) {
+            if (holds(&tracker->excluded[k], plot->x_m, plot->y_m)) {
+                step->report->fates[i] = RHO_FATE_GHOST;
+                tracker->counters.plots_excluded = rho_count(tracker->counters.plots_excluded, 1);
+            }
+        }
+    }
+}

@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What a person changes between two steps: tracks start, end, get other identities and freeze by
+ * hand. Refused calls change no byte.
+ */
+#include "rhotrack/operator.h"
+
+#include "tracker_setup.h"
+
+/* Two targets that fly along x, 4 km apart. */
+static void see(int k, int sees_first)
+{
+    if (sees_first) {
+        add_noisy(-3000.0 + 100.0 * k, 2000.0, 10.0);
+    }
+    add_noisy(-3000.0 + 100.0 * k, -2000.0, 10.0);
+    step(k);
+}
+
+static int next_k;
+
+static void run(int scans, int sees_first)
+{
+    for (int i = 0; i < scans; i++) {
+        see(next_k++, sees_first);
+    }
+}
+
+static void prepare(void)
+{
+    draw(7);
+    begin();
+    next_k = 0;
+    run(12, 1);
+    assert_int_equal(report.num_tracks, 2);
+    assert_int_equal(report.tracks[0].track_id, 1);
+    assert_int_equal(report.tracks[1].track_id, 2);
+}
+
+/* The track of the first target, and of the second; of their places. */
+static const struct rho_track_report *track_near(double y_m)
+{
+    const struct rho_track_report *found = NULL;
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        if (fabs(report.tracks[i].state[1] - y_m) < 200.0) {
+            assert_null(found);
+            found = &report.tracks[i];
+        }
+    }
+    return found;
+}
+
+static struct rho_tracker tracker_before;
+static struct rho_report report_before;
+
+static void remember(void)
+{
+    memcpy(&tracker_before, &tracker, sizeof tracker);
+    memcpy(&report_before, &report, sizeof report);
+}
+
+static void check_unchanged(void)
+{
+    assert_memory_equal(&tracker_before, &tracker, sizeof tracker);
+    assert_memory_equal(&report_before, &report, sizeof report);
+}
+
+/* ---- start ----------------------------------------------------------------------------------- */
+
+static void starts_where_a_person_points(void **state)
+{
+    const struct rho_operator_start start = {
+        .x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f, .vx_mps = 50.0f, .sigma_mps = 20.0f};
+    (void)state;
+    prepare();
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
+    const struct rho_track_report *track = track_near(6000.0);
+    assert_non_null(track);
+    assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
+    assert_int_equal(track->track_id, 3);
+    assert_int_equal(tracker.counters.tracks_started, 3);
+    assert_true(fabsf(track->state[0] - 500.0f) < 1.0f);
+    assert_true(fabsf(track->state[3] - 50.0f) < 1.0f);
+    assert_true(rho_tracker_is_sound(&tracker));
+    for (int i = 0; i < 3; i++) {
+        add_noisy(500.0 + 50.0 * (i + 1), 6000.0, 10.0);
+        see(next_k++, 1);
+        assert_int_equal(track_near(6000.0)->track_id, 3);
+        assert_int_equal(track_near(6000.0)->hits, i + 2);
+    }
+    assert_int_equal(report.num_tracks, 3);
+}
+
+/* Without plots it ends as any other track. */
+static void ends_where_nothing_follows(void **state)
+{
+    const struct rho_operator_start start = {.x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f};
+    (void)state;
+    prepare();
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
+    assert_true(track_near(6000.0)->sigma_mps > 100.0f);
+    run(config.coast_scans_max - 1, 1);
+    assert_non_null(track_near(6000.0));
+    run(1, 1);
+    assert_null(track_near(6000.0));
+    assert_int_equal(report.num_ended, 1);
+    assert_int_equal(report.ended[0], 3);
+}
+
+static void refuses_starts_that_are_none(void **state)
+{
+    struct rho_operator_start start = {.x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f};
+    struct rho_operator_start bad[] = {start, start, start, start, start};
+    (void)state;
+    draw(7);
+    begin();
+    report.time_us = 0;
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_ERROR_STATE);
+    prepare();
+    bad[0].x_m = NAN;
+    bad[1].y_m = 3e6f;
+    bad[2].sigma_m = 0.0f;
+    bad[3].sigma_mps = -1.0f;
+    bad[4].sigma_mps = NAN;
+    remember();
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(rho_tracker_start_at(&tracker, &bad[i], &report), RHO_ERROR_VALUE);
+    }
+    assert_int_equal(rho_tracker_start_at(NULL, &start, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_start_at(&tracker, NULL, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, NULL), RHO_ERROR_NULL);
+    check_unchanged();
+    report.time_us--;
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_ERROR_STATE);
+    report.time_us++;
+    check_unchanged();
+    while (tracker.num_tracks < RHO_MAX_TRACKS) {
+        start.y_m += 100.0f;
+        assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
+    }
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_ERROR_CAPACITY);
+    assert_int_equal(report.num_tracks, RHO_MAX_TRACKS);
+    assert_int_equal(tracker.counters.tracks_no_room, 1);
+}
+
+/* ---- drop ------------------------------------------------------------------------------------ */
+
+static void drops_one_track(void **state)
+{
+    (void)state;
+    prepare();
+    const uint32_t lost = track_near(2000.0)->track_id;
+    const uint32_t kept = track_near(-2000.0)->track_id;
+    assert_int_equal(rho_tracker_drop_track(&tracker, lost, &report), RHO_OK);
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(report.tracks[0].track_id, kept);
+    assert_int_equal(report.num_ended, 1);
+    assert_int_equal(report.ended[0], lost);
+    assert_int_equal(tracker.counters.tracks_dropped, 1);
+    assert_int_equal(tracker.counters.tracks_ended, 1);
+    assert_true(rho_tracker_is_sound(&tracker));
+    remember();
+    assert_int_equal(rho_tracker_drop_track(&tracker, lost, &report), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_drop_track(&tracker, 0, &report), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_drop_track(NULL, kept, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_drop_track(&tracker, kept, NULL), RHO_ERROR_NULL);
+    check_unchanged();
+    run(8, 1); /* its target is found again, under another identity */
+    assert_int_equal(track_near(2000.0)->track_id, 3);
+    assert_int_equal(track_near(-2000.0)->track_id, kept);
+}
+
+/* The report's list of ended tracks may be full: the track stays then. */
+static void drops_none_without_room_in_the_report(void **state)
+{
+    (void)state;
+    prepare();
+    report.num_ended = RHO_MAX_TRACKS;
+    remember();
+    assert_int_equal(rho_tracker_drop_track(&tracker, 1, &report), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 9, &report), RHO_ERROR_CAPACITY);
+    check_unchanged();
+    report.num_ended = RHO_MAX_TRACKS - 1;
+    assert_int_equal(rho_tracker_drop_track(&tracker, 1, &report), RHO_OK);
+    assert_int_equal(report.ended[RHO_MAX_TRACKS - 1], 1);
+}
+
+/* ---- renumber -------------------------------------------------------------------------------- */
+
+static void renumbers_upwards_and_back(void **state)
+{
+    (void)state;
+    prepare();
+    const uint32_t old_id = track_near(2000.0)->track_id, other_id = 3 - old_id;
+    assert_int_equal(rho_tracker_renumber_track(&tracker, old_id, 40, &report), RHO_OK);
+    assert_int_equal(track_near(2000.0)->track_id, 40);
+    assert_int_equal(track_near(-2000.0)->track_id, other_id);
+    assert_int_equal(report.num_ended, 1);
+    assert_int_equal(report.ended[0], old_id);
+    assert_int_equal(tracker.counters.tracks_ended, 0);
+    run(4, 1); /* each step checks that identities are in order */
+    assert_int_equal(track_near(2000.0)->track_id, 40);
+    assert_int_equal(track_near(2000.0)->hits, track_near(-2000.0)->hits);
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 40, old_id, &report), RHO_OK);
+    assert_int_equal(report.tracks[0].track_id, 1);
+    assert_int_equal(report.tracks[1].track_id, 2);
+    assert_true(rho_tracker_is_sound(&tracker));
+    run(4, 1);
+    assert_int_equal(track_near(2000.0)->track_id, old_id);
+    /* no later track gets an identity that was given by hand */
+    assert_int_equal(rho_tracker_drop_track(&tracker, old_id, &report), RHO_OK);
+    run(8, 1);
+    assert_int_equal(track_near(2000.0)->track_id, 41);
+}
+
+static void refuses_identities_that_are_taken(void **state)
+{
+    (void)state;
+    prepare();
+    remember();
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 2, &report), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 1, &report), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 0, &report), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, UINT32_C(0x80000000), &report),
+                     RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 3, 4, &report), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_renumber_track(NULL, 1, 4, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 4, NULL), RHO_ERROR_NULL);
+    check_unchanged();
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, INT32_MAX, &report), RHO_OK);
+    assert_int_equal(tracker.next_track_id, UINT32_C(0x80000000));
+}
+
+/* Of the tracks that keep their rows the evidence is still known, of the others none. */
+static void evidence_is_that_of_the_row(void **state)
+{
+    struct rho_tracker_evidence evidence;
+    (void)state;
+    if (!RHO_KEEPS_OFFERS) {
+        skip();
+    }
+    prepare();
+    assert_true(rho_tracker_evidence_of(&tracker, 0, &evidence));
+    assert_true(rho_tracker_evidence_of(&tracker, 1, &evidence));
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 2, 5, &report), RHO_OK);
+    assert_true(rho_tracker_evidence_of(&tracker, 1, &evidence));
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 9, &report), RHO_OK);
+    assert_false(rho_tracker_evidence_of(&tracker, 0, &evidence));
+    assert_false(rho_tracker_evidence_of(&tracker, 1, &evidence));
+}
+
+/* ---- freeze ---------------------------------------------------------------------------------- */
+
+static void a_frozen_track_coasts_until_it_is_thawed(void **state)
+{
+    (void)state;
+    prepare();
+    const uint32_t frozen = track_near(2000.0)->track_id;
+    const uint16_t hits = track_near(2000.0)->hits;
+    assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 1, &report), RHO_OK);
+    assert_int_equal(track_near(2000.0)->status, RHO_TRACK_COASTING);
+    assert_int_equal(track_near(2000.0)->plot, -1);
+    run(4 * config.coast_scans_max, 0);
+    const struct rho_track_report *track = track_near(2000.0);
+    assert_non_null(track);
+    assert_int_equal(track->track_id, frozen);
+    assert_int_equal(track->hits, hits);
+    assert_int_equal(track->misses, 0);
+    assert_int_equal(track->status, RHO_TRACK_COASTING);
+    assert_true(fabs(track->state[0] - (-3000.0 + 100.0 * (next_k - 1))) < 400.0);
+    assert_true(rho_tracker_is_sound(&tracker));
+    assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 0, &report), RHO_OK);
+    run(6, 1);
+    assert_int_equal(report.num_tracks, 2);
+    assert_int_equal(report_of(frozen)->hits, hits + 6);
+    assert_int_equal(report_of(frozen)->status, RHO_TRACK_CONFIRMED);
+}
+
+/* It takes no plots, though its target is seen; thawed, it ends where none come. */
+static void a_frozen_track_takes_no_plots(void **state)
+{
+    (void)state;
+    prepare();
+    const uint32_t frozen = track_near(2000.0)->track_id;
+    const uint16_t hits = track_near(2000.0)->hits;
+    assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 1, &report), RHO_OK);
+    run(3, 1);
+    assert_int_equal(report_of(frozen)->hits, hits);
+    assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 1);
+    assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 0, &report), RHO_OK);
+    run(config.coast_scans_max - 1, 0);
+    assert_non_null(report_of(frozen));
+    run(2 * config.coast_scans_max, 0);
+    assert_null(report_of(frozen));
+}
+
+static void freezes_no_other_tracks(void **state)
+{
+    (void)state;
+    prepare();
+    remember();
+    assert_int_equal(rho_tracker_freeze_track(&tracker, 3, 1, &report), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_freeze_track(NULL, 1, 1, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_freeze_track(&tracker, 1, 1, NULL), RHO_ERROR_NULL);
+    tracker.tracks[0].status = RHO_TRACK_TENTATIVE;
+    assert_int_equal(rho_tracker_freeze_track(&tracker, tracker.tracks[0].track_id, 1, &report),
+                     RHO_ERROR_STATE);
+    tracker.tracks[0].status = RHO_TRACK_CONFIRMED;
+    check_unchanged();
+    tracker.tracks[0].is_frozen = 2;
+    assert_false(rho_tracker_is_sound(&tracker));
+}
+
+/* ---- frames of bearings ---------------------------------------------------------------------- */
+
+/* Three sensors see one target; a frozen track of it keeps its hits and its score. */
+static void frames_leave_frozen_tracks_alone(void **state)
+{
+    static const float place_m[3][2] = {{0.0f, 0.0f}, {8000.0f, 0.0f}, {4000.0f, -6000.0f}};
+    struct rho_bearing bearings[3];
+    struct rho_bearing_scan scans[3];
+    (void)state;
+    for (int is_frozen = 0; is_frozen < 2; is_frozen++) {
+        prepare();
+        const struct rho_track_report before = *track_near(2000.0);
+        if (is_frozen) {
+            assert_int_equal(rho_tracker_freeze_track(&tracker, before.track_id, 1, &report),
+                             RHO_OK);
+        }
+        for (int k = 0; k < 3; k++) {
+            const double x_m = -3000.0 + 100.0 * next_k;
+            for (int i = 0; i < 3; i++) {
+                bearings[i] = (struct rho_bearing){
+                    .bearing_rad = (float)atan2(2000.0 - place_m[i][1], x_m - place_m[i][0]),
+                    .sigma_rad = 0.002f};
+                scans[i] = (struct rho_bearing_scan){.time_us = INT64_C(1000000) * next_k,
+                                                     .sensor_id = 11 + i,
+                                                     .x_m = place_m[i][0],
+                                                     .y_m = place_m[i][1],
+                                                     .num_bearings = 1,
+                                                     .bearings = &bearings[i]};
+            }
+            const struct rho_frame frame = {
+                .time_us = INT64_C(1000000) * next_k++, .num_scans = 3, .scans = scans};
+            assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+        }
+        const struct rho_track_report *after = report_of(before.track_id);
+        assert_non_null(after);
+        assert_int_equal(after->hits, before.hits + (is_frozen ? 0 : 3));
+        assert_int_equal(after->misses, before.misses);
+        assert_int_equal(after->score_nat > before.score_nat, !is_frozen);
+    }
+}
+
+/* ---- any order ------------------------------------------------------------------------------- */
+
+/* Random commands between noisy steps: the tracker stays sound, and its tracks in order. */
+static void any_commands_keep_the_tracker_sound(void **state)
+{
+    unsigned done = 0;
+    (void)state;
+    prepare();
+    for (int i = 0; i < 400; i++) {
+        for (int k = 0; k < 6; k++) {
+            const double x_m = uniform(-5000.0, 5000.0);
+            (void)add(x_m, 5000.0, 10.0);
+        }
+        see(next_k++, i % 3 != 0);
+        const uint32_t id = 1 + (uint32_t)uniform(0.0, 6.0);
+        const struct rho_operator_start start = {
+            .x_m = 100.0f * (float)i, .y_m = -7000.0f, .sigma_m = 100.0f};
+        done += rho_tracker_freeze_track(&tracker, id, i % 2, &report) == RHO_OK;
+        done +=
+            rho_tracker_renumber_track(&tracker, id + 1, 1 + (uint32_t)(i % 7), &report) == RHO_OK;
+        if (i % 5 == 0) {
+            done += rho_tracker_drop_track(&tracker, id, &report) == RHO_OK;
+            done += rho_tracker_start_at(&tracker, &start, &report) == RHO_OK;
+        }
+        assert_true(rho_tracker_is_sound(&tracker));
+        check_sums();
+    }
+    assert_true(done > 80);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(starts_where_a_person_points),
+        cmocka_unit_test(ends_where_nothing_follows),
+        cmocka_unit_test(refuses_starts_that_are_none),
+        cmocka_unit_test(drops_one_track),
+        cmocka_unit_test(drops_none_without_room_in_the_report),
+        cmocka_unit_test(renumbers_upwards_and_back),
+        cmocka_unit_test(refuses_identities_that_are_taken),
+        cmocka_unit_test(evidence_is_that_of_the_row),
+        cmocka_unit_test(a_frozen_track_coasts_until_it_is_thawed),
+        cmocka_unit_test(a_frozen_track_takes_no_plots),
+        cmocka_unit_test(freezes_no_other_tracks),
+        cmocka_unit_test(frames_leave_frozen_tracks_alone),
+        cmocka_unit_test(any_commands_keep_the_tracker_sound),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT */
+/* Excluded areas: no plot in them starts a track, and tracks pass through. */
+#include "rhotrack/excluded_areas.h"
+
+#include "tracker_setup.h"
+
+/* Two targets that fly along x, 4 km apart. */
+static void see(int k, int sees_first)
+{
+    if (sees_first) {
+        add_noisy(-3000.0 + 100.0 * k, 2000.0, 10.0);
+    }
+    add_noisy(-3000.0 + 100.0 * k, -2000.0, 10.0);
+    step(k);
+}
+
+static int next_k;
+
+static void run(int scans, int sees_first)
+{
+    for (int i = 0; i < scans; i++) {
+        see(next_k++, sees_first);
+    }
+}
+
+static void prepare(void)
+{
+    draw(7);
+    begin();
+    next_k = 0;
+    run(12, 1);
+    assert_int_equal(report.num_tracks, 2);
+    assert_int_equal(report.tracks[0].track_id, 1);
+    assert_int_equal(report.tracks[1].track_id, 2);
+}
+
+/* The track at a target's place. */
+static const struct rho_track_report *track_near(double y_m)
+{
+    const struct rho_track_report *found = NULL;
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        if (fabs(report.tracks[i].state[1] - y_m) < 200.0) {
+            assert_null(found);
+            found = &report.tracks[i];
+        }
+    }
+    return found;
+}
+
+static struct rho_tracker tracker_before;
+static struct rho_report report_before;
+
+static void remember(void)
+{
+    memcpy(&tracker_before, &tracker, sizeof tracker);
+    memcpy(&report_before, &report, sizeof report);
+}
+
+static void check_unchanged(void)
+{
+    assert_memory_equal(&tracker_before, &tracker, sizeof tracker);
+    assert_memory_equal(&report_before, &report, sizeof report);
+}
+
+static const struct rho_extent north = {-10000.0f, 10000.0f, 1000.0f, 3000.0f};
+
+static void plots_in_an_excluded_area_start_nothing(void **state)
+{
+    (void)state;
+    for (int is_excluded = 0; is_excluded < 2; is_excluded++) {
+        draw(7);
+        begin();
+        next_k = 0;
+        if (is_excluded) {
+            assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_OK);
+        }
+        run(12, 1);
+        assert_int_equal(track_near(2000.0) == NULL, is_excluded);
+        assert_non_null(track_near(-2000.0));
+        assert_int_equal(tracker.counters.plots_excluded, is_excluded ? 12 : 0);
+        assert_int_equal(report.fates_total[RHO_FATE_GHOST], is_excluded);
+    }
+    assert_true(rho_tracker_is_sound(&tracker));
+    assert_int_equal(rho_tracker_include_place(&tracker, 0.0f, 2000.0f), RHO_OK);
+    run(8, 1);
+    assert_non_null(track_near(2000.0));
+    assert_int_equal(tracker.counters.plots_excluded, 12);
+}
+
+static void tracks_pass_through_an_excluded_area(void **state)
+{
+    (void)state;
+    prepare();
+    const uint32_t passing = track_near(2000.0)->track_id;
+    const uint16_t hits = track_near(2000.0)->hits;
+    assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_OK);
+    run(8, 1);
+    assert_int_equal(track_near(2000.0)->track_id, passing);
+    assert_int_equal(track_near(2000.0)->hits, hits + 8);
+    assert_int_equal(tracker.counters.plots_excluded, 0);
+    run(3 * config.coast_scans_max, 0);
+    assert_null(track_near(2000.0));
+    run(8, 1); /* back again, its target starts none */
+    assert_null(track_near(2000.0));
+}
+
+static void refuses_areas_that_are_none(void **state)
+{
+    struct rho_extent bad[] = {north, north, north, north};
+    (void)state;
+    prepare();
+    bad[0].x_min_m = NAN;
+    bad[1].x_max_m = 3e6f;
+    bad[2].x_max_m = bad[2].x_min_m;
+    bad[3].y_min_m = 4000.0f;
+    remember();
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(rho_tracker_exclude_area(&tracker, &bad[i]), RHO_ERROR_VALUE);
+    }
+    assert_int_equal(rho_tracker_exclude_area(NULL, &north), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_exclude_area(&tracker, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_include_place(NULL, 0.0f, 0.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_include_place(&tracker, 0.0f, 2000.0f), RHO_ERROR_VALUE);
+    check_unchanged();
+    for (int i = 0; i < RHO_MAX_EXCLUDED_AREAS; i++) {
+        const struct rho_extent area = {1000.0f * (float)i, 1000.0f * (float)i + 500.0f, 0.0f,
+                                        1.0f};
+        assert_int_equal(rho_tracker_exclude_area(&tracker, &area), RHO_OK);
+    }
+    remember();
+    assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_tracker_include_place(&tracker, 700.0f, 0.5f), RHO_ERROR_VALUE);
+    check_unchanged();
+    assert_int_equal(rho_tracker_include_place(&tracker, 1500.0f, 0.0f), RHO_OK);
+    assert_int_equal(tracker.num_excluded, RHO_MAX_EXCLUDED_AREAS - 1);
+    assert_true(tracker.excluded[1].x_min_m > 1999.0f);
+    tracker.excluded[1].x_min_m = NAN;
+    assert_false(rho_tracker_is_sound(&tracker));
+    tracker.num_excluded = RHO_MAX_EXCLUDED_AREAS + 1;
+    assert_false(rho_tracker_is_sound(&tracker));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plots_in_an_excluded_area_start_nothing),
+        cmocka_unit_test(tracks_pass_through_an_excluded_area),
+        cmocka_unit_test(refuses_areas_that_are_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
