@@ -48,6 +48,8 @@ extern "C" {
 
 enum rho_message_type {
     RHO_MESSAGE_TYPE_ACCUMULATOR_CELL = 0,
+    RHO_MESSAGE_TYPE_COMMAND_ANSWER,
+    RHO_MESSAGE_TYPE_COMMAND,
     RHO_MESSAGE_TYPE_ECHO,
     RHO_MESSAGE_TYPE_GHOST,
     RHO_MESSAGE_TYPE_HYPOTHESIS,
@@ -128,6 +130,74 @@ RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_decode(
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_validate(
     const struct rho_message_accumulator_cell *message, struct rho_message_place *place);
 const char *rho_message_accumulator_cell_field(const struct rho_message_place *place);
+
+/* ---- command_answer_t ---- */
+
+/* What has become of a command_t. Channel RHO_COMMAND_ANSWERS. */
+
+#define RHO_MESSAGE_COMMAND_ANSWER_CHANNEL "RHO_COMMAND_ANSWERS"
+#define RHO_MESSAGE_COMMAND_ANSWER_FINGERPRINT UINT64_C(0x7eb8e21727770191)
+#define RHO_MESSAGE_COMMAND_ANSWER_MAX_SIZE 34u
+
+struct rho_message_command_answer {
+    /*
+     * of the step after which it was done or refused, us; -4000000000000000000 ..
+     * 4000000000000000000
+     */
+    int64_t utime;
+    int32_t scan; /* number of this step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int32_t number; /* of the command */
+    int8_t action; /* of the command; 1 .. 127 */
+    int8_t status; /* 0: done; else refused, by enum rho_status of rhotrack/status.h; 0 .. 127 */
+    int32_t track_id; /* that was started, or changed; 0: none; 0 .. 2147483647 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_command_answer_encode(
+    const struct rho_message_command_answer *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_command_answer_decode(
+    const uint8_t *data, size_t size, struct rho_message_command_answer *message);
+RHO_MUST_CHECK enum rho_status rho_message_command_answer_validate(
+    const struct rho_message_command_answer *message, struct rho_message_place *place);
+const char *rho_message_command_answer_field(const struct rho_message_place *place);
+
+/* ---- command_t ---- */
+
+/* What an operator wants of a tracker: after the next step it is done, and answered by */
+/* command_answer_t. Members that an action does not use are 0. Channel RHO_COMMANDS. */
+
+#define RHO_MESSAGE_COMMAND_CHANNEL "RHO_COMMANDS"
+#define RHO_MESSAGE_COMMAND_FINGERPRINT UINT64_C(0x159912556be04c2f)
+#define RHO_MESSAGE_COMMAND_MAX_SIZE 61u
+#define RHO_MESSAGE_COMMAND_START 1
+#define RHO_MESSAGE_COMMAND_DROP 2
+#define RHO_MESSAGE_COMMAND_RENUMBER 3
+#define RHO_MESSAGE_COMMAND_FREEZE 4
+#define RHO_MESSAGE_COMMAND_THAW 5
+#define RHO_MESSAGE_COMMAND_EXCLUDE 6
+#define RHO_MESSAGE_COMMAND_INCLUDE 7
+
+struct rho_message_command {
+    int64_t utime; /* when it was sent, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t number; /* the sender's: the answer repeats it */
+    int8_t action; /* one of START, DROP, RENUMBER, FREEZE, THAW, EXCLUDE, INCLUDE */
+    int32_t track_id; /* of DROP, RENUMBER, FREEZE, THAW; 0 .. 2147483647 */
+    int32_t new_id; /* of RENUMBER; 0 .. 2147483647 */
+    float x_m; /* of START, INCLUDE; of EXCLUDE the least ones, m; -2e6 .. 2e6 */
+    float y_m; /* -2e6 .. 2e6 */
+    float x_max_m; /* of EXCLUDE, m; -2e6 .. 2e6 */
+    float y_max_m; /* -2e6 .. 2e6 */
+    float sigma_m; /* of START, m; 0 .. 1e5 */
+    float vx_mps; /* of START, m/s; -2e4 .. 2e4 */
+    float vy_mps; /* -2e4 .. 2e4 */
+    float sigma_mps; /* of START, m/s; 0 .. 1e5 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_command_encode(
+    const struct rho_message_command *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_command_decode(
+    const uint8_t *data, size_t size, struct rho_message_command *message);
+RHO_MUST_CHECK enum rho_status rho_message_command_validate(
+    const struct rho_message_command *message, struct rho_message_place *place);
+const char *rho_message_command_field(const struct rho_message_place *place);
 
 /* ---- echo_t ---- */
 

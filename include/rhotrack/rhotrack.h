@@ -28,6 +28,7 @@
 #include "rhotrack/tracker.h"
 
 /* scans and tracks as messages */
+#include "rhotrack/command.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"

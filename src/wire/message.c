@@ -30,6 +30,51 @@ static const struct message_rules accumulator_cell_rules = {
     &accumulator_cell_format,
     {accumulator_cell_ints, accumulator_cell_floats, 3, 3}, {0, 0, 0, 0}};
 
+static const struct message_run command_answer_runs[] = {
+    {offsetof(struct rho_message_command_answer, utime), 8, 1},
+    {offsetof(struct rho_message_command_answer, scan), 4, 3},
+    {offsetof(struct rho_message_command_answer, action), 1, 2},
+    {offsetof(struct rho_message_command_answer, track_id), 4, 1},
+};
+static const struct message_int_rule command_answer_ints[] = {
+    {offsetof(struct rho_message_command_answer, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_command_answer, action), 1, 1, MESSAGE_RANGE, 1, 127},
+    {offsetof(struct rho_message_command_answer, status), 1, 1, MESSAGE_RANGE, 0, 127},
+    {offsetof(struct rho_message_command_answer, track_id), 4, 1, MESSAGE_RANGE, 0, 2147483647},
+};
+static const struct message_format command_answer_format = {
+    RHO_MESSAGE_COMMAND_ANSWER_FINGERPRINT,
+    {command_answer_runs, 4, 26}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules command_answer_rules = {
+    &command_answer_format,
+    {command_answer_ints, 0, 4, 0}, {0, 0, 0, 0}};
+
+static const struct message_run command_runs[] = {
+    {offsetof(struct rho_message_command, utime), 8, 1},
+    {offsetof(struct rho_message_command, number), 4, 1},
+    {offsetof(struct rho_message_command, action), 1, 1},
+    {offsetof(struct rho_message_command, track_id), 4, 10},
+};
+static const struct message_int_rule command_ints[] = {
+    {offsetof(struct rho_message_command, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_command, action), 1, 1, MESSAGE_ONE_OF, 0, 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4 | 1 << 5 | 1 << 6 | 1 << 7},
+    {offsetof(struct rho_message_command, track_id), 4, 2, MESSAGE_RANGE, 0, 2147483647},
+};
+static const struct message_float_rule command_floats[] = {
+    {offsetof(struct rho_message_command, x_m), 4, -2000000.0f, 2000000.0f},
+    {offsetof(struct rho_message_command, sigma_m), 1, 0.0f, 100000.0f},
+    {offsetof(struct rho_message_command, vx_mps), 2, -20000.0f, 20000.0f},
+    {offsetof(struct rho_message_command, sigma_mps), 1, 0.0f, 100000.0f},
+};
+static const struct message_format command_format = {
+    RHO_MESSAGE_COMMAND_FINGERPRINT,
+    {command_runs, 4, 53}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules command_rules = {
+    &command_format,
+    {command_ints, command_floats, 3, 4}, {0, 0, 0, 0}};
+
 static const struct message_run echo_runs[] = {
     {offsetof(struct rho_message_echo, sensor_id), 2, 3},
     {offsetof(struct rho_message_echo, x_m), 4, 7},
@@ -726,6 +771,8 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
 {
     static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {
         RHO_MESSAGE_ACCUMULATOR_CELL_FINGERPRINT,
+        RHO_MESSAGE_COMMAND_ANSWER_FINGERPRINT,
+        RHO_MESSAGE_COMMAND_FINGERPRINT,
         RHO_MESSAGE_ECHO_FINGERPRINT,
         RHO_MESSAGE_GHOST_FINGERPRINT,
         RHO_MESSAGE_HYPOTHESIS_FINGERPRINT,
@@ -794,6 +841,42 @@ enum rho_status rho_message_accumulator_cell_validate(
     const struct rho_message_accumulator_cell *message, struct rho_message_place *place)
 {
     return rho_message_validate(&accumulator_cell_rules, message, place);
+}
+
+enum rho_status rho_message_command_answer_encode(
+    const struct rho_message_command_answer *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&command_answer_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_command_answer_decode(
+    const uint8_t *data, size_t size, struct rho_message_command_answer *message)
+{
+    return rho_message_decode(&command_answer_format, data, size, message);
+}
+
+enum rho_status rho_message_command_answer_validate(
+    const struct rho_message_command_answer *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&command_answer_rules, message, place);
+}
+
+enum rho_status rho_message_command_encode(
+    const struct rho_message_command *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&command_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_command_decode(
+    const uint8_t *data, size_t size, struct rho_message_command *message)
+{
+    return rho_message_decode(&command_format, data, size, message);
+}
+
+enum rho_status rho_message_command_validate(
+    const struct rho_message_command *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&command_rules, message, place);
 }
 
 enum rho_status rho_message_echo_encode(

@@ -30,6 +30,32 @@ static const struct name accumulator_cell_names[] = {
     {offsetof(struct rho_message_accumulator_cell, track_id), "track_id"},
 };
 
+static const struct name command_answer_names[] = {
+    {offsetof(struct rho_message_command_answer, utime), "utime"},
+    {offsetof(struct rho_message_command_answer, scan), "scan"},
+    {offsetof(struct rho_message_command_answer, epoch), "epoch"},
+    {offsetof(struct rho_message_command_answer, number), "number"},
+    {offsetof(struct rho_message_command_answer, action), "action"},
+    {offsetof(struct rho_message_command_answer, status), "status"},
+    {offsetof(struct rho_message_command_answer, track_id), "track_id"},
+};
+
+static const struct name command_names[] = {
+    {offsetof(struct rho_message_command, utime), "utime"},
+    {offsetof(struct rho_message_command, number), "number"},
+    {offsetof(struct rho_message_command, action), "action"},
+    {offsetof(struct rho_message_command, track_id), "track_id"},
+    {offsetof(struct rho_message_command, new_id), "new_id"},
+    {offsetof(struct rho_message_command, x_m), "x_m"},
+    {offsetof(struct rho_message_command, y_m), "y_m"},
+    {offsetof(struct rho_message_command, x_max_m), "x_max_m"},
+    {offsetof(struct rho_message_command, y_max_m), "y_max_m"},
+    {offsetof(struct rho_message_command, sigma_m), "sigma_m"},
+    {offsetof(struct rho_message_command, vx_mps), "vx_mps"},
+    {offsetof(struct rho_message_command, vy_mps), "vy_mps"},
+    {offsetof(struct rho_message_command, sigma_mps), "sigma_mps"},
+};
+
 static const struct name echo_names[] = {
     {offsetof(struct rho_message_echo, sensor_id), "sensor_id"},
     {offsetof(struct rho_message_echo, hits), "hits"},
@@ -431,6 +457,8 @@ const char *rho_message_type_name(enum rho_message_type type)
 {
     static const char type_names[RHO_NUM_MESSAGE_TYPES][19] = {
         "accumulator_cell_t",
+        "command_answer_t",
+        "command_t",
         "echo_t",
         "ghost_t",
         "hypothesis_t",
@@ -468,6 +496,16 @@ const char *rho_message_type_name(enum rho_message_type type)
 const char *rho_message_accumulator_cell_field(const struct rho_message_place *place)
 {
     return place ? find(accumulator_cell_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_command_answer_field(const struct rho_message_place *place)
+{
+    return place ? find(command_answer_names, 7, place->offset) : "unknown";
+}
+
+const char *rho_message_command_field(const struct rho_message_place *place)
+{
+    return place ? find(command_names, 13, place->offset) : "unknown";
 }
 
 const char *rho_message_echo_field(const struct rho_message_place *place)

@@ -7,7 +7,7 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
+#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
 #define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
 #endif
 
@@ -18,6 +18,32 @@ static const struct message_member MESSAGE_TABLE(accumulator_cell)[] = {
     {"scan_mask", offsetof(MESSAGE_STRUCT(accumulator_cell), scan_mask), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(65535)},
     {"plots", offsetof(MESSAGE_STRUCT(accumulator_cell), plots), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
     {"track_id", offsetof(MESSAGE_STRUCT(accumulator_cell), track_id), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+};
+
+static const struct message_member MESSAGE_TABLE(command_answer)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(command_answer), utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(command_answer), scan), 0, 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(command_answer), epoch), 0, 4, 1, .rule = MEMBER_ANY},
+    {"number", offsetof(MESSAGE_STRUCT(command_answer), number), 0, 4, 1, .rule = MEMBER_ANY},
+    {"action", offsetof(MESSAGE_STRUCT(command_answer), action), 0, 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(127)},
+    {"status", offsetof(MESSAGE_STRUCT(command_answer), status), 0, 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(127)},
+    {"track_id", offsetof(MESSAGE_STRUCT(command_answer), track_id), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+};
+
+static const struct message_member MESSAGE_TABLE(command)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(command), utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"number", offsetof(MESSAGE_STRUCT(command), number), 0, 4, 1, .rule = MEMBER_ANY},
+    {"action", offsetof(MESSAGE_STRUCT(command), action), 0, 1, 1, .rule = MEMBER_ONE_OF, .choices = {1, 2, 3, 4, 5, 6, 7}, .num_choices = 7},
+    {"track_id", offsetof(MESSAGE_STRUCT(command), track_id), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"new_id", offsetof(MESSAGE_STRUCT(command), new_id), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+    {"x_m", offsetof(MESSAGE_STRUCT(command), x_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"y_m", offsetof(MESSAGE_STRUCT(command), y_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"x_max_m", offsetof(MESSAGE_STRUCT(command), x_max_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"y_max_m", offsetof(MESSAGE_STRUCT(command), y_max_m), 0, 4, 1, .is_float = true, .low = (float)(-2e6), .high = (float)(2e6)},
+    {"sigma_m", offsetof(MESSAGE_STRUCT(command), sigma_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"vx_mps", offsetof(MESSAGE_STRUCT(command), vx_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"vy_mps", offsetof(MESSAGE_STRUCT(command), vy_mps), 0, 4, 1, .is_float = true, .low = (float)(-2e4), .high = (float)(2e4)},
+    {"sigma_mps", offsetof(MESSAGE_STRUCT(command), sigma_mps), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
 };
 
 static const struct message_member MESSAGE_TABLE(echo)[] = {
@@ -394,6 +420,8 @@ static const struct message_member MESSAGE_TABLE(zone_list)[] = {
 
 static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"accumulator_cell_t", MESSAGE_TABLE(accumulator_cell), 6, sizeof(MESSAGE_STRUCT(accumulator_cell)), .element_members = NULL},
+    {"command_answer_t", MESSAGE_TABLE(command_answer), 7, sizeof(MESSAGE_STRUCT(command_answer)), .element_members = NULL},
+    {"command_t", MESSAGE_TABLE(command), 13, sizeof(MESSAGE_STRUCT(command)), .element_members = NULL},
     {"echo_t", MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), .element_members = NULL},
     {"ghost_t", MESSAGE_TABLE(ghost), 6, sizeof(MESSAGE_STRUCT(ghost)), .element_members = NULL},
     {"hypothesis_t", MESSAGE_TABLE(hypothesis), 7, sizeof(MESSAGE_STRUCT(hypothesis)), .element_members = NULL},

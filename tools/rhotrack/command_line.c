@@ -12,7 +12,7 @@
 #include "io/asterix/asterix_records.h"
 #include "settings/method.h"
 
-enum { NUM_OPTIONS = 26, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 27, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -51,6 +51,7 @@ static const struct {
     {'x', "speed", "X", "so many times as fast as it was; 0: without waiting (default 1)"},
     {'O', "loop", NULL, "again and again; times and numbers of scans go on"},
     {'T', "for", "SECONDS", "ends by itself"},
+    {'A', "commands", NULL, "takes an operator's commands, of `rhotrack command` (RHO_COMMANDS)"},
     {'h', "help", NULL, "this text"},
 };
 
@@ -151,6 +152,9 @@ static bool take_live_option(struct command_line *line, char letter, char *argum
         return true;
     case 'O':
         line->loop = true;
+        return true;
+    case 'A':
+        line->commands = true;
         return true;
     case 'T':
         line->seconds = read_decimal("for", argument, 1e-3, 1e9);

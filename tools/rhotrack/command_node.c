@@ -426,7 +426,10 @@ static bool is_output(const char *channel)
            strcmp(channel, RHO_MESSAGE_GHOST_MATRIX_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_ACCUMULATOR_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_PLANE_CHANNEL) == 0 ||
-           strcmp(channel, RHO_MESSAGE_HYPOTHESES_CHANNEL) == 0;
+           strcmp(channel, RHO_MESSAGE_HYPOTHESES_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_ZONE_LIST_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_ZONE_EVENT_LIST_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_COMMAND_ANSWER_CHANNEL) == 0;
 }
 
 /*
@@ -559,6 +562,9 @@ int command_node(struct command_line *line)
     struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
     node_core_show(node.core, show);
+    if (line->commands) {
+        node_core_allow_commands(node.core);
+    }
     node.snapshot_path = line->snapshot;
     node.snapshot_us = node.status_us + SNAPSHOT_US;
     if (line->snapshot && node_core_restore(node.core, line->snapshot) == PIPELINE_RESTORED) {

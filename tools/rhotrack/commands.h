@@ -27,6 +27,7 @@ struct command_line {
     double speed;             /* --speed; default 1; 0: without waiting */
     double seconds;           /* --for; 0 where not given */
     bool print, loop;         /* --print, --loop */
+    bool commands;            /* --commands */
     uint64_t seed;            /* --seed; default 1 */
     long runs;                /* --runs; 0 where not given */
     bool json;                /* --json */
@@ -54,6 +55,7 @@ void command_convert_refuse(const struct command_line *line);
 
 int command_node(struct command_line *line);
 int command_publish(struct command_line *line);
+int command_command(struct command_line *line);
 int command_register(struct command_line *line);
 int command_calibrate(struct command_line *line);
 int command_config(struct command_line *line);

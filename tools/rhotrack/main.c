@@ -115,7 +115,7 @@ static const struct command commands[] = {
      "become CAT062 where OUT ends with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
-     "lpLRTmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
+     "lpLRTAmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
      "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS, RHO_WORK and RHO_SENSORS once a second,\n"
      "with them what is learned of each sensor in turn, RHO_LEARNED,\n"
@@ -125,6 +125,7 @@ static const struct command commands[] = {
      "RHO_HYPOTHESES, at most 50 messages of a kind a second. Sensors that contradict the others "
      "or fall\n"
      "silent are named. With --snapshot a node that is started again goes on with its tracks.\n"
+     "With --commands it does what `rhotrack command` asks for after the next step.\n"
      "It ends on SIGINT and SIGTERM, or at the end of a log\n"
      "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"
      "udpm:// URLs have the options ttl=N (0: this machine, 1: this network), recv_buf_size=BYTES\n"
@@ -147,6 +148,24 @@ static const struct command commands[] = {
      "\n"
      "INPUT udp://ADDRESS:PORT: what radars send there in ASTERIX (CAT048, CAT034) goes on as\n"
      "messages, scan by scan.\n"},
+    {"command", command_command, "ACTION [NUMBER...] [KEY=VALUE...] [--lcm URL] [--for SECONDS]", 1,
+     INT_MAX, "lT", "an operator's word to a live tracker",
+     "Sends a command to the nodes that run with --commands, and says what the first answer is. It "
+     "is\n"
+     "done after the node's next step; without an answer in --for seconds (15) the exit code is 1, "
+     "as\n"
+     "where it is refused.\n"
+     "\n"
+     "  start x_m=X y_m=Y [sigma_m=S] [vx_mps=V vy_mps=V sigma_mps=S]\n"
+     "                             a track at a place (sigma_m 100)\n"
+     "  drop TRACK                 the track ends\n"
+     "  renumber TRACK NEW         it gets another identity, as of a lost track\n"
+     "  freeze TRACK, thaw TRACK   it coasts without plots and does not end; it goes on\n"
+     "  exclude x_m=X y_m=Y x_max_m=X y_max_m=Y\n"
+     "                             no tracks start in this area; tracks pass through\n"
+     "  include x_m=X y_m=Y        areas that hold this place are excluded no more\n"
+     "\n"
+     "Nothing proves who sent a command: sources_allowed of --lcm limits the addresses.\n"},
     {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",
      "every parameter with unit, default and range",
      "Prints each parameter's unit, default, range, and its value now with where it came from; "

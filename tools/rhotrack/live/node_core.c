@@ -9,12 +9,17 @@
 #include "io/output/clutter_file.h"
 #include "pipeline/learned.h"
 #include "pipeline/pipeline.h"
+#include "rhotrack/command.h"
+#include "rhotrack/excluded_areas.h"
 #include "rhotrack/message.h"
 #include "rhotrack/publish.h"
 #include "rhotrack/udpm.h"
 
 /* Scans of plots that wait for the open frame; one more closes it. */
 #define WAITING_MAX 4
+
+/* Commands that wait for the end of a step. */
+#define COMMANDS_MAX 16
 
 struct timing {
     int64_t sum_us, max_us;
@@ -32,6 +37,10 @@ struct node_core {
     struct rho_scan_assembler assembler;
     struct rho_frames frames;
     struct rho_node_waiting waiting[WAITING_MAX];
+    bool takes_commands;
+    unsigned num_commands;
+    struct rho_message_command commands[COMMANDS_MAX];
+    struct node_core_commands counters;
 };
 
 /* ---- Start ---- */
@@ -95,6 +104,11 @@ void node_core_show(struct node_core *core, struct pipeline_show *show)
     core->show = show;
 }
 
+void node_core_allow_commands(struct node_core *core)
+{
+    core->takes_commands = true;
+}
+
 uint64_t node_core_not_shown(const struct node_core *core)
 {
     return pipeline_show_not_sent(core->show);
@@ -114,18 +128,31 @@ bool node_core_save(const struct node_core *core, const char *path)
     return pipeline_save(&core->pipeline, path);
 }
 
+/* Areas that an operator has excluded stay so. */
+static void carry_excluded(struct rho_tracker *tracker, const struct rho_extent *areas,
+                           unsigned num_areas)
+{
+    for (unsigned i = 0; i < num_areas; i++) {
+        must_succeed(rho_tracker_exclude_area(tracker, &areas[i]), "excluded area");
+    }
+}
+
 /* Counters and the clutter map go on across a clock that was set. */
 static void start_anew(struct node_core *core)
 {
+    const unsigned num_excluded = core->pipeline.tracker->num_excluded;
+    struct rho_extent excluded[RHO_MAX_EXCLUDED_AREAS];
     const struct rho_tracker_counters counters = core->pipeline.tracker->counters;
     const struct rho_tracker_work work = core->pipeline.tracker->work;
     struct rho_clutter_map *clutter = must_alloc(sizeof *clutter);
 
     *clutter = core->pipeline.tracker->clutter_map;
+    memcpy(excluded, core->pipeline.tracker->excluded, sizeof excluded);
     pipeline_open(&core->pipeline, core->parameters);
     pipeline_reopen_paper(&core->pipeline);
     clutter_file_carry(&core->pipeline.tracker->clutter_map, clutter);
     free(clutter);
+    carry_excluded(core->pipeline.tracker, excluded, num_excluded);
     core->pipeline.tracker->counters = counters;
     core->pipeline.tracker->work = work;
     core->node.epoch = core->node.epoch == INT32_MAX ? 0 : core->node.epoch + 1;
@@ -184,6 +211,56 @@ static void start_tracks(struct node_core *core, enum rho_node_due due)
     }
 }
 
+/* ---- Commands ---- */
+
+static void answer_command(struct node_core *core, struct rho_message_command_answer *answer)
+{
+    uint8_t buffer[RHO_MESSAGE_COMMAND_ANSWER_MAX_SIZE];
+    size_t size;
+
+    *(answer->status == RHO_OK ? &core->counters.done : &core->counters.refused) += 1;
+    answer->scan = core->node.step;
+    answer->epoch = core->node.epoch;
+    if (rho_message_command_answer_encode(answer, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_COMMAND_ANSWER_CHANNEL, buffer, size);
+    }
+}
+
+/* After a step, whose report then shows what they have changed. */
+static void run_commands(struct node_core *core)
+{
+    struct rho_message_command_answer answer;
+
+    for (unsigned i = 0; i < core->num_commands; i++) {
+        (void)!rho_command_run(&core->commands[i], core->pipeline.tracker, core->pipeline.report,
+                               &answer); /* the answer says it */
+        answer_command(core, &answer);
+    }
+    core->num_commands = 0;
+}
+
+static void take_command(struct node_core *core, const uint8_t *data, size_t size)
+{
+    struct rho_message_command command;
+
+    if (!core->takes_commands) {
+        core->counters.not_allowed++;
+    } else if (rho_message_command_decode(data, size, &command) != RHO_OK ||
+               rho_message_command_validate(&command, NULL) != RHO_OK) {
+        core->counters.bad++;
+    } else if (core->num_commands < COMMANDS_MAX) {
+        core->commands[core->num_commands++] = command;
+    } else {
+        answer_command(core,
+                       &(struct rho_message_command_answer){.utime = core->pipeline.report->time_us,
+                                                            .number = command.number,
+                                                            .action = command.action,
+                                                            .status = RHO_ERROR_CAPACITY});
+    }
+}
+
+/* ---- The loop ---- */
+
 static void step(struct node_core *core, enum rho_node_due due)
 {
     const int64_t start_us = clock_us();
@@ -196,6 +273,7 @@ static void step(struct node_core *core, enum rho_node_due due)
         return;
     }
     start_tracks(core, due);
+    run_commands(core);
     pipeline_count_zones(&core->pipeline);
     took_us = clock_us() - start_us;
     rho_node_count_time(&core->node, took_us);
@@ -227,8 +305,11 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
                     int64_t now_us)
 {
     struct rho_scan_assembler_counters before;
-    bool has_room = false;
+    bool has_room = strcmp(channel, RHO_MESSAGE_COMMAND_CHANNEL) == 0;
 
+    if (has_room) {
+        take_command(core, data, size);
+    }
     while (!has_room) {
         before = core->assembler.counters;
         has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
@@ -423,6 +504,11 @@ const struct rho_tracker_counters *node_core_tracker(const struct node_core *cor
 const struct rho_node_counters *node_core_counters(const struct node_core *core)
 {
     return &core->node.counters;
+}
+
+const struct node_core_commands *node_core_commands(const struct node_core *core)
+{
+    return &core->counters;
 }
 
 const struct sequence_counts *node_core_order(const struct node_core *core)

@@ -48,6 +48,17 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
 /* Each step is shown from now on; the core closes it at its end. NULL: nothing is. */
 void node_core_show(struct node_core *core, struct pipeline_show *show);
 
+/* Takes an operator's messages on RHO_COMMANDS from now on. */
+void node_core_allow_commands(struct node_core *core);
+
+/* What has become of them so far. */
+struct node_core_commands {
+    uint64_t done, refused; /* both are answered */
+    uint64_t bad;           /* messages that are none */
+    uint64_t not_allowed;   /* this node takes none */
+};
+const struct node_core_commands *node_core_commands(const struct node_core *core);
+
 /* Messages of --show that its rates have left out. */
 uint64_t node_core_not_shown(const struct node_core *core);
 

@@ -8,6 +8,7 @@ void node_tally(const struct node_core *core, const struct transport *transport,
     const struct rho_frames_counters *frames = node_core_frames(core);
     const struct rho_tracker_counters *tracker = node_core_tracker(core);
     const struct rho_node_counters *own = node_core_counters(core);
+    const struct node_core_commands *commands = node_core_commands(core);
     const struct scan_losses losses = sequence_counts_losses(node_core_order(core), assembler);
     struct transport_counters network = transport_counters(transport);
     const struct node_tally all[NODE_TALLIES] = {
@@ -24,6 +25,11 @@ void node_tally(const struct node_core *core, const struct transport *transport,
         {"messages of sensors that are not in sensors_allowed", assembler->messages_not_allowed,
          NODE_TALLY_FAULT},
         {"messages of too many sensors", assembler->sensors_no_room, NODE_TALLY_FAULT},
+        {"commands not taken: the node runs without --commands", commands->not_allowed,
+         NODE_TALLY_FAULT},
+        {"commands bad", commands->bad, NODE_TALLY_FAULT},
+        {"commands refused", commands->refused, NODE_TALLY_FAULT},
+        {"commands done", commands->done, NODE_TALLY_USUAL},
         {"scans out of order", losses.out_of_order, NODE_TALLY_USUAL},
         {"scans late, dropped", losses.dropped, NODE_TALLY_FAULT},
         {"scans double", assembler->scans_duplicate, NODE_TALLY_FAULT},

@@ -12,7 +12,7 @@
 #include "live/node_core.h"
 #include "live/transport.h"
 
-#define NODE_TALLIES 37
+#define NODE_TALLIES 41
 
 enum node_tally_kind {
     NODE_TALLY_USUAL = 0, /* of the tracker's usual work */

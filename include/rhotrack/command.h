@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * command: an operator's messages, command_t on RHO_COMMANDS, and what a tracker answers to them,
+ * command_answer_t on RHO_COMMAND_ANSWERS.
+ *
+ *     if (rho_message_command_decode(data, size, &command) == RHO_OK &&
+ *         rho_message_command_validate(&command, NULL) == RHO_OK) {
+ *         ... keep it until after the next step
+ *         rho_command_run(&command, &tracker, &report, &answer);
+ *         answer.scan = node.step;
+ *         answer.epoch = node.epoch;
+ *     }
+ *
+ * before the step's messages are made, which then show what has changed. Nothing proves who sent a
+ * command: a node takes them only where its network is its own, and it was told so.
+ */
+#ifndef RHOTRACK_COMMAND_H
+#define RHOTRACK_COMMAND_H
+
+#include "rhotrack/message.h"
+#include "rhotrack/status.h"
+#include "rhotrack/tracker.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*
+ * Does what a command says, and fills the answer but for scan and epoch, which are 0.
+ *   report  of the last step
+ * Errors: NULL, VALUE (an action that is none), and those of the functions of operator.h and
+ * excluded_areas.h, which are the answer's status, too; the tracker is unchanged. Stack: 3.3 KB.
+ */
+RHO_MUST_CHECK enum rho_status rho_command_run(const struct rho_message_command *command,
+                                               struct rho_tracker *tracker,
+                                               struct rho_report *report,
+                                               struct rho_message_command_answer *answer);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
