@@ -193,6 +193,15 @@ RHO_MUST_CHECK enum rho_status rho_initiator_init(struct rho_initiator *initiato
                                                   const struct rho_initiator_config *config);
 
 /*
+ * Gives an initiator another configuration, from the next search on. Where scans or area are other
+ * ones the window begins anew; what was learned of clutter stays.
+ * Errors: NULL, STATE (not initialised), CONFIG (as rho_initiator_init); nothing is changed. Cost:
+ * constant, or the window cleared. Stack: 150 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
+                                                         const struct rho_initiator_config *config);
+
+/*
  * True where a scan of this time can be pushed: the initiator is initialised, and holds no newer
  * scan. Constant cost.
  */

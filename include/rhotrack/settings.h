@@ -19,6 +19,20 @@
  * contradict each other. Fields of one config alone (gate, learn_noise_min, hits_min, ...) are set
  * in that config after rho_settings_apply.
  *
+ * While tracking, the same configs go to the live objects; tracks, identities and all that was
+ * learned go on:
+ *
+ *     track = tracker.config;
+ *     start = initiator.config;
+ *     rho_settings_apply(&settings, &track, &start, NULL);
+ *     rho_tracker_reconfigure(&tracker, &track);
+ *     rho_initiator_reconfigure(&initiator, &start);
+ *
+ * Each field below says when it applies then: [step] from the next step on; [window] likewise, but
+ * the initiation window begins anew, so that no track starts before its scans have come; [sensor]
+ * by rho_tracker_set_sensor, from the next step on; [plot] by the plots that have it. A passive
+ * search has its settings from rho_passive_init on: its batch begins anew, its tracks go on.
+ *
  * Settings that rho_settings_check accepts are accepted by rho_tracker_init, rho_initiator_init,
  * rho_passive_init and rho_tracker_set_sensor. No settings object needs to be kept.
  *
@@ -42,28 +56,33 @@ extern "C" {
 
 struct rho_settings {
     /* ---- targets ---- */
-    float v_min_mps;      /* slowest: 0 .. v_max_mps, exclusive; 0: targets may stand */
-    float v_max_mps;      /* fastest: 1 .. RHO_LIMIT_SPEED_MPS */
-    float accel_max_mps2; /* strongest manoeuvre that tracks follow: 0 .. 1000 */
+    float v_min_mps;      /* [step] slowest: 0 .. v_max_mps, exclusive; 0: targets may stand */
+    float v_max_mps;      /* [step] fastest: 1 .. RHO_LIMIT_SPEED_MPS */
+    float accel_max_mps2; /* [step] strongest manoeuvre that tracks follow: 0 .. 1000 */
 
     /* ---- the sensor ---- */
-    float pd;              /* probability that a look sees the target: 0.01 .. 0.999 */
-    float scan_interval_s; /* from a look at a place to the next, a turn: 1e-3 .. 3600 */
-    /* standard deviations of a plot: 1e-3 .. 1e5 m and m/s, 1e-6 .. 0.5 rad */
+    /* [step, sensor] probability that a look sees the target: 0.01 .. 0.999 */
+    float pd;
+    float scan_interval_s; /* [step] from a look at a place to the next, a turn: 1e-3 .. 3600 */
+    /* [plot] standard deviations of a plot: 1e-3 .. 1e5 m and m/s, 1e-6 .. 0.5 rad */
     float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
-    float sigma_rad; /* of a passive sensor's bearing, likewise */
-    /* coverage: 0 .. range_max_m, exclusive; 1 .. 2 RHO_LIMIT_POSITION_M */
+    float sigma_rad; /* [plot] of a passive sensor's bearing, likewise */
+    /* [sensor] coverage: 0 .. range_max_m, exclusive; 1 .. 2 RHO_LIMIT_POSITION_M */
     float range_min_m, range_max_m;
-    struct rho_extent area; /* min below max, each within RHO_LIMIT_POSITION_M either way */
-    /* 1: clutter and new targets are spread over `area`; 0: over the extent of the plots seen */
+    /* [window] min below max, each within RHO_LIMIT_POSITION_M either way */
+    struct rho_extent area;
+    /* [window] 1: clutter and new targets are spread over `area`; 0: over the extent of the plots
+     * seen */
     uint16_t area_is_fixed;
 
     /* ---- decisions ---- */
-    uint16_t scans;     /* of the initiation window: 3 .. RHO_MAX_SCANS */
-    uint16_t min_scans; /* of these, with a plot of the target: 3 .. scans; 0: from the clutter */
-    uint16_t coast_scans_max;    /* misses in a row that end a track: 1 .. 255 */
-    float false_tracks_per_hour; /* tracks of clutter alone that are put up with: 1e-6 .. 1e6 */
-    /* work of a step, units (struct rho_tracker_work): .. RHO_LIMIT_WORK; 0: no limit */
+    uint16_t scans; /* [window] of the initiation window: 3 .. RHO_MAX_SCANS */
+    /* [step] of these, with a plot of the target: 3 .. scans; 0: from the clutter */
+    uint16_t min_scans;
+    uint16_t coast_scans_max; /* [step] misses in a row that end a track: 1 .. 255 */
+    /* [step] tracks of clutter alone that are put up with: 1e-6 .. 1e6 */
+    float false_tracks_per_hour;
+    /* [step] work of a step, units (struct rho_tracker_work): .. RHO_LIMIT_WORK; 0: no limit */
     uint32_t work_max;
 };
 

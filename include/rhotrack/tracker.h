@@ -351,6 +351,16 @@ RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, siz
                                                 const struct rho_tracker_config *config);
 
 /*
+ * Gives a tracker another configuration, from the next step on; tracks and all that was learned go
+ * on. Tracks that it would not keep (slower than v_min, missed coast_scans_max times) end there.
+ * Errors: NULL, STATE (not initialised; there are tracks, and their filter is another one: of gate
+ * or input.is_estimated), CONFIG (as rho_tracker_init); nothing is changed. Constant cost. Stack:
+ * 500 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
+                                                       const struct rho_tracker_config *config);
+
+/*
  * Describes a sensor, or replaces the description of the same sensor_id; what was learned of it
  * stays, and is applied to the new description.
  * Errors: NULL, STATE, CONFIG (a field outside its range), CAPACITY (RHO_MAX_SENSORS). Cost:

@@ -88,6 +88,22 @@ enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
     return RHO_OK;
 }
 
+enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
+                                         const struct rho_imm_model *model)
+{
+    if (!pool || !model) {
+        return RHO_ERROR_NULL;
+    }
+    struct rho_imm_model kept = *model;
+    kept.calm_s = pool->model.calm_s;
+    if (!rho_imm_model_is_usable(&kept)) {
+        return RHO_ERROR_CONFIG;
+    }
+    pool->model = kept;
+    rho_imm_step_open(&pool->step, &pool->model, pool->step.dt_s);
+    return RHO_OK;
+}
+
 void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s)
 {
     if (pool->model.calm_s > 0.0f && (calm_s < pool->model.calm_s || calm_s > pool->model.calm_s)) {

@@ -73,6 +73,40 @@ enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
     return RHO_OK;
 }
 
+/* The window's size, and what it is spread over. */
+static int has_other_window(const struct rho_initiator_config *a,
+                            const struct rho_initiator_config *b)
+{
+    return a->scans != b->scans || a->area_is_fixed != b->area_is_fixed ||
+           (a->area_is_fixed && memcmp(&a->area, &b->area, sizeof a->area) != 0);
+}
+
+enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
+                                          const struct rho_initiator_config *config)
+{
+    if (!initiator || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (initiator->magic != INITIATOR_MAGIC) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_initiator_is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    if (has_other_window(config, &initiator->config)) {
+        const enum rho_status status =
+            rho_window_init(&initiator->window, sizeof initiator->window, config->scans,
+                            config->area_is_fixed ? &config->area : 0, 0.0f);
+        if (status != RHO_OK) {
+            return status;
+        }
+    }
+    initiator->config = *config;
+    initiator->num_candidates = 0;
+    initiator->has_revolution = 0; /* thresholds are found anew */
+    return RHO_OK;
+}
+
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us)
 {
     return initiator->magic == INITIATOR_MAGIC && rho_window_accepts(&initiator->window, time_us);

@@ -67,14 +67,20 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            config->work_max <= RHO_LIMIT_WORK;
 }
 
-static enum rho_status open_hypotheses(struct rho_tracker *tracker)
+static struct rho_imm_model model_of(const struct rho_tracker_config *config)
 {
     struct rho_imm_model model;
-    rho_imm_model_default(&model, tracker->config.accel_max_mps2, tracker->config.v_max_mps);
-    model.speed_max_mps = tracker->config.v_max_mps;
-    if (tracker->config.steady_s > model.steady_s) {
-        model.steady_s = tracker->config.steady_s;
+    rho_imm_model_default(&model, config->accel_max_mps2, config->v_max_mps);
+    model.speed_max_mps = config->v_max_mps;
+    if (config->steady_s > model.steady_s) {
+        model.steady_s = config->steady_s;
     }
+    return model;
+}
+
+static enum rho_status open_hypotheses(struct rho_tracker *tracker)
+{
+    const struct rho_imm_model model = model_of(&tracker->config);
     return rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
 }
 
@@ -106,6 +112,36 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     }
     tracker->magic = RHO_TRACKER_MAGIC;
     return rho_assignment_init(&tracker->assignment, sizeof tracker->assignment);
+}
+
+enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
+                                        const struct rho_tracker_config *config)
+{
+    if (!tracker || !config) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_tracker_is_usable(config)) {
+        return RHO_ERROR_CONFIG;
+    }
+    if (tracker->num_tracks > 0 &&
+        rho_tracker_filter_of(config) != rho_tracker_filter_of(&tracker->config)) {
+        return RHO_ERROR_STATE;
+    }
+    if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
+        const struct rho_imm_model model = model_of(config);
+        const enum rho_status status = rho_hypotheses_set_model(&tracker->hypotheses, &model);
+        if (status != RHO_OK) {
+            return status;
+        }
+    }
+    tracker->config = *config;
+    if (RHO_MAX_ECHOES > 0) {
+        tracker->clutter_map.v_min_mps = config->v_min_mps;
+    }
+    return RHO_OK;
 }
 
 enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracker, const struct rho_sensor *sensor)

@@ -153,6 +153,11 @@ struct rho_hypotheses_estimate {
 RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
                                                    const struct rho_imm_model *model);
 
+/* From now on this model, but for calm_s, which stays as it was learned. Errors: NULL, CONFIG;
+ * nothing is changed. Cost: one rho_imm_step_open. Stack: 300 bytes. */
+RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
+                                                        const struct rho_imm_model *model);
+
 /* From now on the model's calm_s, > 0, where it has calm targets. Cost: one rho_imm_step_open where
  * it is another one. Stack: 160 bytes. */
 void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s);

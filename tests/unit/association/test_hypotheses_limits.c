@@ -790,6 +790,34 @@ static void calm_targets_get_another_mean_time(void **state)
     assert_memory_equal(&pool.model, &model, sizeof model);
 }
 
+/* The learned mean time stays; what is no model is refused. */
+static void a_pool_gets_another_model(void **state)
+{
+    struct rho_imm_model model = some_model();
+    struct rho_imm_step expected;
+    static struct rho_hypotheses before;
+
+    (void)state;
+    begin();
+    const uint16_t slot = open_at(&pool, 0.0f, 0.0f, 100.0f);
+    predict(&pool, slot, 2.0);
+    rho_hypotheses_set_calm(&pool, 90.0f);
+    model.drive_density *= 9.0f;
+    assert_int_equal(rho_hypotheses_set_model(&pool, &model), RHO_OK);
+    model.calm_s = 90.0f;
+    rho_imm_step_open(&expected, &model, 2.0f);
+    assert_memory_equal(&pool.model, &model, sizeof model);
+    assert_memory_equal(&pool.step, &expected, sizeof expected);
+    assert_int_equal(rho_hypotheses_count(&pool, slot), 1);
+
+    memcpy(&before, &pool, sizeof pool);
+    model.memory_s = NAN;
+    assert_int_equal(rho_hypotheses_set_model(&pool, &model), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_hypotheses_set_model(&pool, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_hypotheses_set_model(NULL, &model), RHO_ERROR_NULL);
+    assert_memory_equal(&pool, &before, sizeof pool);
+}
+
 /* Each damage by itself: a node in two places, one too many, a number that is none, no object. */
 static void a_damaged_pool_is_not_sound(void **state)
 {
@@ -839,6 +867,7 @@ int main(void)
         cmocka_unit_test(the_boxs_margin_grows_with_noise_and_time),
         cmocka_unit_test(a_track_returns_to_where_it_had_been),
         cmocka_unit_test(calm_targets_get_another_mean_time),
+        cmocka_unit_test(a_pool_gets_another_model),
         cmocka_unit_test(a_damaged_pool_is_not_sound),
     };
 

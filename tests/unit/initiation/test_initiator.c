@@ -508,6 +508,53 @@ static void scans_of_one_instant_make_no_kernel(void **state)
     assert_int_equal(initiator.work.seeds, 0);
 }
 
+static const struct path straight = {-500.0f, 100.0f, 0.0f, 0.0f};
+
+/* Other speeds count at once, another window begins anew, and what is refused changes nothing. */
+static void an_initiator_is_configured_anew(void **state)
+{
+    struct rho_initiator_config config = usual();
+    (void)state;
+    config.v_max_mps = 50.0f;
+    start(&config);
+    push_paths(&straight, 1, 6);
+    search(RHO_SEARCH_NEWEST);
+    assert_int_equal(initiator.num_candidates, 0);
+    config.v_max_mps = 400.0f;
+    assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_OK);
+    assert_int_equal(initiator.window.num_scans, 6);
+    search(RHO_SEARCH_NEWEST);
+    assert_int_equal(initiator.num_candidates, 1);
+
+    memcpy(&other, &initiator, sizeof other);
+    config.pd = 2.0f;
+    assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_ERROR_CONFIG);
+    config.pd = 0.9f;
+    config.area.x_max_m = -9999.0f;
+    assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_ERROR_CONFIG);
+    assert_int_equal(rho_initiator_reconfigure(&initiator, NULL), RHO_ERROR_NULL);
+    assert_int_equal(rho_initiator_reconfigure(NULL, &config), RHO_ERROR_NULL);
+    assert_memory_equal(&other, &initiator, sizeof other);
+
+    config = usual();
+    config.scans = 5;
+    assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_OK);
+    assert_int_equal(initiator.window.num_scans, 0);
+    assert_int_equal(initiator.window.scans_max, 5);
+    assert_int_equal(initiator.num_candidates, 0);
+    config.area.x_max_m = 3000.0f;
+    push_paths(&straight, 1, 5);
+    assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_OK);
+    assert_int_equal(initiator.window.num_scans, 0);
+    assert_true(rho_initiator_is_sound(&initiator));
+    push_paths(&straight, 1, 5);
+    search(RHO_SEARCH_NEWEST);
+    assert_int_equal(initiator.num_candidates, 1);
+
+    memset(&initiator, 0, sizeof initiator);
+    assert_int_equal(rho_initiator_reconfigure(&initiator, &config), RHO_ERROR_STATE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -529,6 +576,7 @@ int main(void)
         cmocka_unit_test(candidates_share_one_plot_at_most),
         cmocka_unit_test(the_same_scans_give_the_same_bytes),
         cmocka_unit_test(scans_of_one_instant_make_no_kernel),
+        cmocka_unit_test(an_initiator_is_configured_anew),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
