@@ -17,6 +17,18 @@
  *         begin_anew(); // rho_tracker_init, rho_initiator_init
  *     }
  *
+ * A device that keeps what it was told and taught, and no tracks, has one block of settings and map:
+ *
+ *     struct rho_snapshot_part kept[] = {
+ *         {.kind = RHO_SNAPSHOT_SETTINGS, .object = &settings, .size = sizeof settings},
+ *         {.kind = RHO_SNAPSHOT_CLUTTER_MAP, .object = &tracker.clutter_map,
+ *          .size = sizeof tracker.clutter_map},
+ *     };
+ *
+ * It is loaded after rho_tracker_init, between two steps, where the sensors' clock goes on. Where
+ * it begins anew at each start, the map is loaded beside the tracker's, and rho_clutter_map_teach
+ * is given its echoes.
+ *
  * An image holds any objects of the kinds below, whole, with their configurations: nothing has to
  * be initialised before it is loaded. It is taken between any two steps; later steps give the same
  * bytes as without it. Scan assembly is not part of it: scans that were still open are lost.
@@ -58,6 +70,10 @@ enum rho_snapshot_kind {
     RHO_SNAPSHOT_TRACKER = 1, /* struct rho_tracker */
     RHO_SNAPSHOT_INITIATOR,   /* struct rho_initiator: with its window and its maps of clutter */
     RHO_SNAPSHOT_PASSIVE,     /* struct rho_passive */
+    RHO_SNAPSHOT_SETTINGS,    /* struct rho_settings: sound where rho_settings_check accepts them */
+    /* struct rho_clutter_map, of a tracker: the places that it has learned; not with RHO_MAX_ECHOES
+     * 0 */
+    RHO_SNAPSHOT_CLUTTER_MAP,
 };
 
 /* An object of the caller. */

@@ -5,6 +5,7 @@
 
 #include "rhotrack/initiator.h"
 #include "rhotrack/passive.h"
+#include "rhotrack/settings.h"
 #include "rhotrack/tracker.h"
 
 /* Bytes of the image; numbers have the least significant byte first on every machine. */
@@ -138,6 +139,12 @@ static const uint32_t facts[] = {
     PLACE(rho_passive, batch),
     PLACE(rho_batch, time_us),
     PLACE(rho_batch, bearings),
+    sizeof(struct rho_settings),
+    PLACE(rho_settings, scans),
+    PLACE(rho_settings, work_max),
+    sizeof(struct rho_clutter_map),
+    sizeof(struct rho_echo),
+    PLACE(rho_clutter_map, echoes),
 };
 
 static uint32_t layout(void)
@@ -157,6 +164,10 @@ static size_t size_of(uint32_t kind)
         return sizeof(struct rho_initiator);
     case RHO_SNAPSHOT_PASSIVE:
         return sizeof(struct rho_passive);
+    case RHO_SNAPSHOT_SETTINGS:
+        return sizeof(struct rho_settings);
+    case RHO_SNAPSHOT_CLUTTER_MAP:
+        return RHO_MAX_ECHOES > 0 ? sizeof(struct rho_clutter_map) : 0;
     default:
         return 0;
     }
@@ -171,6 +182,11 @@ static int is_sound(uint32_t kind, const void *object)
         return rho_initiator_is_sound((const struct rho_initiator *)object);
     case RHO_SNAPSHOT_PASSIVE:
         return rho_passive_is_sound((const struct rho_passive *)object);
+    case RHO_SNAPSHOT_SETTINGS:
+        return rho_settings_check((const struct rho_settings *)object, 0) == RHO_OK;
+    case RHO_SNAPSHOT_CLUTTER_MAP:
+        return RHO_MAX_ECHOES > 0 &&
+               rho_clutter_map_is_sound((const struct rho_clutter_map *)object);
     default:
         return 0;
     }
