@@ -43,7 +43,10 @@
  *            to 3/2 of what its numbers usually take. Any other scan, and another epoch, is refused
  *            until follow_scans such scans agree with one another: the sensor has restarted, or has
  *            another interval. So one damaged or foreign message does not make the scans that
- *            follow it look old.
+ *            follow it look old. Where RHO_MAX_SENSORS is above 1, so are duplicates in a row from
+ *            the oldest remembered number on: the sensor sends them anew, as a record that is
+ *            played again does. Where that sets the clock, the refused scans may come once more
+ *            until the first one has gone out.
  * Newcomers  A newcomer is a sensor that was heard for less than half as long as another one that
  *            still sends and was heard for a minute. A sensor that is silent for three intervals
  *            (an eighth to half of jump_max_us) makes no other one a newcomer. Times count up to
@@ -71,7 +74,8 @@
  *            time than on the present one, the assembler follows that time: is_restart tells, and
  *            tracks of earlier scans do not go on. Where as many sensors say the one as the other,
  *            the reception clock decides if it is near one of them alone, and else the sensor that
- *            came first. An established sensor's clock that is ahead by less makes the other
+ *            came first. A sensor that restarts before the scans that went out, while no other one
+ *            tells the time, sets it back. An established sensor's clock that is ahead by less makes the other
  *            sensors' scans out of sequence in the tracker for as long as it goes on.
  * Flood      More than flood_per_s messages of one sensor in a second are dropped. Unknown sensors
  *            and newcomers share one such limit. A new sensor takes the place of the one that was

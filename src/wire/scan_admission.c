@@ -146,6 +146,30 @@ find_agreeing_stray(const struct rho_scan_assembler_config *config,
     return most;
 }
 
+/*
+ * The sensor's numbers begin again: no older one is remembered, or the scan continues such a series.
+ * Copies of single scans, by another way through the network, do neither.
+ */
+static int begins_again(const struct rho_scan_assembler_config *config,
+                        const struct rho_scan_assembler_source *source,
+                        const struct rho_scan_assembler_place *place)
+{
+    int32_t behind = number_difference(source->place.scan, place->scan);
+
+    return behind > 0 &&
+           (source->seen >> behind <= 1u || find_agreeing_stray(config, source, place));
+}
+
+int rho_scan_assembler_is_stray(const struct rho_scan_assembler_config *config,
+                                const struct rho_scan_assembler_source *source,
+                                const struct rho_scan_assembler_place *place,
+                                enum scan_verdict verdict)
+{
+    return verdict == SCAN_WRONG_NUMBER || verdict == SCAN_WRONG_TIME ||
+           (FOLLOWS_REPEATS && (verdict == SCAN_DUPLICATE || verdict == SCAN_TOO_LATE) &&
+            begins_again(config, source, place));
+}
+
 int rho_scan_assembler_is_usable_time(const struct rho_scan_assembler *assembler,
                                       enum rho_scan_assembler_kind kind, int64_t time_us)
 {
@@ -158,7 +182,9 @@ int rho_scan_assembler_is_usable_time(const struct rho_scan_assembler *assembler
 
 /*
  * An out-of-sequence scan is usable where its number was skipped, its time fits the number, and the
- * tracker still takes it. Otherwise its number stays skipped: the right scan may still come.
+ * tracker still takes it. Otherwise its number stays skipped: the right scan may still come. Until
+ * the first scan on a new clock has gone out, no number needs to be skipped: it may be of those that
+ * were refused before.
  */
 static int is_usable_out_of_sequence(const struct rho_scan_assembler *assembler,
                                      const struct rho_scan_assembler_source *source,
@@ -168,9 +194,10 @@ static int is_usable_out_of_sequence(const struct rho_scan_assembler *assembler,
         (uint32_t)number_difference(source->place.scan, place->scan); /* 1 .. SEEN_SCANS - 1 */
     uint64_t before_us = rho_elapsed_us(source->place.time_us, place->time_us);
     uint64_t usual_us = (uint64_t)behind * source->interval_us;
+    int was_refused = FOLLOWS_REPEATS && assembler->is_restart;
 
-    return source->off_clock == 0 && (source->skipped >> behind & 1u) && before_us > 0 &&
-           before_us + JITTER_US >= usual_us - usual_us / 4 &&
+    return source->off_clock == 0 && ((source->skipped >> behind & 1u) || was_refused) &&
+           before_us > 0 && before_us + JITTER_US >= usual_us - usual_us / 4 &&
            !(before_us > JITTER_US && is_much_longer(before_us - JITTER_US, usual_us)) &&
            rho_scan_assembler_is_usable_time(assembler, (enum rho_scan_assembler_kind)source->kind,
                                              place->time_us);
@@ -189,16 +216,17 @@ enum scan_verdict rho_scan_assembler_classify(const struct rho_scan_assembler *a
         return SCAN_NEXT;
     }
     verdict = classify_number(config, source, place, now_us);
-    if (verdict == SCAN_WRONG_NUMBER || verdict == SCAN_WRONG_TIME) {
+    if (TAKES_LATE && verdict == SCAN_TOO_LATE &&
+        is_usable_out_of_sequence(assembler, source, place)) {
+        return SCAN_OUT_OF_SEQUENCE;
+    }
+    if (rho_scan_assembler_is_stray(config, source, place, verdict)) {
         stray = find_agreeing_stray(config, source, place);
         if (stray && stray->scans + 1 >= config->follow_scans) {
             return SCAN_RESTARTS_SENSOR;
         }
     }
-    return TAKES_LATE && verdict == SCAN_TOO_LATE &&
-                   is_usable_out_of_sequence(assembler, source, place)
-               ? SCAN_OUT_OF_SEQUENCE
-               : verdict;
+    return verdict;
 }
 
 /* The series to be replaced by another one: the shortest, of equal ones the oldest. */
@@ -505,6 +533,24 @@ static int has_majority(const struct rho_scan_assembler *assembler,
                               !is_near(assembler->clock_us, now_us, offset_max_us));
 }
 
+/*
+ * A sensor that restarts no later than what has gone out, and no other live sensor tells the
+ * common time: the clock has been set back with it.
+ */
+static int is_set_back(const struct rho_scan_assembler *assembler,
+                       const struct rho_scan_assembler_source *source, int64_t time_us,
+                       int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_scan_assembler_source *other = &assembler->sources[i];
+
+        if (other != source && other->off_clock == 0 && is_live(assembler, other, now_us)) {
+            return 0;
+        }
+    }
+    return time_us <= assembler->out_us;
+}
+
 /* Sensors whose scans have the new time are on the common clock from now on, all others off it. */
 static void set_common_clock(struct rho_scan_assembler *assembler, int64_t time_us, int64_t now_us)
 {
@@ -530,7 +576,9 @@ enum scan_clock rho_scan_assembler_check_clock(struct rho_scan_assembler *assemb
 
     if (assembler->has_clock &&
         (!is_near(time_us, assembler->clock_us, assembler->config.jump_max_us) ||
-         (HAS_OTHERS && is_contradicted(assembler, source, time_us, now_us)))) {
+         (HAS_OTHERS && is_contradicted(assembler, source, time_us, now_us)) ||
+         (FOLLOWS_REPEATS && verdict == SCAN_RESTARTS_SENSOR &&
+          is_set_back(assembler, source, time_us, now_us)))) {
         /*
          * The scans that made the sensor's new numbering accepted have shown its new time as well.
          */

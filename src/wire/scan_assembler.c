@@ -226,6 +226,10 @@ static struct rho_scan_assembler_source *find_source_room(struct rho_scan_assemb
 static void refuse(struct rho_scan_assembler *assembler, struct rho_scan_assembler_source *source,
                    enum scan_verdict verdict, const struct scan_heading *heading)
 {
+    if (FOLLOWS_REPEATS && (verdict == SCAN_DUPLICATE || verdict == SCAN_TOO_LATE) &&
+        rho_scan_assembler_is_stray(&assembler->config, source, &heading->place, verdict)) {
+        rho_scan_assembler_note_stray(&assembler->config, source, &heading->place);
+    }
     if (verdict == SCAN_DUPLICATE && source->off_clock > 0) {
         rho_scan_assembler_count_one(
             &assembler->counters.clock_jumps); /* another part of a scan that was refused */

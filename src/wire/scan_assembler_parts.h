@@ -58,6 +58,12 @@ enum scan_verdict rho_scan_assembler_classify(const struct rho_scan_assembler *a
                                               const struct rho_scan_assembler_place *place,
                                               int64_t now_us);
 
+/* Refused, but of the sensor's new sequence if others agree with it. */
+int rho_scan_assembler_is_stray(const struct rho_scan_assembler_config *config,
+                                const struct rho_scan_assembler_source *source,
+                                const struct rho_scan_assembler_place *place,
+                                enum scan_verdict verdict);
+
 /* Remembers a refused scan, for those that may agree with it. */
 void rho_scan_assembler_note_stray(const struct rho_scan_assembler_config *config,
                                    struct rho_scan_assembler_source *source,
@@ -88,6 +94,12 @@ int rho_scan_assembler_awaits_previous(const struct rho_scan_assembler_source *s
  * waits.
  */
 #define TAKES_LATE ((RHO_SECTORS) || RHO_MAX_OPEN_SCANS > 1)
+
+/*
+ * A sensor that begins again with the numbers or times that it has sent is followed. A node of one
+ * sensor has no room for that: its sensor's epoch, numbers or clock tell of a restart.
+ */
+#define FOLLOWS_REPEATS HAS_OTHERS
 
 /* Longest time for which any live and proven sensor was heard. */
 uint32_t rho_scan_assembler_longest_known_us(const struct rho_scan_assembler *assembler,

@@ -19,20 +19,24 @@
 #include "base/common.h"
 #include "commands.h"
 #include "io/output/clutter_file.h"
+#include "io/scans/scan_interval_hint.h"
 #include "live/node_core.h"
 #include "live/node_log.h"
 #include "live/node_print.h"
 #include "live/node_sensors.h"
 #include "live/node_tally.h"
+#include "live/senders.h"
 #include "live/transport.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
 
 enum {
+    HINT_SCANS = 1000,
     TURN_MESSAGES = 256,  /* taken before signals and clocks are looked at again */
     STATUS_US = 1000000,  /* from one RHO_STATUS to the next */
     CLUTTER_STATUSES = 5, /* statuses from one RHO_CLUTTER to the next */
     WARNING_US = 1000000, /* from one warning of a cause to the next */
+    RESTARTS_SAID = 8,    /* of sensors, within that time */
     MISSING_US = 3000000, /* that a scan must be missing for before it is called lost */
     SNAPSHOT_US = 60000000,
     END_US = 350000,     /* for the outputs at the end */
@@ -58,11 +62,15 @@ struct node {
     pid_t clutter_writer;      /* likewise */
     struct warning warnings[NODE_TALLIES];
     struct node_sensors sensors;
+    struct senders senders;
+    struct scan_interval_hint plots; /* of the first HINT_SCANS scans */
     struct clutter_file clutter;
     int signals;               /* descriptor */
     int64_t status_us, end_us; /* clock_us: when the next status is due; when it is over */
     int64_t finish_us;         /* clock_us: until when outputs are waited for at the end */
     unsigned statuses;         /* that were sent */
+    int64_t restarts_us;       /* clock_us: of the first of the restarts below */
+    unsigned restarts;         /* of sensors, within WARNING_US */
     bool is_over, is_waiting;  /* waiting: nothing is left to receive */
     int exit_code;
     uint64_t taken; /* messages */
@@ -214,6 +222,31 @@ static void on_step(void *context, const struct rho_report *report)
 
     node_print_step(&node->print, report);
     watch_sensors(node);
+}
+
+/* Many sensors may begin again at once, but who makes them do so all the time is not told of. */
+static void on_restart(void *context, int16_t sensor_id)
+{
+    struct node *node = context;
+    const int64_t now_us = clock_us();
+
+    if (now_us >= node->restarts_us + WARNING_US) {
+        node->restarts_us = now_us;
+        node->restarts = 0;
+    }
+    if (!node->print.is_terminal && node->restarts++ < RESTARTS_SAID) {
+        fprintf(stderr, "rhotrack: sensor %d begins again: a restart, or a record played again\n",
+                sensor_id);
+    }
+}
+
+static void on_new_clock(void *context)
+{
+    const struct node *node = context;
+
+    if (!node->print.is_terminal) {
+        fputs("rhotrack: the sensors' time is another one: tracks begin anew\n", stderr);
+    }
 }
 
 /* ---- Warnings and the summary ---- */
@@ -432,15 +465,27 @@ static bool is_output(const char *channel)
            strcmp(channel, RHO_MESSAGE_COMMAND_ANSWER_CHANNEL) == 0;
 }
 
+static void watch_plots(struct node *node, const struct transport_message *message)
+{
+    if (node->plots.scans < HINT_SCANS && !node->print.is_terminal) {
+        scan_interval_hint_add(&node->plots,
+                               &(struct message_event){message->received_us, message->channel,
+                                                       message->data, message->size});
+        scan_interval_hint_watch(&node->plots);
+    }
+}
+
 /*
  * Other programs' channels are left out of the log, and what was published is there as it was sent.
  */
 static void take_message(struct node *node, const struct transport_message *message)
 {
+    senders_note(&node->senders, message, clock_us(), node->print.is_terminal ? NULL : stderr);
     if (is_output(message->channel)) {
         return;
     }
     node->taken++;
+    watch_plots(node, message);
     if (strncmp(message->channel, "RHO_", 4) == 0) {
         write_log(node, message->received_us, message->channel, message->data, message->size);
     }
@@ -544,7 +589,7 @@ static void finish(struct node *node)
 int command_node(struct command_line *line)
 {
     struct node node = {.status_us = clock_us(), .end_us = INT64_MAX};
-    const struct node_core_events events = {&node, on_send, on_step};
+    const struct node_core_events events = {&node, on_send, on_step, on_restart, on_new_clock};
     bool is_restored = false; /* the map of clutter, too */
     bool is_live;
     int exit_code;
@@ -588,6 +633,7 @@ int command_node(struct command_line *line)
     transport_close(node.transport);
     node_core_close(node.core);
     node_log_close(node.log);
+    scan_interval_hint_free(&node.plots);
     close(node.signals);
     return exit_code;
 }

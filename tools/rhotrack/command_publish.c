@@ -13,6 +13,7 @@
 #include "io/log/lcm_log.h"
 #include "io/log/message_shift.h"
 #include "io/log/message_source.h"
+#include "io/scans/scan_interval_hint.h"
 #include "live/publish.h"
 #include "live/transport.h"
 #include "rhotrack/udpm.h"
@@ -43,6 +44,7 @@ struct player {
     bool is_over;    /* its time is */
     double shift_us; /* of this pass */
     double lag_max_s;
+    struct scan_interval_hint plots; /* of the first pass */
 };
 
 /* ---- Time ---- */
@@ -125,6 +127,7 @@ static void note_event(struct player *player, const struct message_event *event)
     if (player->passes > 0) {
         return;
     }
+    scan_interval_hint_add(&player->plots, event);
     player->times += player->times == 0 || event->utime != player->last_us;
     player->last_us = event->utime;
     if (message_scan(event->data, event->size, &scan)) {
@@ -258,6 +261,7 @@ static void print_summary(const struct player *player)
             "rhotrack: %" PRIu64 " messages on %zu channels in %.1f s, %" PRIu64
             " passes; %.1f ms late at most\n",
             counters.sent, player->num_channels, seconds, player->passes, player->lag_max_s * 1e3);
+    scan_interval_hint_report(&player->plots, player->line->arguments[0]);
     if (player->skipped) {
         fprintf(stderr, "rhotrack: %" PRIu64 " messages too long for a datagram are left out\n",
                 player->skipped);
@@ -286,6 +290,7 @@ int command_publish(struct command_line *line)
     }
     print_summary(&player);
     transport_close(player.transport);
+    scan_interval_hint_free(&player.plots);
     free(player.channels);
     free(player.buffer);
     return 0;

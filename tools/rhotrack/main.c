@@ -144,7 +144,7 @@ static const struct command commands[] = {
      "program's\n"
      "own, so that a second run is a restart of its sensors: a node follows after follow_scans "
      "(3)\n"
-     "scans that agree, and does not use those before. To a file: --lcm file://NAME.lcm?mode=w.\n"
+     "scans that agree, and gives its tracks again. To a file: --lcm file://NAME.lcm?mode=w.\n"
      "\n"
      "INPUT udp://ADDRESS:PORT: what radars send there in ASTERIX (CAT048, CAT034) goes on as\n"
      "messages, scan by scan.\n"},

@@ -144,7 +144,7 @@ static inline int model_is_skipped(const struct model_source *source, int32_t sc
         }
     }
     return behind > 0 && behind <= 31 && source->num_numbers > 0 &&
-           model_ahead(scan, source->numbers[0]) > 0;
+           (model_ahead(scan, source->numbers[0]) > 0 || (model.is_restart && RHO_MAX_SENSORS > 1));
 }
 
 /* Not behind what has gone out by more than a tracker takes. */
@@ -165,6 +165,29 @@ static inline int model_is_of_use(const struct model_source *source,
     return source->off == 0 && model_is_skipped(source, place->scan) && before > 0 &&
            before + 10000 >= usual - usual / 4 && before <= usual + usual / 2 + 10000 &&
            model_is_in_time(source->kind, place->time_us);
+}
+
+/* No older number, of those 31 back at most, has come; or the scans before it were such. */
+static inline int model_begins_again(const struct model_source *source,
+                                     const struct rho_scan_assembler_place *place)
+{
+    for (unsigned i = 0; i < source->num_numbers; i++) {
+        if (model_ahead(place->scan, source->numbers[i]) > 0 &&
+            model_ahead(source->place.scan, source->numbers[i]) <= 31) {
+            return RHO_MAX_SENSORS > 1 && model_find_stray(source, place) >= 0;
+        }
+    }
+    return RHO_MAX_SENSORS > 1;
+}
+
+/* Refused, but a restart of the sensor if more of the kind come. */
+static inline int model_is_stray(const struct model_source *source,
+                                 const struct rho_scan_assembler_place *place,
+                                 enum model_verdict verdict)
+{
+    return verdict == M_NUMBER || verdict == M_TIME ||
+           ((verdict == M_DOUBLE || verdict == M_LATE) && place->scan != source->place.scan &&
+            model_begins_again(source, place));
 }
 
 static inline enum model_verdict model_judge(const struct model_source *source,
@@ -192,7 +215,7 @@ static inline enum model_verdict model_judge(const struct model_source *source,
             verdict = source->numbers[i] == place->scan ? M_DOUBLE : verdict;
         }
     }
-    if ((verdict == M_NUMBER || verdict == M_TIME) && stray >= 0 &&
+    if (model_is_stray(source, place, verdict) && stray >= 0 &&
         source->strays[stray].count + 1 >= model.config.follow_scans) {
         return M_FOLLOW;
     }
@@ -376,6 +399,19 @@ static inline int model_is_off(const struct model_source *source, int64_t time_u
            (no[p] > yes[p] || model_apart(time_us, model.clock_us) > model.config.jump_max_us);
 }
 
+/* The sensor restarts not behind what has gone out, and nobody else tells the time. */
+static inline int model_is_set_back(const struct model_source *source, int64_t time_us,
+                                    int64_t now_us)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct model_source *other = &model.sources[i];
+        if (other != source && other->off == 0 && model_is_live(other, now_us)) {
+            return 0;
+        }
+    }
+    return RHO_MAX_SENSORS > 1 && model.has_out && time_us <= model.out_us;
+}
+
 static inline int model_wins(const struct model_source *source, int64_t time_us, int64_t now_us)
 {
     unsigned with = 1, against = 0;
@@ -422,7 +458,8 @@ static inline void model_set_clock(int64_t time_us, int64_t now_us)
 static inline int model_keeps_clock(struct model_source *source, int64_t time_us,
                                     enum model_verdict verdict, int64_t now_us)
 {
-    if (model_is_off(source, time_us, now_us)) {
+    if (model_is_off(source, time_us, now_us) ||
+        (verdict == M_FOLLOW && model_is_set_back(source, time_us, now_us))) {
         source->off = verdict == M_FOLLOW && source->off < model.config.follow_scans
                           ? model.config.follow_scans
                           : source->off + (source->off < UINT8_MAX);
@@ -620,7 +657,7 @@ static inline void model_refuse(struct model_source *source, const struct look *
 {
     struct rho_scan_assembler_place place = {look->time_us, look->scan, look->epoch};
 
-    if (verdict == M_NUMBER || verdict == M_TIME) {
+    if (model_is_stray(source, &place, verdict)) {
         model_remember_stray(source, &place);
     }
     model.counters.scans_bad += verdict == M_NUMBER;
@@ -846,6 +883,7 @@ static inline int model_has_turn(const struct model_scan *scan, int64_t now_us)
         if ((other->state == M_OPEN || other->state == M_WHOLE) && !other->is_late &&
             !other->is_alone &&
             model_is_skipped(other->source, (int32_t)((uint32_t)other->place.scan - 1u)) &&
+            other->place.scan != other->source->numbers[0] &&
             (ahead < 0 ? 0 : ahead) < other->source->interval_us) {
             return 0;
         }

@@ -378,6 +378,39 @@ static void a_record_played_fast_passes(void **state)
     }
 }
 
+/* The times of scans that have gone out, by another epoch, as of a short record played again. */
+static void a_restart_that_is_set_back_sets_the_clock_where_nobody_else_tells_it(void **state)
+{
+    (void)state;
+    for (int with_others = 0; with_others < 2; with_others++) {
+        begin();
+        run(1u + (unsigned)with_others, 0, 20, 0);
+        numbers[0] = 500;
+        for (int64_t t = 20; t < 24; t++) {
+            if (with_others) {
+                assert_true(push(1, t * SECOND_US, t * SECOND_US));
+            }
+            assert_int_equal(push(0, (t - 3) * SECOND_US, t * SECOND_US), t >= 22);
+        }
+        assert_int_equal(restarts, with_others ? 0 : 1);
+    }
+}
+
+/* Two sensors of a record that is played again, at times within jump_max. */
+static void all_sensors_of_a_record_played_again_set_the_clock(void **state)
+{
+    (void)state;
+    begin();
+    run(2, 0, 20, 0);
+    numbers[0] = numbers[1] = 100;
+    for (int64_t t = 0; t < 10; t++) {
+        (void)push(0, t * SECOND_US, (t + 20) * SECOND_US);
+        assert_int_equal(push(1, t * SECOND_US, (t + 20) * SECOND_US), t >= 2);
+    }
+    assert_int_equal(restarts, 1);
+    assert_int_equal(assembler.counters.scans_accepted, 40 + 7 + 8);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -399,6 +432,8 @@ int main(void)
         cmocka_unit_test(parts_of_a_scan_off_the_clock_are_no_doubles),
         cmocka_unit_test(honest_sensors_of_all_kinds_are_on_the_clock),
         cmocka_unit_test(a_record_played_fast_passes),
+        cmocka_unit_test(a_restart_that_is_set_back_sets_the_clock_where_nobody_else_tells_it),
+        cmocka_unit_test(all_sensors_of_a_record_played_again_set_the_clock),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

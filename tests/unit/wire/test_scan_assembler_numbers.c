@@ -144,6 +144,70 @@ static void numbers_that_fall_back_are_followed_without_an_epoch(void **state)
     }
 }
 
+/* A record of a few scans that is played once more: numbers, times and epoch are those that came. */
+static void a_record_played_again_is_a_restart(void **state)
+{
+    (void)state;
+    for (int32_t count = 5; count <= 30; count += 5) {
+        begin(1, count);
+        assert_false(push(1, 0, count * SECOND_US));
+        assert_false(push(2, SECOND_US, (count + 1) * SECOND_US));
+        COUNTERS_ARE(.scans_accepted = (uint32_t)count, .scans_duplicate = 2);
+        for (int32_t i = 3; i <= count; i++) {
+            assert_true(push(i, (i - 1) * SECOND_US, (count + i - 1) * SECOND_US));
+            assert_int_equal(item.is_restart, i == 3);
+        }
+        COUNTERS_ARE(.scans_accepted = 2 * (uint32_t)count - 2, .scans_duplicate = 2,
+                     .sensor_restarts = 1);
+        assert_false(push(1, 0, 100 * SECOND_US)); /* and a third time */
+        assert_false(push(2, SECOND_US, 101 * SECOND_US));
+        assert_true(push(3, 2 * SECOND_US, 102 * SECOND_US));
+        assert_int_equal(item.is_restart, 1);
+    }
+}
+
+/* Its first scans, refused so far, may be given once more before the first one has gone out. */
+static void refused_scans_of_a_restart_may_come_again(void **state)
+{
+    struct look look = {.sensor_id = 1};
+
+    (void)state;
+    if (RHO_MAX_OPEN_SCANS < 3) {
+        skip();
+    }
+    begin(1, 9);
+    for (int32_t i = 1; i <= 5; i++) {
+        look.scan = i <= 3 ? i : i - 3; /* 1, 2, 3, 1, 2 */
+        look.time_us = (look.scan - 1) * SECOND_US;
+        take(&look, 20 * SECOND_US);
+    }
+    for (int32_t i = 1; i <= 3; i++) {
+        next_is(21 * SECOND_US, 1, (i - 1) * SECOND_US);
+        assert_int_equal(item.is_restart, i == 1);
+    }
+    COUNTERS_ARE(.scans_accepted = 12, .scans_duplicate = 2, .scans_late = 2, .sensor_restarts = 1);
+}
+
+/* A copy of every scan by another way, some scans behind. */
+static void copies_behind_are_no_restart(void **state)
+{
+    (void)state;
+    for (int32_t behind = 1; behind <= 30; behind++) {
+        begin(1, behind);
+        for (int32_t i = behind; i < 100; i++) {
+            assert_true(push(i + 1, i * SECOND_US, i * SECOND_US));
+            assert_false(push(i + 1 - behind, (i - behind) * SECOND_US, i * SECOND_US));
+        }
+        COUNTERS_ARE(.scans_accepted = 100, .scans_duplicate = 100 - (uint32_t)behind);
+    }
+    /* and in bursts: the same four once more, not from the oldest one on */
+    begin(1, 10);
+    for (int32_t i = 6; i < 10; i++) {
+        assert_false(push(i + 1, i * SECOND_US, 10 * SECOND_US));
+    }
+    COUNTERS_ARE(.scans_accepted = 10, .scans_duplicate = 4);
+}
+
 static void follow_scans_say_how_many(void **state)
 {
     struct rho_scan_assembler_config config = usual();
@@ -359,6 +423,9 @@ int main(void)
         cmocka_unit_test(memory_reaches_31_numbers_back),
         cmocka_unit_test(a_new_epoch_is_followed_at_the_third_scan),
         cmocka_unit_test(numbers_that_fall_back_are_followed_without_an_epoch),
+        cmocka_unit_test(a_record_played_again_is_a_restart),
+        cmocka_unit_test(refused_scans_of_a_restart_may_come_again),
+        cmocka_unit_test(copies_behind_are_no_restart),
         cmocka_unit_test(follow_scans_say_how_many),
         cmocka_unit_test(doubles_are_no_agreement),
         cmocka_unit_test(strays_in_between_do_no_harm),

@@ -7,6 +7,7 @@
 
 #include "base/common.h"
 #include "io/output/clutter_file.h"
+#include "live/refused_messages.h"
 #include "pipeline/learned.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/command.h"
@@ -26,6 +27,11 @@ struct timing {
     uint64_t steps;
 };
 
+/* The sensors' newest scans. */
+struct places {
+    struct rho_scan_assembler_place of[RHO_MAX_SENSORS];
+};
+
 struct node_core {
     const struct parameters *parameters;
     struct node_core_events events;
@@ -35,6 +41,8 @@ struct node_core {
     struct sequence_counts order;
     struct timing timing; /* of all steps */
     struct rho_scan_assembler assembler;
+    struct refused_messages refused;
+    struct rho_scan_assembler_counters taken, shown; /* taken: of refused scans, after all */
     struct rho_frames frames;
     struct rho_node_waiting waiting[WAITING_MAX];
     bool takes_commands;
@@ -295,10 +303,45 @@ static void run(struct node_core *core, int64_t now_us)
     while ((due = rho_node_next(&core->node, now_us)) != RHO_NODE_NOTHING) {
         if (due == RHO_NODE_RESTART) {
             start_anew(core);
+            if (core->events.began_anew) {
+                core->events.began_anew(core->events.context);
+            }
         } else {
             step(core, due);
         }
     }
+}
+
+/* A sensor whose interval has changed is followed likewise, and has not begun again. */
+static void tell_of_restart(const struct node_core *core, const struct places *before)
+{
+    for (unsigned i = 0; i < RHO_MAX_SENSORS && core->events.restarted; i++) {
+        const struct rho_scan_assembler_source *source = &core->assembler.sources[i];
+
+        if (source->is_used && (source->place.time_us < before->of[i].time_us ||
+                                source->place.epoch != before->of[i].epoch)) {
+            core->events.restarted(core->events.context, source->sensor_id);
+        }
+    }
+}
+
+/* The assembler has taken the message. */
+static void note_taken(struct node_core *core, const char *channel, const uint8_t *data,
+                       size_t size, const struct rho_scan_assembler_counters *before,
+                       const struct places *places, int64_t now_us)
+{
+    const struct rho_scan_assembler_counters *after = &core->assembler.counters;
+
+    sequence_counts_note(&core->order, before, &core->assembler);
+    if (after->sensor_restarts == before->sensor_restarts) {
+        refused_messages_note(&core->refused, channel, data, size, before, after);
+    } else {
+        tell_of_restart(core, places);
+        if (core->assembler.is_restart) { /* nothing of that time has been stepped */
+            refused_messages_take(&core->refused, channel, &core->assembler, now_us, &core->taken);
+        }
+    }
+    core->shown = refused_messages_counters(after, &core->taken);
 }
 
 void node_core_take(struct node_core *core, const char *channel, const uint8_t *data, size_t size,
@@ -306,14 +349,20 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
 {
     struct rho_scan_assembler_counters before;
     bool has_room = strcmp(channel, RHO_MESSAGE_COMMAND_CHANNEL) == 0;
+    struct places places;
 
     if (has_room) {
         take_command(core, data, size);
     }
     while (!has_room) {
         before = core->assembler.counters;
+        for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+            places.of[i] = core->assembler.sources[i].place;
+        }
         has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
-        sequence_counts_note(&core->order, &before, &core->assembler);
+        if (has_room) {
+            note_taken(core, channel, data, size, &before, &places, now_us);
+        }
         run(core, now_us);
     }
 }
@@ -488,7 +537,7 @@ struct rho_clutter_map *node_core_clutter(struct node_core *core)
 
 const struct rho_scan_assembler_counters *node_core_assembler(const struct node_core *core)
 {
-    return &core->assembler.counters;
+    return &core->shown;
 }
 
 const struct rho_frames_counters *node_core_frames(const struct node_core *core)

@@ -36,6 +36,10 @@ struct node_core_events {
     void (*send)(void *context, const char *channel, const uint8_t *data, size_t size);
     /* a step was made, before its messages; may be NULL */
     void (*stepped)(void *context, const struct rho_report *report);
+    /* the sensor has begun again, with an earlier time or another epoch; may be NULL */
+    void (*restarted)(void *context, int16_t sensor_id);
+    /* the common clock was set anew, and tracks begin again; may be NULL */
+    void (*began_anew)(void *context);
 };
 
 /*
@@ -96,6 +100,7 @@ struct node_core_losses {
 void node_core_status(struct node_core *core, const struct node_core_losses *losses);
 
 const struct rho_report *node_core_report(const struct node_core *core); /* of the last step */
+/* Without the scans that were refused at first, and taken when their sensor's restart was clear. */
 const struct rho_scan_assembler_counters *node_core_assembler(const struct node_core *core);
 const struct rho_frames_counters *node_core_frames(const struct node_core *core);
 const struct rho_tracker_counters *node_core_tracker(const struct node_core *core);

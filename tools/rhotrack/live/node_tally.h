@@ -15,7 +15,7 @@
 #define NODE_TALLIES 41
 
 enum node_tally_kind {
-    NODE_TALLY_USUAL = 0, /* of the tracker's usual work */
+    NODE_TALLY_USUAL = 0, /* of the tracker's usual work, or told otherwise */
     NODE_TALLY_FAULT,     /* of messages or the network */
     NODE_TALLY_MAY_FALL   /* the same, but what it counts may come after all */
 };

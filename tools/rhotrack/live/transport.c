@@ -71,9 +71,10 @@ int transport_descriptor(const struct transport *transport)
 enum transport_found transport_receive(struct transport *transport,
                                        struct transport_message *message)
 {
-    enum transport_found found =
-        transport->provider->receive(transport, transport->object, message);
+    enum transport_found found;
 
+    message->sender = (struct transport_sender){.port = 0};
+    found = transport->provider->receive(transport, transport->object, message);
     transport->counters.received += found == TRANSPORT_MESSAGE;
     return found;
 }

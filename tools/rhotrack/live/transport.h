@@ -21,12 +21,20 @@ struct transport;
 
 enum transport_use { TRANSPORT_SEND, TRANSPORT_SEND_AND_RECEIVE };
 
+/* IPv4, in the order of this machine. All 0: the provider does not tell. */
+struct transport_sender {
+    uint32_t address;
+    uint16_t port;
+    bool is_own; /* this program */
+};
+
 /* Valid until the next call. */
 struct transport_message {
     const char *channel; /* 1 to 63 characters */
     const uint8_t *data;
     size_t size;
     int64_t received_us; /* on the clock of transport_now_us */
+    struct transport_sender sender;
 };
 
 enum transport_found {

@@ -40,6 +40,7 @@ struct udpm {
     int ttl, wanted_bytes; /* wanted: 0 where the URL does not say */
     unsigned interface;    /* of the loopback, where there is no route; else 0 */
     int receiver, sender;  /* -1: none */
+    in_port_t own_port;    /* the sender's; 0: not known yet */
     uint32_t sequence;
     struct rho_udpm_guard guard;
     int num_here, next; /* of the batch */
@@ -290,13 +291,15 @@ static int64_t read_control(struct transport *transport, struct msghdr *header)
 }
 
 /* Messages that this program has sent come back: no fault. */
-static bool is_own(const struct udpm *udpm, const struct sockaddr_in *source)
+static bool is_own(struct udpm *udpm, const struct sockaddr_in *source)
 {
     struct sockaddr_in own = {.sin_port = 0};
     socklen_t size = sizeof own;
 
-    return getsockname(udpm->sender, (struct sockaddr *)&own, &size) == 0 &&
-           own.sin_port == source->sin_port;
+    if (udpm->own_port == 0 && getsockname(udpm->sender, (struct sockaddr *)&own, &size) == 0) {
+        udpm->own_port = own.sin_port; /* 0 until it has sent */
+    }
+    return udpm->own_port != 0 && udpm->own_port == source->sin_port;
 }
 
 static bool is_admitted(struct transport *transport, struct udpm *udpm,
@@ -349,6 +352,9 @@ static enum transport_found receive(struct transport *transport, void *object,
 
         if (is_admitted(transport, udpm, &udpm->sources[i]) &&
             open_datagram(transport, &udpm->here[i], udpm->bytes[i], message)) {
+            message->sender = (struct transport_sender){ntohl(udpm->sources[i].sin_addr.s_addr),
+                                                        ntohs(udpm->sources[i].sin_port),
+                                                        is_own(udpm, &udpm->sources[i])};
             return TRANSPORT_MESSAGE;
         }
     }

@@ -11,10 +11,15 @@
 
 #define SOON_US 1000000 /* an antenna that looks all round takes longer for it */
 #define LONE_LEAST 10   /* fewer say nothing */
+#define LIVE_LEAST 20   /* scans of a live sensor */
+#define IRREGULAR 3     /* the longest interval, in shortest ones */
 
 struct lone_sensor {
     int16_t sensor_id;
     int64_t last_us; /* of its last scan */
+    uint64_t scans, lone;
+    int64_t shortest_us, longest_us; /* between lone ones */
+    bool is_said;
 };
 
 /* The members of a message that show whether it is a scan of its own. */
@@ -68,14 +73,21 @@ void scan_interval_hint_add(struct scan_interval_hint *plots, const struct messa
     plots->scans++;
     sensor = find(plots, look.sensor_id);
     if (sensor) {
-        plots->lone += look.num_parts == 1 && look.num_plots == 1 && !look.has_sector &&
-                       look.time_us - sensor->last_us < SOON_US;
+        const int64_t since_us = look.time_us - sensor->last_us;
+
+        if (look.num_parts == 1 && look.num_plots == 1 && !look.has_sector && since_us < SOON_US) {
+            plots->lone++;
+            sensor->lone++;
+            sensor->shortest_us = since_us < sensor->shortest_us ? since_us : sensor->shortest_us;
+            sensor->longest_us = since_us > sensor->longest_us ? since_us : sensor->longest_us;
+        }
     } else {
         plots->sensors =
             must_grow(plots->sensors, plots->count, &plots->capacity, sizeof *plots->sensors);
         sensor = &plots->sensors[plots->count++];
-        sensor->sensor_id = look.sensor_id;
+        *sensor = (struct lone_sensor){.sensor_id = look.sensor_id, .shortest_us = SOON_US};
     }
+    sensor->scans++;
     sensor->last_us = look.time_us;
 }
 
@@ -86,6 +98,23 @@ void scan_interval_hint_report(const struct scan_interval_hint *plots, const cha
                 "rhotrack: %s: %" PRIu64 " of %" PRIu64
                 " scans have one plot each: is scan_interval_s meant?\n",
                 path, plots->lone, plots->scans);
+    }
+}
+
+void scan_interval_hint_watch(struct scan_interval_hint *plots)
+{
+    for (size_t i = 0; i < plots->count; i++) {
+        struct lone_sensor *sensor = &plots->sensors[i];
+
+        if (!sensor->is_said && sensor->scans >= LIVE_LEAST && sensor->lone > sensor->scans / 2 &&
+            sensor->longest_us > IRREGULAR * sensor->shortest_us) {
+            sensor->is_said = true;
+            fprintf(stderr,
+                    "rhotrack: sensor %d: %" PRIu64 " of %" PRIu64
+                    " scans have one plot each: send a turn as one scan (publish: "
+                    "scan_interval_s)\n",
+                    sensor->sensor_id, sensor->lone, sensor->scans);
+        }
     }
 }
 

@@ -25,6 +25,12 @@ void scan_interval_hint_add(struct scan_interval_hint *plots, const struct messa
 /* One line on standard error where most scans are such. */
 void scan_interval_hint_report(const struct scan_interval_hint *plots, const char *path);
 
+/*
+ * The same of sensors that are heard live: a line each, once, where their scans come irregularly
+ * as well, as plots of a turn do.
+ */
+void scan_interval_hint_watch(struct scan_interval_hint *plots);
+
 void scan_interval_hint_free(struct scan_interval_hint *plots);
 
 #endif

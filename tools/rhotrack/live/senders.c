@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+#include "live/senders.h"
+
+#include <string.h>
+
+#include "base/common.h"
+#include "rhotrack/message.h"
+
+#define SECOND_US 1000000
+
+static bool is_same(const struct transport_sender *one, const struct transport_sender *other)
+{
+    return one->address == other->address && one->port == other->port;
+}
+
+static void print_sender(const struct transport_sender *sender, FILE *to)
+{
+    fprintf(to, "%u.%u.%u.%u:%u", sender->address >> 24, sender->address >> 16 & 255u,
+            sender->address >> 8 & 255u, sender->address & 255u, (unsigned)sender->port);
+}
+
+/* ---- Sensors ---- */
+
+static bool is_sensor(const char *channel)
+{
+    return text_begins_with(channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) ||
+           text_begins_with(channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL) ||
+           text_begins_with(channel, RHO_MESSAGE_BEARING_SCAN_CHANNEL);
+}
+
+/* NULL: there is no room for one more. */
+static struct sender_channel *find_channel(struct senders *senders,
+                                           const struct transport_message *message)
+{
+    for (unsigned i = 0; i < senders->num_channels; i++) {
+        if (strcmp(senders->channels[i].name, message->channel) == 0) {
+            return &senders->channels[i];
+        }
+    }
+    if (senders->num_channels == SENDERS_CHANNELS) {
+        return NULL;
+    }
+    struct sender_channel *channel = &senders->channels[senders->num_channels++];
+
+    snprintf(channel->name, sizeof channel->name, "%s", message->channel);
+    channel->last = message->sender;
+    return channel;
+}
+
+static void note_sensor(struct senders *senders, const struct transport_message *message, FILE *to)
+{
+    struct sender_channel *channel = find_channel(senders, message);
+    bool is_back;
+
+    if (!channel || is_same(&channel->last, &message->sender)) {
+        return;
+    }
+    is_back = is_same(&channel->before, &message->sender);
+    if (is_back && !channel->is_named && to) {
+        senders->lines++;
+        fprintf(to, "rhotrack: sensor %s has two senders: ", strrchr(channel->name, '_') + 1);
+        print_sender(&channel->before, to);
+        fputs(" and ", to);
+        print_sender(&channel->last, to);
+        fputs("; each needs a number of its own\n", to);
+    }
+    channel->is_named = is_back;
+    channel->before = channel->last;
+    channel->last = message->sender;
+}
+
+/* ---- Nodes ---- */
+
+static void note_node(struct senders *senders, const struct transport_sender *sender, FILE *to)
+{
+    for (unsigned i = 0; i < SENDERS_NODES; i++) {
+        if (is_same(&senders->nodes[i], sender)) {
+            return;
+        }
+    }
+    senders->nodes[senders->num_nodes++ % SENDERS_NODES] = *sender;
+    if (to) {
+        senders->lines++;
+        fputs("rhotrack: another node publishes tracks here: ", to);
+        print_sender(sender, to);
+        fputs("\n", to);
+    }
+}
+
+void senders_note(struct senders *senders, const struct transport_message *message, int64_t now_us,
+                  FILE *to)
+{
+    if (message->sender.port == 0) {
+        return; /* of a file, or of liblcm's providers */
+    }
+    if (now_us >= senders->lines_us + SECOND_US) {
+        senders->lines_us = now_us;
+        senders->lines = 0;
+    }
+    to = senders->lines < SENDERS_LINES ? to : NULL;
+    if (is_sensor(message->channel)) {
+        note_sensor(senders, message, to);
+    } else if (!message->sender.is_own &&
+               strcmp(message->channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
+        note_node(senders, &message->sender, to);
+    }
+}

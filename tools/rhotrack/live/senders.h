@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * senders: who sends a sensor's messages. A sensor that is sent from two places at once is named:
+ * its scans are mixed, and each sender's look like the other's restart. A sender that is started
+ * anew has another port, and the one before is not heard again: that is none.
+ */
+#ifndef RHOTRACK_TOOL_SENDERS_H
+#define RHOTRACK_TOOL_SENDERS_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "live/transport.h"
+
+enum { SENDERS_CHANNELS = 64, SENDERS_NODES = 8, SENDERS_LINES = 8 };
+
+struct sender_channel {
+    char name[64];
+    struct transport_sender last, before; /* of its messages: of other addresses or ports */
+    bool is_named;                        /* this pair */
+};
+
+/* All zero at the start. Channels beyond SENDERS_CHANNELS are not watched. */
+struct senders {
+    unsigned num_channels, num_nodes;
+    int64_t lines_us; /* clock_us: from here on they count */
+    unsigned lines;
+    struct sender_channel channels[SENDERS_CHANNELS];
+    struct transport_sender nodes[SENDERS_NODES]; /* those that were named */
+};
+
+/*
+ * A message has come. One line where a second sender of a sensor is certain, as the first one is
+ * heard again, or another node publishes: once a pair, once a node, and SENDERS_LINES a second at
+ * most.
+ *   now_us  clock_us
+ *   to      NULL: nothing is written
+ */
+void senders_note(struct senders *senders, const struct transport_message *message, int64_t now_us,
+                  FILE *to);
+
+#endif
