@@ -9,8 +9,8 @@
 #   BUILD=folder      where everything goes (default build); give each set of flags its own
 #   FUZZ_SECONDS=60   how long `make fuzz` runs, all targets together; FUZZ_SECONDS_EACH= each of them
 #   RHO_CONFIG_FILE=  a header with capacities of your own for build/librhotrack.a (include/rhotrack/config.h)
-#   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local); BINDIR=, LIBDIR=, INCLUDEDIR=, DOCDIR=
-#                     single folders
+#   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local); BINDIR=, LIBDIR=, INCLUDEDIR=, DOCDIR=,
+#                     UNITDIR= (systemd), SYSCONFDIR= single folders
 #   PROFILE=workstation  installs the library of that profile (default embedded)
 #   LAB='--runs 5'    options of all experiments of `make experiments` (tools/lab/README.md)
 
@@ -25,6 +25,8 @@ BINDIR := $(PREFIX)/bin
 LIBDIR := $(PREFIX)/lib
 INCLUDEDIR := $(PREFIX)/include
 DOCDIR := $(PREFIX)/share/doc/rhotrack
+UNITDIR := $(PREFIX)/lib/systemd/system
+SYSCONFDIR := $(if $(filter /usr /usr/local,$(PREFIX)),,$(PREFIX))/etc
 
 ifeq ($(origin CC),default)
 CC := gcc
@@ -206,6 +208,7 @@ cmake_folder := $(LIBDIR)/cmake/rhotrack
 # Templates have no DESTDIR. Folders under PREFIX are said relative to it; CMake's files are, to themselves.
 fill_in = sed -e 's|@VERSION@|$(VERSION)|' -e 's|@PREFIX@|$(PREFIX)|' \
               -e 's|@LIBDIR@|$(patsubst $(PREFIX)/%,$${prefix}/%,$(LIBDIR))|' \
+              -e 's|@BINDIR@|$(BINDIR)|' -e 's|@SYSCONFDIR@|$(SYSCONFDIR)|' \
               -e 's|@INCLUDEDIR@|$(patsubst $(PREFIX)/%,$${prefix}/%,$(INCLUDEDIR))|' \
               -e "s|@TO_LIBDIR@|$$(realpath -ms --relative-to=$(cmake_folder) $(LIBDIR))|" \
               -e "s|@TO_INCLUDEDIR@|$$(realpath -ms --relative-to=$(cmake_folder) $(INCLUDEDIR))|" \
@@ -214,7 +217,7 @@ fill_in = sed -e 's|@VERSION@|$(VERSION)|' -e 's|@PREFIX@|$(PREFIX)|' \
 
 refuse = $(if $(strip $(1)),$(error $(strip $(2))))
 install_checks = \
-    $(call refuse, $(filter-out /%,$(PREFIX) $(BINDIR) $(LIBDIR) $(INCLUDEDIR) $(DOCDIR)), \
+    $(call refuse, $(filter-out /%,$(PREFIX) $(BINDIR) $(LIBDIR) $(INCLUDEDIR) $(DOCDIR) $(UNITDIR) $(SYSCONFDIR)), \
         PREFIX and the other folders begin with /) \
     $(call refuse, $(filter-out embedded workstation,$(PROFILE)), PROFILE is embedded or workstation) \
     $(call refuse, $(and $(RHO_CONFIG_FILE),$(filter workstation,$(PROFILE))), \
@@ -245,16 +248,22 @@ install-lib: install-checks $(installed_library)
 install-checks:
 	@:$(install_checks)
 
+# Settings that are there are the user's.
 install-program: install-checks $(program)
-	install -d $(DESTDIR)$(BINDIR)
+	install -d $(DESTDIR)$(BINDIR) $(DESTDIR)$(UNITDIR) $(DESTDIR)$(SYSCONFDIR)/rhotrack
 	install -m 755 $(program) $(DESTDIR)$(BINDIR)/
+	@$(call fill_in,rhotrack-node.service,$(DESTDIR)$(UNITDIR))
+	[ -e $(DESTDIR)$(SYSCONFDIR)/rhotrack/node.ini ] || \
+	    install -m 644 tools/install/node.ini $(DESTDIR)$(SYSCONFDIR)/rhotrack/
 
 ## Remove what `make install` with the same folders put there
 uninstall:
-	rm -f $(DESTDIR)$(BINDIR)/rhotrack $(DESTDIR)$(LIBDIR)/librhotrack.a $(DESTDIR)$(LIBDIR)/pkgconfig/rhotrack.pc \
+	! cmp -s tools/install/node.ini $(DESTDIR)$(SYSCONFDIR)/rhotrack/node.ini || \
+	    rm $(DESTDIR)$(SYSCONFDIR)/rhotrack/node.ini
+	rm -f $(DESTDIR)$(UNITDIR)/rhotrack-node.service $(DESTDIR)$(BINDIR)/rhotrack $(DESTDIR)$(LIBDIR)/librhotrack.a $(DESTDIR)$(LIBDIR)/pkgconfig/rhotrack.pc \
 	      $(DESTDIR)$(cmake_folder)/rhotrackConfig.cmake $(DESTDIR)$(cmake_folder)/rhotrackConfigVersion.cmake \
 	      $(DESTDIR)$(DOCDIR)/LICENSE $(addprefix $(DESTDIR)$(INCLUDEDIR)/rhotrack/,$(headers) config_file.h)
-	for folder in $(cmake_folder) $(INCLUDEDIR)/rhotrack/detail $(INCLUDEDIR)/rhotrack $(DOCDIR); do \
+	for folder in $(SYSCONFDIR)/rhotrack $(cmake_folder) $(INCLUDEDIR)/rhotrack/detail $(INCLUDEDIR)/rhotrack $(DOCDIR); do \
 	    [ ! -d "$(DESTDIR)$$folder" ] || rmdir --ignore-fail-on-non-empty "$(DESTDIR)$$folder"; done
 
 # --- tests -----------------------------------------------------------------------------------

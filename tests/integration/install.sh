@@ -49,6 +49,7 @@ small=$(ram rho_tracker 4)
 # ---- make install ----
 usual='^/opt/rt/(bin/rhotrack|lib/librhotrack\.a|lib/pkgconfig/rhotrack\.pc|lib/cmake/rhotrack/rhotrackConfig(Version)?\.cmake)$'
 usual+='|^/opt/rt/(include/rhotrack/(detail/)?[a-z_]+\.h|share/doc/rhotrack/LICENSE)$'
+usual+='|^/opt/rt/(lib/systemd/system/rhotrack-node\.service|etc/rhotrack/node\.ini)$'
 stage=$folder/stage
 (umask 077 && install_by_make "$stage" install PREFIX=/opt/rt)
 status=$?
@@ -67,11 +68,31 @@ check 'all is there, and headers are as they were' is_whole
 check 'everybody may read it' test -z "$(find "$stage/opt" ! -perm -444 -o -type d ! -perm -555)"
 leaks_nothing() { ! grep -rlF -e "$stage" -e "$root" "$@"; }
 check 'no file knows where it was staged or built' leaks_nothing "$stage/opt"
-no_placeholders() { ! grep -rnE '@[A-Z_]+@' "$1"/lib/pkgconfig "$1"/lib/cmake; }
+no_placeholders() { ! grep -rnE '@[A-Z_]+@' "$1"/lib/pkgconfig "$1"/lib/cmake "$1"/lib/systemd; }
 check 'templates are filled in' no_placeholders "$stage/opt/rt"
 go "$stage/opt/rt/bin/rhotrack" --version
 check 'the installed program runs, version of the Makefile' test "$(cat stdout)" = \
     "rhotrack $version"
+
+
+# ---- the service ----
+service=$stage/opt/rt/lib/systemd/system/rhotrack-node.service
+check 'the service runs the installed program with its settings' grep -q \
+    '^ExecStart=/opt/rt/bin/rhotrack node --config /opt/rt/etc/rhotrack/node.ini ' "$service"
+if command -v systemd-analyze >/dev/null; then
+    sed "s|=/opt/rt/bin|=$stage/opt/rt/bin|" "$service" >rhotrack-node.service
+    go systemd-analyze verify ./rhotrack-node.service
+    check 'systemd takes it' exits 0
+else
+    echo 'skipped: install.sh: no systemd-analyze here'
+fi
+sed 's/^#\([a-z]\)/\1/; s/^#\(\[\)/\1/' "$stage/opt/rt/etc/rhotrack/node.ini" >all.ini
+go "$stage/opt/rt/bin/rhotrack" config --config all.ini
+check 'its settings are taken, those behind # as well' exits 0
+echo 'v_max_mps = 500' >"$stage/opt/rt/etc/rhotrack/node.ini"
+install_by_make "$stage" install-program PREFIX=/opt/rt
+check 'settings that are there stay' grep -qx 'v_max_mps = 500' \
+    "$stage/opt/rt/etc/rhotrack/node.ini"
 
 # ---- pkg-config ----
 export PKG_CONFIG_LIBDIR=$stage/opt/rt/lib/pkgconfig
