@@ -176,10 +176,10 @@ check 'cells for the range' says 2 \
 run initiate passive-two/bearings.csv --set d_theta_rad=0.01
 check 'cells for half a turn' says 2 \
     'rhotrack: d_theta_rad 0.01 takes 315 cells over half a turn; there are 36'
-for kind in tracks parameter-space errors; do
+for kind in parameter-space errors; do
     run plot "$kind" passive-two/bearings.csv passive-two/truth.csv -o out.svg
     check "plot $kind refuses bearings by name" refused \
-        "plot $kind: bearings (column 'bearing_rad') are shown by plot scans alone"
+        "plot $kind: bearings (column 'bearing_rad') are shown by plot scans and plot tracks alone"
 done
 
 # ---- track ----
@@ -310,6 +310,10 @@ for number in 1 2 3; do
     check "plot scans names sensor $number" grep -q "sensor $number" picture.svg
 done
 check 'and the truth' grep -q truth picture.svg
+run track passive-three/bearings.csv -o under.csv
+run plot tracks passive-three/bearings.csv under.csv -o picture.svg
+check 'plot tracks has bearings under their tracks' sh -c \
+    "grep -q 'sensor 3' picture.svg && grep -q 'track 1' picture.svg && grep -q '48 bearings' picture.svg"
 picture 'bearings alone' passive-two/bearings.csv
 cp picture.svg far.svg
 picture 'bearings alone, as far as the sensors see' passive-two/bearings.csv --set range_max_m=30000

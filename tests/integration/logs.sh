@@ -176,9 +176,9 @@ cat garbage.bytes passive-three/in.lcm radar/tracks.lcm radar/in.lcm >node.lcm
 run plot tracks node.lcm -o map.svg
 check 'plot: tracks of a log with bearings, too; damage is told once' says 0 \
     'rhotrack: node.lcm: 500 bytes skipped at byte 0'
-run plot tracks passive-three/in.lcm -o map.svg
+run plot errors passive-three/in.lcm -o map.svg
 check 'plot: a log of bearings alone' says 2 \
-    'rhotrack: plot tracks: bearings * are shown by plot scans alone'
+    'rhotrack: plot errors: bearings * are shown by plot scans and plot tracks alone'
 run plot tracks peaks.lcm -o map.svg
 check 'plot: nothing to draw in it' says 2 \
     'rhotrack: peaks.lcm: no messages of plots, bearings, truth or tracks in it'

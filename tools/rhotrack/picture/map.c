@@ -1,35 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 #include "picture/map.h"
 
+#include <inttypes.h>
 #include <math.h>
 
-static double extent_m(const struct plot_points *points)
-{
-    double largest = 0.0;
-    for (size_t i = 1; i < points->count; i++) {
-        largest = fmax(largest, fabs(points->list[i].x_m - points->list[0].x_m));
-        largest = fmax(largest, fabs(points->list[i].y_m - points->list[0].y_m));
-    }
-    return largest;
-}
+#define MARGIN 0.05       /* of the larger side, around all that is drawn */
+#define MARGIN_MIN_M 10.0 /* of a single place */
+#define AXES_PIXELS 200   /* beside the map, both ways */
+#define RADARS_RINGED 3
+#define RINGS 4 /* or somewhat more, to the farthest corner */
+#define RING_POINTS 144
+#define MARKER_PIXELS 14.0
 
-static double length_m(const struct plot_rays *rays)
-{
-    double largest = 0.0;
-    for (size_t i = 0; i < rays->count; i++) {
-        const struct plot_ray *ray = &rays->list[i];
-        largest = fmax(largest, hypot(ray->end_x_m - ray->x_m, ray->end_y_m - ray->y_m));
-    }
-    return largest;
-}
-
-void map_set_extent(struct map *map, double side_m)
-{
-    const char *unit;
-    map->unit_m = side_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
-    unit = map->unit_m > 1.0 ? "km" : "m";
-    fprintf(map->script, "set xlabel 'x east (%s)'\nset ylabel 'y north (%s)'\n", unit, unit);
-}
+/* ---- what is seen ---- */
 
 struct map_box map_box_empty(void)
 {
@@ -44,25 +27,65 @@ void map_box_include(struct map_box *box, double x_m, double y_m)
     box->y_max_m = fmax(box->y_max_m, y_m);
 }
 
-void map_box_widen(struct map_box *box, double margin_m)
+void map_box_include_points(struct map_box *box, const struct plot_points *points)
 {
+    for (size_t i = 0; i < points->count; i++) {
+        map_box_include(box, points->list[i].x_m, points->list[i].y_m);
+    }
+}
+
+void map_box_include_radars(struct map_box *box, const struct plot_data *data)
+{
+    for (size_t i = 0; i < data->num_radars; i++) {
+        map_box_include(box, data->radars[i].x_m, data->radars[i].y_m);
+    }
+}
+
+static double side_m(const struct map_box *box)
+{
+    return fmax(box->x_max_m - box->x_min_m, box->y_max_m - box->y_min_m);
+}
+
+static bool is_inside(const struct map_box *box, double x_m, double y_m)
+{
+    return x_m > box->x_min_m && x_m < box->x_max_m && y_m > box->y_min_m && y_m < box->y_max_m;
+}
+
+static void widen(struct map_box *box)
+{
+    if (!(box->x_min_m <= box->x_max_m)) {
+        map_box_include(box, 0.0, 0.0);
+    }
+    const double margin_m = fmax(MARGIN_MIN_M, MARGIN * side_m(box));
     map_box_include(box, box->x_min_m - margin_m, box->y_min_m - margin_m);
     map_box_include(box, box->x_max_m + margin_m, box->y_max_m + margin_m);
 }
 
-struct map map_start(FILE *script, const struct plot_data *data)
+struct map map_start(const struct picture *picture, struct map_box box)
 {
-    struct map map = {script, 1.0};
-    fprintf(map.script, "set size ratio -1\nset key outside top center horizontal\n");
-    map_set_extent(&map, fmax(fmax(extent_m(&data->plots), length_m(&data->bearings)),
-                              fmax(extent_m(&data->tracks), extent_m(&data->truth))));
-    return map;
+    widen(&box);
+    const double unit_m = side_m(&box) > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
+    const char *unit = unit_m > 1.0 ? "km" : "m";
+    fprintf(picture->script,
+            "set size ratio -1\n"
+            "set xlabel 'x east (%s)'\nset ylabel 'y north (%s)'\n"
+            "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n",
+            unit, unit, box.x_min_m / unit_m, box.x_max_m / unit_m, box.y_min_m / unit_m,
+            box.y_max_m / unit_m);
+    return (struct map){.script = picture->script,
+                        .unit_m = unit_m,
+                        .pixels_per_m =
+                            fmin((picture->width - AXES_PIXELS) / (box.x_max_m - box.x_min_m),
+                                 (picture->height - AXES_PIXELS) / (box.y_max_m - box.y_min_m)),
+                        .box = box};
 }
 
-void map_put_point(const struct map *map, const struct plot_point *point)
+/* ---- points ---- */
+
+void map_put_point(const struct map *map, const struct plot_point *point, int64_t zero_us)
 {
     fprintf(map->script, "%.6g %.6g %.6g %d\n", point->x_m / map->unit_m, point->y_m / map->unit_m,
-            (double)point->time_us * 1e-6, point->id);
+            (double)(point->time_us - zero_us) * 1e-6, point->id);
 }
 
 void map_put_points(const struct map *map, const char *name, const struct plot_points *points)
@@ -72,7 +95,185 @@ void map_put_points(const struct map *map, const char *name, const struct plot_p
         if (i > 0 && points->list[i].id != points->list[i - 1].id) {
             fprintf(map->script, "\n\n");
         }
-        map_put_point(map, &points->list[i]);
+        map_put_point(map, &points->list[i], 0);
     }
     fprintf(map->script, "EOD\n");
+}
+
+size_t map_plots_drawn(size_t count)
+{
+    return count < MAP_PLOTS_MAX ? count : MAP_PLOTS_MAX;
+}
+
+/* One of each stretch of the list, at a place within it that no period of the scans meets. */
+size_t map_plot_index(size_t k, size_t count)
+{
+    if (count <= MAP_PLOTS_MAX) {
+        return k;
+    }
+    const double within = (double)((uint32_t)k * UINT32_C(2654435761)) / 4294967296.0;
+    return (size_t)(((double)k + within) * (double)count / MAP_PLOTS_MAX);
+}
+
+void map_put_plots(const struct map *map, const struct plot_points *plots, int64_t zero_us)
+{
+    fprintf(map->script, "$plots << EOD\n");
+    for (size_t k = 0; k < map_plots_drawn(plots->count); k++) {
+        map_put_point(map, &plots->list[map_plot_index(k, plots->count)], zero_us);
+    }
+    fprintf(map->script, "EOD\n");
+}
+
+void map_draw_plots(const struct map *map, const struct plot_points *plots)
+{
+    const size_t drawn = map_plots_drawn(plots->count);
+    if (plots->count == 0) {
+        return;
+    }
+    /* the more there are, the paler and smaller: 0 is opaque, 255 is nothing */
+    const double crowd = fmin(1.0, sqrt((double)drawn / MAP_PLOTS_MAX));
+    fprintf(map->script,
+            ", \\\n $plots using 1:2 with points pt 7 ps %.2f lc rgb '#%02x808080' notitle"
+            ", \\\n NaN with points pt 7 ps 0.5 lc rgb '#9a9a9a' title '",
+            0.34 - 0.16 * crowd, (unsigned)(70.0 + 90.0 * crowd));
+    if (drawn < plots->count) {
+        fprintf(map->script, "%zu of %zu plots'", drawn, plots->count);
+    } else {
+        fprintf(map->script, "plots'");
+    }
+}
+
+size_t map_marker_interval(const struct map *map, const struct plot_points *path)
+{
+    struct map_box box = map_box_empty();
+    map_box_include_points(&box, path);
+    const double pixels =
+        hypot(box.x_max_m - box.x_min_m, box.y_max_m - box.y_min_m) * map->pixels_per_m;
+    const double markers = fmax(1.0, pixels / MARKER_PIXELS);
+    return (size_t)fmax(1.0, ceil((double)path->count / markers));
+}
+
+/* ---- radars ---- */
+
+double map_round_down(double value)
+{
+    const double decade = pow(10.0, floor(log10(fmax(value, 1e-9))));
+    return value >= 5.0 * decade ? 5.0 * decade : value >= 2.0 * decade ? 2.0 * decade : decade;
+}
+
+/* To the farthest corner that is seen, or as far as the radar sees. */
+static double ringed_m(const struct map *map, const struct plot_radar *radar)
+{
+    const double x_m =
+        fmax(fabs(map->box.x_min_m - radar->x_m), fabs(map->box.x_max_m - radar->x_m));
+    const double y_m =
+        fmax(fabs(map->box.y_min_m - radar->y_m), fabs(map->box.y_max_m - radar->y_m));
+    return fmin(hypot(x_m, y_m), radar->range_max_m);
+}
+
+static void put_arc(const struct map *map, const struct plot_radar *radar, double radius_m,
+                    double from_rad, double turn_rad)
+{
+    for (int i = 0; i <= RING_POINTS; i++) {
+        const double angle_rad = from_rad + turn_rad * i / RING_POINTS;
+        fprintf(map->script, "%.9g %.9g\n", (radar->x_m + radius_m * cos(angle_rad)) / map->unit_m,
+                (radar->y_m + radius_m * sin(angle_rad)) / map->unit_m);
+    }
+}
+
+/* Where the ring crosses an axis within the picture: north, else east, south, west. */
+static void label_ring(const struct map *map, const struct plot_radar *radar, double radius_m)
+{
+    static const int east[4] = {0, 1, 0, -1}, north[4] = {1, 0, -1, 0};
+    for (int i = 0; i < 4; i++) {
+        const double x_m = radar->x_m + radius_m * east[i], y_m = radar->y_m + radius_m * north[i];
+        if (is_inside(&map->box, x_m, y_m)) {
+            fprintf(map->script,
+                    "set label '%.9g %s' at %.9g,%.9g left front font ',10' tc rgb '#888888' "
+                    "offset 0.2,0.4\n",
+                    radius_m / map->unit_m, map->unit_m > 1.0 ? "km" : "m", x_m / map->unit_m,
+                    y_m / map->unit_m);
+            return;
+        }
+    }
+}
+
+/* How far the rings are apart, and how many there are. */
+static double ring_step_m(const struct map *map, const struct plot_radar *radar, int *count)
+{
+    const double farthest_m = fmax(ringed_m(map, radar), 1.0);
+    const double step_m = map_round_down(farthest_m / RINGS);
+    *count = (int)floor(farthest_m / step_m + 1e-9);
+    return step_m;
+}
+
+static void put_rings(const struct map *map, const struct plot_radar *radar)
+{
+    int count;
+    const double step_m = ring_step_m(map, radar, &count);
+    for (int ring = 1; ring <= count; ring++) {
+        put_arc(map, radar, ring * step_m, 0.0, 2.0 * M_PI);
+        fputc('\n', map->script);
+    }
+}
+
+static void label_radar(const struct map *map, const struct plot_radar *radar, bool is_ringed)
+{
+    int count;
+    const double step_m = ring_step_m(map, radar, &count);
+    for (int ring = 1; ring <= count && is_ringed; ring++) {
+        label_ring(map, radar, ring * step_m);
+    }
+    fprintf(map->script,
+            "set label 'S%" PRId32 "' at %.9g,%.9g point pt 9 ps 1.2 lc rgb '#000000' offset "
+            "0.8,-0.6 front\n",
+            radar->sensor_id, radar->x_m / map->unit_m, radar->y_m / map->unit_m);
+}
+
+static void put_coverage(const struct map *map, const struct plot_radar *radar)
+{
+    const double turn_rad =
+        fmod(radar->sector_to_rad - radar->sector_from_rad + 4.0 * M_PI, 2.0 * M_PI);
+    if (isinf(radar->range_max_m)) {
+        return;
+    }
+    if (turn_rad < 1e-6) {
+        put_arc(map, radar, radar->range_max_m, 0.0, 2.0 * M_PI);
+    } else {
+        put_arc(map, radar, 0.0, 0.0, 0.0);
+        put_arc(map, radar, radar->range_max_m, radar->sector_from_rad, turn_rad);
+        put_arc(map, radar, 0.0, 0.0, 0.0);
+    }
+    fputc('\n', map->script);
+}
+
+void map_put_radars(const struct map *map, const struct plot_radar *radars, size_t count)
+{
+    fprintf(map->script, "$rings << EOD\n");
+    for (size_t i = 0; i < count && count <= RADARS_RINGED; i++) {
+        put_rings(map, &radars[i]);
+    }
+    fprintf(map->script, "NaN NaN\nEOD\n$coverage << EOD\n");
+    for (size_t i = 0; i < count; i++) {
+        put_coverage(map, &radars[i]);
+    }
+    fprintf(map->script, "NaN NaN\nEOD\n");
+    for (size_t i = 0; i < count; i++) {
+        label_radar(map, &radars[i], count <= RADARS_RINGED);
+    }
+}
+
+void map_draw_radars(const struct map *map, const struct plot_radar *radars, size_t count)
+{
+    bool is_limited = false;
+    for (size_t i = 0; i < count; i++) {
+        is_limited |= !isinf(radars[i].range_max_m);
+    }
+    if (count > 0 && count <= RADARS_RINGED) {
+        fprintf(map->script, ", \\\n $rings using 1:2 with lines lw 0.6 lc rgb '#c8c8c8' notitle");
+    }
+    if (is_limited) {
+        fprintf(map->script, ", \\\n $coverage using 1:2 with lines lw 1 dt 2 lc rgb '#7090b0' "
+                             "title 'coverage'");
+    }
 }

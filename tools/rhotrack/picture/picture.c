@@ -2,6 +2,8 @@
 #include "picture/picture.h"
 
 #include <errno.h>
+#include <stdarg.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -33,26 +35,47 @@ static char *with_ending(const char *path, const char *ending)
     return text;
 }
 
+void picture_check_path(const char *path)
+{
+    if (!path_ends_with(path, ".svg") && !path_ends_with(path, ".png")) {
+        fail(EXIT_USAGE, "%s: a picture is NAME.svg or NAME.png", path);
+    }
+}
+
+/* A PNG is drawn at twice the size, so that it is sharp on fine screens. */
+static void set_terminal(const struct picture *picture)
+{
+    const bool is_png = path_ends_with(picture->path, ".png");
+    const int scale = is_png ? 2 : 1;
+
+    fprintf(picture->script, "set terminal %s size %d,%d enhanced background '#ffffff' %s\n",
+            is_png ? "pngcairo" : "svg", picture->width * scale, picture->height * scale,
+            is_png ? "font 'Helvetica,11' fontscale 2 linewidth 2 pointscale 2"
+                   : "font 'Helvetica,15'");
+}
+
 struct picture picture_open(const char *path, int width, int height)
 {
     struct picture picture = {
         .path = must_copy(path),
         .temporary_path = with_ending(path, ".part"),
         .script_path = with_ending(path, ".gnuplot"),
+        .width = width,
+        .height = height,
     };
     picture.script = fopen(picture.script_path, "w");
     if (!picture.script) {
         fail(EXIT_RUNTIME, "%s: %s", picture.script_path, strerror(errno));
     }
+    set_terminal(&picture);
     fprintf(
         picture.script,
-        "set terminal svg size %d,%d enhanced background '#ffffff' font 'Helvetica,15'\n"
         "set output '%s'\n"
         "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
         "set grid lc rgb '#dddddd' lt 1 lw 0.7\nset key outside right top vertical Left reverse\n",
-        width, height, picture.temporary_path);
+        picture.temporary_path);
     for (size_t i = 0; i < NUM_COLOURS; i++) {
-        fprintf(picture.script, "set linetype %zu lc rgb '%s' pt %d lw 2\n", i + 1, colours[i],
+        fprintf(picture.script, "set linetype %zu lc rgb '%s' pt %d lw 1.3\n", i + 1, colours[i],
                 markers[i]);
     }
     return picture;
@@ -71,9 +94,23 @@ static void run_gnuplot(const struct picture *picture)
     }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
         remove(picture->temporary_path);
+        remove(picture->script_path);
         fail(EXIT_RUNTIME, "%s: gnuplot could not draw it%s", picture->path,
-             WIFEXITED(status) && WEXITSTATUS(status) == 127 ? ": it is not installed" : "");
+             WIFEXITED(status) && WEXITSTATUS(status) == 127
+                 ? ": it is not installed (apt-get install gnuplot-nox)"
+                 : "");
     }
+}
+
+void picture_set_title(const struct picture *picture, const char *format, ...)
+{
+    va_list arguments;
+
+    fprintf(picture->script, "set title \"");
+    va_start(arguments, format);
+    vfprintf(picture->script, format, arguments);
+    va_end(arguments);
+    fprintf(picture->script, "\" noenhanced tc rgb '#333333'\n");
 }
 
 void picture_close(struct picture *picture)

@@ -5,42 +5,40 @@
 
 #include "picture/map.h"
 
-#define MARGIN 0.06         /* of the larger side, around what must be seen */
+#define RAYS_MAX 6000       /* more are sampled */
 #define RAYS_CROWDED 2000.0 /* rays in a picture, or more, get the thinnest colour */
 
 /* ---- what is seen ---- */
 
-static void include_points(struct map_box *frame, const struct plot_point *list, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        map_box_include(frame, list[i].x_m, list[i].y_m);
-    }
-}
-
 static struct map_box frame_of(const struct plot_data *data)
 {
+    const struct plot_rays *rays = &data->bearings;
     struct map_box frame = map_box_empty();
-    include_points(&frame, data->bearings.sensors, data->bearings.num_sensors);
-    include_points(&frame, data->plots.list, data->plots.count);
-    include_points(&frame, data->truth.list, data->truth.count);
+    const struct plot_points sensors = {.list = rays->sensors, .count = rays->num_sensors};
+    map_box_include_points(&frame, &sensors);
+    map_box_include_points(&frame, &data->plots);
+    map_box_include_points(&frame, &data->truth);
     if (data->plots.count + data->truth.count == 0) {
-        for (size_t i = 0; i < data->bearings.count; i++) {
-            map_box_include(&frame, data->bearings.list[i].end_x_m, data->bearings.list[i].end_y_m);
+        for (size_t i = 0; i < rays->count; i++) {
+            map_box_include(&frame, rays->list[i].end_x_m, rays->list[i].end_y_m);
         }
     }
-    double margin_m = MARGIN * fmax(frame.x_max_m - frame.x_min_m, frame.y_max_m - frame.y_min_m);
-    map_box_widen(&frame, margin_m);
     return frame;
 }
 
 /* ---- data blocks ---- */
 
+static size_t rays_drawn(const struct plot_rays *rays)
+{
+    return rays->count < RAYS_MAX ? rays->count : RAYS_MAX;
+}
+
 /* A block a sensor, so that each has its colour: $rays0, $rays1, ... */
 static void put_rays(const struct map *map, const struct plot_rays *rays, size_t sensor)
 {
     fprintf(map->script, "$rays%zu << EOD\n", sensor);
-    for (size_t i = 0; i < rays->count; i++) {
-        const struct plot_ray *ray = &rays->list[i];
+    for (size_t k = 0; k < rays_drawn(rays); k++) {
+        const struct plot_ray *ray = &rays->list[k * rays->count / rays_drawn(rays)];
         if (ray->sensor == sensor) {
             fprintf(map->script, "%.6g %.6g\n%.6g %.6g\n\n", ray->x_m / map->unit_m,
                     ray->y_m / map->unit_m, ray->end_x_m / map->unit_m, ray->end_y_m / map->unit_m);
@@ -53,7 +51,7 @@ static void put_sensors(const struct map *map, const struct plot_rays *rays)
 {
     fprintf(map->script, "$sensors << EOD\n");
     for (size_t i = 0; i < rays->num_sensors; i++) {
-        map_put_point(map, &rays->sensors[i]);
+        map_put_point(map, &rays->sensors[i], 0);
     }
     fprintf(map->script, "EOD\n");
 }
@@ -83,10 +81,10 @@ static int paleness(const struct plot_rays *rays)
     return (int)(90.0 + 130.0 * fmin(1.0, sqrt((double)rays->count / RAYS_CROWDED)));
 }
 
-static void draw_rays(const struct map *map, const struct plot_rays *rays)
+void plot_bearings_draw(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
-        fprintf(map->script, ", \\\n $rays%zu using 1:2 with lines lw 0.8 lc rgb '#%02x%s' notitle",
+        fprintf(map->script, ", \\\n $rays%zu using 1:2 with lines lw 0.6 lc rgb '#%02x%s' notitle",
                 i, (unsigned)paleness(rays), picture_colour(i) + 1);
         /* the legend's sample is not pale */
         fprintf(map->script, ", \\\n NaN with lines lw 2 lc rgb '%s' title 'sensor %d'",
@@ -94,7 +92,7 @@ static void draw_rays(const struct map *map, const struct plot_rays *rays)
     }
 }
 
-static void draw_sensors(const struct map *map, const struct plot_rays *rays)
+void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
         fprintf(map->script,
@@ -107,32 +105,32 @@ static void draw_sensors(const struct map *map, const struct plot_rays *rays)
                          "boxed offset 1.2,-0.9 tc rgb '#000000' notitle");
 }
 
+void plot_bearings_put(const struct map *map, const struct plot_rays *rays)
+{
+    for (size_t i = 0; i < rays->num_sensors; i++) {
+        put_rays(map, rays, i);
+    }
+    put_sensors(map, rays);
+    fprintf(map->script,
+            "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.5,0.3\n");
+}
+
 void plot_bearings(struct picture *picture, const struct plot_data *data)
 {
     const struct plot_rays *rays = &data->bearings;
-    struct map map = map_start(picture->script, data);
-    struct map_box frame = frame_of(data);
-    for (size_t i = 0; i < rays->num_sensors; i++) {
-        put_rays(&map, rays, i);
-    }
-    put_sensors(&map, rays);
-    map_put_points(&map, "plots", &data->plots);
+    const struct map map = map_start(picture, frame_of(data));
+    picture_set_title(picture, "%zu bearings of %zu sensors", rays->count, rays->num_sensors);
+    plot_bearings_put(&map, rays);
+    map_put_plots(&map, &data->plots, 0);
     map_put_points(&map, "truth", &data->truth);
     put_ends(&map, &data->truth);
-    fprintf(map.script,
-            "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nset style textbox opaque fillcolor "
-            "rgb '#ffffff' noborder margins 0.5,0.3\nplot NaN notitle",
-            frame.x_min_m / map.unit_m, frame.x_max_m / map.unit_m, frame.y_min_m / map.unit_m,
-            frame.y_max_m / map.unit_m);
-    draw_rays(&map, rays);
-    if (data->plots.count) {
-        fprintf(map.script,
-                ", \\\n $plots using 1:2 with points pt 7 ps 0.3 lc rgb '#a8a8a8' title 'plots'");
-    }
+    fprintf(map.script, "plot NaN notitle");
+    plot_bearings_draw(&map, rays);
+    map_draw_plots(&map, &data->plots);
     if (data->truth.count) {
-        fprintf(map.script, ", \\\n $truth using 1:2 with linespoints lw 2 pt 7 ps 0.5 lc rgb "
-                            "'#000000' title 'truth'");
+        fprintf(map.script, ", \\\n $truth using 1:2 with lines lw 1.5 lc rgb '#000000' title "
+                            "'truth'");
     }
-    draw_sensors(&map, rays);
+    plot_bearings_draw_sensors(&map, rays);
     fprintf(map.script, "\n");
 }

@@ -6,6 +6,7 @@
 #ifndef RHOTRACK_TOOL_PLOT_BEARINGS_H
 #define RHOTRACK_TOOL_PLOT_BEARINGS_H
 
+#include "picture/map.h"
 #include "picture/picture.h"
 #include "picture/plot_data.h"
 
@@ -14,5 +15,10 @@
  * else it shows the rays whole.
  */
 void plot_bearings(struct picture *picture, const struct plot_data *data);
+
+/* Rays and sensors for a map of other things: data blocks, then what draws them. */
+void plot_bearings_put(const struct map *map, const struct plot_rays *rays);
+void plot_bearings_draw(const struct map *map, const struct plot_rays *rays);
+void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *rays);
 
 #endif

@@ -8,21 +8,9 @@
 #include "base/common.h"
 #include "picture/map.h"
 
-#define MARGIN 0.05      /* of the larger side, around all that is drawn */
-#define SENSORS_RINGED 3 /* rings of more would hide the echoes */
-#define RINGS 4          /* or somewhat more, to the farthest echo */
-#define RING_POINTS 144
-#define MARGIN_MIN_M 10.0 /* of a single echo */
-
-struct place {
-    int32_t sensor_id;
-    double x_m, y_m;
-    double farthest_m; /* of its echoes */
-};
-
 /* ---- sensors ---- */
 
-static struct place *find_sensor(struct place *sensors, size_t count, int32_t sensor_id)
+static struct plot_radar *find_sensor(struct plot_radar *sensors, size_t count, int32_t sensor_id)
 {
     for (size_t i = 0; i < count; i++) {
         if (sensors[i].sensor_id == sensor_id) {
@@ -32,41 +20,34 @@ static struct place *find_sensor(struct place *sensors, size_t count, int32_t se
     return NULL;
 }
 
-/* Sensors that have echoes. */
-static struct place *find_sensors(const struct clutter_echo *echoes, size_t count,
-                                  const struct parameters *parameters, size_t *num_sensors)
+/* Sensors that have echoes, as far as the farthest of them. */
+static struct plot_radar *find_sensors(const struct clutter_echo *echoes, size_t count,
+                                       const struct parameters *parameters, size_t *num_sensors)
 {
-    struct place *sensors = NULL;
+    struct plot_radar *sensors = NULL;
     size_t capacity = 0;
 
     *num_sensors = 0;
     for (size_t i = 0; i < count; i++) {
-        struct place *sensor = find_sensor(sensors, *num_sensors, echoes[i].sensor_id);
-
-        if (!sensor) {
+        if (!find_sensor(sensors, *num_sensors, echoes[i].sensor_id)) {
             struct rho_sensor described;
 
             parameters_to_any_sensor(parameters, echoes[i].sensor_id, &described);
             sensors = must_grow(sensors, *num_sensors, &capacity, sizeof *sensors);
-            sensor = &sensors[(*num_sensors)++];
-            *sensor = (struct place){.sensor_id = echoes[i].sensor_id,
-                                     .x_m = (double)described.x_m,
-                                     .y_m = (double)described.y_m};
+            sensors[(*num_sensors)++] = (struct plot_radar){.sensor_id = echoes[i].sensor_id,
+                                                            .x_m = (double)described.x_m,
+                                                            .y_m = (double)described.y_m,
+                                                            .range_max_m = INFINITY};
         }
-        sensor->farthest_m = fmax(sensor->farthest_m, hypot((double)echoes[i].x_m - sensor->x_m,
-                                                            (double)echoes[i].y_m - sensor->y_m));
     }
     return sensors;
 }
 
-/* ---- what is seen ---- */
-
 static struct map_box box_of(const struct clutter_echo *echoes, size_t count,
-                             const struct place *sensors, size_t num_sensors,
+                             const struct plot_radar *sensors, size_t num_sensors,
                              const struct plot_points *plots)
 {
     struct map_box box = map_box_empty();
-    double margin_m;
 
     for (size_t i = 0; i < count; i++) {
         map_box_include(&box, (double)echoes[i].x_m, (double)echoes[i].y_m);
@@ -74,79 +55,11 @@ static struct map_box box_of(const struct clutter_echo *echoes, size_t count,
     for (size_t i = 0; i < num_sensors; i++) {
         map_box_include(&box, sensors[i].x_m, sensors[i].y_m);
     }
-    for (size_t i = 0; i < plots->count; i++) {
-        map_box_include(&box, plots->list[i].x_m, plots->list[i].y_m);
-    }
-    if (!(box.x_min_m <= box.x_max_m)) {
-        map_box_include(&box, 0.0, 0.0);
-    }
-    margin_m =
-        fmax(MARGIN_MIN_M, MARGIN * fmax(box.x_max_m - box.x_min_m, box.y_max_m - box.y_min_m));
-    map_box_widen(&box, margin_m);
+    map_box_include_points(&box, plots);
     return box;
 }
 
 /* ---- drawing ---- */
-
-/* 1, 2 or 5 times a power of ten, so that some RINGS reach so far. */
-static double ring_step_m(double farthest_m)
-{
-    const double least_m = fmax(farthest_m, 1.0) / (RINGS + 1);
-    const double decade_m = pow(10.0, floor(log10(least_m)));
-
-    return least_m <= decade_m         ? decade_m
-           : least_m <= 2.0 * decade_m ? 2.0 * decade_m
-           : least_m <= 5.0 * decade_m ? 5.0 * decade_m
-                                       : 10.0 * decade_m;
-}
-
-/* The last one is behind the farthest echo. */
-static int num_rings(const struct place *sensor, double step_m)
-{
-    return (int)fmax(1.0, ceil(sensor->farthest_m / step_m));
-}
-
-static void put_ring(const struct map *map, const struct place *sensor, double radius_m)
-{
-    for (int i = 0; i <= RING_POINTS; i++) {
-        const double angle_rad = 2.0 * M_PI * i / RING_POINTS;
-
-        fprintf(map->script, "%.9g %.9g\n", (sensor->x_m + radius_m * cos(angle_rad)) / map->unit_m,
-                (sensor->y_m + radius_m * sin(angle_rad)) / map->unit_m);
-    }
-    fputc('\n', map->script);
-}
-
-/* $rings, and what they are. */
-static void put_rings(const struct map *map, const struct place *sensors, size_t count)
-{
-    fprintf(map->script, "$rings << EOD\n");
-    for (size_t i = 0; i < count; i++) {
-        const double step_m = ring_step_m(sensors[i].farthest_m);
-
-        for (int ring = 1; ring <= num_rings(&sensors[i], step_m); ring++) {
-            put_ring(map, &sensors[i], ring * step_m);
-        }
-    }
-    fprintf(map->script, "EOD\n");
-    for (size_t i = 0; i < count; i++) {
-        const double step_m = ring_step_m(sensors[i].farthest_m);
-        const double x = sensors[i].x_m / map->unit_m, y = sensors[i].y_m / map->unit_m;
-
-        for (int ring = 1; ring <= num_rings(&sensors[i], step_m); ring++) {
-            const double radius = ring * step_m / map->unit_m;
-
-            fprintf(map->script,
-                    "set label '%.9g' at %.9g,%.9g left front font ',11' tc rgb '#777777' offset "
-                    "0.2,0.4\n",
-                    radius, x, y + radius);
-        }
-        fprintf(map->script,
-                "set label 'S%" PRId32 "' at %.9g,%.9g point pt 9 ps 1.2 lc rgb '#000000' offset "
-                "0.8,-0.6 front\n",
-                sensors[i].sensor_id, x, y);
-    }
-}
 
 static double size_of(double hits)
 {
@@ -185,27 +98,19 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
                   const struct plot_data *data, const struct parameters *parameters)
 {
     size_t num_sensors;
-    struct place *sensors = find_sensors(echoes, count, parameters, &num_sensors);
-    const struct map_box box = box_of(echoes, count, sensors, num_sensors, &data->plots);
-    struct map map = map_start(picture->script, data);
+    struct plot_radar *sensors = find_sensors(echoes, count, parameters, &num_sensors);
+    const struct map map =
+        map_start(picture, box_of(echoes, count, sensors, num_sensors, &data->plots));
 
-    map_set_extent(&map, fmax(box.x_max_m - box.x_min_m, box.y_max_m - box.y_min_m));
-    fprintf(map.script, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n",
-            box.x_min_m / map.unit_m, box.x_max_m / map.unit_m, box.y_min_m / map.unit_m,
-            box.y_max_m / map.unit_m);
+    picture_set_title(picture, "Clutter map: %zu fixed echoes of %zu sensors", count, num_sensors);
     for (size_t i = 0; i < num_sensors; i++) {
         put_echoes(&map, echoes, count, sensors[i].sensor_id, i);
     }
-    put_rings(&map, sensors, num_sensors <= SENSORS_RINGED ? num_sensors : 0);
-    map_put_points(&map, "plots", &data->plots);
+    map_put_radars(&map, sensors, num_sensors);
+    map_put_plots(&map, &data->plots, 0);
     fprintf(map.script, "unset grid\nplot NaN notitle");
-    if (num_sensors > 0 && num_sensors <= SENSORS_RINGED) {
-        fprintf(map.script, ", \\\n $rings using 1:2 with lines lw 0.8 lc rgb '#c0c0c0' notitle");
-    }
-    if (data->plots.count) {
-        fprintf(map.script,
-                ", \\\n $plots using 1:2 with points pt 7 ps 0.2 lc rgb '#b0b0b0' title 'plots'");
-    }
+    map_draw_radars(&map, sensors, num_sensors);
+    map_draw_plots(&map, &data->plots);
     for (size_t i = 0; i < num_sensors; i++) {
         fprintf(map.script,
                 ", \\\n $echoes%zu using 1:2:3 with points pt 7 ps variable lc rgb '#60%s' title "

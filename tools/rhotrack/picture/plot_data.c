@@ -15,10 +15,42 @@
 #include "io/scans/frame_reader.h"
 #include "rhotrack/message.h"
 
-/* As the tracks have them: the same checks, the same conversion. */
-static void add_plots(struct plot_points *points, const struct table *table,
+#define LATE_US 1000000000 /* a first time from here on is a clock's */
+
+static void add_radar(struct plot_data *data, const struct record *record, bool is_polar,
                       const struct parameters *parameters)
 {
+    for (size_t i = 0; i < data->num_radars; i++) {
+        if (data->radars[i].sensor_id == record->sensor_id) {
+            return;
+        }
+    }
+    if (!record->has_sensor && !is_polar) {
+        return;
+    }
+    const struct rho_sensor *sensor = &record->sensor;
+    const double range_max_m =
+        parameters_of_sensor(parameters, record->sensor_id, SENSOR_RANGE_MAX_M,
+                             parameters->source[PARAMETER_RANGE_MAX_M] > SOURCE_DEFAULT
+                                 ? parameters->value[PARAMETER_RANGE_MAX_M]
+                                 : INFINITY);
+    data->radars =
+        must_grow(data->radars, data->num_radars, &data->radars_capacity, sizeof *data->radars);
+    data->radars[data->num_radars++] = (struct plot_radar){
+        .sensor_id = record->sensor_id,
+        .x_m = (double)sensor->x_m,
+        .y_m = (double)sensor->y_m,
+        .range_max_m = range_max_m,
+        .sector_from_rad = record->has_sensor ? (double)sensor->sector_from_rad : 0.0,
+        .sector_to_rad = record->has_sensor ? (double)sensor->sector_to_rad : 0.0};
+}
+
+/* As the tracks have them: the same checks, the same conversion. */
+static void add_plots(struct plot_data *data, const struct table *table,
+                      const struct parameters *parameters)
+{
+    struct plot_points *points = &data->plots;
+    const bool is_polar = table_find(table, "range_m") >= 0;
     struct record_columns columns = record_columns_find(table, parameters, RECORD_PLOTS, false);
     char reason[ROW_REASON_BYTES];
     for (size_t row = 0; row < table->num_rows; row++) {
@@ -27,6 +59,7 @@ static void add_plots(struct plot_points *points, const struct table *table,
             table_fail(table, row, "%s", reason);
         }
         if (record.has_measurement) {
+            add_radar(data, &record, is_polar, parameters);
             points->list[points->count++] =
                 (struct plot_point){.time_us = record.time_us - record.bias_us,
                                     .x_m = (double)record.plot.x_m,
@@ -67,13 +100,13 @@ static void add_paths(struct plot_points *points, const struct table *table,
     path_columns_end(&columns);
 }
 
-static void add_points(struct plot_points *points, const struct table *table,
-                       const struct parameters *parameters, bool are_plots)
+static void add_points(struct plot_data *data, struct plot_points *points,
+                       const struct table *table, const struct parameters *parameters)
 {
     points->list =
         must_realloc(points->list, (points->count + table->num_rows + 1) * sizeof points->list[0]);
-    if (are_plots) {
-        add_plots(points, table, parameters);
+    if (points == &data->plots) {
+        add_plots(data, table, parameters);
     } else {
         add_paths(points, table, parameters);
     }
@@ -91,13 +124,13 @@ static void add_table(struct plot_data *data, struct table *table,
                       const struct parameters *parameters)
 {
     if (table_find(table, "track_id") >= 0) {
-        add_points(&data->tracks, table, parameters, false);
+        add_points(data, &data->tracks, table, parameters);
         keep_table(data, table);
         return;
     }
     /* plots of a scene have a target, too */
     bool are_plots = table_find(table, "target_id") < 0 || table_find(table, "sensor_id") >= 0;
-    add_points(are_plots ? &data->plots : &data->truth, table, parameters, are_plots);
+    add_points(data, are_plots ? &data->plots : &data->truth, table, parameters);
     table_free(table);
 }
 
@@ -149,6 +182,7 @@ static void add_rays(struct plot_rays *rays, const struct rho_bearing_scan *scan
         const struct plot_point *place = &rays->sensors[sensor];
         rays->list[rays->count++] =
             (struct plot_ray){.sensor = sensor,
+                              .time_us = scan->time_us,
                               .x_m = place->x_m,
                               .y_m = place->y_m,
                               .end_x_m = place->x_m + length_m * cos(bearing_rad),
@@ -275,6 +309,56 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
     return data;
 }
 
+static int64_t first_us(const struct plot_points *points, int64_t otherwise_us)
+{
+    for (size_t i = 0; i < points->count; i++) {
+        otherwise_us =
+            points->list[i].time_us < otherwise_us ? points->list[i].time_us : otherwise_us;
+    }
+    return otherwise_us;
+}
+
+int64_t plot_data_zero_us(const struct plot_data *data)
+{
+    int64_t zero_us = first_us(&data->truth, INT64_MAX);
+    zero_us = first_us(&data->plots, first_us(&data->tracks, zero_us));
+    for (size_t i = 0; i < data->bearings.count; i++) {
+        const int64_t time_us = data->bearings.list[i].time_us;
+        zero_us = time_us < zero_us ? time_us : zero_us;
+    }
+    return zero_us == INT64_MAX || llabs(zero_us) < LATE_US ? 0 : zero_us;
+}
+
+void plot_data_name_time(const struct plot_data *data, char *text, size_t size)
+{
+    const int64_t zero_us = plot_data_zero_us(data);
+    if (zero_us == 0) {
+        snprintf(text, size, "time (s)");
+    } else {
+        snprintf(text, size, "time (s), from %.15g on", (double)zero_us * 1e-6);
+    }
+}
+
+static double cell(const struct plot_point *point, const char *column)
+{
+    return table_number_or(point->table, point->row, table_find(point->table, column), NAN);
+}
+
+bool plot_data_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse)
+{
+    const double xx = cell(track, "cov_x_x"), yx = cell(track, "cov_y_x");
+    const double yy = cell(track, "cov_y_y"), sigma_m = cell(track, "sigma_m");
+    if (isnan(xx) || isnan(yx) || isnan(yy)) {
+        *ellipse = (struct plot_ellipse){sigma_m, sigma_m, 0.0};
+        return !isnan(sigma_m);
+    }
+    const double mean = 0.5 * (xx + yy), spread = hypot(0.5 * (xx - yy), yx);
+    *ellipse = (struct plot_ellipse){.major_m = sqrt(mean + spread),
+                                     .minor_m = sqrt(fmax(mean - spread, 0.0)),
+                                     .angle_rad = 0.5 * atan2(2.0 * yx, xx - yy)};
+    return true;
+}
+
 void plot_data_free(struct plot_data *data)
 {
     free(data->plots.list);
@@ -282,6 +366,7 @@ void plot_data_free(struct plot_data *data)
     free(data->truth.list);
     free(data->bearings.list);
     free(data->bearings.sensors);
+    free(data->radars);
     free(data->plot_paths);
     for (size_t i = 0; i < data->num_track_tables; i++) {
         table_free(data->track_tables[i]);

@@ -35,6 +35,7 @@ struct plot_points {
 /* From a passive sensor as far as it sees. */
 struct plot_ray {
     size_t sensor; /* index of the list */
+    int64_t time_us;
     double x_m, y_m, end_x_m, end_y_m;
 };
 
@@ -47,9 +48,19 @@ struct plot_rays {
     bool has_own_file; /* one of the files has bearings and nothing else to draw */
 };
 
+/* A radar whose place is known: the plots' own columns or the parameters say it. */
+struct plot_radar {
+    int32_t sensor_id;
+    double x_m, y_m;
+    double range_max_m; /* INFINITY: not said */
+    double sector_from_rad, sector_to_rad;
+};
+
 struct plot_data {
     struct plot_points plots, tracks, truth;
     struct plot_rays bearings;
+    struct plot_radar *radars; /* in the order of their first plots */
+    size_t num_radars, radars_capacity;
     char **plot_paths; /* of the files with plots; the names are the caller's */
     int num_plot_paths;
     struct table **track_tables;
@@ -70,5 +81,18 @@ bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_po
 
 /* How many identities. */
 size_t plot_data_ids(const struct plot_points *points);
+
+/*
+ * Times are shown from here on: the first time of all where that is late (a clock's), else 0; and
+ * the words for it, "time (s)" or the same with where it begins.
+ */
+int64_t plot_data_zero_us(const struct plot_data *data);
+void plot_data_name_time(const struct plot_data *data, char *text, size_t size);
+
+/* A track's own ellipse of one sigma; false where its row does not say it. */
+struct plot_ellipse {
+    double major_m, minor_m, angle_rad; /* of the major axis, counter-clockwise from east */
+};
+bool plot_data_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse);
 
 #endif

@@ -8,6 +8,8 @@
 #include "evaluation/gospa.h"
 #include "evaluation/time_alignment.h"
 
+#define MARKERS_MAX 40 /* of a line: closer ones cannot be told apart */
+
 /* ---- pairs ---- */
 
 /* Indices of the points of one time; tracks count once they are confirmed. */
@@ -178,13 +180,14 @@ void plot_errors_free(struct plot_errors *errors)
 
 static void put_errors(FILE *script, const struct plot_data *data, const struct plot_errors *errors)
 {
+    const int64_t zero_us = plot_data_zero_us(data);
     fprintf(script, "$errors << EOD\n");
     for (size_t i = 0; i < data->truth.count; i++) {
         const struct plot_point *target = &data->truth.list[i];
         if (i > 0 && target->id != data->truth.list[i - 1].id) {
             fprintf(script, "\n\n");
         }
-        fprintf(script, "%.6f ", (double)target->time_us * 1e-6);
+        fprintf(script, "%.6f ", (double)(target->time_us - zero_us) * 1e-6);
         if (isnan(errors->error_m[i])) {
             fprintf(script, "NaN\n");
         } else {
@@ -199,16 +202,21 @@ void plot_errors(struct picture *picture, const struct plot_data *data,
 {
     struct plot_points one;
     size_t at = 0, index = 0, many = plot_data_ids(&data->truth) > PLOT_LEGEND_MAX;
+    char time[80];
+    plot_data_name_time(data, time, sizeof time);
+    picture_set_title(picture, "Position errors of the tracks of %zu targets",
+                      plot_data_ids(&data->truth));
     put_errors(picture->script, data, errors);
     fprintf(picture->script,
-            "set xlabel 'time (s)'\nset ylabel 'position error (m)'\nset yrange [0:*]\n%splot NaN "
+            "set xlabel '%s'\nset ylabel 'position error (m)'\nset yrange [0:*]\n%splot NaN "
             "notitle",
-            many ? "set key off\n" : "");
+            time, many ? "set key off\n" : "");
     while (plot_data_next(&data->truth, &at, &one)) {
         fprintf(picture->script,
-                ", \\\n $errors index %zu using 1:2 with linespoints lw 2 pt %d ps 0.8 lc rgb '%s' "
-                "title 'target %d'",
-                index, picture_marker(index), picture_colour(index), one.list[0].id);
+                ", \\\n $errors index %zu using 1:2 with linespoints lw 1.2 pt %d ps %g pi %zu "
+                "lc rgb '%s' title 'target %d'",
+                index, picture_marker(index), many ? 0.3 : 0.7, one.count / MARKERS_MAX + 1,
+                picture_colour(index), one.list[0].id);
         index++;
     }
     fprintf(picture->script, "\n");

@@ -126,9 +126,11 @@ void plot_parameter_space(struct picture *picture, const struct plot_data *data,
     double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
     put_lines(picture->script, &data->tracks, unit_m);
+    picture_set_title(picture, "Parameter space: the lines through the plots of the last %zu scans",
+                      revolutions->count);
     fprintf(
         picture->script,
-        "set key outside top left horizontal\nset xrange [0:180]\nset yrange [%.6g:%.6g]\n"
+        "set key outside bottom left horizontal\nset xrange [0:180]\nset yrange [%.6g:%.6g]\n"
         "set xtics 30\nset xlabel 'theta, direction of the normal (degrees)'\n"
         "set ylabel 'rho, signed distance from the origin (%s)'\nset cblabel 'plots that voted'\n"
         "set palette defined (0 '#ffffff', 0.15 '#d0dff0', 0.5 '#5a9bd0', 1 '#08306b')\nset "
@@ -139,8 +141,8 @@ void plot_parameter_space(struct picture *picture, const struct plot_data *data,
     if (data->tracks.count) {
         fprintf(
             picture->script,
-            ", \\\n $lines using 1:2 with points pt 6 ps 2.4 lw 4 lc rgb '#ffffff' notitle, \\\n"
-            " $lines using 1:2 with points pt 6 ps 2.4 lw 2.5 lc rgb '#d55e00' title 'the tracks'' "
+            ", \\\n $lines using 1:2 with points pt 6 ps 2.4 lw 3 lc rgb '#ffffff' notitle, \\\n"
+            " $lines using 1:2 with points pt 6 ps 2.4 lw 1.6 lc rgb '#d55e00' title 'the tracks'' "
             "lines', \\\n"
             " $lines using 1:2:(sprintf('track %%d', $3)) with labels left boxed offset 1.8,1.1 "
             "tc rgb '#000000' notitle");

@@ -1,0 +1,61 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# Pictures: endings of -o, PNG, thinning of plots, and what a map of tracks has. Runs beside others.
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+
+run simulate polar --seed 3 -o in
+run track in/plots.csv --config in/scenario.ini --covariance -o tracks.csv
+command -v gnuplot >/dev/null || {
+    echo 'skipped: pictures: gnuplot is not installed (apt-get install gnuplot-nox)'
+    finish
+}
+
+# ---- endings ----
+for name in x.gif x.html x; do
+    run plot scans in/plots.csv -o $name
+    check "-o $name is refused" says 2 "rhotrack: $name: a picture is NAME.svg or NAME.png"
+    check "-o $name: nothing is written" sh -c "! ls | grep -q '^$name'"
+done
+size_of() { # the 24 bytes at the begin of a PNG
+    python3 -c '
+import struct, sys
+data = open(sys.argv[1], "rb").read()
+assert data[:8] == b"\x89PNG\r\n\x1a\n" and data[-8:-4] == b"IEND"
+print(*struct.unpack(">II", data[16:24]))' "$1"
+}
+for kind in scans tracks errors parameter-space; do
+    run plot $kind in/plots.csv in/truth.csv tracks.csv --config in/scenario.ini -o $kind.png
+    check "plot $kind writes a PNG, twice the size of the SVG" matches "$(size_of $kind.png)" \
+        '2200 1360'
+done
+
+# ---- a map of tracks ----
+run plot tracks in/plots.csv in/truth.csv tracks.csv --config in/scenario.ini -o tracks.svg
+check 'the title counts tracks and plots' grep -Eq \
+    '3 tracks, 1526 plots, [0-9.]+ s from t_s = [0-9.]+ on; arrows: [0-9]+ s of motion' tracks.svg
+check 'coverage' grep -q '>coverage<' tracks.svg
+check 'the radar' grep -q '>S1<' tracks.svg
+check 'range rings' grep -Eq '>[0-9]+ km<' tracks.svg
+run plot tracks in/plots.csv tracks.csv -o bare.svg
+check 'no coverage that nobody said' sh -c '! grep -q ">coverage<" bare.svg'
+
+# ---- relative times ----
+awk -F, -v OFS=, 'NR > 1 { $1 += 1790000000 } 1' in/plots.csv >clock.csv
+run plot scans clock.csv --config in/scenario.ini -o clock.svg
+check "a clock's times are counted from the first on" grep -q 'time (s), from 17900000[0-9.]* on' \
+    clock.svg
+
+# ---- many plots ----
+awk 'BEGIN {
+    srand(1); print "t_s,sensor_id,x_m,y_m"
+    for (i = 0; i < 200000; i++) print int(i / 100) ",1," int(1e5 * rand()) "," int(1e5 * rand())
+}' >many.csv
+run plot scans many.csv -o many.svg
+check 'a tenth of 200 000 plots is drawn, and said' grep -q '20000 of 200000 plots drawn' many.svg
+check 'and the picture is small' test "$(stat -c %s many.svg)" -lt 4000000
+check 'as many marks as it says' test "$(grep -c 'use .* transform=.* color=.rgb(' many.svg)" -eq 20000
+run plot scans many.csv -o again.svg
+check 'the same ones each time' cmp many.svg again.svg
+
+finish
