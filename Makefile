@@ -52,7 +52,7 @@ lab := $(BUILD)/rhotrack-lab
 
 embedded_objects := $(library_sources:%.c=$(BUILD)/embedded/%.o)
 workstation_objects := $(library_sources:%.c=$(BUILD)/workstation/%.o)
-program_objects := $(program_sources:%.c=$(BUILD)/program/%.o) $(BUILD)/program/scenes.o
+program_objects := $(program_sources:%.c=$(BUILD)/program/%.o) $(BUILD)/program/scenes.o $(BUILD)/program/page_parts.o
 lab_objects := $(lab_sources:%.c=$(BUILD)/program/%.o)
 
 # Unit tests are built and run for both profiles; tests of tools, scenarios and the lab use the program's own parts.
@@ -140,7 +140,16 @@ $(BUILD)/program/scenes.c: $(scenes) Makefile
 	    sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/.*/"&\\n"/' $$file; echo '},'; \
 	  done; echo '{0, 0}};'; } > $@
 
-$(BUILD)/program/scenes.o: $(BUILD)/program/scenes.c
+# The page of `plot -o NAME.html` in the program: its text, its script, and d3 (ISC licence, beside it).
+page_folder := tools/rhotrack/picture/page
+$(BUILD)/program/page_parts.c: $(wildcard $(page_folder)/*) Makefile
+	@mkdir -p $(@D) && { echo '#include "picture/page_parts.h"'; \
+	  for part in licence:d3.LICENSE d3:d3.min.js html:page.html style:page.css script:page.js; do \
+	    echo "const char page_$${part%%:*}[] ="; \
+	    sed -e 's/[\\"?]/\\&/g' -e 's/.*/"&\\n"/' $(page_folder)/$${part#*:}; echo ';'; \
+	  done; } > $@
+
+$(BUILD)/program/scenes.o $(BUILD)/program/page_parts.o: %.o: %.c
 	$(call compile,$(program_flags)) -c -o $@ $<
 
 ## Set up what is missing, build, track real radar plots and show the result (build/demo)
@@ -298,6 +307,7 @@ test-rest:
 	@tools/setup.sh
 	@tools/setup.sh firmware
 	@tools/setup.sh python
+	@tools/setup.sh browser
 	@BUILD=$(BUILD) tools/python.sh
 	-@$(MAKE) --no-print-directory python # without it, tests of the lab's scripts say that they are skipped
 	$(call run_tests,$(other_programs),$(other_scripts))

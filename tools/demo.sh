@@ -3,7 +3,7 @@
 #
 # The main job on real data: the radar plots of three aircraft (tests/vectors/radar-table3.csv)
 # among 100 clutter plots a scan, and two recordings of a harbour (tools/scenes/harbour), through
-# the tracker. Prints the tracks beside the truth, and writes OUTPUT/index.html with pictures.
+# the tracker. Prints the tracks beside the truth, and writes OUTPUT/index.html with pictures and pages.
 # Usage: RHOTRACK=program demo.sh OUTPUT
 set -euo pipefail
 program=${RHOTRACK:-build/rhotrack}
@@ -14,6 +14,7 @@ out=${1:-build/demo}
     -o "$out/tracks.csv" --json >"$out/track.json"
 "$program" evaluate "$out/truth.csv" "$out/tracks.csv" >"$out/evaluation.txt"
 "$program" plot tracks "$out/plots.csv" "$out/truth.csv" "$out/tracks.csv" -o "$out/map.svg"
+"$program" plot tracks "$out/plots.csv" "$out/truth.csv" "$out/tracks.csv" -o "$out/map.html"
 "$program" plot parameter-space "$out/plots.csv" "$out/tracks.csv" -o "$out/parameter-space.svg"
 "$program" plot scans "$out/plots.csv" -o "$out/scans.svg"
 "$program" plot errors "$out/truth.csv" "$out/tracks.csv" -o "$out/errors.svg"
@@ -30,6 +31,8 @@ for scene in 2 16; do
         >"$out/$name.txt"
     "$program" plot tracks "$scenes/$scene/plots.csv" "$scenes/$scene/truth.csv" \
         "$out/$name-tracks.csv" -o "$out/$name.svg"
+    "$program" plot tracks "$scenes/$scene/plots.csv" "$scenes/$scene/truth.csv" \
+        "$out/$name-tracks.csv" -o "$out/$name.html"
 done
 
 # One line a track of the last scan: the target nearest to it, both states, and the error.
@@ -91,6 +94,7 @@ table() {
     harbour '%6d %6d %6d %3d of 2 %8.2f %9d %8.1f %13.1f\n'
     printf 'Others are boats, quays and buoys without truth, and clutter.\n'
     printf '\nPictures and figures: %s/index.html\n' "$out"
+    printf 'To zoom and to play:  %s/map.html, harbour-2.html, harbour-16.html\n' "$out"
 }
 
 row='<tr><td>%d</td><td>%d</td><td>%d</td><td>%.2f</td><td>%.2f</td><td>%.0f</td><td>%.0f</td><td>%d</td>'
@@ -117,6 +121,7 @@ $(figure false_per_scan). Mean error of the tracks' positions (rms): $(figure rm
 <h2>Plots and tracks</h2>
 <figure><img src="map.svg" alt="Map of plots, truth and tracks"><figcaption>Each track begins on the line that five scans
 voted for (dotted) and follows the aircraft (circles); the grey plots are clutter.</figcaption></figure>
+<p><a href="map.html">The same to zoom and to play</a>, with the history of each track.</p>
 <h2>Parameter space</h2>
 <figure><img src="parameter-space.svg" alt="Votes over rho and theta, with the tracks' lines"><figcaption>Every plot votes for
 all lines through it, a sinusoid; the tracks' lines (circles) are not where most curves cross, but where plots of
@@ -141,6 +146,7 @@ a leisure craft cross before the ferry, one in the other's shadow. Truth is draw
 their tracks; the ferry lies at (-400, -30). Of what is seen beyond them there is no truth.</figcaption></figure>
 <figure><img src="harbour-16.svg" alt="Map of plots, truth and tracks in the harbour, scene 16"><figcaption>Scene 16: two boats come from
 both sides and pass round the ferry, close to each other.</figcaption></figure>
+<p>To zoom and to play: <a href="harbour-2.html">scene 2</a>, <a href="harbour-16.html">scene 16</a>.</p>
 </body></html>
 HTML
 }

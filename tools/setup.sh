@@ -4,7 +4,8 @@
 # when none is. `setup.sh firmware`: the compilers and emulators for other processors instead;
 # `setup.sh spy`: what the viewer for lcm-spy (make spy) needs; `setup.sh lab`: what the experiments
 # in Python (make experiments) import; `setup.sh docs`: what the documentation (make docs) is written
-# with; `setup.sh python`: what the package for Python is built with.
+# with; `setup.sh python`: what the package for Python is built with; `setup.sh browser`: what the
+# pages of `plot -o NAME.html` are tested in.
 set -eu
 
 packages='
@@ -79,6 +80,9 @@ python3-venv        # environments of their own: pip brings cffi, numpy and the 
 python3-pip         # make python
 python3-dev         # headers of Debian Python
 '
+browser_packages='
+chromium            # opens pages, driven over a pipe
+'
 case ${1:-} in
 '') ;;
 firmware) packages=$firmware_packages ;;
@@ -86,8 +90,9 @@ spy) packages=$spy_packages ;;
 lab) packages=$lab_packages ;;
 docs) packages=$docs_packages ;;
 python) packages=$python_packages ;;
+browser) packages=$browser_packages ;;
 *)
-    echo "setup: unknown: $1 (there is: firmware, spy, lab, docs, python)" >&2
+    echo "setup: unknown: $1 (there is: firmware, spy, lab, docs, python, browser)" >&2
     exit 2
     ;;
 esac

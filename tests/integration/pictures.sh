@@ -12,9 +12,9 @@ command -v gnuplot >/dev/null || {
 }
 
 # ---- endings ----
-for name in x.gif x.html x; do
+for name in x.gif x.htm x; do
     run plot scans in/plots.csv -o $name
-    check "-o $name is refused" says 2 "rhotrack: $name: a picture is NAME.svg or NAME.png"
+    check "-o $name is refused" says 2 "rhotrack: $name: a picture is NAME.svg, NAME.png or (a page) NAME.html"
     check "-o $name: nothing is written" sh -c "! ls | grep -q '^$name'"
 done
 size_of() { # the 24 bytes at the begin of a PNG

@@ -7,6 +7,7 @@
 #include "base/common.h"
 #include "commands.h"
 #include "io/output/clutter_file.h"
+#include "picture/page.h"
 #include "picture/picture.h"
 #include "picture/plot_bearings.h"
 #include "picture/plot_clutter.h"
@@ -129,10 +130,17 @@ int command_plot(struct command_line *line)
 {
     if (line->num_arguments < 2 || !line->output) {
         fail(EXIT_USAGE, "plot: give a picture (scans, tracks, parameter-space, errors, "
-                         "clutter-map), files, and -o NAME.svg or NAME.png");
+                         "clutter-map), files, and -o NAME.svg, NAME.png or NAME.html");
+    }
+    const char *kind = line->arguments[0];
+    const bool is_map = strcmp(kind, "scans") == 0 || strcmp(kind, "tracks") == 0;
+    if (page_is_wanted(line->output) && !is_map) {
+        fail(EXIT_USAGE,
+             "%s: plot scans and plot tracks alone make a page; plot %s makes "
+             "NAME.svg or NAME.png",
+             line->output, kind);
     }
     picture_check_path(line->output);
-    const char *kind = line->arguments[0];
     if (line->method && strcmp(kind, "parameter-space") != 0) {
         fail(EXIT_USAGE, "plot %s: --method is for parameter-space", kind);
     }
@@ -142,6 +150,11 @@ int command_plot(struct command_line *line)
     struct plot_data data =
         plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_content(kind, &data);
+    if (page_is_wanted(line->output)) {
+        page_write(line->output, &data, &line->parameters);
+        plot_data_free(&data);
+        return 0;
+    }
     struct findings findings = find(kind, &data, line);
     struct picture picture = picture_open(line->output, 1100, 680);
     draw(kind, &picture, &data, &findings);

@@ -37,8 +37,9 @@ static char *with_ending(const char *path, const char *ending)
 
 void picture_check_path(const char *path)
 {
-    if (!path_ends_with(path, ".svg") && !path_ends_with(path, ".png")) {
-        fail(EXIT_USAGE, "%s: a picture is NAME.svg or NAME.png", path);
+    if (!path_ends_with(path, ".svg") && !path_ends_with(path, ".png") &&
+        !path_ends_with(path, ".html")) {
+        fail(EXIT_USAGE, "%s: a picture is NAME.svg, NAME.png or (a page) NAME.html", path);
     }
 }
 

@@ -15,7 +15,7 @@ struct picture {
     int width, height; /* pixels of the SVG; a PNG has twice as many each way */
 };
 
-/* Exit 2 where the name ends neither in .svg nor .png. */
+/* Exit 2 where the name ends in none of .svg, .png, .html. */
 void picture_check_path(const char *path);
 
 /*

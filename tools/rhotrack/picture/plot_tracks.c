@@ -40,7 +40,7 @@ static const char *words_of_times(const struct plot_data *data, char text[WORDS_
             to_us = time_us > to_us ? time_us : to_us;
         }
     }
-    snprintf(text, WORDS_BYTES, "%.3g s from t_s = %.15g on", (double)(to_us - from_us) * 1e-6,
+    snprintf(text, WORDS_BYTES, "%.4g s from t_s = %.15g on", (double)(to_us - from_us) * 1e-6,
              round((double)from_us * 1e-5) * 0.1);
     return text;
 }

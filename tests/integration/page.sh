@@ -1,0 +1,72 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# The page of `plot -o NAME.html`: what it holds, and in headless Chromium what a user does with it,
+# and how long a million plots take.
+# shellcheck source=tests/integration/checks.bash
+. "$(dirname "$0")/checks.bash"
+drive="$(realpath "$(dirname "${BASH_SOURCE[0]}")")/page.py"
+
+run simulate polar --seed 3 -o in
+run track in/plots.csv --config in/scenario.ini -o tracks.lcm
+
+# ---- files ----
+run plot errors in/truth.csv tracks.lcm -o x.html
+check 'no page of errors' says 2 \
+    'rhotrack: x.html: plot scans and plot tracks alone make a page; plot errors makes NAME.svg or NAME.png'
+run plot tracks in/plots.csv in/truth.csv tracks.lcm --config in/scenario.ini -o page.html
+check 'a page is written' exits 0
+check 'it needs nothing beside it' sh -c '! grep -Eq "<(script|link|img)[^>]*(src|href)=" page.html'
+check 'the licence of d3 is in it' grep -q 'Copyright 2010-20.. Mike Bostock' page.html
+check 'as many plots as the file has, and their fates' python3 - <<'EOF'
+import base64, csv, re, struct
+page = open("page.html").read()
+def array(name, code):
+    data = base64.b64decode(re.search(f'id="{name}">([^<]*)<', page)[1])
+    return [value for value, in struct.iter_unpack("<" + code, data)]
+rows = [row for row in csv.DictReader(open("in/plots.csv")) if row["range_m"]]
+fates = array("plot_fate", "I")
+assert len(rows) == len(fates) == len(array("plot_x", "f")) == len(array("plot_y", "f"))
+ids = array("track_id", "i")
+# the scene says which plots are of targets: most of them are taken by tracks, few of the others
+of_target = [int(row["target_id"]) >= 0 for row in rows]
+taken = [fate >= 2 for fate in fates]
+assert max(fates) == 1 + len(ids) and len(ids) >= 3, (max(fates), ids)
+share = sum(a and b for a, b in zip(of_target, taken)) / sum(of_target)
+others = sum(b and not a for a, b in zip(of_target, taken)) / (len(rows) - sum(of_target))
+assert share > 0.7 and others < 0.05, (share, others)
+assert array("scan_first", "I")[-1] == len(rows)
+EOF
+run plot scans in/plots.csv --config in/scenario.ini -o scans.html
+check 'plot scans makes a page, too' exits 0
+check 'without tracks' grep -q '<title>rhotrack: 0 tracks, [1-9][0-9]* plots</title>' scans.html
+
+# ---- in a browser ----
+command -v chromium >/dev/null || {
+    echo 'skipped: page: chromium is not installed (tools/setup.sh browser)'
+    finish
+}
+plots=$(sed -n 's/.*<title>rhotrack: [0-9]* tracks, \([0-9]*\) plots<.*/\1/p' page.html)
+browse() { # NAME ARGUMENT...: each line of page.py is a check
+    local name=$1 line
+    shift
+    timeout 120 python3 "$drive" "$@" >drive 2>&1
+    echo "exit $?" >>drive
+    while read -r line; do
+        case $line in
+            ok*) check "$name: ${line#ok   }" true ;;
+            'exit 0') ;;
+            *) check "$name: $line" false ;;
+        esac
+    done <drive
+    check "$name: the browser came to its end" grep -q 'no fault in the script' drive
+}
+browse page functions page.html "$plots" 1
+
+awk 'BEGIN {
+    srand(1); print "t_s,sensor_id,x_m,y_m"
+    for (i = 0; i < 1000000; i++) print int(i / 1000) ",1," int(1e5 * rand()) "," int(1e5 * rand())
+}' >many.csv
+run plot scans many.csv -o many.html
+check 'a million plots are 40 MB at most' test "$(stat -c %s many.html)" -lt 40000000
+browse 'a million plots' million many.html
+finish
