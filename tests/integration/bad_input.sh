@@ -92,7 +92,7 @@ refuse 'line with CR' "3: x_m 'bad' is not a number" 't_s,sensor_id,x_m,y_m\r1,1
 refuse 'last line without an end' "3: x_m 'bad' is not a number" "${header}1,1,2,3\n2,1,bad,3"
 
 # ---- columns ----
-refuse 'no column x_m' "1: no column 'x_m' (or x); the file has: t_s, sensor_id, y_m" 't_s,sensor_id,y_m\n1,1,2\n'
+refuse 'no column x_m' "1: no column 'x_m' (or x); the file has: t_s, sensor_id, y_m; --columns x_m=NAME takes another" 't_s,sensor_id,y_m\n1,1,2\n'
 refuse 'no column t_s' "2: no column 't_s' (or t, time, *); the file has: when, *" '# comment\nwhen,sensor_id,x_m,y_m\n1,1,2,3\n'
 refuse 'a column twice' "1: column 'x_m' is there twice" 't_s,sensor_id,x_m,y_m,x_m\n1,1,2,3,4\n'
 refuse 'vx_mps without vy_mps' "1: no column 'vy_mps' beside 'vx_mps'" \
@@ -102,7 +102,7 @@ refuse 'no header' '1: no header row: the first row begins with a number' '1,1,2
 # ---- bearings ----
 bearings='t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n'
 two="${bearings}0,1,0,0,1\n0,2,100,0,1\n"
-refuse 'bearings: no column sensor_x_m' "1: no column 'sensor_x_m'; the file has: *" \
+refuse 'bearings: no column sensor_x_m' "1: no column 'sensor_x_m' (or sensor_x); the file has: *" \
     't_s,sensor_id,sensor_y_m,bearing_rad\n1,1,2,1\n'
 refuse 'bearings: no column sensor_id' "2: no column 'sensor_id' (or sensor, *" \
     '# comment\nt_s,sensor_x_m,sensor_y_m,bearing_rad\n1,1,2,1\n'

@@ -247,7 +247,7 @@ truth='t_s,target_id,x_m,y_m\n'
 tracks='t_s,track_id,status,x_m,y_m\n'
 refuse 'places on the earth without an origin' \
     "1: column 'lat_deg': origin_lat_deg and origin_lon_deg are not set*" \
-    't_s,sensor_id,lat_deg,lon_deg\n1,1,50,8\n'
+    't_s,target_id,lat_deg,lon_deg\n1,1,50,8\n'
 refuse 'no kind' '2: neither plots, polar plots, bearings, truth nor tracks: *' \
     '# no\nt_s,sensor_id\n1,2\n'
 refuse 'no number' "4: x_m 'abc' is not a number" "# plots\n${plots}1,1,1,1\n1,1,abc,3\n"

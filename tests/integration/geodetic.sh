@@ -206,9 +206,22 @@ refuse() { # name, pattern of the message behind the file, file's text, options.
 earth='t_s,sensor_id,lat_deg,lon_deg,alt_m\n1,1,50,10,0\n'
 slant='t_s,sensor_id,range_m,azimuth_deg,alt_m\n1,1,50000,10,5000\n'
 with=(--config radars.ini)
-refuse 'no origin' "1: column 'lat_deg': origin_lat_deg and origin_lon_deg are not set*" "$earth"
-refuse 'no origin of a radar' "1: column 'sensor_lat_deg': origin_lat_deg and*" \
-    't_s,sensor_id,range_m,azimuth_deg,sensor_lat_deg,sensor_lon_deg\n1,1,5,5,50,10\n'
+from_pipe() { # a pipe is read once: its first place cannot be looked up before
+    status=0
+    # shellcheck disable=SC2059
+    printf "$1" | "$program" track - >stdout 2>stderr || status=$?
+}
+from_pipe "$earth"
+check 'no origin, from a pipe' says 2 \
+    "rhotrack: *:1: column 'lat_deg': origin_lat_deg and origin_lon_deg are not set*"
+from_pipe 't_s,sensor_id,range_m,azimuth_deg,sensor_lat_deg,sensor_lon_deg\n1,1,5,5,50,10\n'
+check 'no origin of a radar, from a pipe' says 2 \
+    "rhotrack: *:1: column 'sensor_lat_deg': origin_lat_deg and*"
+printf 't_s,sensor_id,range_m,azimuth_deg,sensor_lat_deg,sensor_lon_deg,sensor_alt_m\n1,1,5,5,50,10,70\n' \
+    >radar_place.csv
+run track radar_place.csv -o radar_place.tracks.csv
+check "a radar's place is the origin, with its height" grep -q \
+    'the origin is origin_lat_deg=50.0000000, origin_lon_deg=10.0000000, origin_alt_m=70$' stderr
 refuse 'a latitude beyond a pole' '3: lat_deg 90.1 is outside -90 .. 90' "${earth}2,1,90.1,10,0\n" \
     "${with[@]}"
 refuse 'a longitude beyond a turn' '3: lon_deg 360.5 is outside -180 .. 360' \

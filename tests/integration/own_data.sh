@@ -80,6 +80,94 @@ printf "${bearing}1,1,5000,-3.1415923\n" >wrapped.csv
 for name in six wrapped; do run convert "$name.csv" "$name.lcm"; run convert "$name.lcm" "$name.back.csv"; done
 check 'pi with six decimals' cmp six.back.csv wrapped.back.csv
 
+# ---- --columns ----
+as() { # NAME, file in the program's own form, file, columns
+    run track "$2" -o own.tracks.csv
+    run track "$3" -o tracks.csv --columns "$4"
+    check "$1" near own.tracks.csv tracks.csv
+}
+sed '1s/.*/Zeit;Ost;Nord/; s/,0,/;/; s/,/;/' xy.csv >german.csv
+as '--columns: names that are no words' xy.csv german.csv 't_s=Zeit,x_m=Ost,y_m=Nord'
+awk -F, 'NR == 1 { print "t_s,sensor_id,R,azimuth_deg" } NR > 1 {
+    printf "%s,%s,%.9f,%s\n", $1, $2, $3 / 1852, $4 }' polar.csv >miles.csv
+as '--columns: a name with a unit beside known names' polar.csv miles.csv 'range_nmi=R'
+columns() { # NAME, options of --columns, message (a pattern)
+    run track german.csv --columns "$2"
+    check "--columns: $1" says 2 "rhotrack: $3"
+}
+columns 'a name that nobody reads' 't_s=Zeit,x_n=Ost,y_m=Nord' \
+    "--columns 'x_n=Ost': no column of the name 'x_n' is read, did you mean 'x_m'*"
+columns 'no pair' 'Zeit' "--columns 'Zeit': give NAME=COLUMN*"
+columns 'a column that is not there' 't_s=Zeit,x_m=East,y_m=Nord' \
+    "german.csv:1: --columns: there is no column 'East'; the file has: Zeit, Ost, Nord"
+run track xy.csv --columns 't_s=Zeit' -o tracks.csv
+check '--columns: a file without any of them is read as it is' exits 0
+run track xy.csv --columns 'x_m=y_m'
+check '--columns: two of a name' says 2 "rhotrack: xy.csv:1: --columns: the file has a column 'x_m', too"
+
+# ---- places on the earth without an origin ----
+run track plain_place.csv -o tracks.csv
+check 'the first place is the origin, and it is said' grep -q \
+    'rhotrack: plain_place.csv: the origin is origin_lat_deg=50.0719425, origin_lon_deg=8.0419580, origin_alt_m=0' stderr
+run track plain_place.csv -o own.tracks.csv --set origin_lat_deg=50.07194245 \
+    --set origin_lon_deg=8.04195804
+check 'the tracks are those of that origin' near own.tracks.csv tracks.csv
+check 'an origin that is set is not said' sh -c '! grep -q "origin is" stderr'
+run track plain_place.csv -o map.geojson
+check 'GeoJSON needs no more' json map.geojson \
+    'abs(o["features"][0]["geometry"]["coordinates"][0][0] - 8.05) < 0.05'
+printf 't_s,target_id,lat_deg,lon_deg\n1,1,50,8\n' >truth.csv
+run evaluate truth.csv tracks.csv
+check 'evaluate: no origin is guessed for a truth' says 2 \
+    "rhotrack: truth.csv:1: column 'lat_deg': origin_lat_deg and origin_lon_deg are not set*"
+
+# ---- compass azimuths in radians, bearings in degrees ----
+# A radar that turns clockwise once in 4 s: a target at each of 20 azimuths.
+python3 - <<'EOF'
+import math
+with open("compass.csv", "w") as file, open("degrees.csv", "w") as other:
+    file.write("t_s,sensor_id,range_m,azimuth_rad\n")
+    other.write("t_s,sensor_id,range_m,azimuth_deg\n")
+    for turn in range(12):
+        for k in range(20):
+            t, azimuth = 4 * turn + 0.2 * k, (k + 0.5) * math.pi / 10
+            range_m = 9000 + 400 * k + 150 * t
+            file.write(f"{t:.3f},0,{range_m:.3f},{azimuth:.7f}\n")
+            other.write(f"{t:.3f},0,{range_m:.3f},{math.degrees(azimuth):.6f}\n")
+with open("radians.csv", "w") as file, open("bearing_degrees.csv", "w") as other:
+    file.write("t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad\n")
+    other.write("Time;Sensor;sensor_x_km;sensor_y_km;Bearing [°];sigma_deg\n")
+    for k in range(40):
+        for sensor, x in enumerate((-10000, 10000)):
+            bearing = math.atan2(20000 - 100 * k, 150 * k - x)
+            file.write(f"{2 * k},{sensor},{x},0,{bearing:.8f},0.002\n")
+            compass = (90 - math.degrees(bearing)) % 360
+            other.write(f"{2 * k};{sensor};{x / 1000};0;{compass:.7f};{math.degrees(0.002):.8f}\n"
+                        .replace(".", ","))
+EOF
+turns="--set scan_interval_s=4"
+# shellcheck disable=SC2086
+run track compass.csv $turns -o tracks.csv
+check 'compass radians are said' grep -q \
+    '^rhotrack: compass.csv: azimuth_rad goes from 0 to 2 pi and rises with time, as that of a compass does; .* --columns azimuth_compass_rad=azimuth_rad$' stderr
+# shellcheck disable=SC2086
+run track degrees.csv $turns -o own.tracks.csv
+check 'degrees are not' sh -c '! grep -q compass stderr'
+# shellcheck disable=SC2086
+run track compass.csv $turns --columns azimuth_compass_rad=azimuth_rad -o tracks.csv
+check 'and read as the line says' near own.tracks.csv tracks.csv
+check 'and no longer said' sh -c '! grep -q compass stderr'
+sed 's/,azimuth_rad/,az/; t; s/[^,]*$/1/' compass.csv | sed '1s/az/azimuth_rad/' >still.csv
+# shellcheck disable=SC2086
+run track still.csv $turns -o tracks.csv
+check 'azimuths that stand still are no compass' sh -c '! grep -q compass stderr'
+run track radians.csv -o own.tracks.csv
+run track bearing_degrees.csv -o tracks.csv
+check 'bearings in degrees, clockwise from north' near own.tracks.csv tracks.csv
+run convert bearing_degrees.csv bearings.lcm
+run track bearings.lcm -o tracks.csv
+check 'as a log, too' near own.tracks.csv tracks.csv
+
 # ---- a known header stays as it is ----
 printf 't_s,sensor_id,x_m,y_m,time,range_km,lat\n1,1,2,3,x,y,z\n' >extra.csv
 run track extra.csv
@@ -93,7 +181,7 @@ refuse() { # name, LINE: what (a pattern), text as for printf
     check "$1" says 2 "rhotrack: bad.csv:$2"
 }
 refuse 'an angle without a unit is not guessed' \
-    "1: no column 'azimuth_rad' (or azimuth, az); the file has: t_s, range_m, azimuth" \
+    "1: no column 'azimuth_rad' (or azimuth, az); the file has: t_s, range_m, azimuth; did you mean 'azimuth'? --columns 'azimuth_rad=azimuth'" \
     'time,range,azimuth\n1,2,3\n'
 refuse 'a time of no calendar' "2: t_s '2024-13-01T00:00:00Z' is not a number" \
     'timestamp,x,y\n2024-13-01T00:00:00Z,1,2\n'
@@ -101,7 +189,13 @@ refuse 'a zone that is none' "2: t_s '2024-03-01T00:00:00X' is not a number" \
     'timestamp,x,y\n2024-03-01T00:00:00X,1,2\n'
 refuse 'two decimal commas' "2: x_m '1,2,3' is not a number" 't_s;x;y\n1;1,2,3;2\n'
 refuse 'a short row of blanks' '3: short row: 2 cells, the header has 3' 't_s x y\n1 2 3\n2 3\n'
+refuse 'a name misspelt' \
+    "1: no column 'azimuth_rad' (or azimuth, az); the file has: t_s, range_m, azimut_deg; did you mean 'azimut_deg'? --columns 'azimuth_rad=azimut_deg'" \
+    'time,range,azimut_deg\n1,2,3\n'
+refuse 'a name that is like no other' \
+    "1: no column 't_s' (or t, time, timestamp, datetime); the file has: Zeitpunkt, x_m, y_m; --columns t_s=NAME takes another" \
+    'Zeitpunkt,x,y\n1,2,3\n'
 refuse 'a unit that is not known' \
-    "1: no column 'x_m' (or x); the file has: t_s, x_furlong, y_furlong" \
+    "1: no column 'x_m' (or x); the file has: t_s, x_furlong, y_furlong; did you mean 'x_furlong'? --columns 'x_m=x_furlong'" \
     'time,x_furlong,y_furlong\n1,2,3\n'
 finish

@@ -10,9 +10,11 @@
 #include "base/hint.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_records.h"
+#include "io/csv/first_look.h"
+#include "io/csv/table_form.h"
 #include "settings/method.h"
 
-enum { NUM_OPTIONS = 27, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 28, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -40,6 +42,8 @@ static const struct {
     {'s', "set", "KEY=VALUE", "a parameter; may be repeated; `rhotrack config` lists them"},
     {'C', "config", "FILE",
      "parameters from an INI file; may be repeated, the last one counts; --set goes before it"},
+    {'N', "columns", "NAME=COLUMN,...",
+     "CSV: the file's COLUMN is read as NAME (x_m, range_km, time_ms, ...)"},
     {'l', "lcm", "URL",
      "LCM network; without it $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0"},
     {'p', "print", NULL, "tracks as they come: a table on a terminal, else as CSV"},
@@ -164,6 +168,23 @@ static bool take_live_option(struct command_line *line, char letter, char *argum
     }
 }
 
+static bool take_setting(struct command_line *line, char letter, char *argument)
+{
+    switch (letter) {
+    case 's':
+        parameters_set(&line->parameters, argument);
+        return true;
+    case 'N':
+        table_form_set_columns(argument);
+        return true;
+    case 'C':
+        parameters_load(&line->parameters, argument);
+        return true;
+    default:
+        return false;
+    }
+}
+
 static void take_option(struct command_line *line, char letter, char *argument)
 {
     switch (letter) {
@@ -212,14 +233,8 @@ static void take_option(struct command_line *line, char letter, char *argument)
     case 'k':
         line->keep_going = true;
         break;
-    case 's':
-        parameters_set(&line->parameters, argument);
-        break;
-    case 'C':
-        parameters_load(&line->parameters, argument);
-        break;
     default:
-        if (!take_live_option(line, letter, argument)) {
+        if (!take_live_option(line, letter, argument) && !take_setting(line, letter, argument)) {
             fail(EXIT_RUNTIME, "an option without a use");
         }
     }
@@ -306,24 +321,48 @@ static void read_options(struct command_line *line, const struct command *comman
     }
 }
 
+static bool lacks_origin(const struct parameters *parameters)
+{
+    return !parameters_is_set(parameters, PARAMETER_ORIGIN_LAT_DEG) &&
+           !parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
+}
+
 /*
  * Where nobody set the origin of the local frame it is where the first radar of a recording says
- * that it stands.
+ * that it stands, or the first place of a CSV file.
  */
-static void suggest_origin(struct command_line *line)
+static void suggest_origin(struct command_line *line, const char *path, struct asterix_place place)
 {
-    struct parameters *parameters = &line->parameters;
-    struct asterix_place place = {.is_given = false};
-
-    for (int i = 0; i < line->num_arguments && !place.is_given &&
-                    !parameters_is_set(parameters, PARAMETER_ORIGIN_LAT_DEG) &&
-                    !parameters_is_set(parameters, PARAMETER_ORIGIN_LON_DEG);
-         i++) {
-        place = asterix_file_place(line->arguments[i]);
-        if (place.is_given) {
-            asterix_records_suggest_origin(line->arguments[i], &place, parameters);
-        }
+    if (place.is_given && lacks_origin(&line->parameters)) {
+        asterix_records_suggest_origin(path, &place, &line->parameters);
     }
+}
+
+static void look_at_plots(struct command_line *line, const char *path)
+{
+    const struct first_look look = first_look_at(path);
+
+    suggest_origin(line, path,
+                   (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
+    if (look.runs_clockwise) {
+        fprintf(stderr,
+                "rhotrack: %s: azimuth_rad goes from 0 to 2 pi and rises with time, as that of a "
+                "compass does; it is read counter-clockwise from east. Clockwise from north: "
+                "--columns azimuth_compass_rad=azimuth_rad\n",
+                path);
+    }
+}
+
+/* A truth or tracks without plots beside them have no place for an origin. */
+static void find_plot_files(struct command_line *line, const struct command *command)
+{
+    const int skipped = strcmp(command->name, "plot") == 0; /* the kind of picture */
+
+    line->plot_files = line->arguments + skipped;
+    line->num_plot_files = strcmp(command->name, "convert") == 0 ? 1
+                           : takes(command, 'N') && strcmp(command->name, "evaluate") != 0
+                               ? line->num_arguments - skipped
+                               : 0;
 }
 
 void command_line_read(struct command_line *line, const struct command *command, int argc,
@@ -342,6 +381,7 @@ void command_line_read(struct command_line *line, const struct command *command,
         fail(EXIT_USAGE, "%s: '%s' is one argument too many; usage: rhotrack %s %s", command->name,
              line->arguments[command->max_arguments], command->name, command->usage);
     }
+    find_plot_files(line, command);
 }
 
 void refuse_own_input(const struct command_line *line)
@@ -395,6 +435,11 @@ void command_line_check_ini(const struct command_line *line, const char *command
 
 void command_line_locate(struct command_line *line)
 {
-    suggest_origin(line);
+    for (int i = 0; i < line->num_arguments && lacks_origin(&line->parameters); i++) {
+        suggest_origin(line, line->arguments[i], asterix_file_place(line->arguments[i]));
+    }
+    for (int i = 0; i < line->num_plot_files; i++) {
+        look_at_plots(line, line->plot_files[i]);
+    }
     parameters_locate(&line->parameters);
 }

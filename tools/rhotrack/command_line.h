@@ -25,7 +25,10 @@ struct command {
 void command_line_read(struct command_line *line, const struct command *command, int argc,
                        char **argv);
 
-/* Then: the origin of a recording, where none was set, and what is placed on the earth. */
+/*
+ * Then: the origin of a recording or of places on the earth, where none was set; what is placed on
+ * the earth; and on standard error what seems wrong with the azimuths.
+ */
 void command_line_locate(struct command_line *line);
 
 /* Help of one command. */

@@ -14,6 +14,8 @@
 struct command_line {
     char **arguments; /* beside the options, without the command's own name */
     int num_arguments;
+    char **plot_files; /* those of them that may hold plots */
+    int num_plot_files;
     const char *output;       /* -o; NULL where not given */
     const char *method;       /* --method; NULL where not given */
     const char *gate;         /* --gate */

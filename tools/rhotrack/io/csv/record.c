@@ -43,8 +43,7 @@ static void check_not_both(const struct table *table, int first, int second)
 static void check_bearings(const struct table *table)
 {
     static const char *const others[][2] = {{"x_m", "plots, which are no bearings"},
-                                            {"range_m", "polar plots, which are no bearings"},
-                                            {"bearing_deg", "bearings are read in radians"}};
+                                            {"range_m", "polar plots, which are no bearings"}};
 
     if (table_find(table, "bearing_rad") >= 0) {
         return;

@@ -29,6 +29,7 @@ void table_free(struct table *table)
     free(table->columns);
     free(table->numbers);
     free(table->factors);
+    free(table->offsets);
     free(table->times_us);
     free(table->cells);
     free(table->lines);
@@ -41,19 +42,16 @@ void table_free(struct table *table)
 int table_need(const struct table *table, const char *name)
 {
     int column = table_find(table, name);
-    char names[160], found[240] = "";
-    size_t used = 0;
+    char names[160], hint[200], found[240];
 
     if (column >= 0) {
         return column;
     }
     table_form_names_of(name, names, sizeof names);
-    for (size_t i = 0; i < table->num_columns && used < sizeof found; i++) {
-        used += (size_t)snprintf(found + used, sizeof found - used, "%s%.40s", i > 0 ? ", " : "",
-                                 table->names[i]);
-    }
-    table_fail(table, TABLE_HEADER, "no column '%s'%s%s%s; the file has: %s", name,
-               *names ? " (or " : "", names, *names ? ")" : "", found);
+    table_form_list(table, found, sizeof found);
+    table_form_hint(table, name, hint, sizeof hint);
+    table_fail(table, TABLE_HEADER, "no column '%s'%s%s%s; the file has: %s; %s", name,
+               *names ? " (or " : "", names, *names ? ")" : "", found, hint);
 }
 
 /* The row's cell as text; of a table of numbers NULL. */
@@ -67,10 +65,10 @@ static double number_of(const struct table *table, size_t row, int column)
     return table->numbers[row * table->num_columns + (size_t)column];
 }
 
-/* What the cell's number is to be multiplied by; 0: nothing. */
-static double factor_of(const struct table *table, int column)
+/* The cell's number is in another unit than its column. */
+static bool has_factor(const struct table *table, int column)
 {
-    return table->factors ? table->factors[column] : 0;
+    return table->factors && (table->factors[column] < 0 || table->factors[column] > 0);
 }
 
 bool table_is_empty(const struct table *table, size_t row, int column)
@@ -127,8 +125,8 @@ const char *table_number(const struct table *table, size_t row, int column, doub
     if (text) {
         const char *why = text_to_number(text, value);
 
-        if (!why && factor_of(table, column) > 0) {
-            *value *= factor_of(table, column);
+        if (!why && has_factor(table, column)) {
+            *value = *value * table->factors[column] + table->offsets[column];
         }
         return why;
     }
@@ -142,9 +140,7 @@ const char *table_float(const struct table *table, size_t row, int column, float
     double number = 0.0;
     const char *why = table_number(table, row, column, &number);
 
-    *value = why                                       ? 0.0f
-             : text && !(factor_of(table, column) > 0) ? strtof(text, NULL)
-                                                       : (float)number;
+    *value = why ? 0.0f : text && !has_factor(table, column) ? strtof(text, NULL) : (float)number;
     return why;
 }
 
@@ -169,7 +165,7 @@ const char *table_time_us(const struct table *table, size_t row, int column, int
     const char *text = text_of(table, row, column);
 
     if (text) {
-        return text_time_us(text, factor_of(table, column), time_us);
+        return text_time_us(text, has_factor(table, column) ? table->factors[column] : 0, time_us);
     }
     *time_us = table->times_us[row]; /* no table of numbers has another column of times */
     return NULL;

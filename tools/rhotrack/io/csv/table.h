@@ -32,7 +32,8 @@ struct table {
     int64_t *times_us;            /* of a table of numbers: t_s of the rows, */
     double *numbers;              /* num_rows x num_columns; NaN where a cell is empty */
     struct table_column *columns; /* num_columns */
-    double *factors;              /* of the columns, 0: none; NULL: none has one (table_form.h) */
+    double *factors, *offsets;    /* of the columns, factor 0: none; NULL: none has one
+                                   * (table_form.h): number * factor + offset */
     size_t capacity;              /* of its rows */
     uint32_t *lines;              /* num_rows: the first line of the row in the file */
     uint32_t header_line;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "base/hint.h"
 
 /* ---- Cells ---- */
 
@@ -55,36 +56,43 @@ void table_form_point(char *cell)
 
 /* ---- Names of columns ---- */
 
-enum dimension { NUMBER, TIME, LENGTH, SPEED, DEGREES, RADIANS };
+#define RAD_DEG (180 / 3.14159265358979323846)
+
+/* Compass: clockwise from north. A size, such as a sigma, has no direction. */
+enum dimension { NUMBER, TIME, LENGTH, SPEED, DEGREES, RADIANS, COMPASS, COMPASS_TO_EAST, SIZE };
 
 static const struct {
     const char *unit;
     enum dimension dimension;
-    double factor;
+    double factor, offset;
 } units[] = {
-    {"", NUMBER, 1},
-    {"db", NUMBER, 1},
-    {"", TIME, 1},
-    {"s", TIME, 1},
-    {"sec", TIME, 1},
-    {"utc", TIME, 1},
-    {"ms", TIME, 1e-3},
-    {"us", TIME, 1e-6},
-    {"", LENGTH, 1},
-    {"m", LENGTH, 1},
-    {"km", LENGTH, 1000},
-    {"nmi", LENGTH, 1852},
-    {"nm", LENGTH, 1852},
-    {"ft", LENGTH, 0.3048},
-    {"", SPEED, 1},
-    {"mps", SPEED, 1},
-    {"m_s", SPEED, 1},
-    {"kmh", SPEED, 1 / 3.6},
-    {"km_h", SPEED, 1 / 3.6},
-    {"kn", SPEED, 1852.0 / 3600},
-    {"kt", SPEED, 1852.0 / 3600},
-    {"deg", DEGREES, 1},
-    {"rad", RADIANS, 1},
+    {"", NUMBER, 1, 0},
+    {"db", NUMBER, 1, 0},
+    {"", TIME, 1, 0},
+    {"s", TIME, 1, 0},
+    {"sec", TIME, 1, 0},
+    {"utc", TIME, 1, 0},
+    {"ms", TIME, 1e-3, 0},
+    {"us", TIME, 1e-6, 0},
+    {"", LENGTH, 1, 0},
+    {"m", LENGTH, 1, 0},
+    {"km", LENGTH, 1000, 0},
+    {"nmi", LENGTH, 1852, 0},
+    {"nm", LENGTH, 1852, 0},
+    {"ft", LENGTH, 0.3048, 0},
+    {"", SPEED, 1, 0},
+    {"mps", SPEED, 1, 0},
+    {"m_s", SPEED, 1, 0},
+    {"kmh", SPEED, 1 / 3.6, 0},
+    {"km_h", SPEED, 1 / 3.6, 0},
+    {"kn", SPEED, 1852.0 / 3600, 0},
+    {"kt", SPEED, 1852.0 / 3600, 0},
+    {"deg", DEGREES, 1, 0},
+    {"rad", RADIANS, 1, 0},
+    {"rad", COMPASS, RAD_DEG, 0},
+    {"deg", COMPASS_TO_EAST, -1 / RAD_DEG, 90 / RAD_DEG},
+    {"rad", SIZE, 1, 0},
+    {"deg", SIZE, 1 / RAD_DEG, 0},
 };
 
 /* Words that files have for a column; an angle without a unit is not guessed. */
@@ -112,6 +120,8 @@ static const struct {
     {"azimuth", "azimuth_deg", DEGREES},
     {"az", "azimuth_deg", DEGREES},
     {"theta", "azimuth_deg", DEGREES},
+    {"azimuth_compass", "azimuth_deg", COMPASS},
+    {"azimuth_clockwise", "azimuth_deg", COMPASS},
     {"azimuth", "azimuth_rad", RADIANS},
     {"az", "azimuth_rad", RADIANS},
     {"elevation", "elevation_deg", DEGREES},
@@ -132,6 +142,14 @@ static const struct {
     {"alt", "alt_m", LENGTH},
     {"altitude", "alt_m", LENGTH},
     {"snr", "snr_db", NUMBER},
+    {"bearing", "bearing_rad", RADIANS},
+    {"bearing", "bearing_rad", COMPASS_TO_EAST},
+    {"sensor_x", "sensor_x_m", LENGTH},
+    {"sensor_y", "sensor_y_m", LENGTH},
+    {"sensor_lat", "sensor_lat_deg", NUMBER},
+    {"sensor_lon", "sensor_lon_deg", NUMBER},
+    {"sigma", "sigma_rad", SIZE},
+    {"sigma_azimuth", "sigma_azimuth_rad", SIZE},
 };
 
 #define NAME_BYTES 40
@@ -160,19 +178,36 @@ static bool plain_name(const char *name, char plain[NAME_BYTES])
     return used > 0;
 }
 
-/* The unit of that dimension behind a word: its factor, or 0 where it is none. */
-static double unit_factor(const char *rest, enum dimension dimension)
+struct unit {
+    double factor, offset; /* factor 0: none */
+};
+
+/* The unit of that dimension behind a word. */
+static struct unit find_unit(const char *rest, enum dimension dimension)
 {
     rest += *rest == '_';
     for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
         if (units[i].dimension == dimension && strcmp(units[i].unit, rest) == 0) {
-            return units[i].factor;
+            return (struct unit){units[i].factor, units[i].offset};
         }
     }
-    return 0;
+    return (struct unit){0, 0};
 }
 
-static const char *column_of(const char *name, double *factor)
+static bool has_factor(struct unit unit)
+{
+    return unit.factor < 0 || unit.factor > 0;
+}
+
+/* The name begins with the word, and a unit may follow. */
+static bool begins_with(const char *plain, const char *word)
+{
+    const size_t length = strlen(word);
+
+    return strncmp(plain, word, length) == 0 && (plain[length] == '\0' || plain[length] == '_');
+}
+
+static const char *column_of(const char *name, struct unit *unit)
 {
     char plain[NAME_BYTES];
 
@@ -180,19 +215,166 @@ static const char *column_of(const char *name, double *factor)
         return NULL;
     }
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        size_t length = strlen(words[i].word);
-
-        if (strncmp(plain, words[i].word, length) != 0 ||
-            (plain[length] != '\0' && plain[length] != '_')) {
-            continue;
-        }
-        *factor = unit_factor(plain + length, words[i].dimension);
-        if (*factor > 0) {
-            return words[i].column;
+        if (begins_with(plain, words[i].word)) {
+            *unit = find_unit(plain + strlen(words[i].word), words[i].dimension);
+            if (has_factor(*unit)) {
+                return words[i].column;
+            }
         }
     }
     return NULL;
 }
+
+/* ---- --columns ---- */
+
+/* Names of columns that readers ask for and no word above stands for. */
+static const char *const others[] = {"azimuth_rad",
+                                     "bearing_rad",
+                                     "elevation_rad",
+                                     "sigma_m",
+                                     "sigma_mps",
+                                     "sigma_range_m",
+                                     "sigma_azimuth_rad",
+                                     "sigma_elevation_rad",
+                                     "sigma_rad",
+                                     "sector_from_rad",
+                                     "sector_to_rad",
+                                     "scan",
+                                     "epoch",
+                                     "received_s",
+                                     "sensor_x_m",
+                                     "sensor_y_m",
+                                     "sensor_z_m",
+                                     "sensor_lat_deg",
+                                     "sensor_lon_deg",
+                                     "sensor_alt_m",
+                                     "sigma_alt_m",
+                                     "target_id",
+                                     "track_id",
+                                     "status",
+                                     "sigma_range_rate_mps"};
+
+#define NUM_WORDS (sizeof words / sizeof *words)
+#define NUM_OTHERS (sizeof others / sizeof *others)
+
+/* Every name that is read. */
+static const char *any_name(size_t index)
+{
+    return index < NUM_OTHERS                   ? others[index]
+           : index < NUM_OTHERS + NUM_WORDS     ? words[index - NUM_OTHERS].column
+           : index < NUM_OTHERS + 2 * NUM_WORDS ? words[index - NUM_OTHERS - NUM_WORDS].word
+                                                : NULL;
+}
+
+static bool is_read(const char *name)
+{
+    struct unit unit;
+
+    for (size_t i = 0; i < NUM_OTHERS; i++) {
+        if (strcmp(name, others[i]) == 0) {
+            return true;
+        }
+    }
+    return column_of(name, &unit) != NULL;
+}
+
+#define COLUMNS_MAX 40
+
+static struct {
+    const char *name, *column;
+} renamed[COLUMNS_MAX];
+static size_t num_renamed;
+
+void table_form_set_columns(const char *text)
+{
+    char *copy = must_copy(text), *rest = copy, *pair; /* for as long as the program runs */
+
+    while ((pair = strsep(&rest, ",")) != NULL) {
+        char *column = strchr(pair, '=');
+
+        if (!column || column == pair || !column[1] || num_renamed == COLUMNS_MAX) {
+            fail(EXIT_USAGE,
+                 "--columns '%s': give NAME=COLUMN, NAME being rhotrack's and COLUMN the file's, "
+                 "and commas between them, %d at most",
+                 pair, COLUMNS_MAX);
+        }
+        *column++ = '\0';
+        if (!is_read(pair)) {
+            const char *nearest = hint_nearest(pair, any_name);
+
+            fail(EXIT_USAGE,
+                 "--columns '%s=%s': no column of the name '%s' is read%s%s%s; tools/README.md "
+                 "lists them",
+                 pair, column, pair, nearest ? ", did you mean '" : "", nearest ? nearest : "",
+                 nearest ? "'?" : "");
+        }
+        renamed[num_renamed].name = pair;
+        renamed[num_renamed++].column = column;
+    }
+}
+
+void table_form_list(const struct table *table, char *text, size_t bytes)
+{
+    size_t used = 0;
+
+    *text = '\0';
+    for (size_t i = 0; i < table->num_columns && used < bytes; i++) {
+        used += (size_t)snprintf(text + used, bytes - used, "%s%.40s", i > 0 ? ", " : "",
+                                 table->names[i]);
+    }
+}
+
+/* A file has all the columns of --columns, or none: then it is of another form. */
+static void check_renamed(const struct table *table, size_t found, const char *missing)
+{
+    if (found > 0 && missing) {
+        char names[240];
+
+        table_form_list(table, names, sizeof names);
+        fail(EXIT_USAGE, "%s:%u: --columns: there is no column '%s'; the file has: %s", table->path,
+             (unsigned)table->header_line, missing, names);
+    }
+}
+
+static void rename_columns(struct table *table)
+{
+    size_t found = 0;
+    const char *missing = NULL;
+
+    for (size_t i = 0; i < num_renamed; i++) {
+        if (table_find(table, renamed[i].column) >= 0) {
+            found++;
+        } else {
+            missing = renamed[i].column;
+        }
+    }
+    check_renamed(table, found, missing);
+
+    for (size_t i = 0; i < num_renamed; i++) {
+        const int column = table_find(table, renamed[i].column);
+
+        if (column < 0) {
+            return;
+        }
+        if (table_find(table, renamed[i].name) >= 0) {
+            fail(EXIT_USAGE, "%s:%u: --columns: the file has a column '%s', too", table->path,
+                 (unsigned)table->header_line, renamed[i].name);
+        }
+        table->names[column] = renamed[i].name;
+    }
+}
+
+static bool is_renamed(const char *name)
+{
+    for (size_t i = 0; i < num_renamed; i++) {
+        if (renamed[i].name == name) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- A header ---- */
 
 /* A header that the readers know needs no other names; extra columns of any name are ignored. */
 static bool is_known(const struct table *table)
@@ -207,26 +389,76 @@ static bool is_known(const struct table *table)
     return has_place && table_find(table, "t_s") >= 0;
 }
 
+static void set_unit(struct table *table, size_t column, struct unit unit)
+{
+    if (!table->factors) {
+        table->factors = must_calloc(table->num_columns, sizeof *table->factors);
+        table->offsets = must_calloc(table->num_columns, sizeof *table->offsets);
+    }
+    table->factors[column] = unit.factor;
+    table->offsets[column] = unit.offset;
+}
+
 void table_form_name_columns(struct table *table)
 {
-    if (is_known(table)) {
-        return;
-    }
-    for (size_t i = 0; i < table->num_columns; i++) {
-        double factor = 1;
-        const char *column = column_of(table->names[i], &factor);
+    rename_columns(table);
+    const bool is_left = is_known(table);
 
+    for (size_t i = 0; i < table->num_columns; i++) {
+        struct unit unit = {1, 0};
+        const char *column;
+
+        if (is_left && !is_renamed(table->names[i])) {
+            continue;
+        }
+        column = column_of(table->names[i], &unit);
         if (!column || table_find(table, column) >= 0) {
             continue; /* not known, or there already: the first one counts */
         }
         table->names[i] = column;
-        if (factor < 1 || factor > 1) {
-            if (!table->factors) {
-                table->factors = must_calloc(table->num_columns, sizeof *table->factors);
-            }
-            table->factors[i] = factor;
+        if (unit.factor < 1 || unit.factor > 1) {
+            set_unit(table, i, unit);
         }
     }
+}
+
+static const char *any_word(size_t index)
+{
+    return index < NUM_WORDS ? words[index].word : NULL;
+}
+
+/* The name is a word for that column, or nearly one, whatever its unit. */
+static bool may_be(const char *name, const char *column)
+{
+    char plain[NAME_BYTES];
+    const char *nearest;
+
+    if (!plain_name(name, plain)) {
+        return false;
+    }
+    nearest = hint_nearest(plain, any_word);
+    for (size_t i = 0; i < NUM_WORDS; i++) {
+        if (strcmp(words[i].column, column) == 0 &&
+            (begins_with(plain, words[i].word) ||
+             (nearest && strlen(plain) > 2 && strcmp(nearest, words[i].word) == 0))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void table_form_hint(const struct table *table, const char *column, char *text, size_t bytes)
+{
+    struct unit unit;
+
+    for (size_t i = 0; i < table->num_columns; i++) {
+        if (may_be(table->names[i], column) && column_of(table->names[i], &unit) == NULL) {
+            snprintf(text, bytes, "did you mean '%.40s'? --columns '%s=%.40s'", table->names[i],
+                     column, table->names[i]);
+            return;
+        }
+    }
+    snprintf(text, bytes, "--columns %s=NAME takes another", column);
 }
 
 void table_form_names_of(const char *column, char *text, size_t bytes)

@@ -28,6 +28,19 @@ void table_form_point(char *cell);
  */
 void table_form_name_columns(struct table *table);
 
+/*
+ * NAME=COLUMN[,NAME=COLUMN...] of --columns: in files that have such a column it is read as if its
+ * header were that name. Exit 2 where a name is none that is read. The text must outlive the
+ * reading.
+ */
+void table_form_set_columns(const char *text);
+
+/* The names that a file has. */
+void table_form_list(const struct table *table, char *text, size_t bytes);
+
+/* What to do about a column that is missing: the one that it may be, and how to say so. */
+void table_form_hint(const struct table *table, const char *column, char *text, size_t bytes);
+
 /* Other names of a column ("time, timestamp"); "" where there are none. */
 void table_form_names_of(const char *column, char *text, size_t bytes);
 
