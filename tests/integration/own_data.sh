@@ -168,6 +168,27 @@ run convert bearing_degrees.csv bearings.lcm
 run track bearings.lcm -o tracks.csv
 check 'as a log, too' near own.tracks.csv tracks.csv
 
+# ---- no track, and why ----
+why() { # NAME, file, the reason (a pattern of grep), options...
+    run track "$2" -o tracks.csv "${@:4}"
+    check "no track: $1" grep -Eq "^rhotrack: no track: $3" stderr
+    check "no track: $1: it is no failure" exits 0
+}
+printf 't_s,sensor_id,x_m,y_m\n1,1,,\n2,1,,\n3,1,,\n' >empty.csv
+why 'no plots' empty.csv 'the 3 scans hold no plots'
+head -3 xy.csv >short.csv
+why 'too few scans' short.csv '2 scans, and a start needs plots in 3 \(min_scans\) of 7 \(scans\)'
+head -4 xy.csv >four.csv
+why 'too few scans, as set' four.csv '3 scans, and a start needs plots in 5 ' --set min_scans=5
+why 'a turning radar, rows with a time each' degrees.csv \
+    '[0-9]+ of 240 scans have one plot each, 0.2 s apart; .* scan_interval_s'
+printf '[sensor 0]\nx_m = 0\ny_m = 0\nrange_max_m = 500\n' >near.ini
+why 'outside the coverage' xy.csv '30 of 30 plots lie outside the .*range_max_m' --config near.ini
+why 'too fast' xy.csv 'no plots keep to a line .*: scans 2 s apart, 1 plots a scan, v_max_mps=20, ' \
+    --set v_max_mps=20
+run track xy.csv -o tracks.csv
+check 'with tracks nothing is said of none' sh -c '! grep -q "no track" stderr'
+
 # ---- a known header stays as it is ----
 printf 't_s,sensor_id,x_m,y_m,time,range_km,lat\n1,1,2,3,x,y,z\n' >extra.csv
 run track extra.csv

@@ -18,6 +18,7 @@
 #include "io/scans/scan_reader.h"
 #include "pipeline/bearings_batch.h"
 #include "pipeline/learned.h"
+#include "pipeline/no_tracks.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/pipeline_show.h"
 #include "settings/method.h"
@@ -27,6 +28,7 @@ struct tracking {
     struct pipeline_show *show; /* NULL: nothing is shown */
     struct clutter_file clutter;
     struct zones_output zones;
+    struct no_tracks seen;
     int64_t sum_us, max_us;
 };
 
@@ -78,6 +80,7 @@ static void step(struct tracking *tracking, const struct input *input)
     }
     start_us = clock_us();
     if (input->scan) {
+        no_tracks_add(&tracking->seen, input->scan);
         pipeline_step(&tracking->pipeline, input->scan);
     } else {
         pipeline_step_frame(&tracking->pipeline, input->frame);
@@ -476,6 +479,10 @@ static void print_results(const struct tracking *tracking, const struct inputs *
     struct inputs_counts counts = inputs_counts(inputs);
 
     print_summary(tracking, &counts, &line->parameters);
+    if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
+        no_tracks_say(&tracking->seen, &tracking->pipeline.tracker->counters, &line->parameters,
+                      stderr);
+    }
     if (tracking->pipeline.zones) {
         zones_print(tracking->pipeline.zones);
     }
