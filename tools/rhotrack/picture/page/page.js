@@ -88,7 +88,7 @@ function resize() {
     canvas.height = Math.max(1, Math.round(height * ratio));
     image = context.createImageData(canvas.width, canvas.height);
     pixels = new Uint32Array(image.data.buffer);
-    redraw();
+    draw(); // at once: the canvas is empty until then
 }
 
 // ---- plots: squares in the canvas's own memory; those of tracks above the others ----
@@ -306,25 +306,29 @@ function drawTrack() {
 
 // ---- all of it, once a frame at most ----
 
+function draw() {
+    const start = performance.now();
+    drawPlots();
+    world.attr('transform', `translate(${toX(middle.x)},${toY(middle.y)}) scale(${scale()},${-scale()})`);
+    world.selectAll('.sensors').attr('display', shown.sensors ? null : 'none');
+    world.selectAll('.truth').attr('display', shown.truth ? null : 'none');
+    world.selectAll('.track').attr('display', shown.tracks ? null : 'none');
+    drawTracks();
+    drawEnds();
+    drawAxes();
+    drawTrack();
+    element('time').value = state.at;
+    element('now').textContent = `${(now() + zero_s).toFixed(1)} s`;
+    document.body.dataset.drawMs = (performance.now() - start).toFixed(1);
+}
+
 let isAsked = false;
 function redraw() {
     if (isAsked) return;
     isAsked = true;
     requestAnimationFrame(() => {
         isAsked = false;
-        const start = performance.now();
-        drawPlots();
-        world.attr('transform', `translate(${toX(middle.x)},${toY(middle.y)}) scale(${scale()},${-scale()})`);
-        world.selectAll('.sensors').attr('display', shown.sensors ? null : 'none');
-        world.selectAll('.truth').attr('display', shown.truth ? null : 'none');
-        world.selectAll('.track').attr('display', shown.tracks ? null : 'none');
-        drawTracks();
-        drawEnds();
-        drawAxes();
-        drawTrack();
-        element('time').value = state.at;
-        element('now').textContent = `${(now() + zero_s).toFixed(1)} s`;
-        document.body.dataset.drawMs = (performance.now() - start).toFixed(1);
+        draw();
     });
 }
 
