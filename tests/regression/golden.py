@@ -740,7 +740,6 @@ def events(log):
 
 
 PERIODIC = {"RHO_STATUS", "RHO_WORK", "RHO_SENSORS", "RHO_LEARNED", "RHO_CLUTTER"}
-OF_A_STEP = {"RHO_TRACKS", "RHO_PEAKS"}
 
 
 def without_run(log, is_live=False):
@@ -750,7 +749,7 @@ def without_run(log, is_live=False):
     for at, start, _, channel in events(log):
         if is_live:
             log[at + 12:at + 20] = bytes(8)
-        if channel in OF_A_STEP:  # after fingerprint, utime and scan
+        if channel == "RHO_TRACKS":  # after fingerprint, utime and scan
             log[start + 20:start + 24] = bytes(4)
     return without_periodic(bytes(log))
 
