@@ -480,8 +480,7 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 
     print_summary(tracking, &counts, &line->parameters);
     if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
-        no_tracks_say(&tracking->seen, &tracking->pipeline.tracker->counters, &line->parameters,
-                      stderr);
+        no_tracks_say(&tracking->seen, tracking->pipeline.tracker, &line->parameters, stderr);
     }
     if (tracking->pipeline.zones) {
         zones_print(tracking->pipeline.zones);

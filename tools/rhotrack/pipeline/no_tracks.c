@@ -32,9 +32,10 @@ static double scans_needed(const struct parameters *parameters)
     return min_scans > 0 ? min_scans : 3;
 }
 
-void no_tracks_say(const struct no_tracks *seen, const struct rho_tracker_counters *counters,
+void no_tracks_say(const struct no_tracks *seen, const struct rho_tracker *tracker,
                    const struct parameters *parameters, FILE *file)
 {
+    const struct rho_tracker_counters *counters = &tracker->counters;
     const double *value = parameters->value;
     const double interval_s = seen->intervals > 0 ? (double)(seen->last_us - seen->first_us) *
                                                         1e-6 / (double)seen->intervals
@@ -63,6 +64,10 @@ void no_tracks_say(const struct no_tracks *seen, const struct rho_tracker_counte
                 "%" PRIu32 " of %" PRIu64 " plots are of scans that came after later ones; hold_ms "
                 "and late_max_s take more of them\n",
                 counters->fates[RHO_FATE_STALE], seen->plots);
+    } else if (tracker->work.partial_steps > seen->scans / 2) {
+        fprintf(file,
+                "work_max=%.0f ended %" PRIu32 " of %" PRIu64 " scans before all plots were tried\n",
+                value[PARAMETER_WORK_MAX], tracker->work.partial_steps, seen->scans);
     } else if (counters->tracks_started > 0) {
         fprintf(file,
                 "%" PRIu32 " began, and none had the plots to be confirmed; pd=%g is assumed, and "

@@ -20,7 +20,7 @@ struct no_tracks {
 void no_tracks_add(struct no_tracks *seen, const struct rho_scan *scan);
 
 /* One line: the reason, with its figure and the setting that goes with it. */
-void no_tracks_say(const struct no_tracks *seen, const struct rho_tracker_counters *counters,
+void no_tracks_say(const struct no_tracks *seen, const struct rho_tracker *tracker,
                    const struct parameters *parameters, FILE *file);
 
 #endif
