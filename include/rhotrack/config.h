@@ -358,6 +358,17 @@
 #endif
 
 /*
+ * 1: targets may give several plots a scan (rhotrack/body.h). 0: left out of the program. RAM: 70
+ * bytes a plot, and 44 a track.
+ */
+#ifndef RHO_BODIES
+#define RHO_BODIES RHO_CONFIG_PICK(0, 1)
+#endif
+/* Plots and tracks that there is room for in groups and bodies. */
+#define RHO_BODY_PLOTS (RHO_BODIES ? RHO_MAX_PLOTS : 1)
+#define RHO_BODY_TRACKS (RHO_BODIES ? RHO_MAX_TRACKS : 1)
+
+/*
  * Strips that the plots of a scan are sorted into, so that a track is compared with near plots
  * alone: of use from a million of tracks times plots. 1: no sorting. RAM: 2 bytes each, and 2 a
  * plot. 1 .. 16384.
@@ -527,6 +538,9 @@
 #if RHO_MAX_EXCLUDED_AREAS < 0 || RHO_MAX_EXCLUDED_AREAS > 64
 #error "RHO_MAX_EXCLUDED_AREAS must be 0 .. 64"
 #endif
+#if RHO_BODIES != 0 && RHO_BODIES != 1
+#error "RHO_BODIES must be 0 or 1"
+#endif
 #if RHO_PLOT_STRIPS < 1 || RHO_PLOT_STRIPS > 16384
 #error "RHO_PLOT_STRIPS must be 1 .. 16384"
 #endif
@@ -575,7 +589,8 @@
     (RHO_MAX_TRACKS * (520 + 8 * RHO_MAX_GATE_PLOTS) + 16 * RHO_MAX_PLOTS +                        \
      (144 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \
      RHO_RAM_STRIPS_BYTES + RHO_RAM_CLUTTER_MAP_BYTES + RHO_RAM_SECOND_PLOTS_BYTES +               \
-     16 * (RHO_MAX_REFLECTORS + RHO_MAX_EXCLUDED_AREAS) + 672)
+     16 * (RHO_MAX_REFLECTORS + RHO_MAX_EXCLUDED_AREAS) + 76 * RHO_BODY_PLOTS +                    \
+     44 * RHO_BODY_TRACKS + 640)
 #define RHO_RAM_SCAN_ASSEMBLER_BYTES                                                               \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      256 * RHO_MAX_SENSORS + 528)

@@ -39,6 +39,7 @@
 #include "rhotrack/zones.h"
 
 /* parts of a tracker, for programs that build their own */
+#include "rhotrack/body.h"
 #include "rhotrack/clutter_map.h"
 #include "rhotrack/kalman.h"
 #include "rhotrack/track.h"

@@ -52,6 +52,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "rhotrack/body.h"
 #include "rhotrack/clutter_map.h"
 #include "rhotrack/config.h"
 #include "rhotrack/detail/assignment.h"
@@ -251,6 +252,25 @@ struct rho_tracker_pace {
     int64_t time_us;   /* of the last of them */
 };
 
+/* The plots of a scan as groups (body.h); what a step leaves is of no use after it. */
+struct rho_groups {
+    uint16_t count;
+    uint16_t first[RHO_BODY_PLOTS], last[RHO_BODY_PLOTS]; /* plots of each group, */
+    uint16_t next[RHO_BODY_PLOTS];                        /* each with the next one */
+    uint16_t of[RHO_BODY_PLOTS];                          /* group of each plot */
+    uint16_t owner[RHO_BODY_PLOTS];                       /* track of each plot */
+    float misfit[RHO_BODY_PLOTS];                         /* with that */
+    struct rho_plot plots[RHO_BODY_PLOTS];                /* of each group */
+};
+
+/* Targets that are more than points. */
+struct rho_bodies {
+    float length_max_m; /* 0: they are points */
+    uint16_t count;
+    struct rho_body_filter of[RHO_BODY_TRACKS]; /* in the order of the tracks */
+    struct rho_groups groups;
+};
+
 struct rho_tracker {
     uint32_t magic;
     uint32_t next_track_id;
@@ -292,6 +312,7 @@ struct rho_tracker {
     uint16_t num_excluded;
     struct rho_reflector reflectors[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
     struct rho_extent excluded[RHO_MAX_EXCLUDED_AREAS > 0 ? RHO_MAX_EXCLUDED_AREAS : 1];
+    struct rho_bodies bodies;
 };
 
 /*

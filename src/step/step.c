@@ -85,6 +85,10 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         if (rho_notch_has(step.sensor)) {
             rho_tracker_find_blind(&step);
         }
+        struct rho_scan grouped;
+        if (rho_tracker_has_bodies(tracker)) {
+            rho_tracker_group(&step, &grouped);
+        }
         if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
             rho_tracker_claim_parts(&step); /* claims and updates, part by part */
         } else {
@@ -114,6 +118,10 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_end_late(&step);
         } else {
             rho_tracker_merge_estimates(&step);
+        }
+        if (rho_tracker_has_bodies(tracker)) {
+            rho_tracker_update_bodies(&step, scan);
+            rho_tracker_ungroup(&step, scan);
         }
         rho_tracker_end_work(&step);
     }

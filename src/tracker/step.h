@@ -269,6 +269,27 @@ static inline int rho_tracker_is_frozen(const struct rho_track *track)
     return RHO_MAX_EXCLUDED_AREAS > 0 && track->is_frozen;
 }
 
+/* ---- bodies ---------------------------------------------------------------------------------- */
+
+/* Targets may give several plots a scan. */
+static inline int rho_tracker_has_bodies(const struct rho_tracker *tracker)
+{
+    return RHO_BODIES && tracker->bodies.length_max_m > 0.0f;
+}
+/*
+ * groups.c (RHO_BODIES): the scan becomes that of its groups, after the tracks were predicted; and
+ * fates and rows become those of the scan's plots, before the report
+ */
+void rho_tracker_group(struct step *step, struct rho_scan *grouped);
+void rho_tracker_ungroup(struct step *step, const struct rho_scan *scan);
+/* bodies.c (RHO_BODIES): bodies are in the order of the tracks; before rows become those of plots,
+ * each learns from its track's plots */
+void rho_tracker_align_bodies(struct step *step);
+void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
+/* Variance of a place on a body that nothing is known of, on each axis. */
+float rho_tracker_body_prior_m2(const struct rho_tracker *tracker);
+int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker);
+
 /* ---- work ------------------------------------------------------------------------------------ */
 
 /*
@@ -284,6 +305,7 @@ static inline int rho_tracker_is_frozen(const struct rho_track *track)
 #define RHO_WORK_SECOND_SHARE 16u
 #define RHO_WORK_STARTS_SHARE 16u
 #define RHO_WORK_IMAGES_SHARE 16u
+#define RHO_WORK_GROUPS_SHARE 8u
 /* So many plots that a box passes over cost one unit. */
 #define RHO_WORK_PASSED_A_UNIT 4u
 struct plot_choice {

@@ -147,6 +147,7 @@ int rho_tracker_is_sound(const struct rho_tracker *tracker)
            (!RHO_SECTORS || rho_tracker_has_sound_looks(tracker)) &&
            (RHO_MAX_REFLECTORS == 0 || rho_tracker_has_sound_reflectors(tracker)) &&
            (RHO_MAX_EXCLUDED_AREAS == 0 || rho_tracker_has_sound_excluded(tracker)) &&
+           (!RHO_BODIES || rho_tracker_has_sound_bodies(tracker)) &&
            (RHO_MAX_ECHOES == 0 || (rho_tracker_has_sound_clutter_map(tracker) &&
                                     rho_tracker_has_sound_second_plots(tracker))) &&
            has_sound_tracks(tracker);

@@ -510,6 +510,9 @@ int command_track(struct command_line *line)
     tracking.clutter = clutter_file_open(line->clutter_map, &line->parameters,
                                          &tracking.pipeline.tracker->clutter_map);
     tracks = open_tracks(line);
+    if (tracks && line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0) {
+        tracks_output_add_bodies(tracks, tracking.pipeline.tracker);
+    }
     tracking.zones = open_zone_events(line);
     if (line->follow) {
         why = follow(&tracking, inputs, tracks, &line->parameters);

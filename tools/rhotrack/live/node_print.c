@@ -102,7 +102,7 @@ struct node_print node_print_start(bool is_on, bool is_live)
             print.is_changed = true; /* the header shows at once that it listens */
             fputs("\033[2J", text);
         } else {
-            tracks_write_header(text, false);
+            tracks_write_header(text, (struct tracks_columns){.covariance = false});
         }
         finish_text(&print, text);
     }
@@ -115,7 +115,7 @@ void node_print_step(struct node_print *print, const struct rho_report *report)
     if (print->is_on && !print->is_terminal && has_room(print)) {
         FILE *text = begin_text(print);
 
-        tracks_write_report(text, report, false);
+        tracks_write_report(text, report, (struct tracks_columns){.covariance = false});
         finish_text(print, text);
     }
 }

@@ -215,6 +215,9 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
     must_succeed(rho_tracker_set_reflectors(pipeline->tracker, parameters->reflectors,
                                             parameters->num_reflectors),
                  "reflectors");
+    must_succeed(
+        rho_tracker_set_body_max(pipeline->tracker, (float)parameters->value[PARAMETER_BODY_MAX_M]),
+        "body_max_m");
     open_starts(pipeline, parameters);
     open_zones(pipeline, parameters);
 }

@@ -213,6 +213,16 @@ static int64_t *times_of(const struct scene_run *run, size_t *count)
     return times_us;
 }
 
+static bool has_bodies_in(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->targets.count; i++) {
+        if (scene->targets.items[i].body.scatterers > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* truth.csv has the targets that a sensor could see; paths.csv all of them. */
 static void write_truth(const struct scene_run *run, const char *folder)
 {
@@ -221,10 +231,11 @@ static void write_truth(const struct scene_run *run, const char *folder)
     size_t num_times;
     int64_t *times_us = times_of(run, &num_times);
 
+    const bool has_bodies = has_bodies_in(run->scene);
     const char *columns = run->scene->has_heights ? "t_s,target_id,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps"
                                                   : "t_s,target_id,x_m,y_m,vx_mps,vy_mps";
 
-    fprintf(truth.file, "%s\n", columns);
+    fprintf(truth.file, "%s%s\n", columns, has_bodies ? ",length_m,width_m" : "");
     fprintf(all.file, "%s,is_covered\n", columns);
     for (size_t i = 0; i < num_times; i++) {
         double t_s = (double)times_us[i] * 1e-6;
@@ -248,7 +259,11 @@ static void write_truth(const struct scene_run *run, const char *folder)
                          at.vx_mps, at.vy_mps);
             }
             fprintf(all.file, "%s,%d\n", row, is_covered);
-            if (is_covered) {
+            if (is_covered && has_bodies) {
+                const struct scene_body *body = &run->scene->targets.items[flight->item].body;
+
+                fprintf(truth.file, "%s,%.3f,%.3f\n", row, body->length_m, body->width_m);
+            } else if (is_covered) {
                 fprintf(truth.file, "%s\n", row);
             }
         }

@@ -495,6 +495,86 @@ static struct sighting middle_of(const struct observer *observer, size_t first)
     return middle;
 }
 
+/* ---- bodies ---- */
+
+#define TURNING_S 0.01 /* over which a heading's rate is taken */
+
+static double heading_rad(const struct scene_path *path, double t_s)
+{
+    const struct motion at = path_at(path, t_s);
+
+    return portable_hypot(at.vx_mps, at.vy_mps) > PATH_STANDS_MPS
+               ? portable_atan2(at.vy_mps, at.vx_mps)
+               : path_leg_heading_rad(path_leg_of(path, t_s), t_s);
+}
+
+/* A place on the body, when its centre is looked at: it moves as the body does, and turns with it. */
+static struct sighting sighting_on(const struct scene_sensor *sensor, const struct sighting *centre,
+                                   const struct scene_path *path, const double place_m[2])
+{
+    const double t_s = centre->t_s, turn_rad = heading_rad(path, t_s);
+    const double turn_radps =
+        portable_wrap(heading_rad(path, t_s + TURNING_S) - turn_rad) / TURNING_S;
+    const double c = portable_cos(turn_rad), s = portable_sin(turn_rad);
+    const double x_m = c * place_m[0] - s * place_m[1], y_m = s * place_m[0] + c * place_m[1];
+    struct sighting on = *centre;
+
+    on.at.x_m += x_m;
+    on.at.y_m += y_m;
+    on.at.vx_mps -= turn_radps * y_m;
+    on.at.vy_mps += turn_radps * x_m;
+    on.range_m = portable_hypot(on.at.x_m - sensor->x_m, on.at.y_m - sensor->y_m);
+    on.azimuth_rad = portable_atan2(on.at.y_m - sensor->y_m, on.at.x_m - sensor->x_m);
+    return on;
+}
+
+/* Each scatterer gives a plot of its own, or none; a body's plots have no second ones. */
+static void observe_body(struct observer *observer, const struct scene_body *body,
+                         const struct scene_path *path, const struct sighting *centre,
+                         const struct target_fades *fades)
+{
+    const struct scene_sensor *sensor = observer->sensor;
+    const uint64_t target = (uint64_t)centre->target_id;
+    struct random stay = scene_stream(observer->seed, observer->run, STREAM_BODY, 0, target, 0);
+    struct random look = scene_stream(observer->seed, observer->run, STREAM_LOOK, observer->index,
+                                      target, centre->pass);
+    double places_m[SCENE_SCATTERERS_MAX][2];
+
+    scene_body_draw(body, body->is_anew ? &look : &stay, places_m);
+    for (size_t i = 0; i < body->scatterers; i++) {
+        const struct sighting on = sighting_on(sensor, centre, path, places_m[i]);
+        const double pd = faded_pd(
+            fades, observer->index, on.t_s,
+            scene_notch_pd(&sensor->notch, rate_of(sensor, &on.at, on.range_m), body->seen));
+
+        if (random_uniform(&look) < pd &&
+            sees_place(observer->scene, sensor, on.at.x_m, on.at.y_m)) {
+            keep_plot(observer, measure(sensor, &on, &look));
+            reflect(observer, &on);
+        }
+    }
+}
+
+/* Bodies give their plots; points are left among the sightings. */
+static void take_bodies(struct observer *observer, const struct scene_run *run,
+                        const struct target_fades *fades)
+{
+    size_t points = 0;
+
+    for (size_t i = 0; i < observer->num_sightings; i++) {
+        const struct sighting one = observer->sightings[i];
+        const struct scene_path *path = &run->paths[one.target_id];
+        const struct scene_body *body = &run->scene->targets.items[path->item].body;
+
+        if (body->scatterers > 0) {
+            observe_body(observer, body, path, &one, &fades[one.target_id]);
+        } else {
+            observer->sightings[points++] = one;
+        }
+    }
+    observer->num_sightings = points;
+}
+
 static void observe_targets(struct observer *observer, const struct scene_run *run,
                             const struct target_fades *fades)
 {
@@ -511,6 +591,7 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
     if (observer->num_sightings > 0) {
         qsort(observer->sightings, observer->num_sightings, sizeof *observer->sightings, by_time);
     }
+    take_bodies(observer, run, fades);
     for (size_t i = 0; i < observer->num_sightings; i++) {
         struct sighting *one = &observer->sightings[i];
         struct random random = pass_stream(observer, one);

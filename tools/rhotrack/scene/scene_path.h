@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "scene/scene_body.h"
 #include "scene/scene_json.h"
 #include "scene/scene_stream.h"
 
@@ -94,6 +95,7 @@ struct target_item {
     size_t num_points; /* in place of a beginning and legs: t_s, x_m, y_m */
     double (*points)[3];
     double shake_s, shake_mps2; /* a random acceleration so often; 0: none */
+    struct scene_body body;
 
     struct json_span from, life; /* of a group; life 0: to the end */
     bool has_life, is_replaced;

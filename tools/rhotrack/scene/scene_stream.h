@@ -21,7 +21,9 @@ enum stream_kind {
     STREAM_BEARINGS, /* sensor, scan */
     STREAM_ARRIVAL,  /* sensor, scan */
     STREAM_START,    /* sensor: when it begins, and where its antenna points then */
-    STREAM_IMAGE     /* reflector and sensor, target, pass */
+    STREAM_IMAGE,    /* reflector and sensor, target, pass */
+    STREAM_BODY,     /* target: where its scatterers stay */
+    STREAM_LOOK      /* sensor, target, pass: of the scatterers of a body */
 };
 
 struct random scene_stream(uint64_t seed, uint64_t run, enum stream_kind kind, uint64_t source,

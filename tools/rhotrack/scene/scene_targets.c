@@ -753,6 +753,7 @@ struct scene_targets targets_read(struct json_object *object, const char *key)
         struct target_item *item = &targets.items[targets.count];
 
         json_text(&one, "text", NULL);
+        item->body = scene_body_read(&one);
         json_exclude(&one, "count", "flights");
         if (json_has(&one, "flights")) {
             read_flights(&one, item);

@@ -69,6 +69,8 @@
       "acceleration that the initiation window allows for; 0: straight")                           \
     X(TURN_MPS2, "turn_mps2", "m/s^2", 0, 0, 1000, 0, 0,                                           \
       "standard deviation of targets' accelerations while found; 0: straight; unset: accel_max/5") \
+    X(BODY_MAX_M, "body_max_m", "m", 0, 0, 5000, 0, 1,                                             \
+      "longest target, which may give several plots a scan; 0: targets are points")                \
     X(WORK_MAX, "work_max", "-", RHO_WORK_MAX, 0, 1e8, 1, 1,                                       \
       "units of work, a scan (20 to 90 instructions each), tracks first; 0: no limit")             \
     X(COAST_SCANS_MAX, "coast_scans_max", "-", 5, 1, 255, 1, 1,                                    \

@@ -22,23 +22,46 @@ static void write_float(FILE *file, float value)
     fputs(float_text(value, text), file);
 }
 
-void tracks_write_header(FILE *file, bool with_covariance)
+void tracks_write_header(FILE *file, struct tracks_columns columns)
 {
     static const char *const states[RHO_KALMAN_STATES] = {"x", "y", "z", "vx", "vy", "vz"};
 
     fputs("t_s,track_id,status,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,ax_mps2,ay_mps2,az_mps2,"
           "sigma_m,sigma_mps,hits,misses,sensor_id,plot",
           file);
-    for (int i = 0; with_covariance && i < RHO_KALMAN_STATES; i++) {
+    for (int i = 0; columns.covariance && i < RHO_KALMAN_STATES; i++) {
         for (int j = 0; j <= i; j++) {
             fprintf(file, ",cov_%s_%s", states[i], states[j]);
         }
     }
+    if (columns.bodies) {
+        fputs(",length_m,width_m,heading_rad,sigma_length_m,sigma_width_m,sigma_heading_rad,"
+              "sigma_along_m,sigma_across_m",
+              file);
+    }
     fputc('\n', file);
 }
 
+static void write_body(FILE *file, const struct rho_tracker *tracker, unsigned place)
+{
+    struct rho_body body;
+
+    if (!rho_tracker_body_of(tracker, place, &body)) {
+        fputs(",,,,,,,,", file);
+        return;
+    }
+    write_float(file, body.length_m);
+    write_float(file, body.width_m);
+    write_float(file, body.heading_rad);
+    write_float(file, body.sigma_length_m);
+    write_float(file, body.sigma_width_m);
+    write_float(file, body.sigma_heading_rad);
+    write_float(file, body.sigma_along_m);
+    write_float(file, body.sigma_across_m);
+}
+
 void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
-                      bool with_covariance)
+                      unsigned place, struct tracks_columns columns)
 {
     tracks_write_time(file, time_us);
     fprintf(file, ",%" PRIu32 ",%s", track->track_id, rho_track_status_name(track->status));
@@ -52,16 +75,19 @@ void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report
     write_float(file, track->sigma_mps);
     fprintf(file, ",%u,%u,%" PRId32 ",%" PRId32, (unsigned)track->hits, (unsigned)track->misses,
             track->sensor_id, track->plot);
-    for (int i = 0; with_covariance && i < RHO_TRIANGLE(RHO_KALMAN_STATES); i++) {
+    for (int i = 0; columns.covariance && i < RHO_TRIANGLE(RHO_KALMAN_STATES); i++) {
         write_float(file, track->covariance[i]);
+    }
+    if (columns.bodies) {
+        write_body(file, columns.bodies, place);
     }
     fputc('\n', file);
 }
 
-void tracks_write_report(FILE *file, const struct rho_report *report, bool with_covariance)
+void tracks_write_report(FILE *file, const struct rho_report *report, struct tracks_columns columns)
 {
-    for (int i = 0; i < report->num_tracks; i++) {
-        tracks_write_row(file, report->time_us, &report->tracks[i], with_covariance);
+    for (unsigned i = 0; i < report->num_tracks; i++) {
+        tracks_write_row(file, report->time_us, &report->tracks[i], i, columns);
     }
 }
 

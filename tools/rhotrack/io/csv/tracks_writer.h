@@ -14,20 +14,27 @@
 #include "rhotrack/tracker.h"
 
 /*
- * t_s,track_id,status,...,plot; with covariance 21 columns more:
- * cov_x_x,cov_y_x,cov_y_y,...,cov_vz_vz (SI units).
+ * Columns behind t_s,track_id,status,...,plot: 21 of the covariance,
+ * cov_x_x,cov_y_x,cov_y_y,...,cov_vz_vz (SI units), and those of the tracks' bodies in the tracker
+ * (NULL: none), length_m, width_m, heading_rad, sigmas of these, and sigma_along_m,
+ * sigma_across_m of the centre; empty where a body is not known.
  */
-void tracks_write_header(FILE *file, bool with_covariance);
+struct tracks_columns {
+    bool covariance;
+    const struct rho_tracker *bodies;
+};
+void tracks_write_header(FILE *file, struct tracks_columns columns);
 
 /* Seconds, to the microsecond. */
 void tracks_write_time(FILE *file, int64_t time_us);
 
-/* One row: a track's estimate at time_us. */
+/* One row: a track's estimate at time_us; its place among the tracker's. */
 void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report *track,
-                      bool with_covariance);
+                      unsigned place, struct tracks_columns columns);
 
 /* One row a track of the report. */
-void tracks_write_report(FILE *file, const struct rho_report *report, bool with_covariance);
+void tracks_write_report(FILE *file, const struct rho_report *report,
+                         struct tracks_columns columns);
 
 /* track_id,t_s,x_m,y_m,vx_mps,vy_mps,rho_m,theta_rad,scans,score */
 void initiated_write_header(FILE *file);

@@ -17,7 +17,8 @@
 struct tracks_output {
     struct output output;
     const char *path;
-    bool is_log, with_covariance, has_header;
+    bool is_log, has_header;
+    struct tracks_columns columns;
     struct lcm_log_writer log;
     struct asterix_tracks *asterix; /* NULL: no such recording */
     int32_t step;
@@ -37,7 +38,7 @@ static struct tracks_output *open_output(const char *path, struct output output,
 
     tracks->path = path;
     tracks->is_log = tracks_output_is_log(path);
-    tracks->with_covariance = with_covariance;
+    tracks->columns.covariance = with_covariance;
     tracks->output = output;
     tracks->log = (struct lcm_log_writer){.file = tracks->output.file};
     if (asterix_tracks_is_asterix(path)) {
@@ -74,6 +75,11 @@ struct tracks_output *tracks_output_open_in_place(const char *path,
     return open_output(path, output_open_in_place(path), parameters, with_covariance);
 }
 
+void tracks_output_add_bodies(struct tracks_output *tracks, const struct rho_tracker *tracker)
+{
+    tracks->columns.bodies = tracker;
+}
+
 /*
  * Not before there is something to write: what is refused on the way leaves no header on standard
  * output.
@@ -82,7 +88,7 @@ static void need_header(struct tracks_output *tracks)
 {
     if (!tracks->is_log && !tracks->map && !tracks->asterix && !tracks->has_header) {
         tracks->has_header = true;
-        tracks_write_header(tracks->output.file, tracks->with_covariance);
+        tracks_write_header(tracks->output.file, tracks->columns);
     }
 }
 
@@ -150,7 +156,7 @@ void tracks_output_report(struct tracks_output *tracks, const struct rho_report 
         write_list(tracks, report);
     } else {
         need_header(tracks);
-        tracks_write_report(tracks->output.file, report, tracks->with_covariance);
+        tracks_write_report(tracks->output.file, report, tracks->columns);
     }
 }
 
@@ -179,7 +185,7 @@ void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
     }
     if (!tracks->is_log && !tracks->asterix) {
         need_header(tracks);
-        tracks_write_row(tracks->output.file, time_us, track, tracks->with_covariance);
+        tracks_write_row(tracks->output.file, time_us, track, 0, tracks->columns);
         return;
     }
     if (!tracks->single) {

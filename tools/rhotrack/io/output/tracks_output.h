@@ -31,6 +31,9 @@ struct tracks_output *tracks_output_open_in_place(const char *path,
                                                   bool with_covariance);
 void tracks_output_flush(struct tracks_output *tracks);
 
+/* Rows of CSV have the tracks' bodies in the tracker, too. Before the first of them. */
+void tracks_output_add_bodies(struct tracks_output *tracks, const struct rho_tracker *tracker);
+
 /* All tracks of a step. */
 void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report);
 

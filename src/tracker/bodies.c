@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * bodies: the extent of each track, learned from the plots of its groups.
+ */
+#include "rhotrack/body.h"
+
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/body_filter.h"
+#include "rhotrack/measurement.h"
+#include "step.h"
+
+/* Places on a body of unknown extent: it is half as long as the longest, in any direction. */
+#define PRIOR_SHARE 0.5f
+
+float rho_tracker_body_prior_m2(const struct rho_tracker *tracker)
+{
+    const float length_m = PRIOR_SHARE * tracker->bodies.length_max_m;
+    return length_m * length_m / 12.0f;
+}
+
+enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float length_max_m)
+{
+    if (!tracker) {
+        return RHO_ERROR_NULL;
+    }
+    if (!rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (!rho_is_within(length_max_m, 0.0f, RHO_LIMIT_BODY_M)) {
+        return RHO_ERROR_VALUE;
+    }
+    if (!RHO_BODIES && length_max_m > 0.0f) {
+        return RHO_ERROR_CAPACITY;
+    }
+    tracker->bodies.length_max_m = length_max_m;
+    return RHO_OK;
+}
+
+/* Tracks stay in their order, and new ones come behind the others: so do bodies. */
+void rho_tracker_align_bodies(struct step *step)
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_bodies *bodies = &tracker->bodies;
+    unsigned from = 0;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        const struct rho_track *track = &tracker->tracks[row];
+        while (from < bodies->count && bodies->of[from].track_id != track->track_id) {
+            from++;
+        }
+        if (from < bodies->count) {
+            bodies->of[row] = bodies->of[from++];
+        } else {
+            rho_body_start(&bodies->of[row], track->track_id, rho_tracker_body_prior_m2(tracker));
+        }
+    }
+    bodies->count = tracker->num_tracks;
+}
+
+/* The squares of distances, and the plots' noise, in the axes of the body. */
+static void look_at(const struct step *step, const struct rho_scan *scan,
+                    const struct rho_track *track, unsigned row, struct rho_body_look *look)
+{
+    const struct rho_bodies *bodies = &step->tracker->bodies;
+    const struct rho_body_filter *body = &bodies->of[row];
+    const float *state = track->kalman.state;
+    struct rho_measurement seen;
+    float noise[6], axes[3];
+    for (unsigned i = bodies->groups.first[track->plot]; i != UINT16_MAX;
+         i = bodies->groups.next[i]) {
+        const struct rho_plot *plot = &scan->plots[i];
+        const float after_s = (float)plot->offset_us * 1e-6f;
+        const float dx_m = plot->x_m - state[0] - after_s * state[3],
+                    dy_m = plot->y_m - state[1] - after_s * state[4];
+        const float along_m = body->cos_heading * dx_m + body->sin_heading * dy_m,
+                    across_m = body->cos_heading * dy_m - body->sin_heading * dx_m;
+        rho_measurement_open(plot, 0, step->sensor, &seen);
+        rho_measurement_covariance(&seen, noise);
+        rho_body_to_axes(body, noise, axes);
+        look->num_plots++;
+        look->along_m2 += along_m * along_m;
+        look->across_m2 += across_m * across_m;
+        look->noise_along_m2 += axes[0];
+        look->noise_across_m2 += axes[2];
+    }
+}
+
+void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
+{
+    struct rho_tracker *tracker = step->tracker;
+    rho_tracker_align_bodies(step);
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        const struct rho_track *track = &tracker->tracks[row];
+        const float *p = track->kalman.covariance;
+        const float velocity[3] = {p[RHO_AT(3, 3)], p[RHO_AT(3, 4)], p[RHO_AT(4, 4)]};
+        struct rho_body_look look = {0};
+        if (track->plot < 0 || track->time_us != step->time_us) {
+            continue;
+        }
+        rho_body_turn(&tracker->bodies.of[row], &track->kalman.state[3], velocity);
+        look_at(step, scan, track, row, &look);
+        rho_body_add(&tracker->bodies.of[row], &look);
+    }
+}
+
+int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struct rho_body *body)
+{
+    const struct rho_bodies *bodies = tracker ? &tracker->bodies : 0;
+    if (!bodies || !body || !rho_tracker_is_ready(tracker) || track >= tracker->num_tracks ||
+        track >= bodies->count || bodies->of[track].track_id != tracker->tracks[track].track_id ||
+        bodies->of[track].most_plots < 2) {
+        return 0;
+    }
+    rho_body_shape(&bodies->of[track], body);
+    return 1;
+}
+
+int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
+{
+    const struct rho_bodies *bodies = &tracker->bodies;
+    if (bodies->count > RHO_MAX_TRACKS || bodies->groups.count > RHO_MAX_PLOTS ||
+        !rho_is_within(bodies->length_max_m, 0.0f, RHO_LIMIT_BODY_M)) {
+        return 0;
+    }
+    for (unsigned i = 0; i < bodies->count; i++) {
+        const struct rho_body_filter *body = &bodies->of[i];
+        if (!rho_is_within(body->along_m2, 0.0f, 1e12f) ||
+            !rho_is_within(body->across_m2, 0.0f, 1e12f) ||
+            !rho_is_within(body->prior_m2, 0.0f, 1e12f) ||
+            !rho_is_within(body->across_mean_m2, -1e12f, 1e12f) ||
+            !rho_is_within(body->along_weight, 1e-3f, 1e6f) ||
+            !rho_is_within(body->across_weight, 1e-3f, 1e6f) ||
+            !rho_is_within(body->cos_heading, -1.001f, 1.001f) ||
+            !rho_is_within(body->sin_heading, -1.001f, 1.001f) ||
+            !rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) ||
+            !rho_is_within(body->plots, 1.0f, 1e6f)) {
+            return 0;
+        }
+    }
+    return 1;
+}

@@ -1,0 +1,515 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * groups: the plots of a scan that one target can have given are one plot, from before the claims
+ * to the report.
+ *
+ * A step goes on with the scan of the groups, in the order of their first plots; so the group of a
+ * plot never has a higher row than the plot. At the end rows and fates are those of the plots
+ * again.
+ */
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/body_filter.h"
+#include "rhotrack/measurement.h"
+#include "step.h"
+
+/* A plot is a track's by its place up to so many standard deviations on each axis of the body. */
+#define GATE_SIGMAS 3.0f
+/* Range rates of one target differ by so many sigmas of both, and by so much a metre as it turns. */
+#define RATE_SIGMAS 4.0f
+#define TURN_RADPS 0.3f
+/* Two plots of one target are farther apart than it is long by so many of their sigmas. */
+#define APART_SIGMAS 2.0f
+/* The body of a track is known from so many plots on. */
+#define NEW_PLOTS 30.0f
+/* Work units: a plot compared with a body, or with another plot; passed over. */
+#define TEST_UNITS 6u
+#define PAIR_UNITS 2u
+#define PASS_UNITS 1u
+
+#define NONE UINT16_MAX
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static float longest_m(const struct step *step)
+{
+    return step->tracker->bodies.length_max_m;
+}
+
+/* ---- pairs of plots ---------------------------------------------------------------------------- */
+
+/* Range rates that one target can have at both places: it is as fast as any, and may turn. */
+static int have_one_rate(const struct step *step, const struct rho_plot *one,
+                         const struct rho_plot *other, float apart_m)
+{
+    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
+        return 1;
+    }
+    const float x_m = one->x_m - (step->sensor ? step->sensor->x_m : 0.0f),
+                y_m = one->y_m - (step->sensor ? step->sensor->y_m : 0.0f);
+    const float range_m = larger(rho_sqrt(x_m * x_m + y_m * y_m), apart_m);
+    const float off_mps = rho_measurement_range_rate_error_mps(step->sensor, one->range_rate_mps,
+                                                               other->range_rate_mps);
+    const float slack_mps =
+        RATE_SIGMAS * (one->sigma_range_rate_mps + other->sigma_range_rate_mps) +
+        apart_m * (TURN_RADPS + step->tracker->config.v_max_mps / (range_m + 1e-3f));
+    return off_mps <= slack_mps && off_mps >= -slack_mps;
+}
+
+/* One target can have given both plots. */
+static int fit_together(struct step *step, uint32_t one, uint32_t other)
+{
+    const struct rho_plot *a = &step->scan->plots[one], *b = &step->scan->plots[other];
+    const float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
+    const float most_m =
+        longest_m(step) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
+    rho_tracker_spend(step, PAIR_UNITS);
+    return dx_m * dx_m + dy_m * dy_m <= most_m * most_m &&
+           have_one_rate(step, a, b, rho_sqrt(dx_m * dx_m + dy_m * dy_m));
+}
+
+/* ---- a track's body -------------------------------------------------------------------------- */
+
+/* The body of a track as this scan's plots are compared with it. */
+struct outline {
+    const struct rho_body_filter *body;
+    const struct rho_track *track;
+    float place_m2[3]; /* of body and prediction, in the body's axes */
+    float rate_sigma_mps;
+};
+
+static struct outline outline_of(const struct step *step, unsigned row)
+{
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const float *p = track->kalman.covariance;
+    const float place_m2[3] = {p[RHO_AT(0, 0)], p[RHO_AT(0, 1)], p[RHO_AT(1, 1)]};
+    struct outline outline = {.body = &step->tracker->bodies.of[row],
+                              .track = track,
+                              .rate_sigma_mps = rho_track_sigma_mps(track)};
+    rho_body_to_axes(outline.body, place_m2, outline.place_m2);
+    /* an end of the body is 3 times as far off as the mean square of its places */
+    const float turned = outline.body->has_heading ? 3.0f * outline.body->heading_sigma_rad *
+                                                         outline.body->heading_sigma_rad
+                                                   : 0.0f;
+    outline.place_m2[0] += rho_body_most_along_m2(outline.body) + turned * outline.body->across_m2;
+    outline.place_m2[2] += outline.body->across_m2 + turned * outline.body->along_m2;
+    return outline;
+}
+
+/* Half the side of the box in which plots may be the track's: both axes at once. */
+static float half_box_m(const struct step *step, const struct outline *outline)
+{
+    const float noise_m2 = step->sigma_max_m * step->sigma_max_m;
+    return 1.5f * GATE_SIGMAS *
+           rho_sqrt(larger(outline->place_m2[0], outline->place_m2[2]) + noise_m2);
+}
+
+/* The range rate that agrees with the track's velocity, where both are known. */
+static int has_its_rate(const struct step *step, const struct outline *outline,
+                        const struct rho_plot *plot, float apart_m)
+{
+    float row[6], rate_mps;
+    const float state[6] = {plot->x_m,
+                            plot->y_m,
+                            plot->z_m,
+                            outline->track->kalman.state[3],
+                            outline->track->kalman.state[4],
+                            outline->track->kalman.state[5]};
+    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE) ||
+        !rho_measurement_range_rate(state, step->sensor,
+                                    (step->scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
+        return 1;
+    }
+    const float off_mps =
+        rho_measurement_range_rate_error_mps(step->sensor, plot->range_rate_mps, rate_mps);
+    const float slack_mps =
+        RATE_SIGMAS * (outline->rate_sigma_mps + plot->sigma_range_rate_mps) + TURN_RADPS * apart_m;
+    return off_mps <= slack_mps && off_mps >= -slack_mps;
+}
+
+/* How badly the body explains the plot: -2 ln of its likelihood. 0: not within the gate. */
+static int explains(const struct step *step, const struct outline *outline,
+                    const struct rho_plot *plot, float *misfit)
+{
+    struct rho_measurement seen;
+    float noise[6], axes[3];
+    const float after_s = (float)plot->offset_us * 1e-6f, *state = outline->track->kalman.state;
+    const float c = outline->body->cos_heading, s = outline->body->sin_heading;
+    const float dx_m = plot->x_m - state[0] - after_s * state[3],
+                dy_m = plot->y_m - state[1] - after_s * state[4];
+    const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
+    rho_measurement_open(plot, 0, step->sensor, &seen);
+    rho_measurement_covariance(&seen, noise);
+    rho_body_to_axes(outline->body, noise, axes);
+    const float along_m2 = outline->place_m2[0] + axes[0],
+                across_m2 = outline->place_m2[2] + axes[2];
+    const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
+    *misfit = far + wide + rho_log(along_m2) + rho_log(across_m2);
+    return far <= GATE_SIGMAS * GATE_SIGMAS && wide <= GATE_SIGMAS * GATE_SIGMAS &&
+           has_its_rate(step, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m));
+}
+
+/* The plots in a box about the track's place. */
+static struct plots_near plots_about(const struct step *step, const struct outline *outline,
+                                     float half_m)
+{
+    const float *state = outline->track->kalman.state;
+    return rho_tracker_plots_near(step, state[0] - half_m, state[0] + half_m, state[1] - half_m,
+                                  state[1] + half_m);
+}
+
+static int fits_owned(struct step *step, unsigned row, struct plots_near near, uint32_t plot)
+{
+    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    unsigned owned = 0;
+    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
+        rho_tracker_spend(step, PASS_UNITS);
+        if (groups->owner[i] == row) {
+            if (!fit_together(step, i, plot)) {
+                return 0;
+            }
+            owned++;
+        }
+    }
+    return owned > 0;
+}
+
+/* The body of a new track may be as long as any: it takes plots that fit all it has. */
+static void adopt(struct step *step, unsigned row)
+{
+    struct rho_groups *groups = &step->tracker->bodies.groups;
+    const struct outline outline = outline_of(step, row);
+    const struct plots_near about = plots_about(step, &outline, 2.0f * longest_m(step));
+    struct plots_near near = about;
+    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
+        rho_tracker_spend(step, PASS_UNITS);
+        if (step->report->fates[i] == RHO_FATE_HELD && groups->owner[i] == NONE &&
+            has_its_rate(step, &outline, &step->scan->plots[i], longest_m(step)) &&
+            fits_owned(step, row, about, i)) {
+            groups->owner[i] = (uint16_t)row;
+        }
+    }
+}
+
+static int may_own(const struct step *step, unsigned row)
+{
+    return row < RHO_BODY_TRACKS && step->tracker->tracks[row].status != RHO_TRACK_FREE &&
+           rho_tracker_is_in_view(step, row);
+}
+
+/* Both have plots, which one target can have given. */
+static int are_one(struct step *step, unsigned row, unsigned other)
+{
+    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    const struct outline outline = outline_of(step, other);
+    struct plots_near near = plots_about(step, &outline, 2.0f * longest_m(step));
+    const struct outline about = outline_of(step, row);
+    unsigned owned = 0;
+    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
+        rho_tracker_spend(step, PASS_UNITS);
+        if (groups->owner[i] == other) {
+            if (!fits_owned(step, row, plots_about(step, &about, 2.0f * longest_m(step)), i)) {
+                return 0;
+            }
+            owned++;
+        }
+    }
+    return owned > 0 && !rho_tracker_is_spent(step);
+}
+
+static int is_new(const struct step *step, unsigned row)
+{
+    return may_own(step, row) && step->tracker->bodies.of[row].plots < NEW_PLOTS;
+}
+
+/* Of two new tracks whose plots are one body's the younger ends; the other one adopts its plots. */
+static void end_doubles(struct step *step, unsigned row)
+{
+    struct rho_groups *groups = &step->tracker->bodies.groups;
+    for (unsigned other = row + 1u; other < step->tracker->num_tracks; other++) {
+        if (!is_new(step, other) || !are_one(step, row, other)) {
+            continue;
+        }
+        for (uint32_t i = 0; i < step->num_gated; i++) {
+            groups->owner[i] = groups->owner[i] == other ? (uint16_t)NONE : groups->owner[i];
+        }
+        rho_tracker_end_track(step, &step->tracker->tracks[other]);
+    }
+}
+
+/* Each plot belongs to the track whose body explains it best. */
+static void find_owners(struct step *step)
+{
+    struct rho_groups *groups = &step->tracker->bodies.groups;
+    float misfit;
+    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
+        if (!may_own(step, row)) {
+            continue;
+        }
+        const struct outline outline = outline_of(step, row);
+        const float *state = outline.track->kalman.state;
+        const float half_m = half_box_m(step, &outline);
+        struct plots_near near = plots_about(step, &outline, half_m);
+        for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
+            const struct rho_plot *plot = &step->scan->plots[i];
+            const float dx_m = plot->x_m - state[0], dy_m = plot->y_m - state[1];
+            if (step->report->fates[i] != RHO_FATE_HELD || dx_m > half_m || dx_m < -half_m ||
+                dy_m > half_m || dy_m < -half_m) {
+                continue;
+            }
+            rho_tracker_spend(step, TEST_UNITS);
+            if (explains(step, &outline, plot, &misfit) &&
+                (groups->owner[i] == NONE || misfit < groups->misfit[i])) {
+                groups->owner[i] = (uint16_t)row;
+                groups->misfit[i] = misfit;
+            }
+        }
+    }
+    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
+        if (is_new(step, row)) {
+            end_doubles(step, row);
+            adopt(step, row);
+        }
+    }
+}
+
+/* ---- groups ---------------------------------------------------------------------------------- */
+
+static void begin_group(struct rho_groups *groups, uint32_t plot)
+{
+    const unsigned group = groups->count++;
+    groups->first[group] = (uint16_t)plot;
+    groups->last[group] = (uint16_t)plot;
+    groups->of[plot] = (uint16_t)group;
+}
+
+static void join(struct rho_groups *groups, unsigned group, uint32_t plot)
+{
+    groups->next[groups->last[group]] = (uint16_t)plot;
+    groups->last[group] = (uint16_t)plot;
+    groups->of[plot] = (uint16_t)group;
+}
+
+static int fits_all(struct step *step, unsigned group, uint32_t plot)
+{
+    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
+        if (!fit_together(step, i, plot)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Plots of no track that fit the group's first, and each other. */
+static void gather_near(struct step *step, unsigned group)
+{
+    struct rho_groups *groups = &step->tracker->bodies.groups;
+    const struct rho_plot *plot = &step->scan->plots[groups->first[group]];
+    const float most_m = longest_m(step) + 2.0f * APART_SIGMAS * step->sigma_max_m;
+    struct plots_near near = rho_tracker_plots_near(step, plot->x_m - most_m, plot->x_m + most_m,
+                                                    plot->y_m - most_m, plot->y_m + most_m);
+    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
+        rho_tracker_spend(step, PASS_UNITS);
+        if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == NONE &&
+            groups->owner[i] == NONE && fits_all(step, group, i)) {
+            join(groups, group, i);
+        }
+    }
+}
+
+/* In the order of the plots: a group has the row of its first plot among the firsts. */
+static void form_groups(struct step *step)
+{
+    struct rho_groups *groups = &step->tracker->bodies.groups;
+    uint16_t of_track[RHO_BODY_TRACKS];
+    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
+        of_track[row] = NONE;
+    }
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        const unsigned owner = groups->owner[i];
+        if (groups->of[i] != NONE) {
+            continue;
+        }
+        if (owner != NONE && of_track[owner] != NONE) {
+            join(groups, of_track[owner], i);
+            continue;
+        }
+        begin_group(groups, i);
+        if (owner != NONE) {
+            of_track[owner] = groups->of[i];
+        } else if (step->report->fates[i] == RHO_FATE_HELD) {
+            gather_near(step, groups->of[i]);
+        }
+    }
+}
+
+/* ---- a group as one plot --------------------------------------------------------------------- */
+
+/* Two passes over a group's plots: their means, and how far their range rates are spread. */
+static float rate_spread(const struct step *step, unsigned group, const struct rho_plot *mean)
+{
+    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    float sum = 0.0f;
+    for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
+        const float off_mps = rho_measurement_range_rate_error_mps(
+            step->sensor, step->scan->plots[i].range_rate_mps, mean->range_rate_mps);
+        sum += off_mps * off_mps;
+    }
+    return sum;
+}
+
+/* Means are sums of differences from the first plot: those of places would be rounded. */
+static struct rho_plot mean_of(const struct step *step, unsigned group, unsigned *count)
+{
+    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    const struct rho_plot *first = &step->scan->plots[groups->first[group]];
+    struct rho_plot mean = *first, sum = {0};
+    float n = 0.0f, offset_us = 0.0f;
+    *count = 0;
+    for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        offset_us += (float)(plot->offset_us - first->offset_us);
+        sum.x_m += plot->x_m - first->x_m;
+        sum.y_m += plot->y_m - first->y_m;
+        sum.z_m += plot->z_m - first->z_m;
+        sum.vx_mps += plot->vx_mps - first->vx_mps;
+        sum.vy_mps += plot->vy_mps - first->vy_mps;
+        sum.vz_mps += plot->vz_mps - first->vz_mps;
+        sum.range_rate_mps += rho_measurement_range_rate_error_mps(
+            step->sensor, plot->range_rate_mps, first->range_rate_mps);
+        n += 1.0f;
+        ++*count;
+    }
+    mean.offset_us += (int32_t)(offset_us / n);
+    mean.x_m += sum.x_m / n;
+    mean.y_m += sum.y_m / n;
+    mean.z_m += sum.z_m / n;
+    mean.vx_mps += sum.vx_mps / n;
+    mean.vy_mps += sum.vy_mps / n;
+    mean.vz_mps += sum.vz_mps / n;
+    mean.range_rate_mps += sum.range_rate_mps / n;
+    return mean;
+}
+
+/*
+ * Variance of a place on the body in x and y. Of no track: the plots' own spread, with one plot's
+ * worth of the prior.
+ */
+static void body_spread(const struct step *step, unsigned group, const struct rho_plot *mean,
+                        unsigned count, float xx_yx_yy[3])
+{
+    const struct rho_bodies *bodies = &step->tracker->bodies;
+    const struct rho_groups *groups = &bodies->groups;
+    const unsigned owner = groups->owner[groups->first[group]];
+    if (owner != NONE) {
+        rho_body_spread(&bodies->of[owner], xx_yx_yy);
+        return;
+    }
+    xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_body_prior_m2(step->tracker);
+    xx_yx_yy[1] = 0.0f;
+    for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
+        const float dx_m = step->scan->plots[i].x_m - mean->x_m,
+                    dy_m = step->scan->plots[i].y_m - mean->y_m;
+        xx_yx_yy[0] += dx_m * dx_m;
+        xx_yx_yy[1] += dx_m * dy_m;
+        xx_yx_yy[2] += dy_m * dy_m;
+    }
+    for (int i = 0; i < 3; i++) {
+        xx_yx_yy[i] /= (float)count;
+    }
+}
+
+static float within_limits(float sigma_m)
+{
+    return sigma_m < RHO_LIMIT_SIGMA_MAX ? sigma_m : RHO_LIMIT_SIGMA_MAX;
+}
+
+/* The noise of the mean: what places on the body and the plots' own noise leave of it. */
+static void make_plot(const struct step *step, unsigned group, struct rho_plot *out)
+{
+    struct rho_measurement seen;
+    float spread[3];
+    unsigned count;
+    *out = mean_of(step, group, &count);
+    if (step->report->fates[step->tracker->bodies.groups.first[group]] != RHO_FATE_HELD) {
+        return;
+    }
+    const float n = (float)count;
+    body_spread(step, group, out, count, spread);
+    rho_measurement_open(out, 0, step->sensor, &seen);
+    const float c = seen.cos_azimuth, s = seen.sin_azimuth;
+    const float along_m2 = c * c * spread[0] + 2.0f * c * s * spread[1] + s * s * spread[2];
+    const float across_m2 = s * s * spread[0] - 2.0f * c * s * spread[1] + c * c * spread[2];
+    out->sigma_range_m =
+        within_limits(rho_sqrt((out->sigma_range_m * out->sigma_range_m + along_m2) / n));
+    out->sigma_cross_m =
+        within_limits(rho_sqrt((out->sigma_cross_m * out->sigma_cross_m + across_m2) / n));
+    if (step->scan->measures & RHO_MEASURES_RANGE_RATE) {
+        out->sigma_range_rate_mps =
+            within_limits(rho_sqrt((out->sigma_range_rate_mps * out->sigma_range_rate_mps +
+                                    rate_spread(step, group, out) / n) /
+                                   n));
+    }
+}
+
+/* ---- the scan -------------------------------------------------------------------------------- */
+
+/* All plots are alone; those that are measurements may be grouped. */
+static void open_groups(struct step *step)
+{
+    struct rho_groups *groups = &step->tracker->bodies.groups;
+    groups->count = 0;
+    step->sigma_max_m = 0.0f;
+    for (uint32_t i = 0; i < step->num_gated; i++) {
+        const struct rho_plot *plot = &step->scan->plots[i];
+        const int is_valid = rho_measurement_is_valid(plot, step->scan->measures);
+        groups->of[i] = groups->next[i] = groups->owner[i] = NONE;
+        step->report->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
+        if (is_valid) {
+            step->sigma_max_m = larger(step->sigma_max_m, rho_plot_sigma_m(plot));
+        }
+    }
+}
+
+void rho_tracker_group(struct step *step, struct rho_scan *grouped)
+{
+    struct rho_groups *groups = &step->tracker->bodies.groups;
+    rho_tracker_align_bodies(step);
+    open_groups(step);
+    rho_tracker_sort_plots(step);
+    rho_tracker_begin_share(step, RHO_WORK_GROUPS_SHARE);
+    find_owners(step);
+    form_groups(step);
+    step->is_partial |= rho_tracker_is_spent(step);
+    for (unsigned group = 0; group < groups->count; group++) {
+        make_plot(step, group, &groups->plots[group]);
+    }
+    *grouped = *step->scan;
+    grouped->plots = groups->plots;
+    grouped->num_plots = groups->count;
+    step->scan = grouped;
+    step->num_inputs = step->num_gated = groups->count;
+    step->sigma_max_m = 0.0f;
+}
+
+void rho_tracker_ungroup(struct step *step, const struct rho_scan *scan)
+{
+    struct rho_tracker *tracker = step->tracker;
+    const struct rho_groups *groups = &tracker->bodies.groups;
+    step->scan = scan;
+    step->num_inputs = scan->num_plots;
+    step->num_gated = step->num_inputs < RHO_MAX_PLOTS ? step->num_inputs : RHO_MAX_PLOTS;
+    /* the last first: no plot's group has a higher row than the plot */
+    for (uint32_t i = step->num_gated; i-- > 0;) {
+        step->report->fates[i] = step->report->fates[groups->of[i]];
+    }
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        struct rho_track *track = &tracker->tracks[row];
+        if (track->plot >= 0) {
+            track->plot = (int16_t)groups->first[track->plot];
+        }
+    }
+}

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Targets that give several plots a scan: one track each, with its extent; near each other they
+ * stay two; and what a tracker may be told of them.
+ */
+#include "tracker_setup.h"
+
+#define SENSOR 1
+#define STEP_S 0.1
+
+struct vehicle {
+    double x_m, y_m, vx_mps, length_m, width_m;
+    int scatterers;
+};
+
+static void prepare(float longest_m)
+{
+    const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 1e3f};
+    draw(11);
+    config.v_max_mps = initiation.v_max_mps = 60.0f;
+    begin();
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+    assert_int_equal(rho_tracker_set_body_max(&tracker, longest_m), RHO_OK);
+}
+
+/* Each scatterer somewhere in its part of the length, seen .7 of the time. */
+static void see(const struct vehicle *vehicle, int k)
+{
+    for (int i = 0; i < vehicle->scatterers; i++) {
+        const double part = (i + uniform(0.0, 1.0)) / vehicle->scatterers - 0.5;
+        const double side = uniform(-0.5, 0.5);
+        if (uniform(0.0, 1.0) < 0.7) {
+            add_noisy(vehicle->x_m + vehicle->vx_mps * STEP_S * k + part * vehicle->length_m,
+                      vehicle->y_m + side * vehicle->width_m, 0.2);
+        }
+    }
+}
+
+static void look(int k)
+{
+    step_scan((struct rho_scan){.time_us = INT64_C(100000) * k, .sensor_id = SENSOR});
+}
+
+/* Places of tracks that are tracks of a body near there. */
+static int place_of(const struct vehicle *vehicle, int k)
+{
+    int found = -1;
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        const double dx_m =
+            (double)report.tracks[i].state[0] - vehicle->x_m - vehicle->vx_mps * STEP_S * k;
+        if (fabs(dx_m) < vehicle->length_m / 2 &&
+            fabs((double)report.tracks[i].state[1] - vehicle->y_m) < vehicle->width_m / 2 + 0.5) {
+            assert_int_equal(found, -1);
+            found = (int)i;
+        }
+    }
+    return found;
+}
+
+static const struct vehicle truck = {-200.0, 60.0, 20.0, 12.0, 2.5, 8};
+
+static void a_truck_is_one_track(void **state)
+{
+    (void)state;
+    for (int with_bodies = 0; with_bodies < RHO_BODIES + 1; with_bodies++) {
+        unsigned most = 0;
+        struct rho_body body;
+        prepare(with_bodies ? 15.0f : 0.0f);
+        assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 0);
+        for (int k = 0; k < 150; k++) {
+            see(&truck, k);
+            const uint32_t seen = num_plots;
+            look(k);
+            most = report.num_tracks > most ? report.num_tracks : most;
+            if (with_bodies && k > 20) {
+                /* every plot is the track's, and its row one of the scan's */
+                assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], seen);
+                assert_int_equal(report.num_tracks, 1);
+                assert_int_equal(report.tracks[0].track_id, 1);
+                assert_in_range(report.tracks[0].plot, 0, seen - 1);
+            }
+        }
+        if (!with_bodies) {
+            assert_true(most > 3);
+            continue;
+        }
+        assert_int_equal(most, 1);
+        assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
+        assert_true(fabs((double)body.length_m - 12.0) < 1.0);
+        assert_true(fabs((double)body.width_m - 2.5) < 0.5);
+        assert_true(fabs((double)body.heading_rad) < 0.05);
+        assert_true(body.sigma_length_m < 2.0f && body.sigma_heading_rad < 0.1f);
+        const double off_m =
+            (double)report.tracks[0].state[0] - truck.x_m - truck.vx_mps * STEP_S * 149;
+        assert_true(fabs(off_m) < 1.0);
+        assert_int_equal(rho_tracker_body_of(&tracker, 1, &body), 0);
+        assert_int_equal(rho_tracker_body_of(NULL, 0, &body), 0);
+        assert_int_equal(rho_tracker_body_of(&tracker, 0, NULL), 0);
+        assert_true(rho_tracker_is_sound(&tracker));
+    }
+}
+
+/* Seen apart first, then for long beside or behind each other. */
+static void neighbours_stay_two(void **state)
+{
+    static const struct vehicle pairs[][2] = {
+        /* bumper to bumper: 1.5 m between two cars that close up */
+        {{-200.0, 60.0, 15.0, 4.5, 1.8, 4}, {-194.0, 60.0, 15.0, 4.5, 1.8, 4}},
+        /* a car beside a truck, a lane off */
+        {{-200.0, 60.0, 20.0, 12.0, 2.5, 8}, {-199.0, 63.5, 20.0, 4.5, 1.8, 4}},
+    };
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        uint32_t ids[2] = {0, 0};
+        prepare(15.0f);
+        for (int k = 0; k < 260; k++) {
+            struct vehicle now[2] = {pairs[i][0], pairs[i][1]};
+            /* 20 m more between them, which they make good in 10 s */
+            now[1].x_m += k < 100 ? 20.0 - 0.2 * k : 0.0;
+            see(&now[0], k);
+            see(&now[1], k);
+            look(k);
+            for (int n = 0; n < 2 && k >= 20; n++) {
+                const int place = place_of(&now[n], k);
+                assert_true(place >= 0);
+                ids[n] = ids[n] ? ids[n] : report.tracks[place].track_id;
+                assert_int_equal(report.tracks[place].track_id, ids[n]);
+            }
+            assert_true(k < 20 || report.num_tracks == 2);
+        }
+    }
+}
+
+static void bad_plots_and_full_scans(void **state)
+{
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    prepare(15.0f);
+    for (int k = 0; k < 20; k++) {
+        add(NAN, 60.0, 0.2);
+        see(&truck, k);
+        add(0.0, 0.0, -1.0);
+        const uint32_t seen = num_plots;
+        look(k);
+        assert_int_equal(report.fates_total[RHO_FATE_INVALID], 2);
+        assert_int_equal(report.fates[0], RHO_FATE_INVALID);
+        assert_int_equal(report.fates[seen - 1], RHO_FATE_INVALID);
+    }
+    assert_int_equal(report.num_tracks, 1);
+    for (int i = 0; i < RHO_MAX_PLOTS + 10; i++) {
+        add(uniform(-900.0, 900.0), 500.0, 0.2);
+    }
+    look(20);
+    assert_int_equal(report.num_plots, RHO_MAX_PLOTS + 10);
+    assert_in_range(report.fates_total[RHO_FATE_NO_ROOM], 10, RHO_MAX_PLOTS);
+}
+
+/* Little work: what is not grouped is as points are, and the step says so. */
+static void work_is_bounded(void **state)
+{
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    draw(11);
+    config.work_max = 4000;
+    config.v_max_mps = initiation.v_max_mps = 60.0f;
+    begin();
+    assert_int_equal(rho_tracker_set_body_max(&tracker, 100.0f), RHO_OK);
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 120; i++) {
+            add_noisy(uniform(-20.0, 20.0), 60.0, 0.2);
+        }
+        look(k);
+        assert_true(report.is_partial);
+        assert_true(tracker.work.work < 8000);
+    }
+}
+
+static void telling(void **state)
+{
+    static struct rho_tracker empty;
+    (void)state;
+    prepare(0.0f);
+    assert_int_equal(rho_tracker_set_body_max(NULL, 1.0f), RHO_ERROR_NULL);
+    assert_int_equal(rho_tracker_set_body_max(&empty, 1.0f), RHO_ERROR_STATE);
+    assert_int_equal(rho_tracker_set_body_max(&tracker, -1.0f), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_set_body_max(&tracker, NAN), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_set_body_max(&tracker, 1.01f * RHO_LIMIT_BODY_M), RHO_ERROR_VALUE);
+    assert_int_equal(rho_tracker_set_body_max(&tracker, RHO_LIMIT_BODY_M),
+                     RHO_BODIES ? RHO_OK : RHO_ERROR_CAPACITY);
+    assert_int_equal(rho_tracker_set_body_max(&tracker, 0.0f), RHO_OK);
+}
+
+static void unsound_bodies_are_found(void **state)
+{
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    prepare(15.0f);
+    for (int k = 0; k < 20; k++) {
+        see(&truck, k);
+        look(k);
+    }
+    assert_true(rho_tracker_is_sound(&tracker));
+    const struct rho_bodies good = tracker.bodies;
+    tracker.bodies.count = RHO_MAX_TRACKS + 1;
+    assert_false(rho_tracker_is_sound(&tracker));
+    tracker.bodies = good;
+    tracker.bodies.length_max_m = NAN;
+    assert_false(rho_tracker_is_sound(&tracker));
+    tracker.bodies = good;
+    tracker.bodies.of[0].along_m2 = NAN;
+    assert_false(rho_tracker_is_sound(&tracker));
+    tracker.bodies = good;
+    tracker.bodies.of[0].across_weight = 0.0f;
+    assert_false(rho_tracker_is_sound(&tracker));
+    tracker.bodies = good;
+    assert_true(rho_tracker_is_sound(&tracker));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_truck_is_one_track),
+        cmocka_unit_test(neighbours_stay_two),
+        cmocka_unit_test(bad_plots_and_full_scans),
+        cmocka_unit_test(work_is_bounded),
+        cmocka_unit_test(telling),
+        cmocka_unit_test(unsound_bodies_are_found),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
