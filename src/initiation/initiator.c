@@ -73,12 +73,20 @@ enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
     return RHO_OK;
 }
 
+static int is_other_area(const struct rho_extent *a, const struct rho_extent *b)
+{
+    return !rho_is_within(a->x_min_m, b->x_min_m, b->x_min_m) ||
+           !rho_is_within(a->x_max_m, b->x_max_m, b->x_max_m) ||
+           !rho_is_within(a->y_min_m, b->y_min_m, b->y_min_m) ||
+           !rho_is_within(a->y_max_m, b->y_max_m, b->y_max_m);
+}
+
 /* The window's size, and what it is spread over. */
 static int has_other_window(const struct rho_initiator_config *a,
                             const struct rho_initiator_config *b)
 {
     return a->scans != b->scans || a->area_is_fixed != b->area_is_fixed ||
-           (a->area_is_fixed && memcmp(&a->area, &b->area, sizeof a->area) != 0);
+           (a->area_is_fixed && is_other_area(&a->area, &b->area));
 }
 
 enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,

@@ -117,14 +117,16 @@ static void move_track(struct rho_tracker *tracker, unsigned row)
     for (; to > 0 && tracker->tracks[to - 1].track_id > track.track_id; to--) {
         tracker->tracks[to] = tracker->tracks[to - 1];
     }
-    const unsigned first = to;
     for (; to + 1u < tracker->num_tracks && tracker->tracks[to + 1].track_id < track.track_id;
          to++) {
         tracker->tracks[to] = tracker->tracks[to + 1];
     }
     tracker->tracks[to] = track;
-    if (RHO_KEEPS_OFFERS && to != row && tracker->assignment.num_rows > first) {
-        tracker->assignment.num_rows = (uint16_t)first;
+    if (RHO_KEEPS_OFFERS && to != row) {
+        const unsigned first = to < row ? to : row;
+        if (tracker->assignment.num_rows > first) {
+            tracker->assignment.num_rows = (uint16_t)first;
+        }
     }
 }
 

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 #include "live/node_tally.h"
 
-void node_tally(const struct node_core *core, const struct transport *transport,
-                struct node_tally tallies[NODE_TALLIES])
+#include <string.h>
+
+#define MESSAGE_TALLIES 13
+#define STEP_TALLIES (NODE_TALLIES - MESSAGE_TALLIES)
+
+/* The network, messages and commands. */
+static void tally_messages(const struct node_core *core, const struct transport *transport,
+                           struct node_tally tallies[MESSAGE_TALLIES])
 {
     const struct rho_scan_assembler_counters *assembler = node_core_assembler(core);
-    const struct rho_frames_counters *frames = node_core_frames(core);
-    const struct rho_tracker_counters *tracker = node_core_tracker(core);
-    const struct rho_node_counters *own = node_core_counters(core);
     const struct node_core_commands *commands = node_core_commands(core);
-    const struct scan_losses losses = sequence_counts_losses(node_core_order(core), assembler);
-    struct transport_counters network = transport_counters(transport);
-    const struct node_tally all[NODE_TALLIES] = {
+    const struct transport_counters network = transport_counters(transport);
+    const struct node_tally all[MESSAGE_TALLIES] = {
         {"datagrams refused (fragments, or no LCM)", network.refused, NODE_TALLY_FAULT},
         {"datagrams of addresses that are not in sources_allowed", network.refused_source,
          NODE_TALLY_FAULT},
@@ -30,6 +32,20 @@ void node_tally(const struct node_core *core, const struct transport *transport,
         {"commands bad", commands->bad, NODE_TALLY_FAULT},
         {"commands refused", commands->refused, NODE_TALLY_FAULT},
         {"commands done", commands->done, NODE_TALLY_USUAL},
+    };
+
+    memcpy(tallies, all, sizeof all);
+}
+
+/* Scans, and what became of their plots. */
+static void tally_steps(const struct node_core *core, struct node_tally tallies[STEP_TALLIES])
+{
+    const struct rho_scan_assembler_counters *assembler = node_core_assembler(core);
+    const struct rho_frames_counters *frames = node_core_frames(core);
+    const struct rho_tracker_counters *tracker = node_core_tracker(core);
+    const struct rho_node_counters *own = node_core_counters(core);
+    const struct scan_losses losses = sequence_counts_losses(node_core_order(core), assembler);
+    const struct node_tally all[STEP_TALLIES] = {
         {"scans out of order", losses.out_of_order, NODE_TALLY_USUAL},
         {"scans late, dropped", losses.dropped, NODE_TALLY_FAULT},
         {"scans double", assembler->scans_duplicate, NODE_TALLY_MAY_FALL},
@@ -64,7 +80,12 @@ void node_tally(const struct node_core *core, const struct transport *transport,
         {"hypotheses cut", tracker->hypotheses_cut, NODE_TALLY_USUAL},
     };
 
-    for (int i = 0; i < NODE_TALLIES; i++) {
-        tallies[i] = all[i];
-    }
+    memcpy(tallies, all, sizeof all);
+}
+
+void node_tally(const struct node_core *core, const struct transport *transport,
+                struct node_tally tallies[NODE_TALLIES])
+{
+    tally_messages(core, transport, tallies);
+    tally_steps(core, tallies + MESSAGE_TALLIES);
 }

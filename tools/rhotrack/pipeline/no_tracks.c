@@ -66,7 +66,8 @@ void no_tracks_say(const struct no_tracks *seen, const struct rho_tracker *track
                 counters->fates[RHO_FATE_STALE], seen->plots);
     } else if (tracker->work.partial_steps > seen->scans / 2) {
         fprintf(file,
-                "work_max=%.0f ended %" PRIu32 " of %" PRIu64 " scans before all plots were tried\n",
+                "work_max=%.0f ended %" PRIu32 " of %" PRIu64
+                " scans before all plots were tried\n",
                 value[PARAMETER_WORK_MAX], tracker->work.partial_steps, seen->scans);
     } else if (counters->tracks_started > 0) {
         fprintf(file,
