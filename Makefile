@@ -164,8 +164,8 @@ demo-live:
 	@$(MAKE) --no-print-directory $(jobs) all
 	@RHOTRACK=$(abspath $(program)) tools/demo_live.sh $(BUILD)/demo-live
 
-experiment_names := air_traffic claims dense_windows doppler false_alarms initiation maneuver papers_initiation \
-                    passive polar real_skies rotating several_radars two_radars
+experiment_names := air_traffic claims dense_windows doppler extended false_alarms initiation maneuver notch \
+                    papers_initiation passive polar real_skies rotating several_radars two_radars
 ## Set up what is missing, build, and run all experiments of the lab (build/experiment; LAB=options; hours)
 experiments:
 	@tools/setup.sh
