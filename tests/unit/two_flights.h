@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/* Two targets that fly along x, and a tracker that follows both; refused calls change no byte. */
+#ifndef RHOTRACK_TESTS_TWO_FLIGHTS_H
+#define RHOTRACK_TESTS_TWO_FLIGHTS_H
+
+#include "tracker_setup.h"
+
+/* 4 km apart. */
+static void see(int k, int sees_first)
+{
+    if (sees_first) {
+        add_noisy(-3000.0 + 100.0 * k, 2000.0, 10.0);
+    }
+    add_noisy(-3000.0 + 100.0 * k, -2000.0, 10.0);
+    step(k);
+}
+
+static int next_k;
+
+static void run(int scans, int sees_first)
+{
+    for (int i = 0; i < scans; i++) {
+        see(next_k++, sees_first);
+    }
+}
+
+static void prepare(void)
+{
+    draw(7);
+    begin();
+    next_k = 0;
+    run(12, 1);
+    assert_int_equal(report.num_tracks, 2);
+    assert_int_equal(report.tracks[0].track_id, 1);
+    assert_int_equal(report.tracks[1].track_id, 2);
+}
+
+/* The track at a target's place. */
+static const struct rho_track_report *track_near(double y_m)
+{
+    const struct rho_track_report *found = NULL;
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        if (fabs(report.tracks[i].state[1] - y_m) < 200.0) {
+            assert_null(found);
+            found = &report.tracks[i];
+        }
+    }
+    return found;
+}
+
+static struct rho_tracker tracker_before;
+static struct rho_report report_before;
+
+static void remember(void)
+{
+    memcpy(&tracker_before, &tracker, sizeof tracker);
+    memcpy(&report_before, &report, sizeof report);
+}
+
+static void check_unchanged(void)
+{
+    assert_memory_equal(&tracker_before, &tracker, sizeof tracker);
+    assert_memory_equal(&report_before, &report, sizeof report);
+}
+
+#endif
