@@ -144,11 +144,11 @@ lines = shown.split("\r\x1b[K")
 bars = [line for line in lines if line.startswith("[")]
 assert bars and all(re.fullmatch(r"\[[#.]{20}\] +\d+ %  \d+ scans, \d+ a second, \d+ s left", line) for line in bars), lines
 assert all(len(line) < 80 and "\n" not in line for line in bars)
-assert lines[0] == "" and re.fullmatch(r"rhotrack: \d+ scans, .*\r\n", lines[-1]), lines
+assert lines[0] == "" and re.fullmatch(r"rhotrack: \d+ scans, .*\r\nrhotrack: no track: .*\r\n", lines[-1]), lines
 PYTHON
 }
 check 'a bar with scans a second and time left, which goes away' bar_is_right
 run track plots.csv -o tracks.csv
 check 'none where standard error is no terminal' matches "$(wc -l <stderr) $(cat stderr)" \
-    '1 rhotrack: *'
+    '2 rhotrack: * scans, *rhotrack: no track: *'
 finish
