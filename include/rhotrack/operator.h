@@ -28,6 +28,9 @@
 extern "C" {
 #endif
 
+/* The highest identity that a person can give: there is room above it for those of later tracks. */
+#define RHO_LIMIT_TRACK_ID (1u << 30)
+
 /* A target as a person sees it, at the time of the last step. */
 struct rho_operator_start {
     float x_m, y_m, sigma_m;         /* place, within RHO_LIMIT_POSITION_M; 1e-3 .. 1e5 m */
@@ -58,7 +61,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_drop_track(struct rho_tracker *tracke
 /*
  * Gives a track another identity, as that of a lost track which it continues. The report says of
  * the old one that it has ended.
- *   new_id  1 .. INT32_MAX, of no live track; the next track's is above it
+ *   new_id  1 .. RHO_LIMIT_TRACK_ID, of no live track; the next track's is above it
  * Errors: as rho_tracker_drop_track, and VALUE for new_id. Cost: the report. Stack: 2 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker,

@@ -89,7 +89,6 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
         hits = hits > search->min_scans ? hits : search->min_scans;
         span->misses_amid = (int8_t)(span->b - span->a + 1 - (int)hits);
     }
-    span->is_ordered = (uint8_t)is_ordered(search, span);
     span->voters = voters;
     span->slack_m = 0.0f;
     if (!rho_initiator_is_isotropic(search)) {
@@ -130,13 +129,14 @@ static int has_span_hits(struct search *search, const struct fan *fan)
 void rho_initiator_open_fan(struct search *search, unsigned b, struct fan *fan)
 {
     struct voter *voters = fan->voters;
-    fan->num_spans = 0;
+    fan->num_spans = fan->ordered = 0;
     for (unsigned a = 0; a + search->min_scans <= b + 1u; a++) {
         if (search->time_s[b] > search->time_s[a]) {
             struct span *span = &fan->spans[fan->num_spans++];
             span->a = (uint8_t)a;
             span->b = (uint8_t)b;
             open_span(search, span, voters);
+            fan->ordered |= (uint8_t)(is_ordered(search, span) << (fan->num_spans - 1u));
             voters += b - a - 1u;
         }
     }
@@ -273,17 +273,15 @@ static struct box fit_box(const struct box *box, const struct ending *ending,
  * The box in an earlier scan with the kernels that have this vote: the gate of the vote,
  * extrapolated from the ending.
  */
-static inline struct box predict_box(const struct search *search,
-                                     const struct rho_window_scan *scan,
-                                     const struct ending *ending, const struct third *third,
-                                     float gap_s, const struct reach *reach)
+static struct box predict_box(const struct search *search, const struct rho_window_scan *scan,
+                              const struct ending *ending, const struct third *third, float gap_s,
+                              float third_m, float own_m, float slack_m)
 {
     const struct rho_window_plot *to = ending->plot;
     float begin_s = gap_s + to->offset_s - scan->offset_min_s, ratio = begin_s * third->per_s;
-    float far_m = search->initiator->config.v_max_mps * begin_s + reach->slack_m;
-    float own_m = HAS_SPAN_HITS ? ending->gate_rounded * reach->own_m : 0.0f;
-    float gate_radius_m =
-        ratio * (ending->gate_rounded * reach->third_m + ending->rounding_m) + own_m;
+    float far_m = search->initiator->config.v_max_mps * begin_s + slack_m;
+    float gate_radius_m = ratio * (ending->gate_rounded * third_m + ending->rounding_m) +
+                          (HAS_SPAN_HITS ? ending->gate_rounded * own_m : 0.0f);
     float x_m = to->x_m + third->dx_m * ratio, y_m = to->y_m + third->dy_m * ratio;
     struct box box = {x_m - gate_radius_m, x_m + gate_radius_m, y_m - gate_radius_m,
                       y_m + gate_radius_m};
@@ -300,9 +298,9 @@ static uint32_t try_first_plots(struct search *search, const struct span *span,
                                 const struct ending *ending, const struct third *third)
 {
     const struct rho_window_scan *scan = span->scan_a;
-    const struct reach reach = {span->voters[third->first.gap - 1u].gate_radius_m, 0.0f,
-                                span->slack_m};
-    struct box box = predict_box(search, scan, ending, third, span->gap_s, &reach);
+    const struct box box =
+        predict_box(search, scan, ending, third, span->gap_s,
+                    span->voters[third->first.gap - 1u].gate_radius_m, 0.0f, span->slack_m);
     uint32_t passed = 0;
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
@@ -324,7 +322,8 @@ static int may_vote_next(const struct search *search, const struct rho_window_sc
                          float gap_s, const struct ending *ending, const struct third *third,
                          const struct reach *reach, uint32_t *passed)
 {
-    const struct box box = predict_box(search, scan, ending, third, gap_s, reach);
+    const struct box box = predict_box(search, scan, ending, third, gap_s, reach->third_m,
+                                       reach->own_m, reach->slack_m);
     const struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -463,9 +462,8 @@ static int votes_are_cheaper(struct search *search, const struct span *span,
     unsigned width = span->b - span->a;
     unsigned gaps = (unsigned)rho_initiator_misses_max(span, ending) + 1u, thirds = counts[gaps];
     unsigned pairs = counts[width] - counts[width - 1u];
-    if (!span->is_ordered || pairs == 0 || thirds == 0) {
-        return span->is_ordered &&
-               pairs > 0; /* without a third plot there is nothing to look for */
+    if (pairs == 0 || thirds == 0) {
+        return pairs > 0; /* without a third plot there is nothing to look for */
     }
     const struct rho_window_scan *before =
         rho_window_scan_at(&search->initiator->window, span->b - 1u);
@@ -557,7 +555,8 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
         if (rho_initiator_misses_max(&fan->spans[n], &ending) < 0) {
             continue;
         }
-        if (votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
+        if ((fan->ordered >> n & 1u) &&
+            votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
             by_votes |= 1u << n;
         } else if (!try_pairs(search, &fan->spans[n], &ending)) {
             return 0;

@@ -188,7 +188,6 @@ struct span {
     uint8_t a, b;
     uint8_t misses_max; /* scans between that need not vote, by M */
     int8_t misses_amid; /* ... amid clutter; below 0: no kernel of the span can start a track */
-    uint8_t is_ordered; /* no plot of a scan from a to b is earlier than one of the scan before */
     const struct rho_window_scan *scan_a, *scan_b;
     float gap_s;                /* between the scans' times */
     float slack_m;              /* what noise may add to the distance of a pair; 0: isotropic */
@@ -223,9 +222,10 @@ struct first_vote {
 
 /* All kernels that end in one scan. */
 struct fan {
-    unsigned num_spans;
-    int has_span_hits;            /* some spans need more votes than M, where that holds */
-    struct span spans[SPANS_MAX]; /* the longest first */
+    uint8_t num_spans;
+    uint8_t has_span_hits; /* some spans need more votes than M, where that holds */
+    uint8_t ordered; /* bits: no plot of the span's scans is earlier than one of the scan before */
+    struct span spans[SPANS_MAX];                         /* the longest first */
     struct voter voters[SPANS_MAX * (SPANS_MAX + 1) / 2]; /* theirs, span by span */
 };
 

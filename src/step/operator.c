@@ -104,30 +104,55 @@ enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t tra
     }
     rho_tracker_end_track(&step, track);
     rho_tracker_remove_ended(tracker);
+    if (rho_tracker_has_bodies(tracker)) {
+        rho_tracker_align_bodies(&step);
+    }
     tracker->counters.tracks_dropped = rho_count(tracker->counters.tracks_dropped, 1);
     rho_tracker_report_tracks(&step);
     return RHO_OK;
 }
 
+static void swap_tracks(struct rho_tracker *tracker, unsigned row, unsigned other)
+{
+    const struct rho_track track = tracker->tracks[row];
+    tracker->tracks[row] = tracker->tracks[other];
+    tracker->tracks[other] = track;
+    if (rho_tracker_has_bodies(tracker)) {
+        const struct rho_body_filter body = tracker->bodies.of[row];
+        tracker->bodies.of[row] = tracker->bodies.of[other];
+        tracker->bodies.of[other] = body;
+    }
+}
+
 /* Tracks stay in the order of their identities; of those that move, no evidence is known. */
 static void move_track(struct rho_tracker *tracker, unsigned row)
 {
-    const struct rho_track track = tracker->tracks[row];
+    const uint32_t track_id = tracker->tracks[row].track_id;
     unsigned to = row;
-    for (; to > 0 && tracker->tracks[to - 1].track_id > track.track_id; to--) {
-        tracker->tracks[to] = tracker->tracks[to - 1];
+    for (; to > 0 && tracker->tracks[to - 1].track_id > track_id; to--) {
+        swap_tracks(tracker, to, to - 1u);
     }
-    for (; to + 1u < tracker->num_tracks && tracker->tracks[to + 1].track_id < track.track_id;
-         to++) {
-        tracker->tracks[to] = tracker->tracks[to + 1];
+    for (; to + 1u < tracker->num_tracks && tracker->tracks[to + 1].track_id < track_id; to++) {
+        swap_tracks(tracker, to, to + 1u);
     }
-    tracker->tracks[to] = track;
     if (RHO_KEEPS_OFFERS && to != row) {
         const unsigned first = to < row ? to : row;
         if (tracker->assignment.num_rows > first) {
             tracker->assignment.num_rows = (uint16_t)first;
         }
     }
+}
+
+/* An identity that the report says has ended goes on. */
+static void live_again(struct rho_report *report, uint32_t track_id)
+{
+    uint16_t kept = 0;
+    for (unsigned i = 0; i < report->num_ended; i++) {
+        if (report->ended[i] != track_id) {
+            report->ended[kept++] = report->ended[i];
+        }
+    }
+    report->num_ended = kept;
 }
 
 enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t track_id,
@@ -139,14 +164,20 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
     if (status != RHO_OK) {
         return status;
     }
-    if (new_id < 1 || new_id > INT32_MAX || row_of(tracker, new_id) < tracker->num_tracks) {
+    if (new_id < 1 || new_id > RHO_LIMIT_TRACK_ID ||
+        row_of(tracker, new_id) < tracker->num_tracks) {
         return RHO_ERROR_VALUE;
     }
     if (!has_room(report)) {
         return RHO_ERROR_CAPACITY;
     }
+    live_again(report, new_id);
     if (track->was_confirmed) {
         report->ended[report->num_ended++] = track_id;
+    }
+    if (rho_tracker_has_bodies(tracker)) {
+        rho_tracker_align_bodies(&step);
+        tracker->bodies.of[track - tracker->tracks].track_id = new_id;
     }
     track->track_id = new_id;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -175,6 +206,9 @@ enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t t
     }
     if (track->status == RHO_TRACK_TENTATIVE) {
         return RHO_ERROR_STATE;
+    }
+    if (rho_tracker_is_frozen(track) == (is_frozen != 0)) {
+        return RHO_OK;
     }
     track->is_frozen = is_frozen != 0;
     track->status = RHO_TRACK_COASTING;

@@ -71,14 +71,12 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
     if (status != RHO_OK) {
         return status;
     }
-    struct step step = {
-        .tracker = tracker,
-        .initiator = initiator,
-        .scan = scan,
-        .report = report,
-        .time_us = scan->time_us,
-        .num_inputs = scan->num_plots,
-    };
+    struct step step = {.tracker = tracker,
+                        .initiator = initiator,
+                        .scan = scan,
+                        .report = report,
+                        .time_us = scan->time_us,
+                        .num_inputs = scan->num_plots};
     if (rho_tracker_begin(&step)) {
         open_scan(&step);
         rho_tracker_predict(&step);

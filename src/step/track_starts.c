@@ -135,7 +135,13 @@ static enum rho_status resume(struct rho_tracker *tracker, struct rho_report *re
 static enum rho_status admit_between_steps(struct step *step, struct rho_track *track)
 {
     const struct rho_track_limits limits = rho_tracker_limits(step);
-    if (!rho_tracker_admit(step, track, &limits)) {
+    /* for a full tracker's room another track ends, which the report has to say */
+    const int has_room =
+        step->tracker->num_tracks < RHO_MAX_TRACKS || step->report->num_ended < RHO_MAX_TRACKS;
+    if (!has_room) {
+        rho_track_end(track, &step->model);
+    }
+    if (!has_room || !rho_tracker_admit(step, track, &limits)) {
         return RHO_ERROR_CAPACITY;
     }
     rho_tracker_merge_estimates(step);

@@ -36,7 +36,10 @@ enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float leng
     return RHO_OK;
 }
 
-/* Tracks stay in their order, and new ones come behind the others: so do bodies. */
+/*
+ * Tracks stay in their order, and new ones come behind the others: so do bodies. One that an
+ * operator has moved among them begins anew, the others stay theirs.
+ */
 void rho_tracker_align_bodies(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -44,11 +47,13 @@ void rho_tracker_align_bodies(struct step *step)
     unsigned from = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         const struct rho_track *track = &tracker->tracks[row];
-        while (from < bodies->count && bodies->of[from].track_id != track->track_id) {
-            from++;
+        unsigned at = from;
+        while (at < bodies->count && bodies->of[at].track_id != track->track_id) {
+            at++;
         }
-        if (from < bodies->count) {
-            bodies->of[row] = bodies->of[from++];
+        if (at < bodies->count) {
+            bodies->of[row] = bodies->of[at];
+            from = at + 1u;
         } else {
             rho_body_start(&bodies->of[row], track->track_id, rho_tracker_body_prior_m2(tracker));
         }
@@ -68,7 +73,7 @@ static void look_at(const struct step *step, const struct rho_scan *scan,
     for (unsigned i = bodies->groups.first[track->plot]; i != UINT16_MAX;
          i = bodies->groups.next[i]) {
         const struct rho_plot *plot = &scan->plots[i];
-        const float after_s = (float)plot->offset_us * 1e-6f;
+        const float after_s = rho_seconds_between(track->time_us, step->time_us + plot->offset_us);
         const float dx_m = plot->x_m - state[0] - after_s * state[3],
                     dy_m = plot->y_m - state[1] - after_s * state[4];
         const float along_m = body->cos_heading * dx_m + body->sin_heading * dy_m,
@@ -88,12 +93,15 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
     rho_tracker_align_bodies(step);
+    if (step->is_late) {
+        return; /* tracks are back at the newest time, and a turn may lie between */
+    }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         const struct rho_track *track = &tracker->tracks[row];
         const float *p = track->kalman.covariance;
         const float velocity[3] = {p[RHO_AT(3, 3)], p[RHO_AT(3, 4)], p[RHO_AT(4, 4)]};
         struct rho_body_look look = {0};
-        if (track->plot < 0 || track->time_us != step->time_us) {
+        if (track->plot < 0) {
             continue;
         }
         rho_body_turn(&tracker->bodies.of[row], &track->kalman.state[3], velocity);

@@ -224,18 +224,34 @@ static int is_new(const struct step *step, unsigned row)
     return may_own(step, row) && step->tracker->bodies.of[row].plots < NEW_PLOTS;
 }
 
+/* Velocities that may be one target's: those that only pass each other have others. */
+static int move_alike(const struct rho_track *one, const struct rho_track *other)
+{
+    const float vx_mps = one->kalman.state[3] - other->kalman.state[3],
+                vy_mps = one->kalman.state[4] - other->kalman.state[4];
+    const float most_mps = RATE_SIGMAS * (rho_track_sigma_mps(one) + rho_track_sigma_mps(other));
+    return vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
+}
+
 /* Of two new tracks whose plots are one body's the younger ends; the other one adopts its plots. */
 static void end_doubles(struct step *step, unsigned row)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
-    for (unsigned other = row + 1u; other < step->tracker->num_tracks; other++) {
-        if (!is_new(step, other) || !are_one(step, row, other)) {
+    struct rho_track *tracks = step->tracker->tracks;
+    for (unsigned other = row + 1u;
+         other < step->tracker->num_tracks && !rho_tracker_is_spent(step); other++) {
+        rho_tracker_spend(step, PASS_UNITS);
+        if (!is_new(step, other) || !move_alike(&tracks[row], &tracks[other])) {
+            continue;
+        }
+        rho_tracker_spend(step, TEST_UNITS);
+        if (!are_one(step, row, other)) {
             continue;
         }
         for (uint32_t i = 0; i < step->num_gated; i++) {
             groups->owner[i] = groups->owner[i] == other ? (uint16_t)NONE : groups->owner[i];
         }
-        rho_tracker_end_track(step, &step->tracker->tracks[other]);
+        rho_tracker_end_track(step, &tracks[other]);
     }
 }
 
@@ -422,9 +438,10 @@ static void body_spread(const struct step *step, unsigned group, const struct rh
     }
 }
 
-static float within_limits(float sigma_m)
+static float within_limits(float sigma)
 {
-    return sigma_m < RHO_LIMIT_SIGMA_MAX ? sigma_m : RHO_LIMIT_SIGMA_MAX;
+    sigma = larger(sigma, RHO_LIMIT_SIGMA_MIN);
+    return sigma < RHO_LIMIT_SIGMA_MAX ? sigma : RHO_LIMIT_SIGMA_MAX;
 }
 
 /* The noise of the mean: what places on the body and the plots' own noise leave of it. */

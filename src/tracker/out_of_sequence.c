@@ -56,7 +56,9 @@ static int return_track(struct step *step, struct rho_track *track)
     if (was_ahead && rho_track_return(track, track->ahead_us, &step->model) != RHO_OK) {
         return 0;
     }
-    rho_track_merge_estimates(track, track->time_us, &step->model);
+    if (!rho_tracker_is_frozen(track)) {
+        rho_track_merge_estimates(track, track->time_us, &step->model);
+    }
     return 1;
 }
 

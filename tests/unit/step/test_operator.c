@@ -85,6 +85,27 @@ static void refuses_starts_that_are_none(void **state)
     assert_int_equal(tracker.counters.tracks_no_room, 1);
 }
 
+/* Another track would end for it, which the report could not say. */
+static void starts_none_without_room_in_the_report(void **state)
+{
+    struct rho_operator_start start = {.x_m = 1000.0f, .y_m = 5000.0f, .sigma_m = 20.0f};
+    (void)state;
+    prepare();
+    while (tracker.num_tracks < RHO_MAX_TRACKS) {
+        start.y_m += 100.0f;
+        assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
+    }
+    tracker.tracks[1].status = RHO_TRACK_TENTATIVE;
+    tracker.tracks[1].score_mnat = -1000000;
+    report.num_ended = RHO_MAX_TRACKS;
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_ERROR_CAPACITY);
+    assert_int_equal(report.num_ended, RHO_MAX_TRACKS);
+    assert_int_equal(tracker.num_tracks, RHO_MAX_TRACKS);
+    report.num_ended = RHO_MAX_TRACKS - 1;
+    assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
+    assert_int_equal(report.ended[RHO_MAX_TRACKS - 1], 2);
+}
+
 /* ---- drop ------------------------------------------------------------------------------------ */
 
 static void drops_one_track(void **state)
@@ -163,14 +184,14 @@ static void refuses_identities_that_are_taken(void **state)
     assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 2, &report), RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 1, &report), RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 0, &report), RHO_ERROR_VALUE);
-    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, UINT32_C(0x80000000), &report),
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, RHO_LIMIT_TRACK_ID + 1u, &report),
                      RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 3, 4, &report), RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_renumber_track(NULL, 1, 4, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 4, NULL), RHO_ERROR_NULL);
     check_unchanged();
-    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, INT32_MAX, &report), RHO_OK);
-    assert_int_equal(tracker.next_track_id, UINT32_C(0x80000000));
+    assert_int_equal(rho_tracker_renumber_track(&tracker, 1, RHO_LIMIT_TRACK_ID, &report), RHO_OK);
+    assert_int_equal(tracker.next_track_id, RHO_LIMIT_TRACK_ID + 1u);
 }
 
 /* Of the tracks that keep their rows the evidence is still known, of the others none. */
@@ -328,6 +349,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(starts_where_a_person_points),
+        cmocka_unit_test(starts_none_without_room_in_the_report),
         cmocka_unit_test(ends_where_nothing_follows),
         cmocka_unit_test(refuses_starts_that_are_none),
         cmocka_unit_test(drops_one_track),

@@ -134,6 +134,30 @@ static void neighbours_stay_two(void **state)
     }
 }
 
+/* Trucks that meet, 12 m beside each other, soon after they were found. */
+static void those_that_only_pass_stay_two(void **state)
+{
+    const struct vehicle pair[2] = {{-60.0, 60.0, 20.0, 12.0, 2.5, 2},
+                                    {60.0, 72.0, -20.0, 12.0, 2.5, 2}};
+    uint32_t ids[2] = {0, 0};
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    prepare(25.0f);
+    for (int k = 0; k < 120; k++) {
+        see(&pair[0], k);
+        see(&pair[1], k);
+        look(k);
+        for (int n = 0; n < 2 && k >= 20; n++) {
+            const int place = place_of(&pair[n], k);
+            assert_true(place >= 0);
+            ids[n] = ids[n] ? ids[n] : report.tracks[place].track_id;
+            assert_int_equal(report.tracks[place].track_id, ids[n]);
+        }
+    }
+}
+
 static void bad_plots_and_full_scans(void **state)
 {
     (void)state;
@@ -230,6 +254,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_truck_is_one_track),
         cmocka_unit_test(neighbours_stay_two),
+        cmocka_unit_test(those_that_only_pass_stay_two),
         cmocka_unit_test(bad_plots_and_full_scans),
         cmocka_unit_test(work_is_bounded),
         cmocka_unit_test(telling),
