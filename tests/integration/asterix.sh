@@ -141,6 +141,8 @@ check 'one that ends within a packet' says 2 'rhotrack: cut.pcap: behind packet 
 check 'leaves nothing behind' test ! -e cut.csv
 run convert cut.pcap cut.csv --keep-going
 check 'and gives what there is with --keep-going' exits 0
+check 'and says so, once' test "$(grep -Ec \
+    '^rhotrack: cut.pcap: behind packet [0-9]+: .*; the rest is left out$' stderr)" = 1
 printf '\60\0\10\377\377\377\0\0' | cat turns.ast - >bad_end.ast
 python3 "$capture" bad_end.ast bad.pcap
 run convert bad.pcap bad.csv

@@ -205,7 +205,7 @@ refuse() { # name, LINE: what (a pattern), text as for printf
     check "$1" says 2 "rhotrack: bad.csv:$2"
 }
 refuse 'an angle without a unit is not guessed' \
-    "1: no column 'azimuth_rad' (or azimuth, az); the file has: t_s, range_m, azimuth; did you mean 'azimuth'? --columns 'azimuth_rad=azimuth'" \
+    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimuth; did you mean 'azimuth'? --columns 'azimuth_deg=azimuth' (clockwise from north) or 'azimuth_rad=azimuth' (counter-clockwise from east)" \
     'time,range,azimuth\n1,2,3\n'
 refuse 'a time of no calendar' "2: t_s '2024-13-01T00:00:00Z' is not a number" \
     'timestamp,x,y\n2024-13-01T00:00:00Z,1,2\n'
@@ -214,8 +214,11 @@ refuse 'a zone that is none' "2: t_s '2024-03-01T00:00:00X' is not a number" \
 refuse 'two decimal commas' "2: x_m '1,2,3' is not a number" 't_s;x;y\n1;1,2,3;2\n'
 refuse 'a short row of blanks' '3: short row: 2 cells, the header has 3' 't_s x y\n1 2 3\n2 3\n'
 refuse 'a name misspelt' \
-    "1: no column 'azimuth_rad' (or azimuth, az); the file has: t_s, range_m, azimut_deg; did you mean 'azimut_deg'? --columns 'azimuth_rad=azimut_deg'" \
+    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimut_deg; did you mean 'azimut_deg'? --columns 'azimuth_deg=azimut_deg' (clockwise from north)" \
     'time,range,azimut_deg\n1,2,3\n'
+refuse 'degrees of a compass are not suggested as radians' \
+    "1: no column 'azimuth_rad' (or az_rad); the file has: t_s, range_m, azimuth_compass_deg; did you mean 'azimuth_compass_deg'? --columns 'azimuth_deg=azimuth_compass_deg' (clockwise from north)" \
+    't_s,range_m,azimuth_compass_deg\n1,2,3\n'
 refuse 'a name that is like no other' \
     "1: no column 't_s' (or t, time, timestamp, datetime); the file has: Zeitpunkt, x_m, y_m; --columns t_s=NAME takes another" \
     'Zeitpunkt,x,y\n1,2,3\n'

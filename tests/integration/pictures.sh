@@ -11,6 +11,18 @@ command -v gnuplot >/dev/null || {
     finish
 }
 
+# ---- the output is an input, truth alone ----
+cp in/plots.csv own.html
+run plot scans own.html -o own.html
+check 'an input is no output' says 2 'rhotrack: own.html: the output cannot be an input'
+check 'and stays as it is' cmp in/plots.csv own.html
+run plot tracks in/truth.csv -o truth.html
+check 'a page of truth alone' says 2 'rhotrack: plot: a page needs plots, tracks or bearings *'
+printf 't_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n5,1,0,0,1\n20005,1,0,0,2\n' >rays.csv
+run plot tracks rays.csv -o rays.svg
+check 'bearings have a time, of 10 000 s and more without an exponent' grep -q \
+    '2 bearings, 20000 s from t_s = 5 on' rays.svg
+
 # ---- endings ----
 for name in x.gif x.htm x; do
     run plot scans in/plots.csv -o $name

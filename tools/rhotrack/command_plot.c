@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/common.h"
+#include "command_line.h"
 #include "commands.h"
 #include "io/output/clutter_file.h"
 #include "picture/page.h"
@@ -21,6 +22,15 @@ static void need(const struct plot_points *points, const char *kind, const char 
 {
     if (points->count == 0) {
         fail(EXIT_USAGE, "plot %s: no file with %s is given", kind, what);
+    }
+}
+
+/* The slider of a page stops at times of these. */
+static void need_times(const struct plot_data *data)
+{
+    if (data->plots.count + data->tracks.count + data->bearings.count == 0) {
+        fail(EXIT_USAGE, "plot: a page needs plots, tracks or bearings beside the truth; "
+                         "-o NAME.svg or NAME.png draws truth alone");
     }
 }
 
@@ -141,6 +151,7 @@ int command_plot(struct command_line *line)
              line->output, kind);
     }
     picture_check_path(line->output);
+    refuse_own_input(line);
     if (line->method && strcmp(kind, "parameter-space") != 0) {
         fail(EXIT_USAGE, "plot %s: --method is for parameter-space", kind);
     }
@@ -151,6 +162,7 @@ int command_plot(struct command_line *line)
         plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_content(kind, &data);
     if (page_is_wanted(line->output)) {
+        need_times(&data);
         page_write(line->output, &data, &line->parameters);
         plot_data_free(&data);
         return 0;

@@ -93,11 +93,13 @@ static const struct command commands[] = {
      "over time; -o FILE.csv writes these figures, a row a time. --json has them, too (over_time), "
      "and\n"
      "every target's (by_target).\n"},
-    {"plot", command_plot, "scans|tracks|parameter-space|errors|clutter-map FILES... -o FILE.svg",
-     2, INT_MAX, "omsCN", "pictures",
+    {"plot", command_plot,
+     "scans|tracks|parameter-space|errors|clutter-map FILES... -o NAME.svg|.png|.html", 2, INT_MAX,
+     "omsCN", "pictures",
      "Draws plots or bearings, tracks, the parameter space of lines, errors, or a clutter map (and "
      "the\n"
-     "plots of further files beneath), as SVG. With --method ht, mht, iht or nht the parameter\n"
+     "plots of further files beneath), as .svg, .png or .html. With --method ht, mht, iht or nht "
+     "the parameter\n"
      "space has that method's votes; of nht also truth, indeterminacy and falsity.\n"},
     {"convert", command_convert, "IN OUT [--kind plots|polar|bearings|truth|tracks]", 2, 2,
      "KcksCN", "CSV files, LCM logs and ASTERIX to one another",

@@ -49,6 +49,22 @@ static void two_senders_are_named_once(void **state)
          "of its own\n");
 }
 
+/* Names that are no sensor's are neither printed nor kept: the table has room for sensors alone. */
+static void other_names_are_not_sensors(void **state)
+{
+    static const char *const names[] = {"RHO_PLOTS_\033[2J", "RHO_PLOTS_",      "RHO_PLOTS_-",
+                                        "RHO_PLOTS_7 ",      "RHO_POLAR_32768", "RHO_PLOTS_+7",
+                                        "RHO_PLOTS_000007",  "RHO_BEARINGS_7x"};
+
+    (void)state;
+    begin();
+    for (size_t i = 0; i < 100 * (sizeof names / sizeof *names); i++) {
+        hear(names[i / 100], i % 2 ? 1 : 2, false, (int64_t)i);
+    }
+    assert_int_equal(senders.num_channels, 0);
+    said("");
+}
+
 static void one_that_is_started_anew_is_not(void **state)
 {
     (void)state;
@@ -94,6 +110,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_senders_are_named_once),
+        cmocka_unit_test(other_names_are_not_sensors),
         cmocka_unit_test(one_that_is_started_anew_is_not),
         cmocka_unit_test(another_node_is_named_once),
         cmocka_unit_test(lines_are_few),

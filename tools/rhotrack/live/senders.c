@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "live/senders.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/common.h"
@@ -21,11 +22,33 @@ static void print_sender(const struct transport_sender *sender, FILE *to)
 
 /* ---- Sensors ---- */
 
+/* An int16_t, and nothing else: anyone on the network names channels, and the name is printed. */
+static bool is_sensor_id(const char *text)
+{
+    const char *digits = text + (*text == '-');
+    const size_t count = strspn(digits, "0123456789");
+    long id;
+
+    if (count < 1 || count > 5 || digits[count] != '\0') {
+        return false;
+    }
+    id = strtol(text, NULL, 10);
+    return id >= INT16_MIN && id <= INT16_MAX;
+}
+
 static bool is_sensor(const char *channel)
 {
-    return text_begins_with(channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) ||
-           text_begins_with(channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL) ||
-           text_begins_with(channel, RHO_MESSAGE_BEARING_SCAN_CHANNEL);
+    static const char *const beginnings[] = {RHO_MESSAGE_POLAR_SCAN_CHANNEL,
+                                             RHO_MESSAGE_PLOT_SCAN_CHANNEL,
+                                             RHO_MESSAGE_BEARING_SCAN_CHANNEL};
+
+    for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
+        if (text_begins_with(channel, beginnings[i]) &&
+            is_sensor_id(channel + strlen(beginnings[i]))) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /* NULL: there is no room for one more. */

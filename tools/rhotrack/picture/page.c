@@ -133,10 +133,12 @@ static void add_claims(struct claims *claims, const struct track_ids *ids,
     const int sensor = table_find(table, "sensor_id"), plot = table_find(table, "plot");
     for (size_t row = 0; plot >= 0 && row < table->num_rows; row++) {
         const double index = table_number_or(table, row, plot, -1.0);
-        struct claim claim = {.plot = (uint32_t)index};
-        if (index < 0.0 || table_time_us(table, row, time, &claim.time_us) != NULL) {
+        struct claim claim = {0};
+        if (!(index >= 0.0 && index <= UINT32_MAX) ||
+            table_time_us(table, row, time, &claim.time_us) != NULL) {
             continue;
         }
+        claim.plot = (uint32_t)index;
         claim.fate = fate_of(ids, (int32_t)table_number_or(table, row, id, -1.0));
         claim.sensor_id = (int32_t)table_number_or(table, row, sensor, 0.0);
         claims->list =

@@ -28,7 +28,7 @@ static struct map start_map(const struct picture *picture, const struct plot_dat
     return map_start(picture, box);
 }
 
-/* ", from 3 to 70 s" */
+/* ", 67 s from t_s = 3 on"; empty where nothing has a time */
 static const char *words_of_times(const struct plot_data *data, char text[WORDS_BYTES])
 {
     int64_t from_us = INT64_MAX, to_us = INT64_MIN;
@@ -40,8 +40,18 @@ static const char *words_of_times(const struct plot_data *data, char text[WORDS_
             to_us = time_us > to_us ? time_us : to_us;
         }
     }
-    snprintf(text, WORDS_BYTES, "%.4g s from t_s = %.15g on", (double)(to_us - from_us) * 1e-6,
-             round((double)from_us * 1e-5) * 0.1);
+    for (size_t i = 0; i < data->bearings.count; i++) {
+        const int64_t time_us = data->bearings.list[i].time_us;
+        from_us = time_us < from_us ? time_us : from_us;
+        to_us = time_us > to_us ? time_us : to_us;
+    }
+    text[0] = '\0';
+    if (from_us <= to_us) {
+        const double span_s = ((double)to_us - (double)from_us) * 1e-6;
+        snprintf(text, WORDS_BYTES,
+                 span_s < 9999.5 ? ", %.4g s from t_s = %.15g on" : ", %.0f s from t_s = %.15g on",
+                 span_s, round((double)from_us * 1e-5) * 0.1);
+    }
     return text;
 }
 
@@ -65,7 +75,7 @@ void plot_scans(struct picture *picture, const struct plot_data *data)
     const size_t drawn = map_plots_drawn(data->plots.count);
     char plots[WORDS_BYTES], times[WORDS_BYTES], time[WORDS_BYTES];
     plot_data_name_time(data, time, sizeof time);
-    picture_set_title(picture, "%s, %s", words_of_plots(data, plots), words_of_times(data, times));
+    picture_set_title(picture, "%s%s", words_of_plots(data, plots), words_of_times(data, times));
     map_put_plots(&map, &data->plots, plot_data_zero_us(data));
     map_put_radars(&map, data->radars, data->num_radars);
     fprintf(map.script,
@@ -225,7 +235,7 @@ static void set_title(const struct picture *picture, const struct map *map,
         snprintf(arrows, sizeof arrows, "; arrows: %g s of motion; ellipses: %g sigma", time_s,
                  ELLIPSE_SIGMAS);
     }
-    picture_set_title(picture, "%zu tracks, %s, %s%s", plot_data_ids(&data->tracks),
+    picture_set_title(picture, "%zu tracks, %s%s%s", plot_data_ids(&data->tracks),
                       words_of_plots(data, plots), words_of_times(data, times), arrows);
 }
 

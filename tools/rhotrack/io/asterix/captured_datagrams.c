@@ -25,6 +25,7 @@ struct captured_datagrams {
     pcap_t *capture;
     int link;
     uint64_t packets, incomplete;
+    bool is_cut; /* it ends within a packet, and that was said */
 };
 
 /* ---- What sort of file ---- */
@@ -209,6 +210,12 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
     if (got == PCAP_ERROR && !keep_going) {
         fail(EXIT_USAGE, "%s: behind packet %llu: %s", captured->path,
              (unsigned long long)captured->packets, pcap_geterr(captured->capture));
+    }
+    if (got == PCAP_ERROR && !captured->is_cut) {
+        captured->is_cut = true;
+        fprintf(stderr, "rhotrack: %s: behind packet %llu: %s; the rest is left out\n",
+                captured->path, (unsigned long long)captured->packets,
+                pcap_geterr(captured->capture));
     }
     return false;
 }

@@ -447,14 +447,47 @@ static bool may_be(const char *name, const char *column)
     return false;
 }
 
+/*
+ * An angle's unit and where it counts from are never guessed: a column in degrees is suggested as
+ * such, for any other one both forms are told.
+ */
+static void hint_angle(const char *name, const char *column, char *text, size_t bytes)
+{
+    const int length = (int)(strlen(column) - strlen("_rad"));
+    const bool is_elevation = text_begins_with(column, "elevation");
+    const char *compass = is_elevation ? "" : " (clockwise from north)";
+    const char *east = is_elevation ? "" : " (counter-clockwise from east)";
+    char plain[NAME_BYTES];
+    const char *unit = plain_name(name, plain) ? strrchr(plain, '_') : NULL;
+
+    if (unit && strcmp(unit, "_deg") == 0) {
+        snprintf(text, bytes, "did you mean '%.40s'? --columns '%.*s_deg=%.40s'%s", name, length,
+                 column, name, compass);
+        return;
+    }
+    snprintf(text, bytes,
+             "did you mean '%.40s'? --columns '%.*s_deg=%.40s'%s or '%.*s_rad=%.40s'%s", name,
+             length, column, name, compass, length, column, name, east);
+}
+
+static bool is_angle(const char *column)
+{
+    return strcmp(column, "azimuth_rad") == 0 || strcmp(column, "bearing_rad") == 0 ||
+           strcmp(column, "elevation_rad") == 0;
+}
+
 void table_form_hint(const struct table *table, const char *column, char *text, size_t bytes)
 {
     struct unit unit;
 
     for (size_t i = 0; i < table->num_columns; i++) {
         if (may_be(table->names[i], column) && column_of(table->names[i], &unit) == NULL) {
-            snprintf(text, bytes, "did you mean '%.40s'? --columns '%s=%.40s'", table->names[i],
-                     column, table->names[i]);
+            if (is_angle(column)) {
+                hint_angle(table->names[i], column, text, bytes);
+            } else {
+                snprintf(text, bytes, "did you mean '%.40s'? --columns '%s=%.40s'", table->names[i],
+                         column, table->names[i]);
+            }
             return;
         }
     }
@@ -467,9 +500,15 @@ void table_form_names_of(const char *column, char *text, size_t bytes)
 
     *text = '\0';
     for (size_t i = 0; i < sizeof words / sizeof *words && used < bytes; i++) {
-        if (strcmp(words[i].column, column) == 0 && strcmp(words[i].word, column) != 0) {
-            used += (size_t)snprintf(text + used, bytes - used, "%s%s", used > 0 ? ", " : "",
-                                     words[i].word);
+        char name[NAME_BYTES];
+        const enum dimension dimension = words[i].dimension;
+        const char *unit = has_factor(find_unit("", dimension))           ? ""
+                           : dimension == RADIANS || dimension == COMPASS ? "_rad"
+                                                                          : "_deg";
+
+        snprintf(name, sizeof name, "%s%s", words[i].word, unit);
+        if (strcmp(words[i].column, column) == 0 && strcmp(name, column) != 0) {
+            used += (size_t)snprintf(text + used, bytes - used, "%s%s", used > 0 ? ", " : "", name);
         }
     }
 }

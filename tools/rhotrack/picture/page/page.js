@@ -161,7 +161,9 @@ function putWorld() {
             .attr('transform', `translate(${x - middle.x},${y - middle.y})`);
         const step = d3.tickStep(0, Math.max(box.x[1] - box.x[0], box.y[1] - box.y[0]), 10);
         if (range || sensors.length === 6) {
-            for (const radius of d3.range(step, (range || 5 * step) + 1, step)) {
+            const corner = Math.hypot(Math.max(box.x[1] - x, x - box.x[0]), Math.max(box.y[1] - y, y - box.y[0]));
+            const end = Math.min(range || 5 * step, corner + step, 12 * step);
+            for (const radius of step > 0 ? d3.range(step, end * (1 + 1e-6), step) : []) {
                 group.append('circle').attr('class', 'ring').attr('r', radius);
             }
         }
