@@ -21,6 +21,8 @@
 
 /* Commands that wait for the end of a step. */
 #define COMMANDS_MAX 16
+#define COMMAND_WAIT_US 15000000 /* for a step, at most */
+#define COMMAND_IS_LATE RHO_ERROR_STATE
 
 struct timing {
     int64_t sum_us, max_us;
@@ -48,6 +50,7 @@ struct node_core {
     bool takes_commands;
     unsigned num_commands;
     struct rho_message_command commands[COMMANDS_MAX];
+    int64_t command_times_us[COMMANDS_MAX]; /* of the node's clock, when each came */
     struct node_core_commands counters;
 };
 
@@ -247,7 +250,33 @@ static void run_commands(struct node_core *core)
     core->num_commands = 0;
 }
 
-static void take_command(struct node_core *core, const uint8_t *data, size_t size)
+static void refuse_command(struct node_core *core, const struct rho_message_command *command,
+                           enum rho_status status)
+{
+    answer_command(core,
+                   &(struct rho_message_command_answer){.utime = core->pipeline.report->time_us,
+                                                        .number = command->number,
+                                                        .action = command->action,
+                                                        .status = (int8_t)status});
+}
+
+/* Refuses those that came before that time: what an operator saw then is no longer so. */
+static void refuse_commands(struct node_core *core, int64_t before_us)
+{
+    unsigned kept = 0;
+
+    for (unsigned i = 0; i < core->num_commands; i++) {
+        if (core->command_times_us[i] < before_us) {
+            refuse_command(core, &core->commands[i], COMMAND_IS_LATE);
+        } else {
+            core->command_times_us[kept] = core->command_times_us[i];
+            core->commands[kept++] = core->commands[i];
+        }
+    }
+    core->num_commands = kept;
+}
+
+static void take_command(struct node_core *core, const uint8_t *data, size_t size, int64_t now_us)
 {
     struct rho_message_command command;
 
@@ -257,13 +286,10 @@ static void take_command(struct node_core *core, const uint8_t *data, size_t siz
                rho_message_command_validate(&command, NULL) != RHO_OK) {
         core->counters.bad++;
     } else if (core->num_commands < COMMANDS_MAX) {
+        core->command_times_us[core->num_commands] = now_us;
         core->commands[core->num_commands++] = command;
     } else {
-        answer_command(core,
-                       &(struct rho_message_command_answer){.utime = core->pipeline.report->time_us,
-                                                            .number = command.number,
-                                                            .action = command.action,
-                                                            .status = RHO_ERROR_CAPACITY});
+        refuse_command(core, &command, RHO_ERROR_CAPACITY);
     }
 }
 
@@ -300,8 +326,10 @@ static void run(struct node_core *core, int64_t now_us)
 {
     enum rho_node_due due;
 
+    refuse_commands(core, now_us - COMMAND_WAIT_US);
     while ((due = rho_node_next(&core->node, now_us)) != RHO_NODE_NOTHING) {
         if (due == RHO_NODE_RESTART) {
+            refuse_commands(core, INT64_MAX);
             start_anew(core);
             if (core->events.began_anew) {
                 core->events.began_anew(core->events.context);
@@ -352,7 +380,7 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
     struct places places;
 
     if (has_room) {
-        take_command(core, data, size);
+        take_command(core, data, size, now_us);
     }
     while (!has_room) {
         before = core->assembler.counters;

@@ -336,6 +336,11 @@ void asterix_file_report(const struct asterix_file *file)
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams that are not ASTERIX left out\n",
                 file->path, file->foreign);
     }
+    if (file->captured && captured_datagrams_cut(file->captured)) {
+        fprintf(stderr, "rhotrack: %s: behind packet %" PRIu64 ": %s; the rest is left out\n",
+                file->path, captured_datagrams_packet(file->captured),
+                captured_datagrams_cut(file->captured));
+    }
     if (file->captured && captured_datagrams_incomplete(file->captured) > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams left out: fragments, or cut short\n",
                 file->path, captured_datagrams_incomplete(file->captured));

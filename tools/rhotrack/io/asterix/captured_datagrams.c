@@ -25,7 +25,7 @@ struct captured_datagrams {
     pcap_t *capture;
     int link;
     uint64_t packets, incomplete;
-    bool is_cut; /* it ends within a packet, and that was said */
+    bool is_cut; /* it ends within a packet, or is not readable further */
 };
 
 /* ---- What sort of file ---- */
@@ -211,18 +211,18 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
         fail(EXIT_USAGE, "%s: behind packet %llu: %s", captured->path,
              (unsigned long long)captured->packets, pcap_geterr(captured->capture));
     }
-    if (got == PCAP_ERROR && !captured->is_cut) {
-        captured->is_cut = true;
-        fprintf(stderr, "rhotrack: %s: behind packet %llu: %s; the rest is left out\n",
-                captured->path, (unsigned long long)captured->packets,
-                pcap_geterr(captured->capture));
-    }
+    captured->is_cut = got == PCAP_ERROR;
     return false;
 }
 
 uint64_t captured_datagrams_packet(const struct captured_datagrams *captured)
 {
     return captured->packets;
+}
+
+const char *captured_datagrams_cut(const struct captured_datagrams *captured)
+{
+    return captured->is_cut ? pcap_geterr(captured->capture) : NULL;
 }
 
 uint64_t captured_datagrams_incomplete(const struct captured_datagrams *captured)

@@ -35,6 +35,9 @@ uint64_t captured_datagrams_packet(const struct captured_datagrams *captured);
 /* How many were left out so far, as a part of them is not there. */
 uint64_t captured_datagrams_incomplete(const struct captured_datagrams *captured);
 
+/* Why it could not be read to its end; NULL: it was. */
+const char *captured_datagrams_cut(const struct captured_datagrams *captured);
+
 void captured_datagrams_close(struct captured_datagrams *captured);
 
 #endif
