@@ -21,7 +21,7 @@
 
 /* Commands that wait for the end of a step. */
 #define COMMANDS_MAX 16
-#define COMMAND_WAIT_US 15000000 /* for a step, at most */
+#define COMMAND_WAIT_US 60000000 /* for a step, at most: longer than a turn of any radar */
 #define COMMAND_IS_LATE RHO_ERROR_STATE
 
 struct timing {
