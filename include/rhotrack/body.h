@@ -55,7 +55,7 @@ struct rho_body_filter {
 struct rho_body {
     float length_m, width_m, heading_rad;
     float sigma_length_m, sigma_width_m, sigma_heading_rad;
-    /* sigma of its centre about the track's place, the reference point: the mean of what was seen */
+    /* sigma of its centre about the track's place, which is the mean of what was seen */
     float sigma_along_m, sigma_across_m;
     float plots; /* that this comes from: about 500 at most, the newest ones */
 };

@@ -350,8 +350,8 @@
 #endif
 
 /*
- * Areas that an operator can exclude (rhotrack/excluded_areas.h). 0 leaves them and frozen tracks out of
- * the program. RAM: 16 bytes each. 0 .. 64.
+ * Areas that an operator can exclude (rhotrack/excluded_areas.h). 0 leaves them and frozen tracks
+ * out of the program. RAM: 16 bytes each. 0 .. 64.
  */
 #ifndef RHO_MAX_EXCLUDED_AREAS
 #define RHO_MAX_EXCLUDED_AREAS RHO_CONFIG_PICK(4, 16)

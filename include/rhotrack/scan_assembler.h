@@ -75,8 +75,9 @@
  *            tracks of earlier scans do not go on. Where as many sensors say the one as the other,
  *            the reception clock decides if it is near one of them alone, and else the sensor that
  *            came first. A sensor that restarts before the scans that went out, while no other one
- *            tells the time, sets it back. An established sensor's clock that is ahead by less makes the other
- *            sensors' scans out of sequence in the tracker for as long as it goes on.
+ *            tells the time, sets it back. An established sensor's clock that is ahead by less
+ *            makes the other sensors' scans out of sequence in the tracker for as long as it goes
+ *            on.
  * Flood      More than flood_per_s messages of one sensor in a second are dropped. Unknown sensors
  *            and newcomers share one such limit. A new sensor takes the place of the one that was
  *            not heard for longest, but never that of a sensor that is heard, tells the common time

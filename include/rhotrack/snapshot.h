@@ -17,7 +17,7 @@
  *         begin_anew(); // rho_tracker_init, rho_initiator_init
  *     }
  *
- * A device that keeps what it was told and taught, and no tracks, has one block of settings and map:
+ * A device that keeps what it was told and taught, but no tracks, has a block of settings and map:
  *
  *     struct rho_snapshot_part kept[] = {
  *         {.kind = RHO_SNAPSHOT_SETTINGS, .object = &settings, .size = sizeof settings},

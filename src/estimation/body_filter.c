@@ -17,9 +17,9 @@
 /* What the prior counts, and the least that any plots do. */
 #define PRIOR_PLOTS 0.3f
 #define WEIGHT_LEAST 0.01f
-/* A body is usually so many times as long as wide, in the weight of its plots; and never more than */
+/* A body is usually so many times as long as wide, in the weight of its plots. */
 #define ASPECT_USUAL 6.0f
-/* so many times. */
+/* It is never longer than so many times its width. */
 #define ASPECT_MAX 16.0f
 /* The least variance of a place on a body: 0.1 m of length. */
 #define LEAST_M2 1e-3f

@@ -6,22 +6,6 @@
 
 #include "phases.h"
 
-/* A step that changes by hand go on from: the newest, whose report it still is. */
-static enum rho_status resume(struct rho_tracker *tracker, struct rho_report *report,
-                              struct step *step)
-{
-    if (!tracker || !report) {
-        return RHO_ERROR_NULL;
-    }
-    if (!rho_tracker_is_ready(tracker) || !tracker->has_time ||
-        report->time_us != tracker->time_us) {
-        return RHO_ERROR_STATE;
-    }
-    *step = (struct step){.tracker = tracker, .report = report, .time_us = tracker->time_us};
-    rho_tracker_set_model(step);
-    return RHO_OK;
-}
-
 /* Row of a live track; num_tracks: there is none. */
 static unsigned row_of(const struct rho_tracker *tracker, uint32_t track_id)
 {
@@ -37,7 +21,10 @@ static enum rho_status find_track(struct rho_tracker *tracker, uint32_t track_id
                                   struct rho_report *report, struct step *step,
                                   struct rho_track **track)
 {
-    const enum rho_status status = resume(tracker, report, step);
+    if (!tracker || !report) {
+        return RHO_ERROR_NULL;
+    }
+    const enum rho_status status = rho_tracker_resume(tracker, report, step);
     if (status != RHO_OK) {
         return status;
     }

@@ -57,6 +57,12 @@ void rho_tracker_share_merged_plots(struct step *step);
  */
 int rho_tracker_admit(struct step *step, struct rho_track *track,
                       const struct rho_track_limits *limits);
+/*
+ * What is done between two steps goes on from the newest one, whose report it still is; STATE where
+ * there is none.
+ */
+enum rho_status rho_tracker_resume(struct rho_tracker *tracker, struct rho_report *report,
+                                   struct step *step);
 /* The candidate's plots in the order of their scans; returns how many. */
 unsigned rho_tracker_gather_plots(struct rho_window *window, const struct rho_candidate *candidate,
                                   struct rho_track_plot *plots);

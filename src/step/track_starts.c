@@ -114,18 +114,26 @@ static int are_usable(const struct rho_tracker *tracker, const struct rho_report
     return 1;
 }
 
-/* A step that starts go on from: the newest, whose report it still is. */
-static enum rho_status resume(struct rho_tracker *tracker, struct rho_report *report,
-                              int32_t score_mnat, struct step *step)
+enum rho_status rho_tracker_resume(struct rho_tracker *tracker, struct rho_report *report,
+                                   struct step *step)
 {
     if (!rho_tracker_is_ready(tracker) || !tracker->has_time ||
         report->time_us != tracker->time_us) {
         return RHO_ERROR_STATE;
     }
-    step->tracker = tracker;
-    step->report = report;
-    step->time_us = tracker->time_us;
+    *step = (struct step){.tracker = tracker, .report = report, .time_us = tracker->time_us};
     rho_tracker_set_model(step);
+    return RHO_OK;
+}
+
+/* The same, for a start with this score. */
+static enum rho_status resume(struct rho_tracker *tracker, struct rho_report *report,
+                              int32_t score_mnat, struct step *step)
+{
+    const enum rho_status status = rho_tracker_resume(tracker, report, step);
+    if (status != RHO_OK) {
+        return status;
+    }
     rho_tracker_set_pd(step);
     return rho_tracker_is_score(score_mnat) && score_mnat >= rho_tracker_limits(step).tentative_mnat
                ? RHO_OK

@@ -36,10 +36,7 @@ enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float leng
     return RHO_OK;
 }
 
-/*
- * Tracks stay in their order, and new ones come behind the others: so do bodies. One that an
- * operator has moved among them begins anew, the others stay theirs.
- */
+/* Tracks stay in their order, and new ones come behind the others: so do bodies. */
 void rho_tracker_align_bodies(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -47,13 +44,11 @@ void rho_tracker_align_bodies(struct step *step)
     unsigned from = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         const struct rho_track *track = &tracker->tracks[row];
-        unsigned at = from;
-        while (at < bodies->count && bodies->of[at].track_id != track->track_id) {
-            at++;
+        while (from < bodies->count && bodies->of[from].track_id != track->track_id) {
+            from++;
         }
-        if (at < bodies->count) {
-            bodies->of[row] = bodies->of[at];
-            from = at + 1u;
+        if (from < bodies->count) {
+            bodies->of[row] = bodies->of[from++];
         } else {
             rho_body_start(&bodies->of[row], track->track_id, rho_tracker_body_prior_m2(tracker));
         }

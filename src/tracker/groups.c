@@ -14,7 +14,7 @@
 
 /* A plot is a track's by its place up to so many standard deviations on each axis of the body. */
 #define GATE_SIGMAS 3.0f
-/* Range rates of one target differ by so many sigmas of both, and by so much a metre as it turns. */
+/* Range rates of one target differ by so many sigmas of both, and so much a metre as it turns. */
 #define RATE_SIGMAS 4.0f
 #define TURN_RADPS 0.3f
 /* Two plots of one target are farther apart than it is long by so many of their sigmas. */
@@ -38,7 +38,7 @@ static float longest_m(const struct step *step)
     return step->tracker->bodies.length_max_m;
 }
 
-/* ---- pairs of plots ---------------------------------------------------------------------------- */
+/* ---- pairs of plots -------------------------------------------------------------------------- */
 
 /* Range rates that one target can have at both places: it is as fast as any, and may turn. */
 static int have_one_rate(const struct step *step, const struct rho_plot *one,

@@ -147,8 +147,8 @@ find_agreeing_stray(const struct rho_scan_assembler_config *config,
 }
 
 /*
- * The sensor's numbers begin again: no older one is remembered, or the scan continues such a series.
- * Copies of single scans, by another way through the network, do neither.
+ * The sensor's numbers begin again: no older one is remembered, or the scan continues such a
+ * series. Copies of single scans, by another way through the network, do neither.
  */
 static int begins_again(const struct rho_scan_assembler_config *config,
                         const struct rho_scan_assembler_source *source,
@@ -183,8 +183,8 @@ int rho_scan_assembler_is_usable_time(const struct rho_scan_assembler *assembler
 /*
  * An out-of-sequence scan is usable where its number was skipped, its time fits the number, and the
  * tracker still takes it. Otherwise its number stays skipped: the right scan may still come. Until
- * the first scan on a new clock has gone out, no number needs to be skipped: it may be of those that
- * were refused before.
+ * the first scan on a new clock has gone out, no number needs to be skipped: it may be of those
+ * that were refused before.
  */
 static int is_usable_out_of_sequence(const struct rho_scan_assembler *assembler,
                                      const struct rho_scan_assembler_source *source,

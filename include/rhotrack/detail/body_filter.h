@@ -8,8 +8,8 @@
  *     L^2 / 12 + R        along, and W^2 / 12 + R across,
  *
  * R its own noise, for scatterers that are spread over a rectangle of length L and width W. The
- * means of squares less R are smoothed over some 500 plots; they begin with a third of a plot's worth
- * of half of the longest body. They belong to a frame that turns with the body: a turn changes
+ * means of squares less R are smoothed over some 500 plots; they begin with a third of a plot's
+ * worth of half of the longest body. They belong to a frame that turns with the body: a turn changes
  * nothing.
  *
  * Stack: 104 bytes at most.

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Extents from plots that are spread over a rectangle: without their noise, whatever the heading. */
+/* Extents from plots spread over a rectangle: without their noise, whatever the heading. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

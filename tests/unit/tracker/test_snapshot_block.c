@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* One block of settings and taught map: a device that was off goes on with both, and with no tracks;
- * a damaged block changes nothing. */
+/*
+ * One block of settings and taught map: a device that was off goes on with both, and with no
+ * tracks; a damaged block changes nothing.
+ */
 #include "rhotrack/settings.h"
 #include "rhotrack/snapshot.h"
 #include "tracker_setup.h"

@@ -144,7 +144,7 @@ static void numbers_that_fall_back_are_followed_without_an_epoch(void **state)
     }
 }
 
-/* A record of a few scans that is played once more: numbers, times and epoch are those that came. */
+/* A record of a few scans is played once more: numbers, times and epoch are those that came. */
 static void a_record_played_again_is_a_restart(void **state)
 {
     (void)state;

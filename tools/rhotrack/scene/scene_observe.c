@@ -508,7 +508,7 @@ static double heading_rad(const struct scene_path *path, double t_s)
                : path_leg_heading_rad(path_leg_of(path, t_s), t_s);
 }
 
-/* A place on the body, when its centre is looked at: it moves as the body does, and turns with it. */
+/* A place on the body, when its centre is looked at: it moves and turns with the body. */
 static struct sighting sighting_on(const struct scene_sensor *sensor, const struct sighting *centre,
                                    const struct scene_path *path, const double place_m[2])
 {

@@ -6,8 +6,8 @@
  * from each to the next: a sector, or a whole turn, with plots or without. A plot belongs to the
  * look that saw its azimuth nearest to its time, whatever order the messages come in; a look is
  * complete hold_s after its end. Plots before the first crossing have looks as wide as the first,
- * at most a turn back. Each look is a scan, or all looks of a turn are one. Radars without crossings
- * have plots alone.
+ * at most a turn back. Each look is a scan, or all looks of a turn are one. Radars without
+ * crossings have plots alone.
  *
  * Times of day become seconds since the midnight before the first record: a time half a day or more
  * before the one before is of the next day. A time more than a minute off is believed only when the

@@ -24,7 +24,8 @@ struct captured_datagrams *captured_datagrams_open(const char *path);
 
 /*
  * The next datagram's content, of at least one byte, valid until the next call. Returns false after
- * the last; a file that ends within a packet is an error, exit 2, but with keep_going it ends there.
+ * the last; a file that ends within a packet is an error, exit 2, but with keep_going it ends
+ * there.
  */
 bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_going,
                              const uint8_t **data, size_t *size);
