@@ -246,6 +246,25 @@ struct reach {
     float third_m, own_m, slack_m;
 };
 
+/* What the boxes in an earlier scan have in common, whichever the third plot is. */
+struct way {
+    float begin_s;        /* from the scan's first plot to the ending */
+    float far_m;          /* most that a target travels in this time */
+    float third_m, own_m; /* the gates of the reach, with what rounding may add */
+};
+
+static struct way way_from(const struct search *search, const struct rho_window_scan *scan,
+                           const struct ending *ending, float gap_s, const struct reach *reach)
+{
+    const float begin_s = gap_s + ending->plot->offset_s - scan->offset_min_s;
+    return (struct way){
+        .begin_s = begin_s,
+        .far_m = search->initiator->config.v_max_mps * begin_s + reach->slack_m,
+        .third_m = ending->gate_rounded * reach->third_m + ending->rounding_m,
+        .own_m = ending->gate_rounded * reach->own_m,
+    };
+}
+
 /* A vote before the ending, and the way between the two. */
 struct third {
     struct first_vote first;
@@ -261,46 +280,45 @@ static struct box fit_box(const struct box *box, const struct ending *ending,
                           const struct third *third, float spread, float far_m)
 {
     const struct box all = box_about(ending->plot, far_m);
+    if (!(third->per_s > 0.0f)) {
+        return all;
+    }
     const float x_m = spread * third->dx_m, y_m = spread * third->dy_m;
     struct box fitted = {.x0_m = larger(box->x0_m - larger(x_m, 0.0f), all.x0_m),
                          .y0_m = larger(box->y0_m - larger(y_m, 0.0f), all.y0_m)};
     fitted.x1_m = larger(fitted.x0_m, smaller(box->x1_m - smaller(x_m, 0.0f), all.x1_m));
     fitted.y1_m = larger(fitted.y0_m, smaller(box->y1_m - smaller(y_m, 0.0f), all.y1_m));
-    return third->per_s > 0.0f ? fitted : all;
+    return fitted;
 }
 
 /*
  * The box in an earlier scan with the kernels that have this vote: the gate of the vote,
  * extrapolated from the ending.
  */
-static struct box predict_box(const struct search *search, const struct rho_window_scan *scan,
-                              const struct ending *ending, const struct third *third, float gap_s,
-                              float third_m, float own_m, float slack_m)
+static struct box predict_box(const struct rho_window_scan *scan, const struct ending *ending,
+                              const struct third *third, const struct way *way)
 {
     const struct rho_window_plot *to = ending->plot;
-    float begin_s = gap_s + to->offset_s - scan->offset_min_s, ratio = begin_s * third->per_s;
-    float far_m = search->initiator->config.v_max_mps * begin_s + slack_m;
-    float gate_radius_m = ratio * (ending->gate_rounded * third_m + ending->rounding_m) +
-                          (HAS_SPAN_HITS ? ending->gate_rounded * own_m : 0.0f);
-    float x_m = to->x_m + third->dx_m * ratio, y_m = to->y_m + third->dy_m * ratio;
+    const float ratio = way->begin_s * third->per_s;
+    const float gate_radius_m = ratio * way->third_m + (HAS_SPAN_HITS ? way->own_m : 0.0f);
+    const float x_m = to->x_m + third->dx_m * ratio, y_m = to->y_m + third->dy_m * ratio;
     struct box box = {x_m - gate_radius_m, x_m + gate_radius_m, y_m - gate_radius_m,
                       y_m + gate_radius_m};
-    if (HAS_SPAN_HITS && ratio > 0.0f && gate_radius_m < NARROW_SHARE * far_m &&
+    if (HAS_SPAN_HITS && ratio > 0.0f && gate_radius_m < NARROW_SHARE * way->far_m &&
         scan->offset_min_s >= scan->offset_max_s) {
         return box;
     }
     return fit_box(&box, ending, third, (scan->offset_max_s - scan->offset_min_s) * third->per_s,
-                   far_m);
+                   way->far_m);
 }
 
 /* Tries the kernels of the span that begin in that box. Returns the units that the box takes. */
 static uint32_t try_first_plots(struct search *search, const struct span *span,
-                                const struct ending *ending, const struct third *third)
+                                const struct ending *ending, const struct third *third,
+                                const struct way *way)
 {
     const struct rho_window_scan *scan = span->scan_a;
-    const struct box box =
-        predict_box(search, scan, ending, third, span->gap_s,
-                    span->voters[third->first.gap - 1u].gate_radius_m, 0.0f, span->slack_m);
+    const struct box box = predict_box(scan, ending, third, way);
     uint32_t passed = 0;
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
@@ -318,12 +336,10 @@ static uint32_t try_first_plots(struct search *search, const struct span *span,
 }
 
 /* True where a plot of the scan before the third plot may vote for kernels with this one. */
-static int may_vote_next(const struct search *search, const struct rho_window_scan *scan,
-                         float gap_s, const struct ending *ending, const struct third *third,
-                         const struct reach *reach, uint32_t *passed)
+static int may_vote_next(const struct rho_window_scan *scan, const struct ending *ending,
+                         const struct third *third, const struct way *way, uint32_t *passed)
 {
-    const struct box box = predict_box(search, scan, ending, third, gap_s, reach->third_m,
-                                       reach->own_m, reach->slack_m);
+    const struct box box = predict_box(scan, ending, third, way);
     const struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -374,22 +390,22 @@ static struct reach widest_reach(const struct fan *fan, unsigned spans, unsigned
 }
 
 /*
- * Largest distance of a vote `gap` scans before from the ending: travel of a target, noise, and the
- * gate.
+ * The ways to the first plots of these spans, whose first vote is `gap` scans before the end.
+ * Returns what noise and the gate add to the distance of this vote from the ending.
  */
-static float vote_distance_max_m(const struct search *search, const struct fan *fan,
-                                 const struct ending *ending, unsigned spans, unsigned gap)
+static float open_ways(const struct search *search, const struct fan *fan,
+                       const struct ending *ending, unsigned spans, unsigned gap, struct way *ways)
 {
-    unsigned b = fan->spans[0].b;
     float far_m = 0.0f;
-    for (unsigned n = 0; n < fan->num_spans; n++) {
+    for (unsigned n = 0; spans >> n; n++) {
         const struct span *span = &fan->spans[n];
         if (spans >> n & 1u) {
-            far_m =
-                larger(far_m, span->slack_m + GATE_ROUNDING * span->voters[gap - 1u].gate_radius_m);
+            const struct reach reach = {span->voters[gap - 1u].gate_radius_m, 0.0f, span->slack_m};
+            ways[n] = way_from(search, span->scan_a, ending, span->gap_s, &reach);
+            far_m = larger(far_m, reach.slack_m + GATE_ROUNDING * reach.third_m);
         }
     }
-    return far_m + ending->rounding_m + GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);
+    return far_m;
 }
 
 /* Tries the kernels of these spans whose first vote is `gap` scans before the end. */
@@ -398,43 +414,49 @@ static int try_third_plots(struct search *search, const struct fan *fan,
 {
     const struct rho_window_scan *scan =
         rho_window_scan_at(&search->initiator->window, fan->spans[0].b - gap);
-    float far_m = vote_distance_max_m(search, fan, ending, spans, gap);
+    const unsigned b = fan->spans[0].b;
+    struct way ways[SPANS_MAX];
+    const float far_m = open_ways(search, fan, ending, spans, gap, ways) + ending->rounding_m +
+                        GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);
     struct box box = box_about(ending->plot, far_m);
     struct rho_window_bins bins = bins_under(search, scan, &box);
-    const unsigned b = fan->spans[0].b;
     const float gap_s = search->time_s[b] - search->time_s[b - gap] + ending->plot->offset_s;
     /* spans without further misses: where the next scan has no vote there is no kernel of them */
     const unsigned full = !HAS_SPAN_HITS || ending->is_clear
                               ? 0u
                               : spans & ~spans_of_gap(fan, ending, spans, gap + 1u);
-    const struct reach reach = full != 0 ? widest_reach(fan, full, gap) : (struct reach){0};
-    const struct rho_window_scan *next =
-        rho_window_scan_at(&search->initiator->window, b - gap - 1u);
-    const float next_s = search->time_s[b] - search->time_s[b - gap - 1u];
+    const struct rho_window_scan *next = scan;
+    struct way next_way = {0};
+    if (full != 0) {
+        const struct reach reach = widest_reach(fan, full, gap);
+        next = rho_window_scan_at(&search->initiator->window, b - gap - 1u);
+        next_way = way_from(search, next, ending, search->time_s[b] - search->time_s[b - gap - 1u],
+                            &reach);
+    }
     struct third third = {.first = {.gap = gap}};
     uint32_t passed = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
-        unsigned end = start[bins.column_last + 1];
-        passed += end - start[bins.column_first];
-        for (unsigned k = start[bins.column_first]; k < end; k++) {
-            float before_s = gap_s - scan->plots[k].offset_s;
+        unsigned k = start[bins.column_first], end = start[bins.column_last + 1];
+        passed += end - k;
+        for (; k < end; k++) {
             third.dx_m = scan->plots[k].x_m - ending->plot->x_m;
             third.dy_m = scan->plots[k].y_m - ending->plot->y_m;
             if (third.dx_m * third.dx_m + third.dy_m * third.dy_m > far_m * far_m ||
                 (scan->marks[k] & search->skip_flags)) {
                 continue;
             }
-            third.first.index = k;
+            const float before_s = gap_s - scan->plots[k].offset_s;
             third.per_s = before_s > 0.0f ? 1.0f / before_s : 0.0f;
+            third.first.index = k;
             unsigned tried = spans;
             if ((full & (full - 1u)) != 0 &&
-                !may_vote_next(search, next, next_s, ending, &third, &reach, &passed)) {
+                !may_vote_next(next, ending, &third, &next_way, &passed)) {
                 tried &= ~full;
             }
             for (unsigned n = 0; tried >> n; n++) {
                 if (tried >> n & 1u) {
-                    passed += try_first_plots(search, &fan->spans[n], ending, &third);
+                    passed += try_first_plots(search, &fan->spans[n], ending, &third, &ways[n]);
                 }
             }
             if (passed >= CHARGED_UNITS) {

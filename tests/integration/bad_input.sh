@@ -189,7 +189,7 @@ refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" \
     't_s,sensor_id,range_m,azimuth_rad,x_m,y_m\n1,1,2,3,4,5\n'
 refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" \
     't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,3,4\n'
-refuse 'no azimuth' "1: no column 'azimuth_rad' (or azimuth, az); *" 't_s,sensor_id,range_m\n1,1,2\n'
+refuse 'no azimuth' "1: no column 'azimuth_rad' (or az_rad); *" 't_s,sensor_id,range_m\n1,1,2\n'
 refuse 'half a place of a sensor' "1: no column 'sensor_y_m' beside 'sensor_x_m'" \
     't_s,sensor_id,range_m,azimuth_rad,sensor_x_m\n1,1,2,3,4\n'
 refuse 'a sensor in two places' "3: the sensor's place is not that of the scan's first row" \

@@ -287,7 +287,7 @@ refuse 'no compass' "2: azimuth_deg '2e6' is outside -1000000 .. 1000000" \
     't_s,sensor_id,range_m,azimuth_deg\n1,1,5,2e6\n'
 refuse 'range below 0' '2: range_m -5 is outside the range of a polar_scan_t' "${polar}1,1,-5,1\n"
 refuse 'range without azimuth' '2: the azimuth is empty' "${polar}1,1,5,\n"
-refuse 'no azimuth' "1: no column 'azimuth_rad' (or azimuth, az); *" 't_s,sensor_id,range_m\n1,1,5\n'
+refuse 'no azimuth' "1: no column 'azimuth_rad' (or az_rad); *" 't_s,sensor_id,range_m\n1,1,5\n'
 refuse 'both azimuths' "1: both 'azimuth_rad' and 'azimuth_deg' are there" \
     't_s,sensor_id,range_m,azimuth_rad,azimuth_deg\n1,1,2,1,1\n'
 refuse 'both kinds of plots' "1: both 'range_m' and 'x_m' are there" \
