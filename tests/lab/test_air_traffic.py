@@ -14,10 +14,10 @@ harness.need_packages("rhotrack")
 import numpy as np
 
 import air_traffic
-import air_traffic_runs as runs
-import lab
-import scene_runs
-import stonesoup_tracker
+from parts import air_traffic_runs as runs
+from common import lab
+from common import scene_runs
+from common import stonesoup_tracker
 
 SEED = 7
 

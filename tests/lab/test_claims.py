@@ -12,8 +12,8 @@ import harness
 harness.need_packages("rhotrack")
 
 import claims
-import claims_own
-import claims_table as table
+from parts import claims_own
+from parts import claims_table as table
 import numpy as np
 
 SCRIPT = harness.ROOT / "tools" / "lab" / "claims.py"

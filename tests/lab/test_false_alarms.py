@@ -13,7 +13,7 @@ harness.need_packages("rhotrack")
 
 import false_alarms as alarms
 import numpy as np
-import paper_targets as paper
+from common import paper_targets as paper
 
 SEED = 4711
 SCRIPT = harness.ROOT / "tools" / "lab" / "false_alarms.py"

@@ -11,7 +11,7 @@ harness.need_packages()
 
 import numpy as np
 
-import gospa
+from common import gospa
 
 CUTOFF_M = 100.0
 TRACK = [("track_id", "i4"), ("x_m", "f8"), ("y_m", "f8"), ("vx_mps", "f8"), ("vy_mps", "f8"),

@@ -15,8 +15,8 @@ harness.need_packages("rhotrack")
 
 import initiation
 import numpy as np
-import paper_targets as paper
-import straight_fit
+from common import paper_targets as paper
+from common import straight_fit
 
 RUNS, SEED = 40, 4711
 SCRIPT = harness.ROOT / "tools" / "lab" / "initiation.py"

@@ -17,13 +17,13 @@ harness.need_packages("rhotrack")
 
 import numpy as np
 
-import lab
+from common import lab
 import maneuver
-import maneuver_scene
-import maneuver_track
-import reference_imm
-from maneuver_scene import INTERVAL_S, SCANS, START, Scene, Setting
-from maneuver_track import Method, follow, outcome_of, summary_of
+from parts import maneuver_scene
+from parts import maneuver_track
+from common import reference_imm
+from parts.maneuver_scene import INTERVAL_S, SCANS, START, Scene, Setting
+from parts.maneuver_track import Method, follow, outcome_of, summary_of
 
 SEED, RUNS = 4711, 20
 G_MPS2 = maneuver_scene.G_MPS2

@@ -13,9 +13,9 @@ harness.need_packages()
 
 import numpy as np
 
-import oracle
-import scene_files
-import scoring
+from common import oracle
+from common import scene_files
+from common import scoring
 
 INI = """# a radar
 scan_interval_s = 4

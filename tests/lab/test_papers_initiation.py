@@ -13,10 +13,10 @@ import harness
 harness.need_packages("rhotrack")
 
 import numpy as np
-import paper_targets as paper
+from common import paper_targets as paper
 import papers_initiation as papers
-import papers_initiation_figures as known
-import papers_initiation_tracks as tracks
+from parts import papers_initiation_figures as known
+from parts import papers_initiation_tracks as tracks
 
 RUNS, SEED = 10, 4711
 SCRIPT = harness.ROOT / "tools" / "lab" / "papers_initiation.py"

@@ -19,14 +19,14 @@ import harness
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: the matrices are small
 harness.need_packages("rhotrack")
 
-import bearings
-import lab
+from parts import bearings
+from common import lab
 import numpy as np
 import passive
-import passive_chain
-import passive_claims
-import passive_figures
-from bearings import Scene, Setting
+from parts import passive_chain
+from parts import passive_claims
+from parts import passive_figures
+from parts.bearings import Scene, Setting
 
 SCRIPT = harness.ROOT / "tools" / "lab" / "passive.py"
 

@@ -16,12 +16,12 @@ harness.need_packages("rhotrack")
 import numpy as np
 
 import doppler
-import lab
+from common import lab
 import polar
-import polar_runs
-import polar_references as references
+from parts import polar_runs
+from parts import polar_references as references
 import rhotrack
-import scene_runs
+from common import scene_runs
 
 RADAR = references.Radar(15.0, 0.003, range_min_m=1000, range_max_m=65000)
 WITH = references.Radar(15.0, 0.003, 1.0, 1000, 65000)
@@ -224,7 +224,8 @@ class Polar(unittest.TestCase):
 
     def test_bars_and_page(self):
         self.assertEqual(len(self.told["bars"]), 14)
-        self.assertEqual(self.pictures, {"index.html", "map.svg", "gates.svg", "errors.svg"})
+        self.assertEqual(self.pictures,
+                         {"index.html", "map.svg", "gates.svg", "errors.svg", "figures.json"})
 
     def test_a_case_tells_the_library_what_it_says(self):
         sky = polar_runs.Sky(scene_runs.simulate("doppler", 7, "clutter.0.plots=300"), 300)

@@ -143,7 +143,7 @@ class RealSkies(unittest.TestCase):
         self.assertEqual(len(text.splitlines()), 3)
 
     def test_what_drifts(self):
-        import long
+        from parts import long
         flat = {
             "completeness": 0.95, "false_per_scan": 0.01, "switches": 1, "identities": 200,
             "cpu_s": 1, "memory_mb": 20

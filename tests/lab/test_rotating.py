@@ -12,9 +12,9 @@ harness.need_packages("rhotrack")
 
 import numpy as np
 
-import lab
+from common import lab
 import rotating
-import scene_runs
+from common import scene_runs
 
 
 class Rotating(unittest.TestCase):

@@ -9,8 +9,8 @@ harness.need_packages()
 
 import numpy as np
 
-import scene_files
-import scoring
+from common import scene_files
+from common import scoring
 
 GATE = 1000.0
 NAN = float("nan")

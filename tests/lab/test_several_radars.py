@@ -14,7 +14,7 @@ harness.need_packages()
 
 import numpy as np
 
-import scene_files
+from common import scene_files
 import several_radars
 
 PROGRAM = os.environ.get("RHOTRACK", str(harness.ROOT / "build" / "rhotrack"))

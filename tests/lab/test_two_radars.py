@@ -12,8 +12,8 @@ harness.need_packages("rhotrack")
 
 import numpy as np
 
-import lab
-import scene_runs
+from common import lab
+from common import scene_runs
 import two_radars
 
 
@@ -25,7 +25,7 @@ class TwoRadars(unittest.TestCase):
                                   check=False)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual({path.name for path in folder.iterdir()},
-                             {"index.html", "map.svg", "plots.svg", "biases.svg"})
+                             {"index.html", "map.svg", "plots.svg", "biases.svg", "figures.json"})
         told = json.loads(done.stdout)
         self.assertEqual((len(told["cases"]), len(told["bars"])), (6, 10))
         first, second, left, found, known, arrived = told["cases"]

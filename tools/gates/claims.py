@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
 sys.dont_write_bytecode = True
 
-import claims_table as table
+from parts import claims_table as table
 
 VERDICT = re.compile(r"\*\*(holds|fails|cannot be known|definition|not measured)\*\*")
 

@@ -13,9 +13,9 @@ import math
 
 import numpy as np
 
-import lab
-import stonesoup_tracker
-from air_traffic_runs import (ALARMS, CASES, CUTOFFS_M, PAIRS, run_alarm, run_pair, run_rival,
+from common import lab
+from common import stonesoup_tracker
+from parts.air_traffic_runs import (ALARMS, CASES, CUTOFFS_M, PAIRS, run_alarm, run_pair, run_rival,
                               run_traffic)
 
 RUNS = 4

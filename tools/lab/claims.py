@@ -18,8 +18,8 @@ import sys
 import textwrap
 import unittest
 
-import claims_table as table
-import lab
+from parts import claims_table as table
+from common import lab
 
 RUNS = 50  # the paper's own number; passive has as many of its shares
 EXPERIMENTS = {"papers-initiation": [], "maneuver": [],
@@ -72,7 +72,7 @@ def run_experiment(options, name):
 
 def figures_of(options, papers):
     """{experiment: its figures.json} of all that the rows name."""
-    import claims_own
+    from parts import claims_own
     used = {of[1] for paper in papers for row in paper.rows for of in row.measured}
     used |= {row.at[1] for paper in papers for row in paper.rows if row.at}
     figures = {"own": claims_own.figures()} if "own" in used else {}
@@ -217,7 +217,7 @@ def sources_of(options, figures):
              for name, of in figures.items() if name != "own"]
     how = ("as they were last run, which [the measurements](MEASUREMENTS.md) show, too"
            if options.figures else "which this command ran")
-    return f"{', '.join(names)}, {how}; `claims` itself has those of `tools/lab/claims_own.py`"
+    return f"{', '.join(names)}, {how}; `claims` itself has those of `tools/lab/parts/claims_own.py`"
 
 
 def filled(text, **values):

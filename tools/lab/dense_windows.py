@@ -16,7 +16,7 @@ import pathlib
 import subprocess
 import tempfile
 
-import lab
+from common import lab
 
 CLUTTER_PER_KM2 = {5: 5, 10: 5, 15: 5, 20: 5, 24: 6, 30: 6}  # and the hits that are asked
 AREA_KM2 = 10

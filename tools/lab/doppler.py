@@ -7,9 +7,9 @@ The clutter at which scene doppler without range rates just meets its bars is lo
 times as much, with range rates, ambiguous ones, and none. Search, tracker and scores are those of
 experiment polar.
 """
-import lab
-import polar_runs as polar
-import scene_runs
+from common import lab
+from parts import polar_runs as polar
+from common import scene_runs
 
 RUNS = 60
 CLUTTER = (50, 75, 100, 150, 200, 300, 400)  # where the limit without range rates is looked for

@@ -18,7 +18,7 @@ import tempfile
 
 import numpy as np
 
-import lab
+from common import lab
 import real_skies
 
 RUNS = 10

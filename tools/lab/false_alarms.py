@@ -15,10 +15,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.stats import chi2
 
-import lab
-import paper_targets as paper
+from common import lab
+from common import paper_targets as paper
 import rhotrack
-import straight_fit
+from common import straight_fit
 
 RUNS = 8
 INTERVAL_S = paper.TABLE_1_INTERVAL_S

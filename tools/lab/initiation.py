@@ -12,10 +12,10 @@ from typing import NamedTuple
 import matplotlib.pyplot as plt
 import numpy as np
 
-import lab
-import paper_targets as paper
+from common import lab
+from common import paper_targets as paper
 import rhotrack
-import straight_fit
+from common import straight_fit
 
 RUNS = 300  # fewer do not decide a bar of .99 of the runs
 TURN_RAD = np.radians(2)  # a scan

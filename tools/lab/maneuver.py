@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-import lab
-from maneuver_scene import CLEAN_SCANS, INTERVAL_S, SCANS, Scene, Setting
-from maneuver_track import FIRST_RUNS, Method, follow, outcome_of, summary_of
+from common import lab
+from parts.maneuver_scene import CLEAN_SCANS, INTERVAL_S, SCANS, Scene, Setting
+from parts.maneuver_track import FIRST_RUNS, Method, follow, outcome_of, summary_of
 
 NAN = math.nan
 CHUNK = 100  # runs side by side

@@ -15,10 +15,10 @@ import tempfile
 
 import numpy as np
 
-import lab
+from common import lab
 import real_skies
-import scene_files
-import scoring
+from common import scene_files
+from common import scoring
 
 RUNS = 20
 NOT_TOLD = 'radars.0.told={"notch_mps": 0}'

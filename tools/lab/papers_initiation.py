@@ -20,11 +20,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-import lab
-import paper_targets as paper
-import papers_initiation_figures as known
-import papers_initiation_pictures as pictures
-import papers_initiation_tracks as tracks
+from common import lab
+from common import paper_targets as paper
+from parts import papers_initiation_figures as known
+from parts import papers_initiation_pictures as pictures
+from parts import papers_initiation_tracks as tracks
 import rhotrack
 
 RUNS = 200

@@ -12,19 +12,19 @@ import functools
 import math
 import time
 
-import lab  # before numpy, whose threads it limits
+from common import lab  # before numpy, whose threads it limits
 
 import numpy as np
 
-import passive_chain
-import passive_claims
-import passive_figures
-import passive_further
+from parts import passive_chain
+from parts import passive_claims
+from parts import passive_figures
+from parts import passive_further
 import rhotrack
-from bearings import PLACES_M, Setting, fit, moved, nees
-from lab import ratio_of, root_of
-from passive_figures import RANGE_MAX_M, line_of, line_off, lines_matched, search_paper
-from passive_runs import (RULES, beside, facts_of, found_facts, found_of, judge_rate, runs_of,
+from parts.bearings import PLACES_M, Setting, fit, moved, nees
+from common.lab import ratio_of, root_of
+from parts.passive_figures import RANGE_MAX_M, line_of, line_off, lines_matched, search_paper
+from parts.passive_runs import (RULES, beside, facts_of, found_facts, found_of, judge_rate, runs_of,
                           text_of)
 
 RUNS = 400

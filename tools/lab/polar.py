@@ -9,10 +9,10 @@ sigmas in all directions; with range rates, or without (polar_runs.py).
 """
 import numpy as np
 
-import lab
+from common import lab
 import rhotrack
-import scene_runs
-from polar_runs import (MIN_SCANS, PD, SIGMA_RANGE_RATE_MPS, TURN_S, WINDOW, Case, Sky, facts,
+from common import scene_runs
+from parts.polar_runs import (MIN_SCANS, PD, SIGMA_RANGE_RATE_MPS, TURN_S, WINDOW, Case, Sky, facts,
                         figures_of, measure)
 
 RUNS = 200

@@ -25,9 +25,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 
-import oracle
-import scoring
-import scene_files
+from common import oracle
+from common import scoring
+from common import scene_files
 
 HERE = pathlib.Path(__file__).resolve()
 ROOT = HERE.parents[2]
@@ -118,7 +118,7 @@ def run(job):
             result["oracle"], _ = scoring.score(truth, oracle.as_tracks(truth, followed), gate,
                                                 forgiven)
         if job["picture"]:
-            import pictures
+            from common import pictures
             pictures.plan(job["picture"], job["name"], sensors, plots, truth, tracks, false_rows)
         return job["name"], result
     finally:
@@ -430,16 +430,16 @@ def main():
             options.output.mkdir(parents=True, exist_ok=True)
         results, alarms, longs = [], [], []
         if options.endurance:
-            import endurance
+            from parts import endurance
             alarms = endurance.measure(options, run_program)
         elif options.long:
-            import long
+            from parts import long
             longs = long.measure(options, run_program)
         else:
             results = measure(options, find_scenes(options))
         report = as_json(results, options, alarms, longs)
         if not options.no_pages:
-            import page
+            from common import page
             page.write(options.output / "index.html", results, alarms, longs, options, COLUMNS,
                        rows_of, (CONSISTENCY_HEADINGS, consistency_rows))
     except (Failed, OSError, ValueError) as error:

@@ -12,9 +12,9 @@ import time
 
 import numpy as np
 
-import lab
+from common import lab
 import rhotrack
-import scene_runs
+from common import scene_runs
 
 RUNS = 200
 CASES = ("sectors", "whole turns", "all at once")

@@ -13,13 +13,13 @@ import pathlib
 import sys
 import tempfile
 
-import lab  # before numpy, whose threads it limits
+from common import lab  # before numpy, whose threads it limits
 
 import numpy as np
 
 import real_skies
-import scene_files
-import scoring
+from common import scene_files
+from common import scoring
 
 SCENE = real_skies.ROOT / "tools" / "scenes" / "radars" / "overlapping-radars.json"
 SLOWEST_S = 15  # times the slowest turn: what has no track by then counts as found then

@@ -15,10 +15,10 @@ import math
 
 import numpy as np
 
-import gospa
-import lab
+from common import gospa
+from common import lab
 import rhotrack
-import scene_runs
+from common import scene_runs
 
 RUNS = 50
 LOOK_S = 1.0

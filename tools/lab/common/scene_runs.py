@@ -8,9 +8,9 @@ import tempfile
 
 import numpy as np
 
-import lab
+from common import lab
 import rhotrack
-import scene_files
+from common import scene_files
 
 PROGRAM = lab.BUILD / "rhotrack"
 

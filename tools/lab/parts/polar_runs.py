@@ -12,10 +12,10 @@ import time
 
 import numpy as np
 
-import lab
-import polar_references
+from common import lab
+from parts import polar_references
 import rhotrack
-import scene_runs
+from common import scene_runs
 
 TURN_S, SIGMA_RANGE_RATE_MPS = 4.0, 1.0
 WINDOW, MIN_SCANS, PD = 7, 5, 0.99  # turns of a search, hits in them, and what is assumed, and true

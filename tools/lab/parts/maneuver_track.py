@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import lab
-import reference_imm
+from common import lab
+from common import reference_imm
 import rhotrack
-from maneuver_scene import CLEAN_SCANS, G_MPS2, INTERVAL_S, SCANS, START_SIGMA_MPS, STATE
+from parts.maneuver_scene import CLEAN_SCANS, G_MPS2, INTERVAL_S, SCANS, START_SIGMA_MPS, STATE
 
 FIRST_RUNS = 50  # the paper's number
 JUDGED_SCAN = 8  # errors count from here on, losses from the end of the clean scans

@@ -4,21 +4,21 @@ numbers, and short runs."""
 import itertools
 import math
 
-import lab  # noqa: F401  before numpy, whose threads it limits
+from common import lab  # noqa: F401  before numpy, whose threads it limits
 
 import numpy as np
 from scipy.stats import norm
 
 import maneuver
-import paper_targets as paper
+from common import paper_targets as paper
 import papers_initiation as papers
 import passive
-import passive_claims
-from bearings import Scene as BearingScene
-from bearings import Setting
-from maneuver_scene import (CLEAN_SCANS, HALF_BEAM_DEG, INTERVAL_S, PRINTED_START, SCANS, START,
+from parts import passive_claims
+from parts.bearings import Scene as BearingScene
+from parts.bearings import Setting
+from parts.maneuver_scene import (CLEAN_SCANS, HALF_BEAM_DEG, INTERVAL_S, PRINTED_START, SCANS, START,
                             Scene)
-from maneuver_track import follow
+from parts.maneuver_track import follow
 
 PAIRS = 100000
 RUNS, CASE = 50, 900  # of short runs, as many as the papers'; their random numbers are their own

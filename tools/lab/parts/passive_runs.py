@@ -2,11 +2,11 @@
 """What the parts of experiment passive share: their runs, and figures as texts and facts."""
 import math
 
-import lab  # before numpy, whose threads it limits
+from common import lab  # before numpy, whose threads it limits
 
 import numpy as np
 
-from bearings import Scene
+from parts.bearings import Scene
 
 SHARE = {"pruning": 3 / 4, "paper": 1 / 2, "default": 1, "chain": 1 / 2, "further": 1 / 8,
          "claims": 1 / 4}  # of --runs

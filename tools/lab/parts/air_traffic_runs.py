@@ -13,10 +13,10 @@ import time
 
 import numpy as np
 
-import gospa
+from common import gospa
 import rhotrack
-import scene_runs
-import stonesoup_tracker
+from common import scene_runs
+from common import stonesoup_tracker
 
 INTERVAL_S, SIGMA_M, PD = 10.0, 50.0, 0.95
 CUTOFFS_M = (1000.0, 200.0)

@@ -88,7 +88,7 @@ def write(path, results, alarms, longs, options, columns, rows_of, consistency):
             alarm_table(alarms)
         ]
     if longs:
-        import long
+        from parts import long
         body += ["<h2>Hour by hour</h2>", f"<pre>{html.escape(long.table(longs))}</pre>"]
     text = (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>rhotrack: real skies</title>\n'

@@ -5,14 +5,14 @@ covariance, still integers. In numpy, each at the threshold at which it errs lea
 import itertools
 import math
 
-import lab  # before numpy, whose threads it limits
+from common import lab  # before numpy, whose threads it limits
 
 import numpy as np
 
 import rhotrack
-from bearings import PLACES_M, Setting
-from passive_figures import RANGE_MAX_M, lines_matched
-from passive_runs import runs_of
+from parts.bearings import PLACES_M, Setting
+from parts.passive_figures import RANGE_MAX_M, lines_matched
+from parts.passive_runs import runs_of
 
 THETA_CELLS, RHO_CELLS, RHO_CELL_M = 90, 256, 1000  # of the paper's accumulator
 THETA_RAD = (np.arange(THETA_CELLS) + 0.5) * np.pi / THETA_CELLS

@@ -31,7 +31,7 @@ import pathlib
 import re
 from dataclasses import dataclass, field
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 FOLDER = ROOT / "tools" / "lab" / "claims"
 KEYS = {"says", "code", "test", "measured", "paper", "shown", "holds", "why", "at", "at_measured",
         "at_holds", "lost", "definition"}

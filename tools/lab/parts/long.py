@@ -15,8 +15,8 @@ import time
 
 import numpy as np
 
-import scene_files
-import scoring
+from common import scene_files
+from common import scoring
 
 SCENES = ["births-and-deaths"]
 HOUR_US = 3600 * 10 ** 6

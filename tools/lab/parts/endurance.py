@@ -9,7 +9,7 @@ import tempfile
 
 from scipy.stats import chi2
 
-import scene_files
+from common import scene_files
 
 SCENES = ["uniform", "rain", "strobe"]
 LEARNING_S = 600.0

@@ -13,17 +13,17 @@ import itertools
 import math
 import time
 
-import lab  # before numpy, whose threads it limits
+from common import lab  # before numpy, whose threads it limits
 
 import numpy as np
 from scipy.optimize import LinearConstraint, milp
 from scipy.sparse import coo_array
 
 import rhotrack
-from bearings import PLACES_M, Scene, Setting, wrapped
-from passive_figures import (ROWS, THREE, TWO, crossings_left, line_of, line_off, paper_of,
+from parts.bearings import PLACES_M, Scene, Setting, wrapped
+from parts.passive_figures import (ROWS, THREE, TWO, crossings_left, line_of, line_off, paper_of,
                              scene_of)
-from passive_runs import RULES, runs_of
+from parts.passive_runs import RULES, runs_of
 
 NEAR_CELLS = 2  # of a line's cell, that count as the line's
 SUMMED = {"3s 2t .05 clean": (Setting(3, 2, 0.05),), "3s 2t .1 clean": (Setting(3, 2, 0.1),),

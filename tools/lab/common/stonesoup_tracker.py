@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 
-import lab
+from common import lab
 
 sys.path += map(str, (lab.BUILD / "stonesoup" / "lib").glob("python3.*/site-packages"))
 

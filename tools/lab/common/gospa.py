@@ -7,7 +7,7 @@ import math
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-import scoring
+from common import scoring
 
 
 def pair(targets_m, tracks_m, cutoff_m):

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-import scene_files
+from common import scene_files
 
 GATE_SHARE = 0.0125  # of the largest range: a track so near to a target may be that target's
 FORGIVEN_TURNS = 5  # of the slowest sensor: for so long a track may stay behind where its target left or died
