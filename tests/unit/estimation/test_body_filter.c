@@ -145,6 +145,111 @@ static void width_has_a_floor(void **state)
     assert_true(fabs((double)(shape.length_m / shape.width_m) - 16.0) < 1e-3);
 }
 
+/* ---- figures --------------------------------------------------------------------------------- */
+
+static void expect_close(double is, double wanted)
+{
+    assert_true(fabs(is - wanted) <= 2e-5 * fabs(wanted));
+}
+
+static void a_heading_takes_a_speed_of_three_sigmas(void **state)
+{
+    struct rho_body_filter body;
+    (void)state;
+    rho_body_start(&body, 1, 9.0f);
+    moves(&body, 2.9f, 0.0f, 1.0f);
+    assert_int_equal(body.has_heading, 0);
+    moves(&body, 3.1f, 0.0f, 1.0f);
+    assert_int_equal(body.has_heading, 1);
+}
+
+/* Before and after the first heading: four plots' worth of the prior more, and a third as wide. */
+static void what_a_new_body_is_taken_for(void **state)
+{
+    struct rho_body_filter body;
+    float world[3];
+    (void)state;
+    rho_body_start(&body, 1, 9.0f);
+    expect_close((double)rho_body_most_along_m2(&body), 9.0 + 9.0 * 4.0 / 4.3);
+    moves(&body, 10.0f, 0.0f, 0.0f);
+    rho_body_spread(&body, world);
+    expect_close((double)world[0], 9.0);
+    expect_close((double)world[2], 9.0 / 9.0);
+}
+
+/* One axis by the head of body_filter.c, in double precision. */
+struct axis {
+    double mean_m2, weight;
+};
+
+static void learn(struct axis *axis, double kept, double usual_m2, double mean_m2, double own_m2,
+                  double n)
+{
+    const double share = usual_m2 / (usual_m2 + own_m2);
+    axis->weight = kept * axis->weight + n * share * share;
+    axis->mean_m2 += n * share * share / axis->weight * (mean_m2 - own_m2 - axis->mean_m2);
+    axis->weight = fmax(axis->weight, 0.01);
+}
+
+/* The sigma of a side, by what few plots, scatterers that stay and the heading leave of it. */
+static double sigma_of_side(double spread_m2, double usual_m2, double turned_m2, double weight,
+                            double most)
+{
+    const double length_m = sqrt(12.0 * spread_m2);
+    const double drawn_m = 6.0 * fmax(spread_m2, usual_m2) * sqrt(2.0 / weight) / length_m;
+    return sqrt(drawn_m * drawn_m + pow(length_m / pow(most, 1.5), 2.0) +
+                pow(6.0 * turned_m2 / length_m, 2.0));
+}
+
+/* Looks of few plots and of many, of less spread than their noise, and of noise alone. */
+static void every_look_as_derived(void **state)
+{
+    static const struct rho_body_look looks[] = {
+        {2, 30.0f, 3.0f, 0.5f, 0.4f},       {5, 80.0f, 2.0f, 1.0f, 0.8f},
+        {1, 4.0f, 0.02f, 0.3f, 0.2f},       {300, 3500.0f, 250.0f, 90.0f, 60.0f},
+        {400, 4000.0f, 300.0f, 1e3f, 1e3f}, {8, 1.0f, 0.1f, 900.0f, 90.0f},
+        {600, 1.0f, 1.0f, 600.0f, 600.0f},  {600, 1.0f, 1.0f, 6e7f, 6e7f},
+    };
+    const double prior_m2 = 9.0, heading_rad = 0.12, turned = 0.7 * heading_rad * heading_rad;
+    struct axis along = {prior_m2, 0.3}, across = {prior_m2 / 9.0, 0.3};
+    double width_m2 = across.mean_m2, plots = 1.0, most = 0.0;
+    struct rho_body_filter body;
+    struct rho_body shape;
+    (void)state;
+    rho_body_start(&body, 1, (float)prior_m2);
+    moves(&body, 10.0f, 0.0f, 1.44f);
+    for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++) {
+        const struct rho_body_look *look = &looks[i];
+        const double n = look->num_plots, kept = fmax(1.0 - n / 500.0, 0.0);
+        const double usual_m2 = fmax(along.mean_m2, prior_m2 / 16.0);
+        const double before_m2 = along.mean_m2;
+        rho_body_add(&body, look);
+        learn(&along, kept, usual_m2, (double)look->along_m2 / n,
+              (double)look->noise_along_m2 / n + turned * width_m2, n);
+        along.mean_m2 = fmax(along.mean_m2, 1e-3);
+        learn(&across, kept, fmax(along.mean_m2, prior_m2 / 16.0) / 36.0,
+              (double)look->across_m2 / n, (double)look->noise_across_m2 / n + turned * before_m2,
+              n);
+        width_m2 = fmax(across.mean_m2, along.mean_m2 / 256.0);
+        plots = kept * plots + n;
+        most = fmax(most, n);
+        rho_body_shape(&body, &shape);
+        expect_close((double)shape.length_m, sqrt(12.0 * along.mean_m2));
+        expect_close((double)shape.width_m, sqrt(12.0 * width_m2));
+        expect_close((double)shape.plots, plots);
+        expect_close((double)rho_body_most_along_m2(&body),
+                     along.mean_m2 + prior_m2 * 4.0 / (4.0 + along.weight));
+        const double now_m2 = fmax(along.mean_m2, prior_m2 / 16.0);
+        expect_close((double)shape.sigma_length_m,
+                     sigma_of_side(along.mean_m2, now_m2, turned * width_m2, along.weight, most));
+        expect_close(
+            (double)shape.sigma_width_m,
+            sigma_of_side(width_m2, now_m2 / 36.0, turned * along.mean_m2, across.weight, most));
+    }
+    expect_close(along.mean_m2, 1e-3);
+    expect_close(along.weight, 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -153,6 +258,9 @@ int main(void)
         cmocka_unit_test(heading_comes_from_sure_velocities),
         cmocka_unit_test(axes_there_and_back),
         cmocka_unit_test(width_has_a_floor),
+        cmocka_unit_test(a_heading_takes_a_speed_of_three_sigmas),
+        cmocka_unit_test(what_a_new_body_is_taken_for),
+        cmocka_unit_test(every_look_as_derived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

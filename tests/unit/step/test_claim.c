@@ -331,6 +331,127 @@ static void the_hough_gate_takes_the_plot_that_goes_on_straight(void **state)
     interval_s = 1.0;
 }
 
+/* The normal of the line in velocity space on which the track is to stay: the cell of (20). */
+static void normal_of(const struct rho_track *track, double normal[2])
+{
+    const double cell_rad = 5.0 * 3.14159265358979 / 180.0;
+    double least = INFINITY;
+    for (int j = 1; j <= 36; j++) {
+        const double c = cos((j - 0.5) * cell_rad), s = sin((j - 0.5) * cell_rad);
+        const double change =
+            fabs(((double)track->newest_mps[0] - (double)track->before_mps[0]) * c +
+                 ((double)track->newest_mps[1] - (double)track->before_mps[1]) * s);
+        if (change < least) {
+            least = change;
+            normal[0] = c;
+            normal[1] = s;
+        }
+    }
+}
+
+static unsigned lower, upper; /* rows of two tracks, by their y */
+
+/* A plot whose velocity is so far off the lines of both tracks. */
+static void add_off_by(double y_m, double lower_mps, double upper_mps)
+{
+    const float *u_mps = tracker.tracks[lower].newest_mps,
+                *v_mps = tracker.tracks[upper].newest_mps;
+    double a[2], b[2];
+    normal_of(&tracker.tracks[lower], a);
+    normal_of(&tracker.tracks[upper], b);
+    const double p = lower_mps + a[0] * (double)u_mps[0] + a[1] * (double)u_mps[1];
+    const double q = upper_mps + b[0] * (double)v_mps[0] + b[1] * (double)v_mps[1];
+    const double det = a[0] * b[1] - a[1] * b[0];
+    struct target at = {.x_m = -5000.0 + 200.0 * 16, .y_m = y_m};
+    add_plot(&at, 0.0, -1);
+    plots[num_plots - 1].vx_mps = (float)((p * b[1] - q * a[1]) / det);
+    plots[num_plots - 1].vy_mps = (float)((a[0] * q - b[0] * p) / det);
+}
+
+/* Two tracks, at y 0 and 400 m, whose velocities changed nearly along x and y. */
+static struct rho_scan fly_two(uint8_t status_of_upper)
+{
+    draw(RHO_TRACKER_HOUGH, 77);
+    config.hough_window_m = 2000.0f;
+    scene.measures = RHO_MEASURES_VELOCITY;
+    scene.num_targets = 2;
+    scene.target[0] = (struct target){-5000.0, 0.0, 3000.0, 200.0, 0.0, 0.0, 0.0, 0.0};
+    scene.target[1] = (struct target){-5000.0, 400.0, 3000.0, 200.0, 0.0, 0.0, 0.0, 0.0};
+    begin();
+    for (int k = 0; k < 16; k++) {
+        step(k);
+    }
+    assert_int_equal(report.num_tracks, 2);
+    upper = tracker.tracks[1].kalman.state[1] > 200.0f;
+    lower = 1 - upper;
+    for (unsigned i = 0; i < 2; i++) {
+        const float *newest_mps = tracker.tracks[i].newest_mps;
+        tracker.tracks[i].before_mps[0] = newest_mps[0] - (i == lower ? 3.0f : 0.1f);
+        tracker.tracks[i].before_mps[1] = newest_mps[1] - (i == upper ? 3.0f : 0.1f);
+    }
+    tracker.tracks[upper].status = status_of_upper;
+    num_plots = 0;
+    return scan_at(16);
+}
+
+/*
+ * The confirmed track may have either plot, the tentative one the first alone, which is just its
+ * own: 16 + ln 1000 nat. For the confirmed one the second is worse by 200 ln of the ratio, so up
+ * to a ratio of 1.12 it leaves the first.
+ */
+static void a_confirmed_track_gives_way_by_a_tenth_and_no_more(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct rho_scan scan = fly_two(RHO_TRACK_TENTATIVE);
+        add_off_by(0.0, 10.0, 0.0);
+        add_off_by(-1800.0, i ? 10.9 : 11.7, 0.0);
+        take_scan(&scan, NULL);
+        assert_int_equal(report.tracks[lower].plot, i);
+        assert_int_equal(report.tracks[upper].plot, i ? 0 : -1);
+    }
+}
+
+/*
+ * Between confirmed tracks the product of the residuals decides, of each 0.001 m/s more: 0 and 1
+ * m/s against twice 0.031.
+ */
+static void residuals_below_a_millimetre_a_second_are_alike(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const double off_mps = i ? 0.026 : 0.036;
+        struct rho_scan scan = fly_two(RHO_TRACK_CONFIRMED);
+        add_off_by(200.0, 0.0, off_mps);
+        add_off_by(210.0, off_mps, 1.0);
+        take_scan(&scan, NULL);
+        assert_int_equal(report.tracks[lower].plot, i);
+        assert_int_equal(report.tracks[upper].plot, 1 - i);
+    }
+}
+
+/*
+ * With fewer than three velocities the chi-square gate has its place: the plot in the middle, not
+ * the one that goes on straight.
+ */
+static void the_hough_gate_begins_with_the_third_velocity(void **state)
+{
+    (void)state;
+    for (uint8_t velocities = 2; velocities < 4; velocities++) {
+        struct rho_scan scan = fly_two(RHO_TRACK_CONFIRMED);
+        const float *at = tracker.tracks[lower].kalman.state;
+        tracker.tracks[lower].num_velocities = velocities;
+        add_off_by(0.0, 9.0, 1.0);
+        add_off_by(0.0, 0.0, 1.0);
+        for (int i = 0; i < 2; i++) {
+            plots[i].x_m = at[0] + at[3];
+            plots[i].y_m = at[1] + at[4] + 15.0f * (float)i;
+        }
+        take_scan(&scan, NULL);
+        assert_int_equal(report.tracks[lower].plot, velocities - 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -341,6 +462,9 @@ int main(void)
         cmocka_unit_test(looks_follow_the_prediction),
         cmocka_unit_test(a_frame_s_gates_are_as_wide_as_targets_may_pull),
         cmocka_unit_test(the_hough_gate_takes_the_plot_that_goes_on_straight),
+        cmocka_unit_test(a_confirmed_track_gives_way_by_a_tenth_and_no_more),
+        cmocka_unit_test(residuals_below_a_millimetre_a_second_are_alike),
+        cmocka_unit_test(the_hough_gate_begins_with_the_third_velocity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
