@@ -9,6 +9,7 @@
 #   BUILD=folder      where everything goes (default build); give each set of flags its own
 #   FUZZ_SECONDS=60   how long `make fuzz` runs, all targets together; FUZZ_SECONDS_EACH= each of them
 #   RHO_CONFIG_FILE=  a header with capacities of your own for build/librhotrack.a (include/rhotrack/config.h)
+#   CROSS=riscv64-unknown-elf-  compilers of `make budget`, by their prefix (default arm-none-eabi-)
 #   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local); BINDIR=, LIBDIR=, INCLUDEDIR=, DOCDIR=,
 #                     UNITDIR= (systemd), SYSCONFDIR= single folders
 #   PROFILE=workstation  installs the library of that profile (default embedded)
@@ -465,6 +466,17 @@ size:
 ## Write what `make size` measures into tools/lab/MEASUREMENTS.md
 size-update:
 	@BUILD=$(BUILD) tools/gates/size.sh --update
+
+# A Cortex-M4F where nothing else is said; CC= where it was given.
+CROSS := arm-none-eabi-
+budget_cc = $(if $(filter command%,$(origin CC)),$(CC),$(CROSS)gcc)
+budget_cpu = $(if $(filter -m%,$(CFLAGS)),,$(if $(filter arm-none-eabi-gcc,$(notdir $(budget_cc))),$(m4_cpu)))
+budget_opt = $(if $(filter command%,$(origin OPT)),$(OPT),-Os)
+.PHONY: budget
+## Flash and RAM of RHO_CONFIG_FILE, by module, on a Cortex-M4F (CROSS= or CC=, CFLAGS=, OPT= for another processor)
+budget:
+	@BUILD=$(BUILD) tools/gates/budget.py --config='$(RHO_CONFIG_FILE)' --cc='$(budget_cc)' \
+	    --flags='$(strip $(budget_opt) $(budget_cpu) $(CFLAGS))'
 
 ## Instructions that typical jobs execute (valgrind); own covariances cost at most 1.5 times isotropic noise
 instructions: $(library) $(workstation_library)

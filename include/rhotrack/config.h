@@ -2,6 +2,14 @@
 /*
  * config: the capacities that fix the size of every object, and their costs.
  *
+ * Ten of them decide nearly all: they stand first, and few firmwares set others. Then come further
+ * capacities, code that can be left out, passive sensors, and the papers' methods.
+ *
+ *     make budget RHO_CONFIG_FILE=my_config.h
+ *
+ * compiles the library with a file of capacities and says what it takes of flash and RAM, the
+ * largest parts by name, for a Cortex-M4F or with CROSS= and CFLAGS= for another processor.
+ *
  * Two profiles give the defaults: embedded (the default; a Cortex-M4F with 256 KiB of RAM) and
  * workstation (-DRHO_PROFILE_WORKSTATION; the command-line tools). Single capacities are overridden
  * with -D, or all in one file named by -DRHO_CONFIG_FILE='"my_config.h"', which is included first.
@@ -22,12 +30,20 @@
 #endif
 
 /*
- * Scans in the initiation window. More scans find tracks in denser clutter, later. RAM: linear. 3
- * .. 12.
+ * ---- The ten that matter first ----
+ *
+ *                        embedded  workstation  one more takes, bytes of RAM, embedded profile
+ *   RHO_MAX_PLOTS              256        10000  390: 35 a scan of the window, 56 an open scan
+ *   RHO_MAX_TRACKS              32         2000  760
+ *   RHO_MAX_HYPOTHESES          96         6000  410
+ *   RHO_MAX_SCANS                7           12  9400: 35 a plot
+ *   RHO_MAX_SENSORS              8           64  540
+ *   RHO_MAX_ECHOES             128         8192  64; 0 saves 15 KB, and 10 KB of flash
+ *   RHO_MAX_OPEN_SCANS           2           16  14600: 56 a plot; of messages alone
+ *   RHO_WORK_MAX            500000      8000000  none: it bounds the time of a step
+ *   RHO_FILTERS                  7            7  none; one filter saves 9 KB of flash or more
+ *   RHO_SECTORS                  1            1  0 saves 5 KB of flash
  */
-#ifndef RHO_MAX_SCANS
-#define RHO_MAX_SCANS RHO_CONFIG_PICK(7, 12)
-#endif
 
 /*
  * Plots of one scan that are gated, and held for initiation; the rest get the fate NO_ROOM. With
@@ -39,11 +55,89 @@
 #endif
 
 /*
- * Bins of one scan's neighbour look-up. More bins mean fewer distance tests. RAM: 2 bytes a bin and
- * scan. 1 .. 32767.
+ * Tracks at a time. When all are taken, the tentative track of the lowest score is dropped. 1 ..
+ * 8192.
+ */
+#ifndef RHO_MAX_TRACKS
+#define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
+#endif
+
+/*
+ * Hypotheses of all tracks together, up to eight a track: a straight track without clutter needs
+ * one, a manoeuvring track in clutter eight. More than RHO_MAX_TRACKS where the tracker's gate is
+ * `best`; 1 where it never is. RAM: 410 bytes each. 1 .. 65534.
+ */
+#ifndef RHO_MAX_HYPOTHESES
+#define RHO_MAX_HYPOTHESES RHO_CONFIG_PICK(96, 6000)
+#endif
+
+/*
+ * Scans in the initiation window. More scans find tracks in denser clutter, later. RAM: linear. 3
+ * .. 12.
+ */
+#ifndef RHO_MAX_SCANS
+#define RHO_MAX_SCANS RHO_CONFIG_PICK(7, 12)
+#endif
+
+/* Sensors in the tracker's table. 1 .. 256. */
+#ifndef RHO_MAX_SENSORS
+#define RHO_MAX_SENSORS RHO_CONFIG_PICK(8, 64)
+#endif
+
+/*
+ * Echoes in the clutter map (rhotrack/clutter_map.h), of all sensors together. 0 leaves the map out
+ * of the program. RAM: 64 bytes each. 0 .. 32767.
+ */
+#ifndef RHO_MAX_ECHOES
+#define RHO_MAX_ECHOES RHO_CONFIG_PICK(128, 8192)
+#endif
+
+/*
+ * Scans that are assembled, or wait in the reorder buffer, at a time. With 1, parts of two sensors'
+ * scans that arrive interleaved displace each other. RAM: 56 bytes a plot of RHO_MAX_PLOTS each. 1
+ * .. 64.
+ */
+#ifndef RHO_MAX_OPEN_SCANS
+#define RHO_MAX_OPEN_SCANS RHO_CONFIG_PICK(2, 16)
+#endif
+
+/*
+ * Default limit of the work of a step, in units (work_max of struct rho_tracker_config and
+ * rho_initiator_config).
+ */
+#ifndef RHO_WORK_MAX
+#define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 8000000)
+#endif
+
+/*
+ * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2
+ * input estimation with its gate hough, 4 hypotheses. Code of the other filters is left out of the
+ * program: a radar with the gate best needs 4 alone (10 KB less on a Cortex-M4), one with the gate
+ * nearest 1. Configurations that ask for another filter are refused (CONFIG). RAM does not change:
+ * without 4, set RHO_MAX_HYPOTHESES to 1. Default: all. 1 .. 7.
+ */
+#ifndef RHO_FILTERS
+#define RHO_FILTERS 7
+#endif
+
+/*
+ * 1: sectors and several radars. Successive sectors are one scan of the initiation window, and a
+ * target between two sectors is seen once a revolution; out-of-sequence scans update tracks; sensor
+ * health finds the sensor that contradicts the others. 0: left out of the program (5 KB less on a
+ * Cortex-M4), every scan is a look of its own. RAM: 52 bytes a sensor.
+ */
+#ifndef RHO_SECTORS
+#define RHO_SECTORS 1
+#endif
+
+/* ---- Further capacities of trackers ---- */
+
+/*
+ * Bins of one scan's neighbour look-up. More bins mean fewer distance tests. Default, embedded: 2.25
+ * a plot. RAM: 2 bytes a bin and scan. 1 .. 32767.
  */
 #ifndef RHO_MAX_BINS
-#define RHO_MAX_BINS RHO_CONFIG_PICK(576, 16384)
+#define RHO_MAX_BINS RHO_CONFIG_PICK(RHO_MAX_PLOTS < 14563 ? RHO_MAX_PLOTS * 9 / 4 : 32767, 16384)
 #endif
 
 /*
@@ -53,12 +147,18 @@
 #define RHO_MAX_CANDIDATES RHO_CONFIG_PICK(32, 2048)
 #endif
 
+/* Plots in one track's gate that compete in the assignment; the nearest are kept. 1 .. 32. */
+#ifndef RHO_MAX_GATE_PLOTS
+#define RHO_MAX_GATE_PLOTS RHO_CONFIG_PICK(8, 16)
+#endif
+
 /*
- * Default limit of the work of a step, in units (work_max of struct rho_tracker_config and
- * rho_initiator_config).
+ * Strips that the plots of a scan are sorted into, so that a track is compared with near plots
+ * alone: of use from a million of tracks times plots. 1: no sorting. RAM: 2 bytes each, and 2 a
+ * plot. 1 .. 16384.
  */
-#ifndef RHO_WORK_MAX
-#define RHO_WORK_MAX RHO_CONFIG_PICK(500000, 8000000)
+#ifndef RHO_PLOT_STRIPS
+#define RHO_PLOT_STRIPS RHO_CONFIG_PICK(1, 1024)
 #endif
 
 /* Cells along each side of a clutter density map. RAM: 2 bytes a cell and map. 1 .. 64. */
@@ -83,14 +183,6 @@
 #endif
 
 /*
- * Echoes in the clutter map (rhotrack/clutter_map.h), of all sensors together. 0 leaves the map out
- * of the program. RAM: 64 bytes each. 0 .. 32767.
- */
-#ifndef RHO_MAX_ECHOES
-#define RHO_MAX_ECHOES RHO_CONFIG_PICK(128, 8192)
-#endif
-
-/*
  * Regions of range, and as many of azimuth. The return rate of echoes is learned in each region
  * apart. RAM: 480 bytes a region. 1 .. 15.
  */
@@ -106,132 +198,20 @@
 #define RHO_STROBE_BINS RHO_CONFIG_PICK(360, 720)
 #endif
 
-/* Cells of rho in a row of the Hough accumulator. RAM: 6 or 8 bytes a cell. 64 .. 32704. */
-#ifndef RHO_MAX_RHO_CELLS
-#define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
+/*
+ * Walls that a tracker can know to reflect (rhotrack/reflectors.h). 0 leaves images out of the
+ * program (1.8 KB less on a Cortex-M4). RAM: 16 bytes each. 0 .. 64.
+ */
+#ifndef RHO_MAX_REFLECTORS
+#define RHO_MAX_REFLECTORS RHO_CONFIG_PICK(4, 16)
 #endif
 
 /*
- * Up to this number of points the accumulator remembers the cells that they touched, and searches
- * those alone. RAM: 18 or 32 bytes a point. 64 .. 4096.
+ * Areas that an operator can exclude (rhotrack/excluded_areas.h). 0 leaves them and frozen tracks
+ * out of the program. RAM: 16 bytes each. 0 .. 64.
  */
-#ifndef RHO_ACCUMULATOR_SPARSE_MAX
-#define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
-#endif
-
-/*
- * Bins of rho in which the accumulator counts points, to skip those that cannot reach min_votes.
- * About 4 bins a point of RHO_ACCUMULATOR_SPARSE_MAX; fewer bins skip less. RAM: 4 bytes a bin. A
- * power of two, 64 .. 16384.
- */
-#ifndef RHO_ACCUMULATOR_BINS
-#define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
-#endif
-
-/* Rows are searched in blocks of 64 cells, read as 80 with their margins; a multiple of 4 bytes. */
-#define RHO_ACCUMULATOR_PADDING 84
-
-/*
- * Cells with votes that the papers' methods hold at a time. RAM: 8 bytes a cell. A power of two,
- * 256 .. 4194304.
- */
-#ifndef RHO_MAX_HOUGH_CELLS
-#define RHO_MAX_HOUGH_CELLS RHO_CONFIG_PICK(4096, 131072)
-#endif
-
-/*
- * Pairs of plots of one scan and the next that the papers' methods hold at a time. RAM: 32 bytes a
- * pair. 16 .. 65534.
- */
-#ifndef RHO_MAX_HOUGH_KERNELS
-#define RHO_MAX_HOUGH_KERNELS RHO_CONFIG_PICK(256, 16384)
-#endif
-
-/* Chains in which these pairs are found by their line. RAM: 2 bytes each. */
-#define RHO_HOUGH_CHAINS RHO_CONFIG_PICK(256, 16384)
-
-/* Bearings of one scan of a passive sensor; the rest get the fate NO_ROOM. 1 .. 64. */
-#ifndef RHO_MAX_BEARINGS
-#define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
-#endif
-
-/*
- * Passive sensors, 2 .. 8, and frames in a batch, 4 .. 16. RAM: 17 bytes a bearing, sensor and
- * frame.
- */
-#ifndef RHO_MAX_PASSIVE_SENSORS
-#define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 4)
-#endif
-#ifndef RHO_MAX_PASSIVE_SCANS
-#define RHO_MAX_PASSIVE_SCANS RHO_CONFIG_PICK(8, 16)
-#endif
-
-/* Crossings that vote; the least certain give way. RAM: 24 bytes a crossing. 16 .. 65535. */
-#ifndef RHO_MAX_PASSIVE_POINTS
-#define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 1024)
-#endif
-
-/*
- * Fitted candidates that compete in the selection of passive tracks. RAM: 24 bytes each, and a byte
- * a sensor and frame. 8 .. 255.
- */
-#ifndef RHO_MAX_PASSIVE_CANDIDATES
-#define RHO_MAX_PASSIVE_CANDIDATES RHO_CONFIG_PICK(64, 96)
-#endif
-
-/* Tracks of a batch. 1 .. 64. */
-#ifndef RHO_MAX_PASSIVE_TRACKS
-#define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 16)
-#endif
-
-/* Cells of the passive Hough transform. RAM: 2 bytes a cell. 7 .. 255; 8 .. 4096. */
-#ifndef RHO_PASSIVE_THETA_CELLS
-#define RHO_PASSIVE_THETA_CELLS 36
-#endif
-#ifndef RHO_PASSIVE_RHO_CELLS
-#define RHO_PASSIVE_RHO_CELLS 128
-#endif
-
-/*
- * The paper's passive method: lines that it finds, 1 .. 255; cells of its accumulator, RAM: a byte
- * a cell, and 3 bytes a cell of rho; crossings of a pair of sensors, 16 .. 65535, RAM: 8 bytes
- * each.
- */
-#ifndef RHO_MAX_PASSIVE_LINES
-#define RHO_MAX_PASSIVE_LINES 24
-#endif
-#ifndef RHO_PAPER_THETA_CELLS
-#define RHO_PAPER_THETA_CELLS 90
-#endif
-#ifndef RHO_PAPER_RHO_CELLS
-#define RHO_PAPER_RHO_CELLS 256
-#endif
-#ifndef RHO_MAX_PAPER_CROSSINGS
-#define RHO_MAX_PAPER_CROSSINGS RHO_CONFIG_PICK(512, 4096)
-#endif
-
-/*
- * Directions by which bearings of a scan are looked up. More directions mean fewer comparisons.
- * RAM: a bit each. A multiple of 32, 32 .. 4096.
- */
-#ifndef RHO_PASSIVE_BINS
-#define RHO_PASSIVE_BINS 256
-#endif
-
-/*
- * Pairs of crossings that are remembered as fitted; others may be fitted again. RAM: 6 bytes a
- * pair. 1 .. 65536.
- */
-#ifndef RHO_PASSIVE_PAIRS
-#define RHO_PASSIVE_PAIRS 256
-#endif
-
-/*
- * Tracks at a time. When all are taken, the tentative track of the lowest score is dropped. 1 ..
- * 8192.
- */
-#ifndef RHO_MAX_TRACKS
-#define RHO_MAX_TRACKS RHO_CONFIG_PICK(32, 2000)
+#ifndef RHO_MAX_EXCLUDED_AREAS
+#define RHO_MAX_EXCLUDED_AREAS RHO_CONFIG_PICK(4, 16)
 #endif
 
 /* Zones (rhotrack/zones.h). RAM: 8 bytes a zone and track. 1 .. 30. */
@@ -240,24 +220,14 @@
 #endif
 
 /*
- * Hypotheses of all tracks together, up to eight a track: a straight track without clutter needs
- * one, a manoeuvring track in clutter eight. More than RHO_MAX_TRACKS where the tracker's gate is
- * `best`; 1 where it never is. RAM: 410 bytes each. 1 .. 65534.
+ * Messages that one scan may be spread over; scans of more parts are refused. RAM: 2 bytes a part
+ * and open scan. 1 .. 32767.
  */
-#ifndef RHO_MAX_HYPOTHESES
-#define RHO_MAX_HYPOTHESES RHO_CONFIG_PICK(96, 6000)
+#ifndef RHO_MAX_PARTS
+#define RHO_MAX_PARTS RHO_CONFIG_PICK(16, 512)
 #endif
 
-/*
- * Filters that tracks can have, a bit each, 1 << enum rho_track_filter: 1 a plain Kalman filter, 2
- * input estimation with its gate hough, 4 hypotheses. Code of the other filters is left out of the
- * program: a radar with the gate best needs 4 alone (10 KB less on a Cortex-M4), one with the gate
- * nearest 1. Configurations that ask for another filter are refused (CONFIG). RAM does not change:
- * without 4, set RHO_MAX_HYPOTHESES to 1. Default: all. 1 .. 7.
- */
-#ifndef RHO_FILTERS
-#define RHO_FILTERS 7
-#endif
+/* ---- Code that can be left out ---- */
 
 /*
  * 1: tracks start by the library's searches, rho_initiator and rho_passive. 0: left out of the
@@ -305,27 +275,6 @@
 #endif
 
 /*
- * 1: what each track's gate offered stays until the next step, for rho_tracker_evidence_of. 0: left
- * out of the program.
- */
-#ifndef RHO_KEEPS_OFFERS
-#define RHO_KEEPS_OFFERS RHO_CONFIG_PICK(0, 1)
-#endif
-
-/*
- * 1: sectors and several radars. Successive sectors are one scan of the initiation window, and a
- * target between two sectors is seen once a revolution; out-of-sequence scans update tracks; sensor
- * health finds the sensor that contradicts the others. 0: left out of the program (5 KB less on a
- * Cortex-M4), every scan is a look of its own. RAM: 52 bytes a sensor.
- */
-#ifndef RHO_SECTORS
-#define RHO_SECTORS 1
-#endif
-
-/* Sensors' noise is learned by hypotheses alone, and sensor health raises it. */
-#define RHO_SIGMAS_VARY ((RHO_SECTORS) || ((RHO_FILTERS)&4) != 0)
-
-/*
  * 1: range rates may be ambiguous (range_rate_span_mps of struct rho_sensor). 0: left out of the
  * program (1.5 KB less on a Cortex-M4), and a sensor with a span is refused.
  */
@@ -342,19 +291,11 @@
 #endif
 
 /*
- * Walls that a tracker can know to reflect (rhotrack/reflectors.h). 0 leaves images out of the
- * program (1.8 KB less on a Cortex-M4). RAM: 16 bytes each. 0 .. 64.
+ * 1: what each track's gate offered stays until the next step, for rho_tracker_evidence_of. 0: left
+ * out of the program.
  */
-#ifndef RHO_MAX_REFLECTORS
-#define RHO_MAX_REFLECTORS RHO_CONFIG_PICK(4, 16)
-#endif
-
-/*
- * Areas that an operator can exclude (rhotrack/excluded_areas.h). 0 leaves them and frozen tracks
- * out of the program. RAM: 16 bytes each. 0 .. 64.
- */
-#ifndef RHO_MAX_EXCLUDED_AREAS
-#define RHO_MAX_EXCLUDED_AREAS RHO_CONFIG_PICK(4, 16)
+#ifndef RHO_KEEPS_OFFERS
+#define RHO_KEEPS_OFFERS RHO_CONFIG_PICK(0, 1)
 #endif
 
 /*
@@ -368,41 +309,134 @@
 #define RHO_BODY_PLOTS (RHO_BODIES ? RHO_MAX_PLOTS : 1)
 #define RHO_BODY_TRACKS (RHO_BODIES ? RHO_MAX_TRACKS : 1)
 
-/*
- * Strips that the plots of a scan are sorted into, so that a track is compared with near plots
- * alone: of use from a million of tracks times plots. 1: no sorting. RAM: 2 bytes each, and 2 a
- * plot. 1 .. 16384.
- */
-#ifndef RHO_PLOT_STRIPS
-#define RHO_PLOT_STRIPS RHO_CONFIG_PICK(1, 1024)
-#endif
+/* Sensors' noise is learned by hypotheses alone, and sensor health raises it. */
+#define RHO_SIGMAS_VARY ((RHO_SECTORS) || ((RHO_FILTERS)&4) != 0)
 
-/* Plots in one track's gate that compete in the assignment; the nearest are kept. 1 .. 32. */
-#ifndef RHO_MAX_GATE_PLOTS
-#define RHO_MAX_GATE_PLOTS RHO_CONFIG_PICK(8, 16)
-#endif
+/* ---- Passive sensors ---- */
 
-/* Sensors in the tracker's table. 1 .. 256. */
-#ifndef RHO_MAX_SENSORS
-#define RHO_MAX_SENSORS RHO_CONFIG_PICK(8, 64)
+/* Bearings of one scan of a passive sensor; the rest get the fate NO_ROOM. 1 .. 64. */
+#ifndef RHO_MAX_BEARINGS
+#define RHO_MAX_BEARINGS RHO_CONFIG_PICK(8, 16)
 #endif
 
 /*
- * Scans that are assembled, or wait in the reorder buffer, at a time. With 1, parts of two sensors'
- * scans that arrive interleaved displace each other. RAM: 56 bytes a plot of RHO_MAX_PLOTS each. 1
- * .. 64.
+ * Passive sensors, 2 .. 8, and frames in a batch, 4 .. 16. RAM: 17 bytes a bearing, sensor and
+ * frame.
  */
-#ifndef RHO_MAX_OPEN_SCANS
-#define RHO_MAX_OPEN_SCANS RHO_CONFIG_PICK(2, 16)
+#ifndef RHO_MAX_PASSIVE_SENSORS
+#define RHO_MAX_PASSIVE_SENSORS RHO_CONFIG_PICK(3, 4)
+#endif
+#ifndef RHO_MAX_PASSIVE_SCANS
+#define RHO_MAX_PASSIVE_SCANS RHO_CONFIG_PICK(8, 16)
+#endif
+
+/* Crossings that vote; the least certain give way. RAM: 24 bytes a crossing. 16 .. 65535. */
+#ifndef RHO_MAX_PASSIVE_POINTS
+#define RHO_MAX_PASSIVE_POINTS RHO_CONFIG_PICK(512, 1024)
 #endif
 
 /*
- * Messages that one scan may be spread over; scans of more parts are refused. RAM: 2 bytes a part
- * and open scan. 1 .. 32767.
+ * Fitted candidates that compete in the selection of passive tracks. RAM: 24 bytes each, and a byte
+ * a sensor and frame. 8 .. 255.
  */
-#ifndef RHO_MAX_PARTS
-#define RHO_MAX_PARTS RHO_CONFIG_PICK(16, 512)
+#ifndef RHO_MAX_PASSIVE_CANDIDATES
+#define RHO_MAX_PASSIVE_CANDIDATES RHO_CONFIG_PICK(64, 96)
 #endif
+
+/* Tracks of a batch. 1 .. 64. */
+#ifndef RHO_MAX_PASSIVE_TRACKS
+#define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 16)
+#endif
+
+/* Cells of the passive Hough transform. RAM: 2 bytes a cell. 7 .. 255; 8 .. 4096. */
+#ifndef RHO_PASSIVE_THETA_CELLS
+#define RHO_PASSIVE_THETA_CELLS 36
+#endif
+#ifndef RHO_PASSIVE_RHO_CELLS
+#define RHO_PASSIVE_RHO_CELLS 128
+#endif
+
+/*
+ * Directions by which bearings of a scan are looked up. More directions mean fewer comparisons.
+ * RAM: a bit each. A multiple of 32, 32 .. 4096.
+ */
+#ifndef RHO_PASSIVE_BINS
+#define RHO_PASSIVE_BINS 256
+#endif
+
+/*
+ * Pairs of crossings that are remembered as fitted; others may be fitted again. RAM: 6 bytes a
+ * pair. 1 .. 65536.
+ */
+#ifndef RHO_PASSIVE_PAIRS
+#define RHO_PASSIVE_PAIRS 256
+#endif
+
+/* ---- The papers' methods (hough.h, passive_paper.h, paper_starts.h, show.h) ---- */
+
+/* Cells of rho in a row of the Hough accumulator. RAM: 6 or 8 bytes a cell. 64 .. 32704. */
+#ifndef RHO_MAX_RHO_CELLS
+#define RHO_MAX_RHO_CELLS RHO_CONFIG_PICK(2048, 16384)
+#endif
+
+/*
+ * Up to this number of points the accumulator remembers the cells that they touched, and searches
+ * those alone. RAM: 18 or 32 bytes a point. 64 .. 4096.
+ */
+#ifndef RHO_ACCUMULATOR_SPARSE_MAX
+#define RHO_ACCUMULATOR_SPARSE_MAX RHO_CONFIG_PICK(256, 1024)
+#endif
+
+/*
+ * Bins of rho in which the accumulator counts points, to skip those that cannot reach min_votes.
+ * About 4 bins a point of RHO_ACCUMULATOR_SPARSE_MAX; fewer bins skip less. RAM: 4 bytes a bin. A
+ * power of two, 64 .. 16384.
+ */
+#ifndef RHO_ACCUMULATOR_BINS
+#define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
+#endif
+
+/* Rows are searched in blocks of 64 cells, read as 80 with their margins; a multiple of 4 bytes. */
+#define RHO_ACCUMULATOR_PADDING 84
+
+/*
+ * Cells with votes that the papers' methods hold at a time. RAM: 8 bytes a cell. A power of two,
+ * 256 .. 4194304.
+ */
+#ifndef RHO_MAX_HOUGH_CELLS
+#define RHO_MAX_HOUGH_CELLS RHO_CONFIG_PICK(4096, 131072)
+#endif
+
+/*
+ * Pairs of plots of one scan and the next that the papers' methods hold at a time. RAM: 32 bytes a
+ * pair. 16 .. 65534.
+ */
+#ifndef RHO_MAX_HOUGH_KERNELS
+#define RHO_MAX_HOUGH_KERNELS RHO_CONFIG_PICK(256, 16384)
+#endif
+
+/* Chains in which these pairs are found by their line. RAM: 2 bytes each. */
+#define RHO_HOUGH_CHAINS RHO_CONFIG_PICK(256, 16384)
+
+/*
+ * The paper's passive method: lines that it finds, 1 .. 255; cells of its accumulator, RAM: a byte
+ * a cell, and 3 bytes a cell of rho; crossings of a pair of sensors, 16 .. 65535, RAM: 8 bytes
+ * each.
+ */
+#ifndef RHO_MAX_PASSIVE_LINES
+#define RHO_MAX_PASSIVE_LINES 24
+#endif
+#ifndef RHO_PAPER_THETA_CELLS
+#define RHO_PAPER_THETA_CELLS 90
+#endif
+#ifndef RHO_PAPER_RHO_CELLS
+#define RHO_PAPER_RHO_CELLS 256
+#endif
+#ifndef RHO_MAX_PAPER_CROSSINGS
+#define RHO_MAX_PAPER_CROSSINGS RHO_CONFIG_PICK(512, 4096)
+#endif
+
+/* ---- Ranges ---- */
 
 #if RHO_MAX_SCANS < 3 || RHO_MAX_SCANS > 12
 #error "RHO_MAX_SCANS must be 3 .. 12"
@@ -522,6 +556,12 @@
 #endif
 #if RHO_SECTORS != 0 && RHO_SECTORS != 1
 #error "RHO_SECTORS must be 0 or 1"
+#endif
+#if RHO_SHARES_PLOTS != 0 && RHO_SHARES_PLOTS != 1
+#error "RHO_SHARES_PLOTS must be 0 or 1"
+#endif
+#if RHO_CLAIMS_BEYOND != 0 && RHO_CLAIMS_BEYOND != 1
+#error "RHO_CLAIMS_BEYOND must be 0 or 1"
 #endif
 #if RHO_FAST_UPDATES != 0 && RHO_FAST_UPDATES != 1
 #error "RHO_FAST_UPDATES must be 0 or 1"

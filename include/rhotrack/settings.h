@@ -28,6 +28,28 @@
  *     rho_tracker_reconfigure(&tracker, &track);
  *     rho_initiator_reconfigure(&initiator, &start);
  *
+ * Your radar, from its data sheet to the fields; tools/examples/presets has a program for each
+ * preset below:
+ *
+ *   turns a minute, frame time    scan_interval_s: 60 / turns; the frame of a radar that stares
+ *   instrumented and least range  range_max_m, range_min_m
+ *   pulse, bandwidth              sigma_range_m: the cell, 150 m a us or 150 m / MHz, / 3.5
+ *   beam width                    sigma_azimuth_rad, sigma_elevation_rad: / 4; monopulse: / 10
+ *   accuracy, rms                 the sigma itself
+ *   velocity resolution           sigma_range_rate_mps: / 3.5; scans have RHO_MEASURES_RANGE_RATE
+ *   elevations                    scans have RHO_MEASURES_Z; z_m of struct rho_sensor
+ *   unambiguous velocity +-v      range_rate_span_mps of struct rho_sensor: 2 v
+ *   MTI: lowest and blind speed   notch_mps, blind_speed_mps of struct rho_sensor
+ *   blanked or staring sector     sector_from_rad, sector_to_rad of struct rho_sensor
+ *   plots in sectors of a turn    sector_from_rad, sector_to_rad of each scan
+ *   place, mast, north mark       x_m, y_m, z_m, azimuth_bias_rad of struct rho_sensor
+ *   a radar that moves            its place set anew before each scan; plots are over ground
+ *   P_D of your targets           pd
+ *   false-alarm rate              none: clutter is measured; false_tracks_per_hour is chosen
+ *   your targets                  v_min_mps, v_max_mps, accel_max_mps2
+ *
+ * Compass angles, clockwise from north, are pi/2 - a here.
+ *
  * Each field below says when it applies then: [step] from the next step on; [window] likewise, but
  * the initiation window begins anew, so that no track starts before its scans have come; [sensor]
  * by rho_tracker_set_sensor, from the next step on; [plot] by the plots that have it. A passive

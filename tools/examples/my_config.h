@@ -8,7 +8,6 @@
 #define RHO_MAX_ECHOES 32 /* of clutter that comes back */
 #define RHO_ECHO_REGIONS 1
 #define RHO_STROBE_BINS 120
-#define RHO_MAX_BINS 144
 #define RHO_MAX_CANDIDATES 8
 #define RHO_MAX_TRACKS 8
 #define RHO_MAX_HYPOTHESES 24

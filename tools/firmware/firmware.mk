@@ -14,7 +14,8 @@ FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-reorder-blocks -fno-move-loop
                 -fno-tree-dominator-opts -fno-ipa-sra \
                 --param=large-stack-frame=64 --param=large-stack-frame-growth=50
 
-m4_flags := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0x40200000u
+m4_cpu := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
+m4_flags := $(m4_cpu) -DMPS2_ETHERNET=0x40200000u
 m7_flags := -mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -DMPS2_ETHERNET=0xA0000000u
 firmware_flags := -std=c99 $(common_flags) $(warnings) -ffunction-sections -fdata-sections -I$(firmware_folder)
 firmware_link := -nostartfiles -Wl,--gc-sections -L$(board)/mps2

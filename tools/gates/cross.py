@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Compiles the library for the processors that it is made for, and reads the objects: for size.py,
-stack.py, gates.py.
+stack.py, gates.py, budget.py.
 
 Objects lie in $BUILD/cross/<target>-<profile><optimisation>/, and are kept until a source, a
 header, the compiler or a flag changes. What SIZE_FLAGS holds is added to every compilation.
@@ -16,12 +16,15 @@ import subprocess
 import sys
 
 HOME = pathlib.Path(__file__).resolve().parent.parent.parent
-FLAGS = "-std=c99 -ffp-contract=off -Iinclude -fstack-usage -fcallgraph-info=su"
+FLAGS = "-std=c99 -ffp-contract=off -Iinclude"
+GRAPH = "-fstack-usage -fcallgraph-info=su"
 PROFILES = {"embedded": "", "workstation": "-DRHO_PROFILE_WORKSTATION"}
 
 
 class Target:
     """A processor: what it is called, its compiler, and the flags that choose it."""
+
+    graph = GRAPH
 
     def __init__(self, title, prefix, flags):
         self.title, self.prefix, self.flags = title, prefix, flags.split()
@@ -62,16 +65,22 @@ def output(command, **options):
     return done.stdout
 
 
+def top():
+    """The folder of all that is compiled here."""
+    folder = pathlib.Path(os.environ.get("BUILD", "build")).absolute() / "cross"
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
 class Build:
     """All sources of a root, compiled for one target: {stem: object}, with its .su and .ci beside
-    it."""
+    it. `also`: a text with which everything is compiled anew where it changes."""
 
-    def __init__(self, target, root=".", profile="embedded", optimisation="-Os"):
+    def __init__(self, target, root=".", profile="embedded", optimisation="-Os", also=""):
         self.name, self.target, self.root = target, TARGETS[target], pathlib.Path(root)
-        self.flags = [*FLAGS.split(), optimisation, *self.target.flags, *PROFILES[profile].split(),
-                      *os.environ.get("SIZE_FLAGS", "").split()]
-        top = pathlib.Path(os.environ.get("BUILD", "build")).absolute()
-        self.folder = top / "cross" / f"{target}-{profile}{optimisation}"
+        self.flags = [*FLAGS.split(), *self.target.graph.split(), optimisation, *self.target.flags,
+                      *PROFILES[profile].split(), *os.environ.get("SIZE_FLAGS", "").split()]
+        self.folder, self.also = top() / f"{target}-{profile}{optimisation}", also
         self.sources = sorted(self.root.glob("src/*/*.c"))
         if not self.sources:
             sys.exit(f"no sources under {self.root.absolute()}")
@@ -83,7 +92,7 @@ class Build:
 
     def compile_all(self):
         """Compiles what is not up to date, as many files at a time as there are processors."""
-        common = hashlib.sha256(" ".join([self.target.version(), *self.flags]).encode())
+        common = hashlib.sha256(" ".join([self.target.version(), *self.flags, self.also]).encode())
         for header in sorted([*self.root.glob("include/**/*.h"), *self.root.glob("src/**/*.h")]):
             common.update(header.read_bytes())
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -133,9 +142,7 @@ def sizes_of(target, expressions, flags=()):
         for header in sorted(pathlib.Path("include").glob("**/*.h"))
     ]
     lines += [f"char sized_{name}[{expression}];" for name, expression in expressions.items()]
-    top = pathlib.Path(os.environ.get("BUILD", "build")) / "cross"
-    top.mkdir(parents=True, exist_ok=True)
-    made = str(top / f"sizes-{os.getpid()}.o")
+    made = str(top() / f"sizes-{os.getpid()}.o")
     output([
         TARGETS[target].tool("gcc"), "-std=c99", "-Iinclude", "-fno-common", *TARGETS[target].flags,
         *os.environ.get("SIZE_FLAGS", "").split(), *flags, "-x", "c", "-c", "-o", made, "-"

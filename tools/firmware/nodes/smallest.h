@@ -6,7 +6,6 @@
 #define RHO_WORK_MAX 20000
 #define RHO_MAX_SCANS 6
 #define RHO_MAX_PLOTS 64
-#define RHO_MAX_BINS 144
 #define RHO_MAX_TRACKS 8
 #define RHO_MAX_HYPOTHESES 1
 #define RHO_MAX_SENSORS 1

@@ -7,7 +7,6 @@
 #define RHO_MAX_SCANS 6
 #define RHO_MAX_PLOTS 64
 #define RHO_MAX_TRACKS 32
-#define RHO_MAX_BINS 144
 #define RHO_MAX_SENSORS 2
 #include "radar_capacities.h"
 
