@@ -86,8 +86,8 @@ run command renumber 40 40
 check 'an identity that is taken is refused' exits 1
 stop
 check 'the node ends with 0' exits 0
-check 'it says what it has done' grep -q '^rhotrack: commands done: 7$' open.err
-check 'and refused' grep -q '^rhotrack: commands refused: 2' open.err
+check 'it says what it has done' grep -q 'Z rhotrack: commands done: 7$' open.err
+check 'and refused' grep -q 'Z rhotrack: commands refused: 2' open.err
 check 'all are in its log' test "$(grep -ac RHO_COMMAND_ANSWERS open.lcm)" -ge 1
 
 # ---- a node that takes none ----

@@ -84,7 +84,7 @@ check 'SIGTERM as well' exits 0
 check 'the tracks are those of track' cmp tracks.csv one.csv
 check 'both nodes of a machine hear the sensor' cmp tracks.csv two.csv
 check 'last words' matches "$(tail -n 1 one.err)" \
-    'rhotrack: 3? messages in, * out; 15 steps, * plots, * tracks confirmed; * us a step, * at most'
+    '*Z rhotrack: 3? messages in, * out; 15 steps, * plots, * tracks confirmed; * us a step, * at most'
 run convert one.lcm logged.csv --kind tracks
 check 'the log holds the tracks' same_tracks tracks.csv logged.csv
 run convert one.lcm plots.csv --kind plots
@@ -256,7 +256,7 @@ check 'a full disk: what is said' matches "$(tail -n 1 stderr)" 'rhotrack: *No s
 refused() { # name, URL, message
     run node --for 1 --lcm "$2"
     check "$1" exits 2
-    check "$1: what is said" matches "$(tail -n 1 stderr)" "rhotrack: --lcm $2: $3"
+    check "$1: what is said" matches "$(tail -n 1 stderr)" "*rhotrack: --lcm $2: $3"
 }
 refused 'no scheme' bogus 'no LCM URL; *'
 refused 'no group' udpm://10.1.2.3:7667 '* is no multicast group *'
@@ -276,6 +276,6 @@ check 'publish without its input' exits 2
 run node --log nowhere/at.lcm
 check 'a log that cannot be' exits 1
 LCM_DEFAULT_URL=bogus run node
-check 'the environment is named' says 2 'rhotrack: LCM_DEFAULT_URL bogus: *'
+check 'the environment is named' says 2 '*Z rhotrack: LCM_DEFAULT_URL bogus: *'
 
 finish

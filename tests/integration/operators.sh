@@ -40,7 +40,8 @@ twice() { # NAME FILE SPEED TRACKS OPTIONS...
     stop
     check "$name: its tracks twice" matches "$(halves "$name.csv")" "$tracks $tracks"
     check "$name: the restart is told" test "$(grep -c \
-        '^rhotrack: sensor 1 begins again: a restart, or a record played again$' "$name.err")" = 1
+        '^20[0-9T:.-]*Z rhotrack: sensor 1 begins again: a restart, or a record played again$' \
+        "$name.err")" = 1
     check "$name: and nothing else" test "$(grep -Ec 'scans|bad|stale|double|suspect' "$name.err")" = 0
 }
 "$program" simulate radar -o radar # seven scans, 10 s apart
@@ -52,6 +53,45 @@ twice log short.log.lcm 25 3 --config short/scenario.ini # the same numbers, tim
 steps=$(sed -n 's/.*; \([0-9]*\) steps, .*/\1/p' log.err)
 check 'no scan is lost by it' test "$steps" = 50
 
+# ---- each line has its time, and a sensor its name ----
+printf '[sensor 1]\nname = north tower\n' >names.ini
+"$program" convert short/plots.csv again.lcm
+start named --config short/scenario.ini --config names.ini --set sensor.7.name=never
+before=$(date -u +%Y-%m-%dT%H:%M:%S)
+run publish again.lcm --speed 25
+run publish again.lcm --speed 25
+python3 - <<'PYTHON'
+import os, socket, struct, urllib.parse
+address = urllib.parse.urlsplit(os.environ["LCM_DEFAULT_URL"])
+here = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+here.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
+for channel in (b"RHO_POLAR_7", b"RHO_POLAR_many"):
+    here.sendto(struct.pack(">II", 0x4C433032, 1) + channel + b"\0nothing",
+                (address.hostname, address.port))
+PYTHON
+sleep 0.6
+stop
+after=$(date -u +%Y-%m-%dT%H:%M:%S)
+check 'the name stands behind the number' grep -q \
+    'Z rhotrack: sensor 1 (north tower) begins again: a restart' named.err
+check 'what is counted is said with its last sensor' grep -q \
+    'Z rhotrack: messages bad: 1 so far, the last one of sensor 7 (never)$' \
+    named.err
+check 'each line has a time of this run' awk -v from="$before" -v to="$after" '
+    $1 !~ /^[0-9-]+T[0-9:]+\.[0-9][0-9][0-9]Z$/ || $2 != "rhotrack:" ||
+    substr($1, 1, 19) < from || substr($1, 1, 19) > to { exit 1 }
+    END { exit NR < 3 }' named.err
+check 'config shows names' sh -c "'$program' config --config names.ini |
+    grep -q '^sensor.1.name .* north tower  *config '"
+for name in "$(printf 'a\001b')" "$(printf %40s name)" ''; do
+    run config --set "sensor.1.name=$name"
+    check 'what is no name is refused' says 2 'rhotrack: --set sensor.1.name=*: name * *'
+done
+# in the journal of systemd, which has its own
+JOURNAL_STREAM=$(stat -c %d:%i journal 2>/dev/null || { : >journal; stat -c %d:%i journal; }) \
+    "$program" node --for 0.1 2>>journal </dev/null
+check 'the journal gets lines without a time' grep -q '^rhotrack: 0 messages in' journal
+
 # ---- two senders of one sensor ----
 "$program" simulate radar --seed 9 --set duration_s=25 --set radars.0.interval_s=1 -o other
 start two --config short/scenario.ini
@@ -60,7 +100,7 @@ first=$!
 sleep 0.5
 "$program" publish other/plots.csv --speed 10 2>/dev/null &
 second=$!
-named() { grep -Eq '^rhotrack: sensor 1 has two senders: [0-9.]+:[0-9]+ and [0-9.]+:[0-9]+; ' two.err; }
+named() { grep -Eq 'rhotrack: sensor 1 has two senders: [0-9.]+:[0-9]+ and [0-9.]+:[0-9]+; ' two.err; }
 check 'two senders are named within 2 s' wait_until 2 named
 wait "$first" "$second"
 stop
@@ -70,7 +110,7 @@ check 'once' test "$(grep -c 'has two senders' two.err)" = 1
 start one
 one=$node
 start more
-named() { grep -q '^rhotrack: another node publishes tracks here: ' "$1.err"; }
+named() { grep -q ' rhotrack: another node publishes tracks here: ' "$1.err"; }
 check 'a second node is named within 2 s' wait_until 2 named one
 check 'by both' wait_until 2 named more
 stop
@@ -90,7 +130,7 @@ check 'publish says that scans have one plot' grep -q \
     '^rhotrack: plots.csv: 1575 of 1576 scans have one plot each: is scan_interval_s meant?$' stderr
 stop
 check 'and so does the node, once' test "$(grep -c \
-    '^rhotrack: sensor 1: 19 of 20 scans have one plot each: ' rows.err)" = 1
+    ' rhotrack: sensor 1: 19 of 20 scans have one plot each: ' rows.err)" = 1
 check 'no restart is said of it' bash -c '! grep -q "begins again" rows.err'
 
 finish

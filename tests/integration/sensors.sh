@@ -102,13 +102,13 @@ PYTHON
 limits=(--set v_max_mps=400 --set accel_max_mps2=10)
 "$program" convert biased.csv biased.lcm
 run node --lcm 'file://biased.lcm?speed=0' "${limits[@]}"
-check 'a biased sensor: what was said' matches "$(grep 'sensor [0-9]' stderr)" 'rhotrack: sensor 3 is suspect: its innovations are ?.? times what its sigmas say
-rhotrack: sensor 3 is trusted again'
+check 'a biased sensor: what was said' matches "$(grep 'sensor [0-9]' stderr)" '1970-01-01T00:0[0-9]:* rhotrack: sensor 3 is suspect: its innovations are ?.? times what its sigmas say
+1970-01-01T00:0[0-9]:* rhotrack: sensor 3 is trusted again'
 awk -F, 'NR == 1 || $1 < 240' biased.csv >begun.csv
 "$program" convert begun.csv begun.lcm
 run node --lcm 'file://begun.lcm?speed=0' --log said.lcm "${limits[@]}"
 check 'a biased sensor: the last words' matches "$(tail -n 1 stderr)" \
-    'rhotrack: sensor 3 contradicts the others'
+    '* rhotrack: sensor 3 contradicts the others'
 check 'a biased sensor: on RHO_SENSORS' matches "$(read_sensors said.lcm)" '1 0
 2 0
 3 1'

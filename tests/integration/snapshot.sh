@@ -80,6 +80,6 @@ check 'a file that is no snapshot is not written over' cmp -s first.csv state
 check 'and told' says 2 'rhotrack: state: is no snapshot, and would be written over'
 node second.lcm --snapshot no/folder/state
 check 'one that cannot be written is told' grep -q \
-    '^rhotrack: no/folder/state: No such file or directory; the snapshot is not written$' stderr
+    ' rhotrack: no/folder/state: No such file or directory; the snapshot is not written$' stderr
 check 'and is exit 1' test "$status" -eq 1
 finish

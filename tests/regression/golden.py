@@ -775,7 +775,7 @@ def digest(name, data):
 # `749 us a scan, 2587 at most` and the like
 TIMES = re.compile(r"[0-9.]+ (us|ms) a (scan|step), [0-9.]+ at most|in [0-9.]+ s, .*")
 # A node warns of losses at most once a second of the clock on the wall: how often depends on load.
-WARNING = re.compile(r"rhotrack: .*: \d+ so far$")
+WARNING = re.compile(r".*rhotrack: .*: \d+ so far(, .*)?$")
 
 
 def files_of(folder):

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* node: the live tracker: LCM messages of sensors in, LCM messages of tracks out. */
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <poll.h>
@@ -10,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/signalfd.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -20,6 +17,7 @@
 #include "commands.h"
 #include "io/output/clutter_file.h"
 #include "io/scans/scan_interval_hint.h"
+#include "live/error_lines.h"
 #include "live/node_core.h"
 #include "live/node_log.h"
 #include "live/node_print.h"
@@ -49,6 +47,9 @@ struct warning {
     bool is_more;   /* the count exceeds the last warning, since more_us */
     uint64_t least; /* since more_us */
     int64_t more_us;
+    uint64_t counted; /* when the last message was taken */
+    bool has_sensor;  /* the last one that it counts was of this sensor */
+    int16_t sensor_id;
 };
 
 struct node {
@@ -277,8 +278,33 @@ static void warn_of(struct warning *warning, const struct node_tally *tally, int
 
     if (tally->kind != NODE_TALLY_USUAL && count > warning->said &&
         now_us >= warning->said_us + WARNING_US) {
-        *warning = (struct warning){.said = count, .said_us = now_us};
-        fprintf(stderr, "rhotrack: %s: %" PRIu64 " so far\n", tally->name, count);
+        warning->said = count;
+        warning->said_us = now_us;
+        warning->is_more = false;
+        fprintf(stderr, "rhotrack: %s: %" PRIu64 " so far", tally->name, count);
+        if (warning->has_sensor) {
+            fprintf(stderr, ", the last one of sensor %d", warning->sensor_id);
+        }
+        fputs("\n", stderr);
+    }
+}
+
+/* A message of this channel was taken: what is counted since then was of it. */
+static void note_sensor(struct node *node, const char *channel)
+{
+    struct node_tally tallies[NODE_TALLIES];
+    int16_t sensor_id = 0;
+    const bool has_sensor = senders_read_sensor(channel, &sensor_id);
+
+    node_tally(node->core, node->transport, tallies);
+    for (int i = 0; i < NODE_TALLIES; i++) {
+        struct warning *warning = &node->warnings[i];
+
+        if (tallies[i].is_of_message && tallies[i].count > warning->counted) {
+            warning->has_sensor = has_sensor;
+            warning->sensor_id = sensor_id;
+        }
+        warning->counted = tallies[i].count;
     }
 }
 
@@ -328,7 +354,7 @@ static void print_summary(const struct node *node)
         fprintf(stderr, "rhotrack: events not logged: %" PRIu64 "\n", events_left_out);
     }
     node_sensors_print(node->core, stderr);
-    if (ferror(stderr)) {
+    if (error_lines_is_lossy()) {
         fputs("rhotrack: standard error was full for a while: lines of it are missing\n", stderr);
     }
 }
@@ -362,44 +388,18 @@ static int open_signals(void)
 }
 
 /*
- * Standard error into a pipe or a terminal that is full: what does not fit is missing, and nobody
- * waits for it. It is opened anew for that, as other programs have the same pipe and may want to
- * wait.
- */
-static void open_errors(void)
-{
-    const struct timeval little = {.tv_usec = 1000};
-    struct stat status;
-    int descriptor;
-
-    if (fstat(STDERR_FILENO, &status)) {
-        return;
-    }
-    if ((S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode))) {
-        descriptor = open("/dev/fd/2", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-        if (descriptor >= 0) {
-            dup2(descriptor, STDERR_FILENO);
-            close(descriptor);
-        }
-    } else if (S_ISSOCK(status.st_mode)) { /* of a service: it cannot be opened anew */
-        (void)setsockopt(STDERR_FILENO, SOL_SOCKET, SO_SNDTIMEO, &little, sizeof little);
-    }
-}
-
-/*
  * Whatever the program waits for, a disk or a network: once it is told to end it has END_MOST_US
  * left.
  */
 static void *watch_end(void *signals)
 {
-    static const char text[] = "rhotrack: an output does not end in time; it ends without it\n";
     const struct timespec left = {0, END_MOST_US * 1000L};
     struct pollfd here = {.fd = *(const int *)signals, .events = POLLIN};
 
     while (poll(&here, 1, -1) <= 0) {
     }
     nanosleep(&left, NULL);
-    (void)!write(STDERR_FILENO, text, sizeof text - 1);
+    error_lines_write("rhotrack: an output does not end in time; it ends without it\n");
     _exit(EXIT_RUNTIME);
 }
 
@@ -439,7 +439,7 @@ static void wait_for_work(struct node *node)
 
 static void end_of_messages(struct node *node)
 {
-    if (strncmp(transport_url(node->transport), "file://", 7) != 0) {
+    if (transport_is_live(transport_url(node->transport))) {
         fprintf(stderr, "rhotrack: %s: the connection is gone\n", transport_url(node->transport));
         node->exit_code = EXIT_RUNTIME;
     }
@@ -484,6 +484,7 @@ static void take_message(struct node *node, const struct transport_message *mess
     if (is_output(message->channel)) {
         return;
     }
+    error_lines_set_time(message->received_us);
     node->taken++;
     watch_plots(node, message);
     if (strncmp(message->channel, "RHO_", 4) == 0) {
@@ -491,6 +492,7 @@ static void take_message(struct node *node, const struct transport_message *mess
     }
     node_core_take(node->core, message->channel, message->data, message->size,
                    message->received_us);
+    note_sensor(node, message->channel);
 }
 
 static void take_messages(struct node *node)
@@ -590,11 +592,10 @@ int command_node(struct command_line *line)
 {
     struct node node = {.status_us = clock_us(), .end_us = INT64_MAX};
     const struct node_core_events events = {&node, on_send, on_step, on_restart, on_new_clock};
+    const bool is_live = transport_is_live(line->lcm);
     bool is_restored = false; /* the map of clutter, too */
-    bool is_live;
     int exit_code;
 
-    open_errors();
     if (line->log && transport_is_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
     }
@@ -606,6 +607,7 @@ int command_node(struct command_line *line)
     }
     struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
+    error_lines_open(&line->parameters, is_live);
     node_core_show(node.core, show);
     if (line->commands) {
         node_core_allow_commands(node.core);
@@ -621,7 +623,6 @@ int command_node(struct command_line *line)
     node.signals = open_signals();
     start_watch(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
-    is_live = strncmp(transport_url(node.transport), "file://", 7) != 0;
     node.log = node_log_open(line->log, is_live);
     node.print = node_print_start(line->print, is_live);
     if (line->seconds > 0) {

@@ -24,6 +24,7 @@ struct node_tally {
     const char *name;
     uint64_t count;
     enum node_tally_kind kind;
+    bool is_of_message; /* it rises where a sensor's message is taken, and nowhere else */
 };
 
 /* All of them, always in the same order. */

@@ -23,7 +23,7 @@ static void print_sender(const struct transport_sender *sender, FILE *to)
 /* ---- Sensors ---- */
 
 /* An int16_t, and nothing else: anyone on the network names channels, and the name is printed. */
-static bool is_sensor_id(const char *text)
+static bool read_sensor_id(const char *text, int16_t *sensor_id)
 {
     const char *digits = text + (*text == '-');
     const size_t count = strspn(digits, "0123456789");
@@ -33,19 +33,19 @@ static bool is_sensor_id(const char *text)
         return false;
     }
     id = strtol(text, NULL, 10);
+    *sensor_id = (int16_t)id;
     return id >= INT16_MIN && id <= INT16_MAX;
 }
 
-static bool is_sensor(const char *channel)
+bool senders_read_sensor(const char *channel, int16_t *sensor_id)
 {
     static const char *const beginnings[] = {RHO_MESSAGE_POLAR_SCAN_CHANNEL,
                                              RHO_MESSAGE_PLOT_SCAN_CHANNEL,
                                              RHO_MESSAGE_BEARING_SCAN_CHANNEL};
 
     for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
-        if (text_begins_with(channel, beginnings[i]) &&
-            is_sensor_id(channel + strlen(beginnings[i]))) {
-            return true;
+        if (text_begins_with(channel, beginnings[i])) {
+            return read_sensor_id(channel + strlen(beginnings[i]), sensor_id);
         }
     }
     return false;
@@ -113,6 +113,8 @@ static void note_node(struct senders *senders, const struct transport_sender *se
 void senders_note(struct senders *senders, const struct transport_message *message, int64_t now_us,
                   FILE *to)
 {
+    int16_t sensor_id;
+
     if (message->sender.port == 0) {
         return; /* of a file, or of liblcm's providers */
     }
@@ -121,7 +123,7 @@ void senders_note(struct senders *senders, const struct transport_message *messa
         senders->lines = 0;
     }
     to = senders->lines < SENDERS_LINES ? to : NULL;
-    if (is_sensor(message->channel)) {
+    if (senders_read_sensor(message->channel, &sensor_id)) {
         note_sensor(senders, message, to);
     } else if (!message->sender.is_own &&
                strcmp(message->channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {

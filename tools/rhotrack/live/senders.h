@@ -8,6 +8,7 @@
 #define RHOTRACK_TOOL_SENDERS_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "live/transport.h"
@@ -28,6 +29,9 @@ struct senders {
     struct sender_channel channels[SENDERS_CHANNELS];
     struct transport_sender nodes[SENDERS_NODES]; /* those that were named */
 };
+
+/* False: no sensor's channel. Anyone on the network names channels. */
+bool senders_read_sensor(const char *channel, int16_t *sensor_id);
 
 /*
  * A message has come. One line where a second sender of a sensor is certain, as the first one is

@@ -23,7 +23,7 @@ bool transport_is_file(const char *url, const char *path)
     bool is_same;
 
     url = or_default(url);
-    if (strncmp(url, "file://", 7) != 0) {
+    if (transport_is_live(url)) {
         return false;
     }
     name = must_copy(url + 7);
@@ -32,6 +32,11 @@ bool transport_is_file(const char *url, const char *path)
               one.st_dev == other.st_dev && one.st_ino == other.st_ino;
     free(name);
     return is_same;
+}
+
+bool transport_is_live(const char *url)
+{
+    return strncmp(or_default(url), "file://", 7) != 0;
 }
 
 struct transport *transport_open(const char *url, enum transport_use use)

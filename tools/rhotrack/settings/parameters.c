@@ -128,7 +128,9 @@ static const char *text_name(size_t index)
 
 static const char *sensor_text_name(size_t index)
 {
-    return index < NUM_SENSOR_PARAMETERS ? sensor_texts[index].name : NULL;
+    return index < NUM_SENSOR_PARAMETERS    ? sensor_texts[index].name
+           : index == NUM_SENSOR_PARAMETERS ? "name"
+                                            : NULL;
 }
 
 /* Index of a name, or -1 and the reason with a hint. */
@@ -271,6 +273,58 @@ static struct sensor_parameters *have_sensor(struct parameters *parameters, int3
     return sensor;
 }
 
+static const struct sensor_name *find_sensor_name(const struct parameters *parameters,
+                                                  int32_t sensor_id)
+{
+    for (size_t i = 0; i < parameters->num_names; i++) {
+        if (parameters->names[i].sensor_id == sensor_id) {
+            return &parameters->names[i];
+        }
+    }
+    return NULL;
+}
+
+/* It stands in lines and in labels: characters that end those are none of a name. */
+static const char *refuse_sensor_name(const char *value)
+{
+    if (strlen(value) >= SENSOR_NAME_BYTES) {
+        return "is too long";
+    }
+    for (const char *c = value; *c; c++) {
+        if ((unsigned char)*c < ' ' || *c == 127 || *c == '"' || *c == '\\') {
+            return "has characters that are none of a name";
+        }
+    }
+    return *value ? NULL : "is empty";
+}
+
+static bool assign_sensor_name(struct parameters *parameters, int32_t sensor_id, const char *value,
+                               enum parameter_source source, char *reason)
+{
+    const struct sensor_name *known = find_sensor_name(parameters, sensor_id);
+    struct sensor_name *name;
+    const char *why = refuse_sensor_name(value);
+
+    if (why) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "name '%.60s' %s", value, why);
+        return false;
+    }
+    if (!known && parameters->num_names == RHO_MAX_SENSORS) {
+        snprintf(reason, PARAMETER_REASON_BYTES, "more than %d sensors", RHO_MAX_SENSORS);
+        return false;
+    }
+    name = &parameters->names[known ? (size_t)(known - parameters->names) : parameters->num_names];
+    if (!known) {
+        *name = (struct sensor_name){.sensor_id = sensor_id};
+        parameters->num_names++;
+    }
+    if (source >= name->source) {
+        snprintf(name->text, sizeof name->text, "%s", value);
+        name->source = source;
+    }
+    return true;
+}
+
 /* key: "N.name". */
 static bool assign_sensor(struct parameters *parameters, const char *key, const char *value,
                           enum parameter_source source, char *reason)
@@ -291,6 +345,9 @@ static bool assign_sensor(struct parameters *parameters, const char *key, const 
         return false;
     }
     id = find_name(dot + 1, sensor_text_name, reason);
+    if (id == NUM_SENSOR_PARAMETERS) {
+        return assign_sensor_name(parameters, sensor_id, value, source, reason);
+    }
     if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason) ||
         (id == SENSOR_RANGE_RATE_SPAN_MPS && !check_span(number, reason))) {
         return false;
@@ -427,6 +484,13 @@ void parameters_set_method(struct parameters *parameters, const char *method)
                            SOURCE_SET, reason)) {
         fail(EXIT_USAGE, "--%s", reason);
     }
+}
+
+const char *parameters_sensor_name(const struct parameters *parameters, int32_t sensor_id)
+{
+    const struct sensor_name *name = find_sensor_name(parameters, sensor_id);
+
+    return name ? name->text : NULL;
 }
 
 bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_id)

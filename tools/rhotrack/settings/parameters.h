@@ -241,6 +241,14 @@ struct sensor_parameters {
         turn_rad; /* of a place on the earth: its azimuths plus this are those of the local frame */
 };
 
+/* How people call a sensor: the key `name` of its section, for lines that they read. */
+#define SENSOR_NAME_BYTES 32
+struct sensor_name {
+    int32_t sensor_id;
+    char text[SENSOR_NAME_BYTES];
+    enum parameter_source source;
+};
+
 /* A zone's own keys, each from the source that counts most. */
 enum zone_parameter_id {
     ZONE_CORNERS_M,
@@ -260,6 +268,8 @@ struct parameters {
     enum parameter_source source[NUM_VALUES];
     size_t num_sensors;
     struct sensor_parameters sensors[RHO_MAX_SENSORS];
+    size_t num_names;
+    struct sensor_name names[RHO_MAX_SENSORS];
     uint16_t num_allowed; /* 0: all sensors may send messages */
     int16_t allowed[RHO_MAX_SENSORS];
     enum parameter_source allowed_source;
@@ -364,6 +374,9 @@ void parameters_print(const struct parameters *parameters, FILE *out);
 
 /* True where anything was said of this sensor. */
 bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_id);
+
+/* NULL: it has none. A name alone describes nothing of the sensor. */
+const char *parameters_sensor_name(const struct parameters *parameters, int32_t sensor_id);
 
 /* A sensor's own value, or otherwise the value for all. */
 double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,

@@ -35,6 +35,19 @@ static void print_sensor(FILE *out, const struct sensor_parameters *sensor)
     }
 }
 
+static void print_names(const struct parameters *parameters, FILE *out)
+{
+    for (size_t i = 0; i < parameters->num_names; i++) {
+        const struct sensor_name *named = &parameters->names[i];
+        char key[40];
+        const struct parameter_text text = {
+            .name = key, .unit = "-", .choices = "text", .text = "how it is called"};
+
+        snprintf(key, sizeof key, "sensor.%d.name", (int)named->sensor_id);
+        print_row(out, &text, named->text, named->source);
+    }
+}
+
 static void print_sensor_keys(FILE *out)
 {
     fputs("\nA sensor's own (--set sensor.N.key=value, or [sensor N] in the --config file):\n",
@@ -47,6 +60,8 @@ static void print_sensor_keys(FILE *out)
         fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", text.name, text.unit, "", range, "",
                 "", text.text);
     }
+    fprintf(out, "%-22s %-7s %10s  %-24s %10s  %-8s %s\n", "name", "-", "", "text", "", "",
+            "how it is called, in a node's lines and metrics");
 }
 
 static void print_zone_keys(FILE *out)
@@ -105,6 +120,7 @@ void parameters_print(const struct parameters *parameters, FILE *out)
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         print_sensor(out, &parameters->sensors[i]);
     }
+    print_names(parameters, out);
     print_sensor_keys(out);
     print_zone_keys(out);
 }

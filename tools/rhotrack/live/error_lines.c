@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT */
+#include "live/error_lines.h"
+
+#include <ctype.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/common.h"
+
+#define TIME_BYTES 32
+#define LINE_BYTES 8192 /* longer ones come in pieces */
+
+static struct {
+    const struct parameters *parameters;
+    bool is_live, has_time, is_journal, is_lossy;
+    bool is_within; /* a line whose end has not come */
+    int64_t time_us;
+} lines;
+
+/* ---- Text ---- */
+
+static int64_t now_us(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
+/* "": there is none. */
+static void write_time(char text[TIME_BYTES])
+{
+    const int64_t time_us = lines.is_live ? now_us() : lines.time_us;
+    const int64_t within_us = (time_us % 1000000 + 1000000) % 1000000;
+    const time_t seconds = (time_t)((time_us - within_us) / 1000000);
+    struct tm date;
+    size_t length;
+
+    text[0] = '\0';
+    if (!lines.is_journal && (lines.is_live || lines.has_time) && gmtime_r(&seconds, &date)) {
+        length = strftime(text, TIME_BYTES, "%Y-%m-%dT%H:%M:%S", &date);
+        snprintf(text + length, TIME_BYTES - length, ".%03dZ ", (int)(within_us / 1000));
+    }
+}
+
+/* The sensor's name where the text goes on with "sensor N", whose end *end is then; else NULL. */
+static const char *find_name(const char *text, const char *begin, const char **end)
+{
+    static const char word[] = "sensor ";
+    char *behind;
+    long id;
+
+    if ((text > begin && text[-1] != ' ') || strncmp(text, word, sizeof word - 1) != 0) {
+        return NULL;
+    }
+    text += sizeof word - 1;
+    if (!isdigit((unsigned char)*text) && !(*text == '-' && isdigit((unsigned char)text[1]))) {
+        return NULL;
+    }
+    id = strtol(text, &behind, 10);
+    *end = behind;
+    return id == (int32_t)id && strchr(" ,:;'\n", *behind)
+               ? parameters_sensor_name(lines.parameters, (int32_t)id)
+               : NULL;
+}
+
+/* One line, or a piece of one, with time and names. */
+static void write_line(FILE *out, const char *text)
+{
+    char time[TIME_BYTES] = "";
+
+    if (!lines.is_within) {
+        write_time(time);
+    }
+    fputs(time, out);
+    for (const char *at = text; *at;) {
+        const char *end;
+        const char *name = find_name(at, text, &end);
+
+        if (name) {
+            fprintf(out, "%.*s (%s)", (int)(end - at), at, name);
+            at = end;
+        } else {
+            fputc(*at++, out);
+        }
+    }
+}
+
+/* ---- The stream ---- */
+
+static void put(const char *text, size_t bytes)
+{
+    lines.is_lossy |= write(STDERR_FILENO, text, bytes) != (ssize_t)bytes;
+}
+
+static ssize_t write_text(void *cookie, const char *text, size_t size)
+{
+    (void)cookie;
+    for (size_t at = 0, bytes; at < size; at += bytes) {
+        const char *newline = memchr(text + at, '\n', size - at);
+        char piece[LINE_BYTES], *whole = NULL;
+        size_t length;
+        FILE *out;
+
+        bytes = newline ? (size_t)(newline - text) + 1 - at : size - at;
+        bytes = bytes < LINE_BYTES ? bytes : LINE_BYTES - 1;
+        memcpy(piece, text + at, bytes);
+        piece[bytes] = '\0';
+        out = open_memstream(&whole, &length);
+        if (out) {
+            write_line(out, piece);
+            fclose(out);
+            put(whole, length);
+            free(whole);
+        } else {
+            put(piece, bytes);
+        }
+        lines.is_within = piece[bytes - 1] != '\n';
+    }
+    return (ssize_t)size; /* what did not fit is missing, and not tried again */
+}
+
+/*
+ * It is opened anew so that nobody waits for it, as other programs have the same pipe and may want
+ * to wait.
+ */
+static void open_without_waiting(const struct stat *status)
+{
+    const struct timeval little = {.tv_usec = 1000};
+
+    if ((S_ISFIFO(status->st_mode) || S_ISCHR(status->st_mode))) {
+        const int descriptor = open("/dev/fd/2", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+
+        if (descriptor >= 0) {
+            dup2(descriptor, STDERR_FILENO);
+            close(descriptor);
+        }
+    } else if (S_ISSOCK(status->st_mode)) { /* of a service: it cannot be opened anew */
+        (void)setsockopt(STDERR_FILENO, SOL_SOCKET, SO_SNDTIMEO, &little, sizeof little);
+    }
+}
+
+/* systemd says which file its journal is. */
+static bool is_journal(const struct stat *status)
+{
+    const char *journal = getenv("JOURNAL_STREAM");
+    char own[48];
+
+    snprintf(own, sizeof own, "%ju:%ju", (uintmax_t)status->st_dev, (uintmax_t)status->st_ino);
+    return journal && strcmp(journal, own) == 0;
+}
+
+void error_lines_open(const struct parameters *parameters, bool is_live)
+{
+    const cookie_io_functions_t functions = {.write = write_text};
+    struct stat status;
+    FILE *stream = fopencookie(NULL, "w", functions);
+
+    if (!stream) {
+        fail(EXIT_RUNTIME, "out of memory");
+    }
+    setvbuf(stream, NULL, _IOLBF, LINE_BYTES);
+    lines.parameters = parameters;
+    lines.is_live = is_live;
+    if (fstat(STDERR_FILENO, &status) == 0) {
+        open_without_waiting(&status);
+        lines.is_journal = is_journal(&status);
+    }
+    fflush(stderr);
+    stderr = stream;
+}
+
+void error_lines_set_time(int64_t time_us)
+{
+    lines.time_us = time_us;
+    lines.has_time = true;
+}
+
+void error_lines_write(const char *text)
+{
+    char time[TIME_BYTES], line[LINE_BYTES];
+
+    write_time(time);
+    put(line, (size_t)snprintf(line, sizeof line, "%s%.1000s", time, text));
+}
+
+bool error_lines_is_lossy(void)
+{
+    return lines.is_lossy;
+}
