@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* node: the live tracker: LCM messages of sensors in, LCM messages of tracks out. */
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <poll.h>
@@ -66,7 +67,8 @@ struct node {
     struct senders senders;
     struct scan_interval_hint plots; /* of the first HINT_SCANS scans */
     struct clutter_file clutter;
-    int signals;               /* descriptor */
+    int signals, hang_ups;     /* descriptors: SIGTERM and SIGINT; SIGHUP */
+    bool has_terminal;         /* and ends with it */
     int64_t status_us, end_us; /* clock_us: when the next status is due; when it is over */
     int64_t finish_us;         /* clock_us: until when outputs are waited for at the end */
     unsigned statuses;         /* that were sent */
@@ -361,30 +363,61 @@ static void print_summary(const struct node *node)
 
 /* ---- The loop ---- */
 
+/* The process has one that it was started from. */
+static bool has_terminal(void)
+{
+    const int descriptor = open("/dev/tty", O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+
+    if (descriptor >= 0) {
+        close(descriptor);
+    }
+    return descriptor >= 0;
+}
+
+static int open_signals(const sigset_t *set)
+{
+    const int descriptor = signalfd(-1, set, SFD_CLOEXEC | SFD_NONBLOCK);
+
+    sigprocmask(SIG_BLOCK, set, NULL);
+    if (descriptor < 0) {
+        fail(EXIT_RUNTIME, "signalfd: %s", strerror(errno));
+    }
+    return descriptor;
+}
+
 /*
  * Signals become readable before liblcm starts threads, which inherit that. They stay blocked: what
  * an unfinished output would do about them (common.c) is not needed, for the log is written under
  * its own name.
  */
-static int open_signals(void)
+static void take_signals(struct node *node)
 {
-    sigset_t set;
-    int descriptor;
+    sigset_t ends, hang_ups;
 
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    if (!is_ignored(SIGHUP)) {
-        sigaddset(&set, SIGHUP);
-    }
-    sigprocmask(SIG_BLOCK, &set, NULL);
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGINT);
+    sigaddset(&ends, SIGTERM);
+    sigemptyset(&hang_ups);
+    sigaddset(&hang_ups, SIGHUP);
+    node->has_terminal = !is_ignored(SIGHUP) && has_terminal();
+    node->signals = open_signals(&ends);
+    node->hang_ups = open_signals(&hang_ups);
     signal(SIGPIPE, SIG_IGN); /* standard output that ends shows as a write error */
     signal(SIGXFSZ, SIG_IGN); /* and so does a log that is as long as the system allows */
-    descriptor = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
-    if (descriptor < 0) {
-        fail(EXIT_RUNTIME, "signalfd: %s", strerror(errno));
+}
+
+/* SIGHUP: of an operator who has put the log away, or of the terminal that is gone. */
+static void take_hang_up(struct node *node)
+{
+    struct signalfd_siginfo info;
+
+    while (read(node->hang_ups, &info, sizeof info) == (ssize_t)sizeof info) {
     }
-    return descriptor;
+    if (node->has_terminal && !has_terminal()) {
+        kill(getpid(), SIGTERM);
+    } else {
+        node_log_reopen(node->log);
+    }
 }
 
 /*
@@ -420,7 +453,8 @@ static int64_t least(int64_t a, int64_t b)
 /* Until a message, a signal, or whatever is due first. */
 static void wait_for_work(struct node *node)
 {
-    struct pollfd here[2] = {{.fd = node->signals, .events = POLLIN},
+    struct pollfd here[3] = {{.fd = node->signals, .events = POLLIN},
+                             {.fd = node->hang_ups, .events = POLLIN},
                              {.fd = transport_descriptor(node->transport), .events = POLLIN}};
     int64_t due_us = least(least(node->status_us, node->end_us), node_print_due_us(&node->print));
     int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - clock_us();
@@ -432,8 +466,11 @@ static void wait_for_work(struct node *node)
         wait_us = 0;
     }
     struct timespec wait = {wait_us / 1000000, wait_us % 1000000 * 1000};
-    if (ppoll(here, 2, &wait, NULL) > 0 && here[0].revents) {
-        node->is_over = true;
+    if (ppoll(here, 3, &wait, NULL) > 0) {
+        node->is_over |= here[0].revents != 0;
+        if (here[1].revents) {
+            take_hang_up(node);
+        }
     }
 }
 
@@ -588,11 +625,22 @@ static void finish(struct node *node)
     save_last_clutter(node);
 }
 
+static struct node_log_limits log_limits(const struct parameters *parameters)
+{
+    const double *value = parameters->value;
+
+    return (struct node_log_limits){.bytes_max =
+                                        (uint64_t)llround(value[PARAMETER_LOG_FILE_MB] * 1e6),
+                                    .period_us = llround(value[PARAMETER_LOG_FILE_S] * 1e6),
+                                    .files_max = (unsigned)value[PARAMETER_LOG_FILES]};
+}
+
 int command_node(struct command_line *line)
 {
     struct node node = {.status_us = clock_us(), .end_us = INT64_MAX};
     const struct node_core_events events = {&node, on_send, on_step, on_restart, on_new_clock};
     const bool is_live = transport_is_live(line->lcm);
+    const struct node_log_limits limits = log_limits(&line->parameters);
     bool is_restored = false; /* the map of clutter, too */
     int exit_code;
 
@@ -620,10 +668,10 @@ int command_node(struct command_line *line)
     }
     node.clutter = clutter_file_open(line->clutter_map, &line->parameters,
                                      is_restored ? NULL : node_core_clutter(node.core));
-    node.signals = open_signals();
+    take_signals(&node);
     start_watch(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
-    node.log = node_log_open(line->log, is_live);
+    node.log = node_log_open(line->log, is_live, &limits);
     node.print = node_print_start(line->print, is_live);
     if (line->seconds > 0) {
         node.end_us = node.status_us + llround(line->seconds * 1e6);
@@ -636,5 +684,6 @@ int command_node(struct command_line *line)
     node_log_close(node.log);
     scan_interval_hint_free(&node.plots);
     close(node.signals);
+    close(node.hang_ups);
     return exit_code;
 }

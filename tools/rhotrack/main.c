@@ -128,6 +128,8 @@ static const struct command commands[] = {
      "or fall\n"
      "silent are named. With --snapshot a node that is started again goes on with its tracks.\n"
      "With --commands it does what `rhotrack command` asks for after the next step.\n"
+     "A log goes into files of log_file_mb or log_file_s, of which the newest log_files stay; SIGHUP\n"
+     "opens its name anew.\n"
      "It ends on SIGINT and SIGTERM, or at the end of a log\n"
      "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"
      "udpm:// URLs have the options ttl=N (0: this machine, 1: this network), recv_buf_size=BYTES\n"

@@ -54,8 +54,7 @@ bool is_told_to_end(void)
     sigset_t pending;
 
     return sigpending(&pending) == 0 &&
-           (sigismember(&pending, SIGTERM) == 1 || sigismember(&pending, SIGINT) == 1 ||
-            sigismember(&pending, SIGHUP) == 1);
+           (sigismember(&pending, SIGTERM) == 1 || sigismember(&pending, SIGINT) == 1);
 }
 
 _Thread_local void (*fail_handler)(int exit_code, const char *message);

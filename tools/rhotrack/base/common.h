@@ -60,7 +60,7 @@ void output_flush(struct output *output); /* checks for write errors */
 /* Whether the signal is ignored, as nohup has it; it should stay so. */
 bool is_ignored(int number);
 
-/* Whether SIGTERM, SIGINT or SIGHUP has come where they are blocked. */
+/* Whether SIGTERM or SIGINT has come where they are blocked. */
 bool is_told_to_end(void);
 
 /* mkdir -p. Exit 1 with the reason. */

@@ -17,10 +17,21 @@
 
 /* The queue is some 40 s of a radar with 1000 plots a second. */
 enum { QUEUE_BYTES = 4 << 20, PIECE_BYTES = 64 << 10, OPEN_US = 500000, LOOK_US = 100000 };
+enum { AGAIN_US = 60000000 }; /* until a disk that refused something is tried again */
+
+#define NO_CUT UINT64_MAX
 
 struct node_log {
     const char *path;
-    bool is_live, is_failure_said, is_full_said; /* the tracking's alone */
+    struct node_log_limits limits;
+    /* the tracking's alone */
+    bool is_live, is_full_said;
+    int error_said;      /* errno; 0: none, or it is over */
+    uint64_t whole_then; /* events_whole when the file was opened again; more: it takes them */
+    int refusal_said;    /* as `refusal` */
+    int64_t again_us;    /* clock_us: when to try again */
+    int64_t begin_us;    /* of the first event of the file that is put into */
+    uint64_t begin;      /* its byte 0, in bytes since the start; wraps below 0 (thread, too) */
     pthread_t thread;
     pthread_mutex_t mutex;  /* for all below */
     pthread_cond_t changed; /* any of it */
@@ -31,10 +42,16 @@ struct node_log {
      */
     uint64_t put, written, whole;
     uint64_t events_put, events_whole, events_left_out;
-    bool is_open;  /* the file */
-    bool is_ended; /* nothing is put any more */
-    bool is_done;  /* the thread has ended */
-    int error;     /* errno of what the disk refused; 0: nothing */
+    /* where the file is closed and opened again, an end of an event; NO_CUT: nowhere */
+    uint64_t cut;
+    bool is_put_away;     /* under a name of its own before that */
+    int64_t cut_begin_us; /* of its first event */
+    bool is_open;         /* the file */
+    bool is_removed;      /* the file was, by somebody: what is written there is lost */
+    bool is_ended;        /* nothing is put any more */
+    bool is_done;         /* the thread has ended */
+    int error;            /* errno of what the disk refused; 0: nothing */
+    int refusal;          /* the same of an earlier file's new name, or its end */
 };
 
 /* ---- The thread ---- */
@@ -69,80 +86,151 @@ static void count_whole(struct node_log *log)
     }
 }
 
-/* Bytes from `written` on that lie in one piece, once there are some; 0: it is over. */
-static size_t wait_for_piece(struct node_log *log)
+/* Bytes from `written` on that lie in one piece of the queue, and in one file. */
+static size_t piece_bytes(const struct node_log *log)
 {
-    uint64_t bytes;
+    const uint64_t end = log->cut < log->put ? log->cut : log->put;
+    uint64_t bytes = end - log->written;
 
-    while (log->written == log->put && !log->is_ended) {
-        pthread_cond_wait(&log->changed, &log->mutex);
-    }
-    bytes = log->put - log->written;
     if (bytes > QUEUE_BYTES - log->written % QUEUE_BYTES) {
         bytes = QUEUE_BYTES - log->written % QUEUE_BYTES;
     }
     return (size_t)(bytes < PIECE_BYTES ? bytes : PIECE_BYTES);
 }
 
-static void write_pieces(struct node_log *log, int file)
+/* What is in the queue has no file. */
+static void drop_queue(struct node_log *log, int reason)
 {
-    size_t bytes;
+    log->error = reason;
+    log->events_left_out += log->events_put - log->events_whole;
+    log->events_whole = log->events_put;
+    log->written = log->whole = log->put;
+}
 
-    while (!log->error && (bytes = wait_for_piece(log)) > 0) {
-        const uint8_t *piece = log->queue + log->written % QUEUE_BYTES;
-        ssize_t done;
-        int reason;
+/* The file that is written, the thread's alone. */
+struct file {
+    int descriptor;
+    uint64_t begin; /* its byte 0, in bytes since the start; wraps below 0 where there was more */
+};
 
-        pthread_mutex_unlock(&log->mutex);
-        done = write(file, piece, bytes);
-        reason = errno;
-        pthread_mutex_lock(&log->mutex);
-        if (done >= 0) {
-            log->written += (uint64_t)done;
-            count_whole(log);
-        } else if (reason != EINTR) {
-            log->error = reason;
+static void write_piece(struct node_log *log, const struct file *file, size_t bytes)
+{
+    const uint8_t *piece = log->queue + log->written % QUEUE_BYTES;
+    struct stat status;
+    bool is_removed;
+    ssize_t done;
+    int reason;
+
+    pthread_mutex_unlock(&log->mutex);
+    done = write(file->descriptor, piece, bytes);
+    reason = errno;
+    is_removed =
+        fstat(file->descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 0;
+    pthread_mutex_lock(&log->mutex);
+    log->is_removed = is_removed;
+    if (done >= 0) {
+        log->written += (uint64_t)done;
+        count_whole(log);
+    } else if (reason != EINTR) {
+        log->error = reason;
+    }
+    pthread_cond_broadcast(&log->changed);
+}
+
+/* Half an event at the end of a file goes; where it does not, readers skip it. */
+static void close_file(struct node_log *log, struct file *file)
+{
+    const bool is_torn = log->written > log->whole;
+    const off_t length = (off_t)(log->whole - file->begin);
+    struct stat status;
+    int refused = 0;
+
+    pthread_mutex_unlock(&log->mutex);
+    if (file->descriptor >= 0) {
+        if (is_torn && fstat(file->descriptor, &status) == 0 && S_ISREG(status.st_mode)) {
+            (void)!ftruncate(file->descriptor, length);
         }
-        pthread_cond_broadcast(&log->changed);
+        refused = close(file->descriptor) ? errno : 0;
+    }
+    pthread_mutex_lock(&log->mutex);
+    file->descriptor = -1;
+    log->error = log->error ? log->error : refused;
+    if (log->error) {
+        drop_queue(log, log->error);
     }
 }
 
-/*
- * Half an event at the end of a file goes; where it does not, readers skip it. Returns errno of
- * what the disk refused.
- */
-static int end_file(int file, uint64_t written, uint64_t whole)
+/* flags: O_TRUNC, or O_APPEND. */
+static void open_file(struct node_log *log, struct file *file, int flags)
 {
     struct stat status;
+    uint64_t bytes = 0;
+    int reason;
 
-    if (written > whole && fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
-        (void)!ftruncate(file, (off_t)whole);
+    pthread_mutex_unlock(&log->mutex);
+    file->descriptor = open(log->path, O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666);
+    reason = errno;
+    if (file->descriptor >= 0 && fstat(file->descriptor, &status) == 0 && S_ISREG(status.st_mode)) {
+        bytes = (uint64_t)status.st_size;
     }
-    return close(file) ? errno : 0;
+    pthread_mutex_lock(&log->mutex);
+    log->is_open = file->descriptor >= 0;
+    log->is_removed = false;
+    log->error = 0;
+    if (!log->is_open) {
+        drop_queue(log, reason);
+    }
+    file->begin = log->written - bytes;
+    log->begin -= bytes; /* they count for its limit */
+    pthread_cond_broadcast(&log->changed);
+}
+
+static void put_away(struct node_log *log, int64_t begin_us)
+{
+    int refused;
+
+    pthread_mutex_unlock(&log->mutex);
+    refused = node_log_files_put_away(log->path, begin_us, log->limits.files_max);
+    pthread_mutex_lock(&log->mutex);
+    log->refusal = refused;
+}
+
+/* The cut is reached: another file. */
+static void change_files(struct node_log *log, struct file *file)
+{
+    close_file(log, file);
+    if (log->is_put_away) {
+        put_away(log, log->cut_begin_us);
+    }
+    log->cut = NO_CUT;
+    open_file(log, file, O_APPEND);
 }
 
 static void *write_queue(void *object)
 {
     struct node_log *log = object;
-    const int file = open(log->path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    const int reason = errno;
+    struct file file;
 
     pthread_mutex_lock(&log->mutex);
-    log->is_open = file >= 0;
-    log->error = file >= 0 ? 0 : reason;
-    pthread_cond_broadcast(&log->changed);
-    if (log->is_open) {
-        uint64_t written, whole;
-        int refused;
-
-        write_pieces(log, file);
-        written = log->written;
-        whole = log->whole;
-        pthread_mutex_unlock(&log->mutex);
-        refused = end_file(file, written, whole);
-        pthread_mutex_lock(&log->mutex);
-        log->error = log->error ? log->error : refused;
+    if (node_log_limits_cut(&log->limits)) { /* an earlier run's stays */
+        put_away(log, node_log_files_time_us(log->path));
     }
+    open_file(log, &file, O_TRUNC);
+    while (!log->is_ended || log->written < log->put) {
+        const size_t bytes = file.descriptor >= 0 ? piece_bytes(log) : 0;
+
+        if (log->cut <= log->written) {
+            change_files(log, &file);
+        } else if (bytes > 0) {
+            write_piece(log, &file, bytes);
+        } else {
+            pthread_cond_wait(&log->changed, &log->mutex);
+        }
+        if (log->error && file.descriptor >= 0) {
+            close_file(log, &file);
+        }
+    }
+    close_file(log, &file);
     log->is_done = true;
     pthread_cond_broadcast(&log->changed);
     pthread_mutex_unlock(&log->mutex);
@@ -158,7 +246,7 @@ static void wait_until(struct node_log *log, int64_t until_us)
     pthread_cond_timedwait(&log->changed, &log->mutex, &until);
 }
 
-struct node_log *node_log_open(const char *path, bool is_live)
+struct node_log *node_log_open(const char *path, bool is_live, const struct node_log_limits *limits)
 {
     const int64_t until_us = clock_us() + OPEN_US;
     struct node_log *log;
@@ -170,6 +258,8 @@ struct node_log *node_log_open(const char *path, bool is_live)
     log = must_calloc(1, sizeof *log);
     log->path = path;
     log->is_live = is_live;
+    log->limits = *limits;
+    log->cut = NO_CUT;
     log->queue = must_calloc(QUEUE_BYTES, 1);
     pthread_condattr_init(&attributes);
     pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
@@ -212,6 +302,28 @@ static bool has_room(const struct node_log *log, uint64_t bytes)
     return QUEUE_BYTES - (log->put - log->whole) >= bytes;
 }
 
+/* At what was put last. A cut that is there already does. */
+static void cut_here(struct node_log *log, bool is_put_away)
+{
+    if (log->cut == NO_CUT) {
+        log->cut = log->put;
+        log->is_put_away = is_put_away;
+        log->cut_begin_us = log->begin_us;
+        log->begin = log->put;
+        pthread_cond_broadcast(&log->changed);
+    }
+}
+
+static void cut_before_event(struct node_log *log, uint64_t bytes, int64_t time_us)
+{
+    if (node_log_limits_end(&log->limits, log->put - log->begin, log->begin_us, bytes, time_us)) {
+        cut_here(log, true);
+    }
+    if (log->put == log->begin) {
+        log->begin_us = time_us;
+    }
+}
+
 void node_log_put(struct node_log *log, int64_t time_us, const char *channel, const uint8_t *data,
                   size_t size)
 {
@@ -230,6 +342,7 @@ void node_log_put(struct node_log *log, int64_t time_us, const char *channel, co
     if (log->error || !has_room(log, bytes)) {
         log->events_left_out++;
     } else {
+        cut_before_event(log, bytes, time_us);
         lcm_log_header(header, (int64_t)log->events_put++, time_us, length, size);
         put_bytes(log, header, sizeof header);
         put_bytes(log, channel, length);
@@ -241,8 +354,7 @@ void node_log_put(struct node_log *log, int64_t time_us, const char *channel, co
 
 static uint64_t count_left_out(const struct node_log *log)
 {
-    return log->events_left_out +
-           (log->error || log->is_ended ? log->events_put - log->events_whole : 0);
+    return log->events_left_out + (log->is_ended ? log->events_put - log->events_whole : 0);
 }
 
 uint64_t node_log_left_out(struct node_log *log)
@@ -258,27 +370,86 @@ uint64_t node_log_left_out(struct node_log *log)
     return count;
 }
 
+void node_log_reopen(struct node_log *log)
+{
+    if (!log) {
+        return;
+    }
+    pthread_mutex_lock(&log->mutex);
+    log->whole_then = log->events_whole;
+    cut_here(log, false);
+    pthread_mutex_unlock(&log->mutex);
+}
+
+/* An error is said once, and its end once the disk has taken an event again. */
+static void say_error(struct node_log *log, int error, uint64_t whole)
+{
+    if (error && error != log->error_said) {
+        log->error_said = error;
+        log->is_full_said = true;
+        fprintf(stderr, "rhotrack: %s: %s; it goes on without the log, and tries again in %d s\n",
+                log->path, strerror(error), AGAIN_US / 1000000);
+    } else if (!error && log->error_said && whole > log->whole_then) {
+        log->error_said = 0;
+        fprintf(stderr, "rhotrack: %s: the log goes on\n", log->path);
+    }
+}
+
+static void say_refusal(struct node_log *log, int refusal)
+{
+    if (refusal && refusal != log->refusal_said) {
+        fprintf(stderr, "rhotrack: %s: cannot be put away, or an earlier file removed: %s\n",
+                log->path, strerror(refusal));
+    }
+    log->refusal_said = refusal;
+}
+
+static void say_full(struct node_log *log)
+{
+    if (!log->is_full_said) {
+        log->is_full_said = true;
+        fprintf(stderr, "rhotrack: %s: the disk takes no more; events are left out, tracks go on\n",
+                log->path);
+    }
+}
+
+static void open_what_is_gone(struct node_log *log, bool is_removed, int error)
+{
+    const int64_t now_us = clock_us();
+
+    if (is_removed) {
+        fprintf(stderr, "rhotrack: %s: was removed; the log begins anew\n", log->path);
+        node_log_reopen(log);
+    } else if (error && now_us >= log->again_us) {
+        node_log_reopen(log);
+        log->again_us = now_us + AGAIN_US;
+    } else if (!error) {
+        log->again_us = now_us + AGAIN_US;
+    }
+}
+
 bool node_log_watch(struct node_log *log)
 {
-    int error;
-    uint64_t left_out;
+    int error, refusal;
+    uint64_t left_out, whole;
+    bool is_removed;
 
     if (!log) {
         return true;
     }
     pthread_mutex_lock(&log->mutex);
     error = log->error;
+    refusal = log->refusal;
     left_out = count_left_out(log);
+    whole = log->events_whole;
+    is_removed = log->is_removed && log->cut == NO_CUT;
     pthread_mutex_unlock(&log->mutex);
-    if (error && !log->is_failure_said) {
-        log->is_failure_said = true;
-        fprintf(stderr, "rhotrack: %s: %s; it goes on without the log\n", log->path,
-                strerror(error));
-    } else if (!error && left_out > 0 && !log->is_full_said) {
-        log->is_full_said = true;
-        fprintf(stderr, "rhotrack: %s: the disk takes no more; events are left out, tracks go on\n",
-                log->path);
+    say_error(log, error, whole);
+    say_refusal(log, refusal);
+    if (!error && left_out > 0) {
+        say_full(log);
     }
+    open_what_is_gone(log, is_removed, error);
     return !error;
 }
 

@@ -109,6 +109,12 @@
     X(ASTERIX_SAC, "asterix_sac", "-", 0, 0, 255, 1, 1,                                            \
       "system area and identification code of tracks written in ASTERIX")                          \
     X(ASTERIX_SIC, "asterix_sic", "-", 0, 0, 255, 1, 1, "")                                        \
+    X(LOG_FILE_MB, "log_file_mb", "MB", 0, 0, 1e6, 0, 1,                                           \
+      "node --log: so much goes into a file, then into another one; 0: any")                       \
+    X(LOG_FILE_S, "log_file_s", "s", 0, 0, 31622400, 0, 1,                                         \
+      "node --log: a new file at each multiple of it, UTC (86400: at midnight); 0: none")          \
+    X(LOG_FILES, "log_files", "-", 0, 0, 1e6, 1, 1,                                                \
+      "node --log: earlier files that are kept, the newest; 0: all")                               \
     X(ORIGIN_LAT_DEG, "origin_lat_deg", "deg", 0, -90, 90, 0, 0,                                   \
       "of the local frame, where latitudes and longitudes are used; passed on in RHO_STATUS")      \
     X(ORIGIN_LON_DEG, "origin_lon_deg", "deg", 0, -180, 180, 0, 0, "")                             \
