@@ -170,8 +170,14 @@ check 'JSON' json stdout '((o["method"], o["scans"], o["sensors"], o["tracks"]) 
     o["pairs"] - o["candidates"] == o["ghosts"] and o["peak_votes"] == sorted(o["peak_votes"], reverse=True))'
 run initiate passive-two/bearings.csv --set scans=5
 check 'the last scans' matches "$(cat stderr)" 'rhotrack: the last 5 of 8 *'
-run initiate passive-two/bearings.csv --set range_max_m=200000
-check 'cells for the range' says 2 \
+for range_m in 120000 500000; do
+    run initiate passive-two/bearings.csv --set range_max_m=$range_m --json
+    check "cells follow from a range of $range_m m" json stdout 'o["tracks"] == 2'
+    run track passive-two/bearings.csv --set range_max_m=$range_m --json -o tracks.csv
+    check "in track as well: $range_m m" json stdout 'o["tracks_confirmed"] == 2'
+done
+run initiate passive-two/bearings.csv --set range_max_m=200000 --set d_rho_m=2000
+check 'cells as set for the range' says 2 \
     'rhotrack: range_max_m 200000 takes 200 cells of d_rho_m 2000; there are 128'
 run initiate passive-two/bearings.csv --set d_theta_rad=0.01
 check 'cells for half a turn' says 2 \

@@ -67,12 +67,12 @@ run simulate polar -o rates --set radars.0.sigma_range_rate_mps=1 --set settings
 unnumbered rates/plots.csv 5 4 >rates/polar.csv
 check 'range rates: the log is the same' there_and_back rates/plots.csv --config rates/scenario.ini
 
-# ---- scans of one plot ----
+# ---- turns ----
 run convert rates/polar.csv rates.lcm
 check 'plots with times of their own, without scan_interval_s' matches "$status $(cat stderr)" \
-    '0 rhotrack: rates/polar.csv: [0-9]* of [0-9]* scans have one plot each: is scan_interval_s meant?'
+    '0 rhotrack: rates/polar.csv: sensor 1: rows of a turn have times of their own; they are gathered *'
 run convert rates/polar.csv rates.lcm --config rates/scenario.ini
-check 'with it nothing is asked' test "$status" -eq 0 -a ! -s stderr
+check 'with it nothing is said' test "$status" -eq 0 -a ! -s stderr
 for scenario in two-radars rotating; do
     run simulate $scenario -o $scenario
     run convert $scenario/plots.csv one.lcm

@@ -126,6 +126,8 @@ refused 'too fine cells' 'plots 34397 m from the origin take 68796 cells of rho 
 for range in 99999 100000 123456 250000 1999999; do
     printf 't_s,sensor_id,x_m,y_m\n0,1,%s,0\n2,1,500,0\n' $range >far.csv
     run initiate far.csv --method mht
+    check "plots as far as $range m: cells follow" exits 0
+    run initiate far.csv --method mht --set d_rho_m=1 --set eps_rho_m=100
     cell=$(sed 's/.*d_rho_m \([0-9.e+]*\) would do/\1/' stderr)
     run initiate far.csv --method mht --set "d_rho_m=$cell" --set eps_rho_m=1000
     check "plots as far as $range m: d_rho_m $cell" exits 0

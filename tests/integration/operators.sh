@@ -125,7 +125,7 @@ check 'a node that is alone does not name itself' bash -c '! grep -q "another no
     awk -F, -v OFS=, 'NR > 1 && $3 != "" { NF = 4; print }' rotating/plots.csv | sort -t, -n -k1,1
 } >plots.csv
 start rows --config rotating/scenario.ini
-run publish plots.csv --speed 40
+run publish plots.csv --speed 40 --set scan_interval_s=0
 check 'publish says that scans have one plot' grep -q \
     '^rhotrack: plots.csv: 1575 of 1576 scans have one plot each: is scan_interval_s meant?$' stderr
 stop

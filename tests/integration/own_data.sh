@@ -181,7 +181,8 @@ why 'too few scans' short.csv '2 scans, and a start needs plots in 3 \(min_scans
 head -4 xy.csv >four.csv
 why 'too few scans, as set' four.csv '3 scans, and a start needs plots in 5 ' --set min_scans=5
 why 'a turning radar, rows with a time each' degrees.csv \
-    '[0-9]+ of 240 scans have one plot each, 0.2 s apart; .* scan_interval_s'
+    '[0-9]+ of 240 scans have one plot each, 0.2 s apart; .* scan_interval_s' \
+    --set scan_interval_s=0
 printf '[sensor 0]\nx_m = 0\ny_m = 0\nrange_max_m = 500\n' >near.ini
 why 'outside the coverage' xy.csv '30 of 30 plots lie outside the .*range_max_m' --config near.ini
 why 'too fast' xy.csv 'no plots keep to a line .*: scans 2 s apart, 1 plots a scan, v_max_mps=20, ' \

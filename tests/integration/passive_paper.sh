@@ -86,11 +86,16 @@ check 'passive-paper: customary values' json stdout \
 run config --method passive --json
 check 'passive: customary values' json stdout \
     '(o["prune"]["value"], o["prune"]["choices"]) == ("safe", "safe|literal|none")'
-run initiate passive-two/bearings.csv --method passive-paper --set range_max_m=130000
-check 'passive-paper: cells for the range' says 2 \
+run initiate passive-two/bearings.csv --method passive-paper --set range_max_m=120000 --json
+check 'passive-paper: cells follow from the range, with sensors 20 km apart' json stdout \
+    'o["tracks"] >= 2'
+run initiate passive-two/bearings.csv --method passive-paper --set range_max_m=130000 \
+    --set d_rho_m=1000
+check 'passive-paper: cells as set for the range' says 2 \
     'rhotrack: range_max_m 130000 takes 260 cells of d_rho_m 1000; there are 256'
-run initiate passive-two/bearings.csv --method passive-paper --set range_max_m=120000
-check 'passive-paper: cells for the sensors' says 2 \
+run initiate passive-two/bearings.csv --method passive-paper --set range_max_m=120000 \
+    --set d_rho_m=1000
+check 'passive-paper: cells as set for the sensors' says 2 \
     'rhotrack: sensors 1 and 2 are 20000 m apart; cells of d_rho_m 1000 hold range_max_m 120000 and 16000 m'
 run initiate passive-two/bearings.csv --method passive-paper --set d_theta_rad=0.01
 check 'passive-paper: cells for half a turn' says 2 \

@@ -22,7 +22,6 @@
 #include "io/rows/rows_collect.h"
 #include "io/rows/rows_read.h"
 #include "io/rows/rows_write.h"
-#include "io/scans/scan_interval_hint.h"
 
 /* ---- Which way ---- */
 
@@ -63,19 +62,11 @@ static void check_output(const char *input, const char *output, bool from_log)
 
 /* ---- CSV to log ---- */
 
-/* Scans that are numbered, or whose length is given, are taken as they are. */
-static bool guesses_scans(const struct message_source *source, const struct parameters *parameters)
-{
-    return !message_source_has_numbers(source) &&
-           !(parameters->value[PARAMETER_SCAN_INTERVAL_S] > 0.0);
-}
-
 static void write_log(struct message_source *source, const struct command_line *line)
 {
     const char *path = line->arguments[1];
     struct output output = output_open(path);
     struct lcm_log_writer writer = {.file = output.file};
-    struct scan_interval_hint plots = {.scans = 0};
     struct message_event event;
 
     if (isatty(fileno(output.file))) {
@@ -83,13 +74,8 @@ static void write_log(struct message_source *source, const struct command_line *
     }
     while (message_source_next(source, &event)) {
         lcm_log_must_write(&writer, path, event.utime, event.channel, event.data, event.size);
-        scan_interval_hint_add(&plots, &event);
     }
     output_close(&output);
-    if (guesses_scans(source, &line->parameters)) {
-        scan_interval_hint_report(&plots, line->arguments[0]);
-    }
-    scan_interval_hint_free(&plots);
 }
 
 static void convert_to_log(const struct command_line *line)

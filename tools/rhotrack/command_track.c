@@ -426,6 +426,10 @@ static void open_chain(struct tracking *tracking, const struct inputs *inputs,
     }
     pipeline_open(&tracking->pipeline, parameters);
     if (inputs_have_bearings(inputs)) {
+        size_t count;
+        const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
+
+        parameters->passive_apart_m = bearings_apart_m(sensors, count);
         pipeline_open_passive(&tracking->pipeline, parameters);
     }
     describe_passive(tracking, inputs, parameters);

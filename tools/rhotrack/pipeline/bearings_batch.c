@@ -10,10 +10,27 @@
 #include "io/scans/frame_reader.h"
 #include "pipeline/pipeline.h"
 
+static double apart_of(const struct frame_sensor *a, const struct frame_sensor *b)
+{
+    return hypot((double)a->x_m - (double)b->x_m, (double)a->y_m - (double)b->y_m);
+}
+
+double bearings_apart_m(const struct frame_sensor *sensors, size_t count)
+{
+    double apart_m = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = 0; j < i; j++) {
+            apart_m = fmax(apart_m, apart_of(&sensors[i], &sensors[j]));
+        }
+    }
+    return apart_m;
+}
+
 static void check_apart(const struct frame_sensor *a, const struct frame_sensor *b,
                         double apart_max_m, const struct parameters *parameters)
 {
-    double apart_m = hypot((double)a->x_m - (double)b->x_m, (double)a->y_m - (double)b->y_m);
+    double apart_m = apart_of(a, b);
 
     if (apart_m > apart_max_m) {
         fail(EXIT_USAGE,
@@ -36,16 +53,6 @@ void bearings_check_sensors(const struct frame_sensor *sensors, size_t count,
             check_apart(&sensors[j], &sensors[i], (double)batch->apart_max_m, parameters);
         }
     }
-}
-
-static void check_sensors(const struct frame_reader *reader, const struct rho_batch *batch,
-                          const struct parameters *parameters)
-{
-    size_t count;
-    const struct frame_sensor *sensors = frame_reader_sensors(reader, &count);
-
-    frame_reader_need_pair(reader);
-    bearings_check_sensors(sensors, count, batch, parameters);
 }
 
 static void push(struct bearings_batch *batch, const struct bearings_search *search,
@@ -71,15 +78,31 @@ static void push(struct bearings_batch *batch, const struct bearings_search *sea
     batch->time_us = frame->time_us;
 }
 
-struct bearings_batch bearings_batch_search(const struct bearings_search *search,
-                                            const struct command_line *line)
+struct frame_reader *bearings_batch_open(const struct command_line *line,
+                                         struct parameters *parameters)
 {
-    struct bearings_batch batch = {.wall_us = 0};
     struct frame_reader *reader = frame_reader_open(line->arguments, line->num_arguments,
                                                     &line->parameters, line->keep_going);
-    const struct rho_frame *frame;
+    const struct frame_sensor *sensors;
+    size_t count;
 
-    check_sensors(reader, search->batch, &line->parameters);
+    frame_reader_need_pair(reader);
+    sensors = frame_reader_sensors(reader, &count);
+    parameters->passive_apart_m = bearings_apart_m(sensors, count);
+    return reader;
+}
+
+struct bearings_batch bearings_batch_search(const struct bearings_search *search,
+                                            struct frame_reader *reader,
+                                            const struct parameters *parameters)
+{
+    struct bearings_batch batch = {.wall_us = 0};
+    const struct frame_sensor *sensors;
+    const struct rho_frame *frame;
+    size_t num_sensors;
+
+    sensors = frame_reader_sensors(reader, &num_sensors);
+    bearings_check_sensors(sensors, num_sensors, search->batch, parameters);
     frame_reader_skip(reader, search->batch->scans_max);
     while ((frame = frame_reader_next(reader))) {
         push(&batch, search, frame);

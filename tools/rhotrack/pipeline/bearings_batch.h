@@ -25,11 +25,22 @@ struct bearings_batch {
 };
 
 /*
- * Reads and searches. Sensors that are too many, or too far apart for the cells, and bad input:
+ * Opens the files; the parameters then know how far their sensors are apart. Fewer than two
+ * sensors, and bad input: exit 2.
+ */
+struct frame_reader *bearings_batch_open(const struct command_line *line,
+                                         struct parameters *parameters);
+
+/*
+ * Searches, and closes the reader. Sensors that are too many, or too far apart for the cells:
  * exit 2.
  */
 struct bearings_batch bearings_batch_search(const struct bearings_search *search,
-                                            const struct command_line *line);
+                                            struct frame_reader *reader,
+                                            const struct parameters *parameters);
+
+/* The distance of the farthest two. */
+double bearings_apart_m(const struct frame_sensor *sensors, size_t count);
 
 /* Exit 2 where the sensors are too many, or too far apart for the batch's cells. */
 void bearings_check_sensors(const struct frame_sensor *sensors, size_t count,

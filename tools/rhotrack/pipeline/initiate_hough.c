@@ -77,9 +77,12 @@ static void warn_of_time(const struct rho_hough *hough, const struct rho_hough_p
 
 static void find(struct search *search, const struct command_line *line, enum method method)
 {
-    struct rho_hough_config config = method_hough(method, &line->parameters, search->batch.range_m);
+    struct parameters fitted = line->parameters;
     struct rho_hough_points points = hough_batch_points(&search->batch);
+    struct rho_hough_config config;
 
+    method_fit_cells(&fitted, search->batch.range_m);
+    config = method_hough(method, &fitted, search->batch.range_m);
     must_succeed(rho_hough_init(search->hough, sizeof *search->hough, &config), "hough");
     warn_of_time(search->hough, &points);
     int64_t start_us = clock_us();

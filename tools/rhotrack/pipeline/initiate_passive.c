@@ -99,11 +99,13 @@ static void print_json(const struct rho_passive *passive, const struct bearings_
 void initiate_passive(const struct command_line *line)
 {
     struct rho_passive *passive = must_alloc(sizeof *passive);
-    struct rho_passive_config config = method_passive(&line->parameters);
+    struct parameters parameters = line->parameters;
+    struct frame_reader *reader = bearings_batch_open(line, &parameters);
+    struct rho_passive_config config = method_passive(&parameters);
     struct bearings_search with = {passive, &passive->batch, push, search};
 
     must_succeed(rho_passive_init(passive, sizeof *passive, &config), "passive");
-    struct bearings_batch batch = bearings_batch_search(&with, line);
+    struct bearings_batch batch = bearings_batch_search(&with, reader, &parameters);
     if (line->output || !line->json) {
         write_found(passive, batch.time_us, line->output);
     }

@@ -98,11 +98,13 @@ static void warn_of_dropped(const struct rho_passive_paper_work *work)
 void initiate_passive_paper(const struct command_line *line)
 {
     struct rho_passive_paper *paper = must_alloc(sizeof *paper);
-    struct rho_passive_paper_config config = method_passive_paper(&line->parameters);
+    struct parameters parameters = line->parameters;
+    struct frame_reader *reader = bearings_batch_open(line, &parameters);
+    struct rho_passive_paper_config config = method_passive_paper(&parameters);
     struct bearings_search with = {paper, &paper->batch, push, search};
 
     must_succeed(rho_passive_paper_init(paper, sizeof *paper, &config), "passive-paper");
-    struct bearings_batch batch = bearings_batch_search(&with, line);
+    struct bearings_batch batch = bearings_batch_search(&with, reader, &parameters);
     warn_of_dropped(&paper->work);
     if (line->output || !line->json) {
         write_found(paper, batch.time_us, line->output);

@@ -157,6 +157,22 @@ struct rho_hough_config method_hough(enum method method, const struct parameters
     return config;
 }
 
+#define MORE_SHARE 0.28 /* of range_max_m, beyond it: as customary cells have it */
+
+/* Cells of rho that hold range_max_m and half of the sensors' distance, where the customary ones do
+ * not. */
+static void fit_cells_of_bearings(struct parameters *parameters, int rho_cells)
+{
+    const double range_m = parameters->value[PARAMETER_RANGE_MAX_M];
+    const double half_m = range_m + 0.5 * parameters->passive_apart_m;
+
+    if (half_m > 0.5 * rho_cells * parameters->value[PARAMETER_D_RHO_M]) {
+        const double cell_m = fmax(half_m, (1 + MORE_SHARE) * range_m) / (0.5 * rho_cells);
+
+        parameters_suggest(parameters, PARAMETER_D_RHO_M, ceil(cell_m / 100.0) * 100.0);
+    }
+}
+
 /* Parameters of both methods for bearings. */
 static void check_bearings(const struct parameters *parameters, int rho_cells, int theta_cells)
 {
@@ -191,12 +207,14 @@ static enum rho_ghost_rule rule_of(const struct parameters *parameters)
 
 struct rho_passive_config method_passive(const struct parameters *parameters)
 {
-    const double *value = parameters->value;
+    struct parameters fitted = *parameters;
+    const double *value = fitted.value;
     struct rho_passive_config config;
     struct rho_settings settings;
 
-    check_bearings(parameters, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
-    settings = parameters_settings(parameters);
+    fit_cells_of_bearings(&fitted, RHO_PASSIVE_RHO_CELLS);
+    check_bearings(&fitted, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
+    settings = parameters_settings(&fitted);
     rho_passive_config_default(&config);
     rho_settings_apply(&settings, NULL, NULL, &config);
     config.scans = (uint16_t)value[PARAMETER_SCANS];
@@ -208,10 +226,12 @@ struct rho_passive_config method_passive(const struct parameters *parameters)
 
 struct rho_passive_paper_config method_passive_paper(const struct parameters *parameters)
 {
-    const double *value = parameters->value;
+    struct parameters fitted = *parameters;
+    const double *value = fitted.value;
     struct rho_passive_paper_config config;
 
-    check_bearings(parameters, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
+    fit_cells_of_bearings(&fitted, RHO_PAPER_RHO_CELLS);
+    check_bearings(&fitted, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
     if (value[PARAMETER_VOTES_MIN] > 255) {
         fail(EXIT_USAGE, "votes_min %.9g is more than 255, what passive-paper counts to",
              value[PARAMETER_VOTES_MIN]);

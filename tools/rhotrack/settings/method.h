@@ -53,8 +53,9 @@ struct rho_hough_config method_hough(enum method method, const struct parameters
                                      double range_m);
 
 /*
- * The config of passive, and of passive-paper. Exit 2 where their cells do not hold range_max_m or
- * half a turn, or they take no such scans, range or votes.
+ * The config of passive, and of passive-paper, with cells of rho that hold range_max_m and the
+ * parameters' passive_apart_m where d_rho_m is not set. Exit 2 where cells as set do not hold
+ * range_max_m or half a turn, or they take no such scans, range or votes.
  */
 struct rho_passive_config method_passive(const struct parameters *parameters);
 struct rho_passive_paper_config method_passive_paper(const struct parameters *parameters);

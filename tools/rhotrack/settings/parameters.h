@@ -84,7 +84,7 @@
     X(LEARN_PD_MIN, "learn_pd_min", "-", 0.5, 0.1, 1, 0, 0,                                        \
       "pd as learned by range: least share of that stated; 1: as stated")                          \
     X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
-      "rows of a sensor within it are one scan; 0: rows of equal t_s")                             \
+      "rows of a sensor within it are one scan; 0: rows of equal t_s; unset: turns, if found")     \
     X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0,                                       \
       "area of clutter and births; unset: seen so far")                                            \
     X(AREA_X_MAX_M, "area_x_max_m", "m", 0, -2e6, 2e6, 0, 0, "")                                   \
@@ -284,6 +284,7 @@ struct parameters {
     uint16_t num_reflectors;
     struct rho_reflector reflectors[RHO_MAX_REFLECTORS];
     enum parameter_source reflectors_source;
+    double passive_apart_m; /* the farthest two sensors of bearings, where they are known; else 0 */
 };
 
 void parameters_default(struct parameters *parameters);

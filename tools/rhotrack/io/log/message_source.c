@@ -8,6 +8,7 @@
 #include "io/log/lcm_log.h"
 #include "io/rows/rows_read.h"
 #include "io/rows/rows_scans.h"
+#include "io/rows/rows_turns.h"
 
 /* One of the files: a log, or rows and their scans. */
 struct input {
@@ -63,6 +64,7 @@ static void open_input(struct input *input, const char *path, const struct param
         input->log = lcm_log_open(path);
     } else {
         rows_read(&input->file, path, parameters, keep_going);
+        rows_turns_find(&input->file, parameters);
         rows_scans_make(&input->scans, &input->file,
                         llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     }
@@ -105,16 +107,6 @@ bool message_source_next(struct message_source *source, struct message_event *ev
     }
     *event = source->taken->event;
     return true;
-}
-
-bool message_source_has_numbers(const struct message_source *source)
-{
-    for (int i = 0; i < source->num_inputs; i++) {
-        if (source->inputs[i].file.has_scan) {
-            return true;
-        }
-    }
-    return false;
 }
 
 void message_source_report(const struct message_source *source)

@@ -40,9 +40,6 @@ struct message_source *message_source_open(char *const *paths, int num_paths,
 /* The next message. Returns false after the last. */
 bool message_source_next(struct message_source *source, struct message_event *event);
 
-/* One of the files numbers its scans (column scan). */
-bool message_source_has_numbers(const struct message_source *source);
-
 /* Tells on standard error what was skipped so far, if anything. */
 void message_source_report(const struct message_source *source);
 void message_source_close(struct message_source *source);

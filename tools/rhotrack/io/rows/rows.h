@@ -45,6 +45,7 @@ struct row {
     int64_t time_us;     /* its own */
     int64_t received_us; /* where that is known */
     int32_t sensor_id, epoch, scan;
+    int32_t turn;   /* of a sensor whose rows are gathered into turns; else 0 */
     uint32_t line;  /* of the file; 0 of a message */
     uint64_t order; /* among rows of one time */
     size_t cells;   /* where they begin */

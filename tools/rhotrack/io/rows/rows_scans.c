@@ -83,29 +83,6 @@ static void find_before(struct making *making)
     free(named);
 }
 
-/* Does a row belong to the scan or list that begins with the row first? */
-static bool joins(const struct making *making, size_t first, size_t index)
-{
-    const struct row *start = &making->rows[first], *row = &making->rows[index];
-
-    if (row->sensor_id != start->sensor_id || row->epoch != start->epoch ||
-        row->scan != start->scan) {
-        return false;
-    }
-    if (!making->kind->has_sensor) {
-        return row->time_us == start->time_us &&
-               (!making->before || making->before[index] == SIZE_MAX ||
-                making->before[index] < first);
-    }
-    if (making->file->has_scan) {
-        return llabs(row->time_us - start->time_us) <= OWN_TIME_MAX_US;
-    }
-    return row->time_us == start->time_us ||
-           (row->time_us > start->time_us && row->time_us - making->interval_us < start->time_us);
-}
-
-/* ---- What rows of a scan have in common ---- */
-
 static bool is_same(double one, double other)
 {
     return rows_is_empty(one) ? rows_is_empty(other) : one <= other && one >= other;
@@ -122,6 +99,52 @@ static const char *difference(const struct making *making, const double *cells,
     }
     return NULL;
 }
+
+/* Rows of one turn that one scan of messages can hold: with the last one that saw something. */
+static bool joins_turn(const struct making *making, size_t first, size_t index)
+{
+    const struct row *row = &making->rows[index], *other = &making->rows[index - 1];
+    const double *cells = rows_cells(&making->file->rows, row), *others;
+
+    while (other > &making->rows[first] && !rows_saw_something(&making->file->rows, other)) {
+        other--;
+    }
+    others = rows_cells(&making->file->rows, other);
+    return row->turn == making->rows[first].turn &&
+           row->time_us - making->rows[first].time_us <= OWN_TIME_MAX_US &&
+           !difference(making, cells, others, COLUMN_OF_SCAN) &&
+           (!rows_saw_something(&making->file->rows, row) ||
+            !rows_saw_something(&making->file->rows, other) ||
+            (!difference(making, cells, others, COLUMN_OF_PLOTS) &&
+             (!making->kind->pattern ||
+              making->kind->pattern(cells) == making->kind->pattern(others))));
+}
+
+/* Does a row belong to the scan or list that begins with the row first? */
+static bool joins(const struct making *making, size_t first, size_t index)
+{
+    const struct row *start = &making->rows[first], *row = &making->rows[index];
+
+    if (row->sensor_id != start->sensor_id || row->epoch != start->epoch ||
+        row->scan != start->scan) {
+        return false;
+    }
+    if (!making->kind->has_sensor) {
+        return row->time_us == start->time_us &&
+               (!making->before || making->before[index] == SIZE_MAX ||
+                making->before[index] < first);
+    }
+    if (row->turn > 0) {
+        return joins_turn(making, first, index);
+    }
+    if (making->file->has_scan) {
+        return llabs(row->time_us - start->time_us) <= OWN_TIME_MAX_US;
+    }
+    return row->time_us == start->time_us ||
+           (row->time_us > start->time_us && row->time_us - making->interval_us < start->time_us);
+}
+
+/* ---- What rows of a scan have in common ---- */
 
 /* Why a row that saw something does not fit to the first of its scan that did. */
 static bool check_plot(struct making *making, const struct rows_scan *scan, const struct row *row)

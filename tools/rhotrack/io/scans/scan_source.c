@@ -4,11 +4,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/common.h"
 #include "io/csv/table_stream.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
+#include "io/scans/antenna_turns.h"
 #include "io/scans/gather.h"
 #include "io/scans/reorder_buffer.h"
 
@@ -22,6 +24,7 @@ struct scan_source {
     struct table_stream *stream; /* or NULL */
     bool has_columns, has_good, is_over, waits, is_complete;
     struct record_columns columns;
+    struct antenna_turns *turns; /* NULL: rows are gathered by their times and numbers */
     struct gather gather;
     struct reorder_buffer reorder; /* of a file with times of reception, or of a log */
     uint32_t item;                 /* of a log: the newest scan of bearings, 1-based */
@@ -34,8 +37,8 @@ struct scan_source {
 static bool check_scan(const struct scan_source *source, const struct gathered *scan,
                        const struct record *row, const struct row_check *check)
 {
-    if (!scan) {
-        return true;
+    if (!scan || source->turns) {
+        return true; /* what all rows of a turn have counts */
     }
     if (row->sector_from_rad != scan->sector_from_rad ||
         row->sector_to_rad != scan->sector_to_rad) {
@@ -93,7 +96,8 @@ static void add_row(struct scan_source *source, struct gathered *scan, const str
         gather_add_nothing(&source->gather, scan, row->time_us);
         return;
     }
-    scan->measures = row->measures;
+    scan->measures =
+        source->turns && scan->has_measures ? scan->measures & row->measures : row->measures;
     scan->has_measures = true;
     gather_add(&source->gather, scan, row->time_us,
                is_bearing ? (const void *)&row->bearing : &row->plot);
@@ -115,6 +119,21 @@ static void find_columns(struct scan_source *source, const struct table *table)
     }
 }
 
+/* Rows without numbers get those of the antenna's turns. */
+static void number_turn(const struct scan_source *source, struct record *row)
+{
+    const double place_m[2] = {(double)row->plot.x_m - (double)row->sensor.x_m,
+                               (double)row->plot.y_m - (double)row->sensor.y_m};
+    const int32_t number = source->turns
+                               ? antenna_turns_number(source->turns, row->sensor_id, row->time_us,
+                                                      row->has_measurement ? place_m : NULL)
+                               : 0;
+
+    if (number > 0) {
+        row->number = (struct row_number){.is_given = true, .scan = number};
+    }
+}
+
 /* The row that the table has. */
 static void take_row(struct scan_source *source, const struct table *table)
 {
@@ -130,10 +149,12 @@ static void take_row(struct scan_source *source, const struct table *table)
         gather_set_clock(&source->gather, row.received_us);
     }
     if (is_good) {
+        number_turn(source, &row);
         scan = gather_find(&source->gather, row.sensor_id, &row.number, row.time_us);
-        is_good = gather_check_time(&source->gather, scan, row.time_us, &check) &&
-                  check_received(&source->gather, scan, &row, &check) &&
-                  check_scan(source, scan, &row, &check) && check_sensor(source, &row, &check);
+        is_good =
+            gather_check_time(&source->gather, source->turns ? NULL : scan, row.time_us, &check) &&
+            check_received(&source->gather, scan, &row, &check) &&
+            check_scan(source, scan, &row, &check) && check_sensor(source, &row, &check);
     }
     if (is_good) {
         source->has_good = true;
@@ -358,6 +379,51 @@ bool scan_source_next(struct scan_source *source, struct sensor_scan *scan)
 
 /* ---- Opening ---- */
 
+/* The file can be read twice, and says neither numbers nor sectors of scans. */
+static bool may_have_turns(const struct scan_source *source)
+{
+    const struct record_columns *columns = &source->columns;
+    struct stat status;
+
+    return source->has_columns && source->options.kind == RECORD_PLOTS &&
+           antenna_turns_are_wanted(source->parameters) && columns->scan < 0 &&
+           columns->received_s < 0 && columns->sector_from_rad < 0 &&
+           strcmp(source->path, "-") != 0 && stat(source->path, &status) == 0 &&
+           S_ISREG(status.st_mode);
+}
+
+/* Looks at the first rows for turns of antennas. */
+static void find_turns(struct scan_source *source)
+{
+    struct table_stream *stream;
+    struct record row;
+    char reason[ROW_REASON_BYTES];
+    bool goes_on = true;
+
+    if (!may_have_turns(source)) {
+        return;
+    }
+    stream = table_stream_open(source->path, source->parameters, true, source->options.follow);
+    source->turns = antenna_turns_start();
+    while (goes_on && table_stream_next(stream) == TABLE_STREAM_ROW) {
+        if (record_read(table_stream_table(stream), &source->columns, 0, source->parameters, &row,
+                        reason) &&
+            row.has_measurement) {
+            goes_on = antenna_turns_look(source->turns, row.sensor_id, row.time_us,
+                                         (double)row.plot.x_m - (double)row.sensor.x_m,
+                                         (double)row.plot.y_m - (double)row.sensor.y_m);
+        }
+    }
+    table_stream_close(stream);
+    if (antenna_turns_decide(source->turns, source->path,
+                             source->parameters->value[PARAMETER_V_MAX_MPS])) {
+        source->gather.begun_max = 1;
+    } else {
+        antenna_turns_free(source->turns);
+        source->turns = NULL;
+    }
+}
+
 static void open_table(struct scan_source *source)
 {
     int32_t least_us;
@@ -372,6 +438,7 @@ static void open_table(struct scan_source *source)
     source->gather.begun_max = source->options.follow ? FOLLOW_BEGUN_MAX : 0;
     source->reorder.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
     find_columns(source, table_stream_table(source->stream));
+    find_turns(source);
 }
 
 /*
@@ -409,6 +476,7 @@ struct scan_source *scan_source_open(const char *path, const struct parameters *
 static void close_table(struct scan_source *source)
 {
     gather_free(&source->gather);
+    antenna_turns_free(source->turns);
     record_columns_free(&source->columns);
     table_stream_close(source->stream);
 }

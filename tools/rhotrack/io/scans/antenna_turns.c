@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/scans/antenna_turns.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/common.h"
+#include "io/scans/turn_search.h"
+
+#define LOOKED_MAX 20000      /* rows */
+#define SENSOR_MAX 3000       /* of one sensor */
+#define GAIN 0.2              /* by which a plot corrects where the antenna is */
+#define ASTRAY_RAD (M_PI / 3) /* a plot so far from where the antenna looks tells nothing */
+#define LOST_TURNS 2.0        /* without a plot: the antenna is wherever the next one says */
+#define TURN_RAD (2 * M_PI)
+
+struct antenna {
+    int32_t sensor_id;
+    struct turn_rule rule;
+    struct turn_plot *plots; /* looked at */
+    size_t count, capacity;
+    bool is_running;   /* it has had a row */
+    int64_t last_us;   /* of its newest row */
+    double turned_rad; /* since the first cut, at last_us, in the direction of turning */
+    int32_t number;
+};
+
+struct antenna_turns {
+    struct antenna *list;
+    size_t count, capacity, looked;
+};
+
+bool antenna_turns_are_wanted(const struct parameters *parameters)
+{
+    return parameters->source[PARAMETER_SCAN_INTERVAL_S] <= SOURCE_DEFAULT;
+}
+
+struct antenna_turns *antenna_turns_start(void)
+{
+    return must_calloc(1, sizeof(struct antenna_turns));
+}
+
+static struct antenna *find(const struct antenna_turns *turns, int32_t sensor_id)
+{
+    for (size_t i = 0; i < turns->count; i++) {
+        if (turns->list[i].sensor_id == sensor_id) {
+            return &turns->list[i];
+        }
+    }
+    return NULL;
+}
+
+bool antenna_turns_look(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us, double x_m,
+                        double y_m)
+{
+    struct antenna *antenna = find(turns, sensor_id);
+
+    if (!antenna) {
+        turns->list = must_grow(turns->list, turns->count, &turns->capacity, sizeof *turns->list);
+        antenna = &turns->list[turns->count++];
+        *antenna = (struct antenna){.sensor_id = sensor_id};
+    }
+    if (antenna->count < SENSOR_MAX) {
+        antenna->plots =
+            must_grow(antenna->plots, antenna->count, &antenna->capacity, sizeof *antenna->plots);
+        antenna->plots[antenna->count++] = (struct turn_plot){time_us, x_m, y_m};
+    }
+    return ++turns->looked < LOOKED_MAX;
+}
+
+/* A file that is played again and again is named once. */
+static bool is_said(const char *path)
+{
+    static char *said[64];
+    size_t i = 0;
+
+    while (i < sizeof said / sizeof *said && said[i] && strcmp(said[i], path) != 0) {
+        i++;
+    }
+    if (i < sizeof said / sizeof *said && !said[i]) {
+        said[i] = must_copy(path);
+        return false;
+    }
+    return i < sizeof said / sizeof *said;
+}
+
+static void say(const struct antenna *antenna, const char *path)
+{
+    const struct turn_rule *rule = &antenna->rule;
+
+    fprintf(stderr, "rhotrack: %s: sensor %" PRId32 ": ", path, antenna->sensor_id);
+    if (rule->kind == TURN_UNKNOWN) {
+        fprintf(stderr,
+                "rows have a time each, %.3g s apart, and neither azimuths (seen from its place, "
+                "sensor.%" PRId32 ".x_m and y_m) nor gaps tell turns of an antenna: "
+                "scan_interval_s with the time of a turn gathers them, 0 takes each time as a "
+                "scan\n",
+                rule->turn_s, antenna->sensor_id);
+        return;
+    }
+    fprintf(stderr,
+            "rows of a turn have times of their own; they are gathered into %s %.4g s%s by %s; "
+            "scan_interval_s=0 takes each time as a scan\n",
+            rule->kind == TURN_AZIMUTHS ? "turns of" : "scans,", rule->turn_s,
+            rule->kind == TURN_AZIMUTHS ? "" : " apart,",
+            rule->kind == TURN_GAPS ? "the gaps between them"
+            : rule->rate_rad_s < 0  ? "azimuth, clockwise"
+                                    : "azimuth, counter-clockwise");
+}
+
+bool antenna_turns_decide(struct antenna_turns *turns, const char *path, double v_max_mps)
+{
+    const bool was_said = is_said(path);
+    bool has_any = false;
+
+    for (size_t i = 0; i < turns->count; i++) {
+        struct antenna *antenna = &turns->list[i];
+
+        antenna->rule = turn_search(antenna->plots, antenna->count, v_max_mps);
+        if (antenna->rule.kind != TURN_NONE && !was_said) {
+            say(antenna, path);
+        }
+        has_any |= antenna->rule.kind >= TURN_AZIMUTHS;
+    }
+    return has_any;
+}
+
+/* How far the antenna has turned since its cut, if it looks there, within half a turn of a guess. */
+static double turned_near(const struct turn_rule *rule, const double place_m[2], double guess_rad)
+{
+    double since_cut = atan2(place_m[1], place_m[0]) - rule->cut_rad;
+
+    since_cut = rule->rate_rad_s < 0 ? -since_cut : since_cut;
+    return guess_rad + remainder(since_cut - guess_rad, TURN_RAD);
+}
+
+/* The turn of a row; a gap of some turns counts as one. */
+static void go_round(struct antenna *antenna, int64_t time_us, const double *place_m)
+{
+    const struct turn_rule *rule = &antenna->rule;
+    const double rest_s = (double)(time_us - antenna->last_us) * 1e-6;
+    double here_rad;
+
+    if (!antenna->is_running || rest_s > LOST_TURNS * rule->turn_s) {
+        antenna->turned_rad = TURN_RAD * (antenna->number + 0.5);
+        antenna->turned_rad =
+            place_m ? turned_near(rule, place_m, antenna->turned_rad) : antenna->turned_rad;
+        here_rad = antenna->turned_rad;
+        antenna->number++;
+    } else {
+        antenna->turned_rad += fabs(rule->rate_rad_s) * rest_s;
+        here_rad = place_m ? turned_near(rule, place_m, antenna->turned_rad) : antenna->turned_rad;
+        here_rad =
+            fabs(here_rad - antenna->turned_rad) > ASTRAY_RAD ? antenna->turned_rad : here_rad;
+        antenna->turned_rad += GAIN * (here_rad - antenna->turned_rad);
+    }
+    antenna->number = (int32_t)fmax(antenna->number, floor(here_rad / TURN_RAD) + 1);
+}
+
+int32_t antenna_turns_number(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+                             const double place_m[2])
+{
+    struct antenna *antenna = find(turns, sensor_id);
+
+    if (!antenna || antenna->rule.kind < TURN_AZIMUTHS) {
+        return 0;
+    }
+    if (antenna->rule.kind == TURN_AZIMUTHS) {
+        go_round(antenna, time_us, place_m);
+    } else {
+        antenna->number +=
+            !antenna->is_running || time_us - antenna->last_us > antenna->rule.gap_us;
+    }
+    antenna->is_running = true;
+    antenna->last_us = time_us;
+    return antenna->number;
+}
+
+void antenna_turns_free(struct antenna_turns *turns)
+{
+    if (!turns) {
+        return;
+    }
+    for (size_t i = 0; i < turns->count; i++) {
+        free(turns->list[i].plots);
+    }
+    free(turns->list);
+    free(turns);
+}

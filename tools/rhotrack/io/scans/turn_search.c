@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: MIT */
+#include "io/scans/turn_search.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/common.h"
+
+#define PLOTS_MIN 20 /* fewer tell nothing */
+#define TURN_MIN_S 0.5
+#define TURN_MAX_S 50.0     /* with its jitter it is below RHO_LIMIT_OFFSET_US */
+#define SPAN_S 120.0        /* looked at: an antenna's rate wanders, */
+#define SPAN_SPARSE_S 300.0 /* with fewer than SPARSE plots in it */
+#define SPARSE 60           /* plots */
+#define FITTED_MAX 300      /* plots */
+#define STEPS_A_LOBE 6      /* rates tried over one cycle of the span */
+#define CONCENTRATION 0.8   /* of azimuths that turn with a rate; 1: exactly */
+#define BETTER 0.05         /* by less none is better than a slower rate */
+#define PLOTS_A_TURN 1.5    /* with fewer each is a scan as well */
+#define TARGET_SHARE 0.5    /* of steps from time to time that a target can make */
+#define BINS 72             /* of azimuth */
+#define GAP_RATIO 3.0       /* shortest gap between looks over the longest within one */
+#define LOOKS_MIN 5         /* of bursts */
+#define EVEN_SHARE 0.8      /* of looks that come as regularly as */
+#define EVEN 0.15           /* so much of their interval */
+#define SOON_S 1.0          /* no antenna turns once from row to row */
+#define IRREGULAR 3.0       /* longest step over the median one */
+
+#define TURN_RAD (2 * M_PI)
+
+static double after_s(const struct turn_plot *plots, size_t from, size_t to)
+{
+    return (double)(plots[to].time_us - plots[from].time_us) * 1e-6;
+}
+
+static double azimuth_of(const struct turn_plot *plot)
+{
+    return atan2(plot->y_m, plot->x_m);
+}
+
+/* ---- Azimuths that turn ---- */
+
+/* Times and azimuths of the plots that a rate is fitted to. */
+struct fitted {
+    size_t count;
+    double after_s[FITTED_MAX], azimuth_rad[FITTED_MAX];
+};
+
+/* Length of the mean of unit vectors at the azimuths, turned back at the rate. */
+static double concentration(const struct fitted *fitted, double rate_rad_s)
+{
+    double x = 0, y = 0;
+
+    for (size_t i = 0; i < fitted->count; i++) {
+        const double angle = fitted->azimuth_rad[i] - rate_rad_s * fitted->after_s[i];
+
+        x += cos(angle);
+        y += sin(angle);
+    }
+    return hypot(x, y) / (double)fitted->count;
+}
+
+/* The plots within the span, or some of them, evenly. Returns how many there are. */
+static size_t choose(const struct turn_plot *plots, size_t count, struct fitted *fitted)
+{
+    size_t num = 0, stride;
+
+    while (num < count && (after_s(plots, 0, num) <= SPAN_S ||
+                           (num < SPARSE && after_s(plots, 0, num) <= SPAN_SPARSE_S))) {
+        num++;
+    }
+    stride = (num + FITTED_MAX - 1) / FITTED_MAX;
+    fitted->count = 0;
+    for (size_t i = 0; i < num; i += stride) {
+        fitted->after_s[fitted->count] = after_s(plots, 0, i);
+        fitted->azimuth_rad[fitted->count++] = azimuth_of(&plots[i]);
+    }
+    return num;
+}
+
+/* The finest of rates within one step to either side. */
+static double refine(const struct fitted *fitted, double rate_rad_s, double step)
+{
+    double best = rate_rad_s, highest = concentration(fitted, rate_rad_s);
+
+    for (int i = -10; i <= 10; i++) {
+        const double rate = rate_rad_s + 0.1 * i * step;
+        const double found = concentration(fitted, rate);
+
+        if (found > highest) {
+            highest = found;
+            best = rate;
+        }
+    }
+    return best;
+}
+
+/* The slowest rate at which the azimuths go round together; 0: none. */
+static double find_rate(const struct fitted *fitted)
+{
+    const double span_s = fitted->after_s[fitted->count - 1];
+    const double step = TURN_RAD / (STEPS_A_LOBE * span_s);
+    const size_t num = (size_t)(TURN_RAD / TURN_MIN_S / step);
+    double *found = must_calloc(2 * num + 1, sizeof *found), highest = 0, rate = 0;
+
+    for (size_t i = 0; i <= 2 * num; i++) {
+        found[i] = concentration(fitted, ((double)i - (double)num) * step);
+        highest = fmax(highest, found[i]);
+    }
+    for (size_t k = 0; k < num && rate >= 0 && rate <= 0; k++) {
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const size_t i = sign < 0 ? num - k : num + k;
+
+            if (found[i] >= fmax(highest - BETTER, CONCENTRATION) && found[i] >= found[i - 1] &&
+                found[i] >= found[i + 1]) {
+                rate = ((double)i - (double)num) * step;
+                break;
+            }
+        }
+        if (k <= STEPS_A_LOBE / 2 && (found[num + k] >= highest - BETTER)) {
+            break; /* they stay in one direction */
+        }
+    }
+    free(found);
+    return rate > 0 || rate < 0 ? refine(fitted, rate, step) : 0;
+}
+
+static size_t end_of_time(const struct turn_plot *plots, size_t count, size_t first)
+{
+    size_t end = first + 1;
+
+    while (end < count && plots[end].time_us == plots[first].time_us) {
+        end++;
+    }
+    return end;
+}
+
+/* From plots of one time to the nearest of the next, so far at most. */
+static bool is_within(const struct turn_plot *plots, size_t first, size_t next, size_t end,
+                      double way_m)
+{
+    for (size_t i = first; i < next; i++) {
+        for (size_t j = next; j < end; j++) {
+            if (hypot(plots[j].x_m - plots[i].x_m, plots[j].y_m - plots[i].y_m) <= way_m) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* One target alone may have been at places of most times, one after another. */
+static bool may_be_target(const struct turn_plot *plots, size_t count, double v_max_mps)
+{
+    size_t slow = 0, steps = 0, first = 0, next = end_of_time(plots, count, 0);
+
+    while (next < count) {
+        const size_t end = end_of_time(plots, count, next);
+
+        slow += is_within(plots, first, next, end, v_max_mps * after_s(plots, first, next));
+        steps++;
+        first = next;
+        next = end;
+    }
+    return (double)slow > TARGET_SHARE * (double)steps;
+}
+
+/* The middle of the longest run of directions with the fewest plots. */
+static double find_cut(const struct turn_plot *plots, size_t count)
+{
+    size_t hits[BINS] = {0}, least = count, best = 0, longest = 0, run = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        const double share = azimuth_of(&plots[i]) / TURN_RAD;
+
+        hits[(size_t)((share - floor(share)) * BINS) % BINS]++;
+    }
+    for (size_t i = 0; i < BINS; i++) {
+        least = hits[i] < least ? hits[i] : least;
+    }
+    for (size_t i = 0; i < 2 * BINS; i++) {
+        run = hits[i % BINS] == least ? run + 1 : 0;
+        if (run > longest && run <= BINS) {
+            longest = run;
+            best = i;
+        }
+    }
+    return remainder(((double)best + 1 - 0.5 * (double)longest) * TURN_RAD / BINS, TURN_RAD);
+}
+
+static bool find_azimuths(const struct turn_plot *plots, size_t count, double v_max_mps,
+                          struct turn_rule *rule)
+{
+    struct fitted fitted;
+    const size_t num = choose(plots, count, &fitted);
+    double span_s, turn_s;
+
+    span_s = fitted.after_s[fitted.count - 1];
+    if (num < PLOTS_MIN || span_s < 2 * TURN_MIN_S) {
+        return false;
+    }
+    rule->rate_rad_s = find_rate(&fitted);
+    turn_s = TURN_RAD / fabs(rule->rate_rad_s);
+    if (!(turn_s <= TURN_MAX_S) || span_s < 2 * turn_s ||
+        (double)num * turn_s < PLOTS_A_TURN * span_s || may_be_target(plots, num, v_max_mps)) {
+        return false;
+    }
+    rule->kind = TURN_AZIMUTHS;
+    rule->turn_s = turn_s;
+    rule->cut_rad = find_cut(plots, count);
+    return true;
+}
+
+/* ---- Gaps ---- */
+
+static int by_size(const void *a, const void *b)
+{
+    const int64_t one = *(const int64_t *)a, other = *(const int64_t *)b;
+
+    return (one > other) - (one < other);
+}
+
+/* The steps from row to row, the shortest first. */
+static int64_t *sort_steps(const struct turn_plot *plots, size_t count)
+{
+    int64_t *steps = must_calloc(count, sizeof *steps);
+
+    for (size_t i = 1; i < count; i++) {
+        steps[i - 1] = plots[i].time_us - plots[i - 1].time_us;
+    }
+    qsort(steps, count - 1, sizeof *steps, by_size);
+    return steps;
+}
+
+/* Whether looks that such a gap ends begin at even times. */
+static bool is_even(const struct turn_plot *plots, size_t count, int64_t gap_us, double *turn_s)
+{
+    int64_t *starts = must_calloc(count, sizeof *starts);
+    size_t num = 0, even = 0, last = 0;
+
+    for (size_t i = 1; i < count; i++) {
+        if (plots[i].time_us - plots[i - 1].time_us > gap_us) {
+            starts[num++] = plots[i].time_us - plots[last].time_us;
+            last = i;
+        }
+    }
+    *turn_s = 0;
+    if (num >= LOOKS_MIN) {
+        qsort(starts, num, sizeof *starts, by_size);
+        const size_t middle = num / 2;
+
+        *turn_s = (double)starts[middle] * 1e-6;
+    }
+    for (size_t i = 0; i < num; i++) {
+        even += fabs((double)starts[i] * 1e-6 - *turn_s) <= EVEN * *turn_s;
+    }
+    free(starts);
+    return num >= LOOKS_MIN && (double)even >= EVEN_SHARE * (double)num;
+}
+
+static bool find_gaps(const struct turn_plot *plots, size_t count, const int64_t *steps,
+                      struct turn_rule *rule)
+{
+    double widest = GAP_RATIO, turn_s;
+
+    /* gaps are fewer than the steps within looks: two plots a look or more */
+    for (size_t i = count / 2; i + LOOKS_MIN < count; i++) {
+        const double within = fmax((double)steps[i - 1], 1.0), between = (double)steps[i];
+
+        if (between >= widest * within) {
+            widest = between / within;
+            rule->gap_us = (int64_t)sqrt(within * between);
+        }
+    }
+    if (rule->gap_us == 0 || !is_even(plots, count, rule->gap_us, &turn_s) || turn_s > TURN_MAX_S) {
+        return false;
+    }
+    rule->kind = TURN_GAPS;
+    rule->turn_s = turn_s;
+    return true;
+}
+
+/* ---- The rule ---- */
+
+/* Plots that have their time in common with others. */
+static size_t count_together(const struct turn_plot *plots, size_t count)
+{
+    size_t together = 0;
+
+    for (size_t first = 0, end; first < count; first = end) {
+        end = end_of_time(plots, count, first);
+        together += end - first > 1 ? end - first : 0;
+    }
+    return together;
+}
+
+struct turn_rule turn_search(const struct turn_plot *plots, size_t count, double v_max_mps)
+{
+    struct turn_rule rule = {.kind = TURN_NONE};
+    int64_t *steps;
+
+    if (count < PLOTS_MIN || find_azimuths(plots, count, v_max_mps, &rule) ||
+        count_together(plots, count) > count / 2) {
+        return rule;
+    }
+    steps = sort_steps(plots, count);
+    if (!find_gaps(plots, count, steps, &rule)) {
+        const size_t middle = count / 2;
+
+        rule.turn_s = (double)steps[middle] * 1e-6;
+        if (rule.turn_s < SOON_S && (double)steps[count - 2] * 1e-6 > IRREGULAR * rule.turn_s) {
+            rule.kind = TURN_UNKNOWN;
+        }
+    }
+    free(steps);
+    return rule;
+}
