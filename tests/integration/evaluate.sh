@@ -100,7 +100,7 @@ check 'of a target that is there twice at one time the last row counts' cmp stdo
 
 run evaluate truth.csv tracks.csv
 check 'text: the figures alone' sh -c \
-    "test \$(wc -l <stdout) -eq 38 && grep -q '^median_m  *5$' stdout"
+    "test \$(wc -l <stdout) -eq 39 && grep -q '^median_m  *5$' stdout"
 run evaluate truth.csv tracks.csv --by-target
 check 'text: a table of targets behind them' sh -c \
     "grep -Eq '^ +2 +10.0 +40.0 +10.0 +40.0 +1.000 +0 +0 +5.0 ' stdout"

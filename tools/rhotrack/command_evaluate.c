@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* evaluate: tracks against truth. */
+#include <stdlib.h>
+
 #include "base/common.h"
 #include "command_line.h"
 #include "commands.h"
@@ -31,6 +33,17 @@ static struct evaluation *evaluate_files(const struct command_line *line)
     return e;
 }
 
+/* A page of the truth, the tracks, and the plots where they stand beside the truth. */
+static void say_next(const struct command_line *line)
+{
+    char *files[2] = {line->arguments[0], command_line_beside(line->arguments[0], "plots.csv")};
+
+    if (path_ends_with(line->arguments[1], ".csv")) {
+        command_line_say_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
+    }
+    free(files[1]);
+}
+
 int command_evaluate(struct command_line *line)
 {
     check_output(line->output);
@@ -47,5 +60,6 @@ int command_evaluate(struct command_line *line)
         evaluation_print(e, line->by_target);
     }
     evaluation_free(e);
+    say_next(line);
     return 0;
 }

@@ -4,6 +4,7 @@
 
 #include "base/common.h"
 #include "base/hint.h"
+#include "command_line.h"
 #include "commands.h"
 #include "scene/scene.h"
 
@@ -59,6 +60,36 @@ static void refuse_config(const struct command_line *line)
     }
 }
 
+/* Its own plots, and what a tracker may know of them. */
+static void say_next(const struct command_line *line)
+{
+    static const char *const names[] = {"plots.csv", "bearings.csv"};
+    char *folder = line->runs > 1 ? path_join(line->output, "run-0000") : must_copy(line->output);
+    char *within = path_join(folder, "."), *config = command_line_beside(within, "scenario.ini");
+    char *tracks = path_join(folder, "tracks.csv");
+    const char *words[8] = {"track"};
+    size_t count = 1;
+
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const char *file = command_line_beside(within, names[i]);
+
+        if (file) {
+            words[count++] = file;
+        }
+    }
+    if (count > 1 && config) {
+        words[count++] = "--config";
+        words[count++] = config;
+        words[count++] = "-o";
+        words[count++] = tracks;
+        command_line_say_next(line, words);
+    }
+    free(folder);
+    free(within);
+    free(config);
+    free(tracks);
+}
+
 int command_simulate(struct command_line *line)
 {
     struct scene *scene;
@@ -77,5 +108,6 @@ int command_simulate(struct command_line *line)
         scene_simulate(scene, line->arguments[0], line->output, line->seed, 0);
     }
     scene_free(scene);
+    say_next(line);
     return 0;
 }

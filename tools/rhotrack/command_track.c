@@ -4,6 +4,8 @@
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -494,6 +496,26 @@ static void print_results(const struct tracking *tracking, const struct inputs *
     }
 }
 
+/* With a truth beside the plots its figures, else a picture; and a scene's own settings, unused. */
+static void say_next(const struct command_line *line)
+{
+    const char *plots = line->arguments[0];
+    char *truth = command_line_beside(plots, "truth.csv");
+    char *config = command_line_beside(plots, "scenario.ini");
+
+    if (config && line->num_settings == 0 && isatty(STDERR_FILENO)) {
+        fprintf(stderr, "rhotrack: %s stands beside the plots and was not used (--config)\n",
+                config);
+    }
+    if (line->output && path_ends_with(line->output, ".csv") && truth) {
+        command_line_say_next(line, (const char *[]){"evaluate", truth, line->output, NULL});
+    } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
+        command_line_say_page(line, line->arguments, line->num_arguments, line->output);
+    }
+    free(truth);
+    free(config);
+}
+
 int command_track(struct command_line *line)
 {
     struct tracking tracking = {.pipeline = pipeline_start()};
@@ -533,5 +555,6 @@ int command_track(struct command_line *line)
     if (why) {
         fail(EXIT_RUNTIME, "%s %s: it is followed no longer", line->arguments[0], why);
     }
+    say_next(line);
     return is_saved ? 0 : EXIT_RUNTIME;
 }

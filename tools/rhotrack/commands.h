@@ -39,6 +39,8 @@ struct command_line {
     bool no_input_estimation; /* --no-input-estimation */
     bool follow;              /* --follow */
     struct parameters parameters;
+    const char **settings; /* --set, --config and --columns, and after each its value, as typed */
+    size_t num_settings;
     const char **scene_sets; /* --set of a scene, as typed */
     size_t num_scene_sets;
 };

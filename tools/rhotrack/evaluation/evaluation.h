@@ -66,6 +66,7 @@ struct evaluation_result {
     double gospa_missed, gospa_false;     /* targets, tracks without a partner, mean a time */
     double ospa_m;                        /* mean over the times */
     double completeness;                  /* share of the (target, time) points that have a track */
+    double completeness_once_found;       /* the same, without the points before a target's first */
     double false_per_scan;                /* as gospa_false */
     double false_per_hour;                /* false_tracks over the time from first to last */
     size_t switches;             /* a target's track is another than the one it had before */

@@ -46,6 +46,7 @@ struct evaluation_figures evaluation_figures_all(const struct evaluation_result 
     add(&figures, "gospa_false", result->gospa_false);
     add(&figures, "ospa_m", result->ospa_m);
     add(&figures, "completeness", result->completeness);
+    add(&figures, "completeness_once_found", result->completeness_once_found);
     add(&figures, "false_per_scan", result->false_per_scan);
     add(&figures, "false_per_hour", result->false_per_hour);
     add_count(&figures, "switches", result->switches);

@@ -102,10 +102,11 @@ static struct evaluation_errors errors_of(const struct pair_error *pairs, size_t
 
 static void sum_targets(const struct evaluation *e, struct evaluation_result *result)
 {
-    double delay_scans = 0.0, delay_s = 0.0, points = 0.0;
+    double delay_scans = 0.0, delay_s = 0.0, points = 0.0, points_after = 0.0;
     for (size_t i = 0; i < e->target_ids.count; i++) {
         const struct target_life *life = &e->targets[i];
         points += (double)life->scans;
+        points_after += (double)(life->scans - life->delay_scans); /* never found: all */
         result->switches += life->switches;
         result->fragments += life->fragments;
         if (life->paired > 0) {
@@ -116,6 +117,8 @@ static void sum_targets(const struct evaluation *e, struct evaluation_result *re
     }
     result->targets = e->target_ids.count;
     result->completeness = points > 0.0 ? (double)e->num_pairs / points : NAN;
+    result->completeness_once_found =
+        points_after > 0.0 ? (double)e->num_pairs / points_after : NAN;
     result->delay_scans = evaluation_mean(delay_scans, result->targets_found);
     result->delay_s = evaluation_mean(delay_s, result->targets_found);
 }
