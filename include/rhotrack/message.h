@@ -48,6 +48,7 @@ extern "C" {
 
 enum rho_message_type {
     RHO_MESSAGE_TYPE_ACCUMULATOR_CELL = 0,
+    RHO_MESSAGE_TYPE_BODY,
     RHO_MESSAGE_TYPE_COMMAND_ANSWER,
     RHO_MESSAGE_TYPE_COMMAND,
     RHO_MESSAGE_TYPE_ECHO,
@@ -67,6 +68,7 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_ZONE,
     RHO_MESSAGE_TYPE_ACCUMULATOR,
     RHO_MESSAGE_TYPE_BEARING_SCAN,
+    RHO_MESSAGE_TYPE_BODY_LIST,
     RHO_MESSAGE_TYPE_CLUTTER_MAP,
     RHO_MESSAGE_TYPE_GHOST_MATRIX,
     RHO_MESSAGE_TYPE_HYPOTHESES,
@@ -130,6 +132,38 @@ RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_decode(
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_validate(
     const struct rho_message_accumulator_cell *message, struct rho_message_place *place);
 const char *rho_message_accumulator_cell_field(const struct rho_message_place *place);
+
+/* ---- body_t ---- */
+
+/* The body of one track: a rectangle, its length along the heading. */
+
+#define RHO_MESSAGE_BODY_FINGERPRINT UINT64_C(0xc79ba5919c3bcda2)
+#define RHO_MESSAGE_BODY_MAX_SIZE 64u
+
+struct rho_message_body {
+    int32_t track_id; /* as in RHO_TRACKS */
+    float x_m; /* centre of the body, m */
+    float y_m;
+    /* what the track follows, its place in RHO_TRACKS: the mean of what was seen, m */
+    float reference_x_m;
+    float reference_y_m;
+    float length_m; /* 0 .. 1e5 */
+    float width_m; /* 0 .. 1e5 */
+    float heading_rad; /* counter-clockwise from +x; -4 .. 4 */
+    float sigma_length_m; /* standard deviations; 0 .. 1e5 */
+    float sigma_width_m; /* 0 .. 1e5 */
+    float sigma_heading_rad; /* 0 .. 10 */
+    float sigma_along_m; /* of the centre about the reference, along the heading, m; 0 .. 1e5 */
+    float sigma_across_m; /* and across it; 0 .. 1e5 */
+    float plots; /* that all this comes from; 0 .. 1e9 */
+};
+RHO_MUST_CHECK enum rho_status rho_message_body_encode(
+    const struct rho_message_body *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_body_decode(
+    const uint8_t *data, size_t size, struct rho_message_body *message);
+RHO_MUST_CHECK enum rho_status rho_message_body_validate(
+    const struct rho_message_body *message, struct rho_message_place *place);
+const char *rho_message_body_field(const struct rho_message_place *place);
 
 /* ---- command_answer_t ---- */
 
@@ -820,6 +854,49 @@ RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_begin(
     const struct rho_message_bearing_scan_head *head);
 RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_add(
     struct rho_message_writer *writer, const float *bearing_rad);
+
+/* ---- body_list_t ---- */
+
+/*
+ * The bodies of tracks after one step of a tracker that was told how long targets may be, or a part
+ */
+/* of them; tracks of which no two plots came in one scan have none. Channel RHO_BODIES. */
+
+#define RHO_MESSAGE_BODY_LIST_CHANNEL "RHO_BODIES"
+#define RHO_MESSAGE_BODY_LIST_FINGERPRINT UINT64_C(0xd468c7e7b0d084a9)
+#define RHO_MESSAGE_BODY_LIST_MAX_SIZE 1374u
+#define RHO_MESSAGE_BODY_LIST_MAX_BODIES 24
+
+struct rho_message_body_list {
+    /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
+    int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
+    int16_t num_parts; /* of the list; an empty list has one; 1 .. 32767 */
+    int16_t num_bodies; /* in this part */
+    struct rho_message_body bodies[RHO_MESSAGE_BODY_LIST_MAX_BODIES];
+};
+
+struct rho_message_body_list_head {
+    int64_t utime;
+    int32_t scan;
+    int32_t epoch;
+    int16_t part;
+    int16_t num_parts;
+};
+RHO_MUST_CHECK enum rho_status rho_message_body_list_encode(
+    const struct rho_message_body_list *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_body_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_body_list *message);
+RHO_MUST_CHECK enum rho_status rho_message_body_list_validate(
+    const struct rho_message_body_list *message, struct rho_message_place *place);
+const char *rho_message_body_list_field(const struct rho_message_place *place);
+RHO_MUST_CHECK enum rho_status rho_message_body_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_body_list_head *head);
+RHO_MUST_CHECK enum rho_status rho_message_body_list_add(
+    struct rho_message_writer *writer, const struct rho_message_body *bodie);
 
 /* ---- clutter_map_t ---- */
 

@@ -187,7 +187,10 @@ void rho_node_count_time(struct rho_node *node, int64_t took_us);
  */
 int64_t rho_node_due_us(const struct rho_node *node);
 
-/* Messages of the last step: its tracks in parts, then its peaks. Constant cost. */
+/*
+ * Messages of the last step: its tracks in parts, then its peaks, then the bodies of its tracks in
+ * parts, where the tracker was told of bodies. Cost: then that of rho_publish_num_body_parts.
+ */
 uint16_t rho_node_num_messages(const struct rho_node *node);
 
 /* The channel of such a message. Constant cost. */
@@ -198,7 +201,7 @@ const char *rho_node_channel(const struct rho_node *node, uint16_t part);
  *   initiator  that of the step: its candidates are the peaks; NULL: none. Of a frame not used.
  *   part       0 .. rho_node_num_messages - 1
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: that of
- * rho_publish_tracks and rho_publish_peaks. Stack: 420 bytes.
+ * rho_publish_tracks, rho_publish_bodies and rho_publish_peaks. Stack: 480 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_node_publish(const struct rho_node *node,
                                                 const struct rho_initiator *initiator,

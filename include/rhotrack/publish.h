@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_PEAKS, RHO_STATUS,
- * RHO_WORK, RHO_SENSORS, RHO_LEARNED, RHO_CLUTTER, RHO_ZONES and RHO_ZONE_EVENTS.
+ * publish: what a step of the tracker made, as messages for RHO_TRACKS, RHO_BODIES, RHO_PEAKS,
+ * RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_LEARNED, RHO_CLUTTER, RHO_ZONES and RHO_ZONE_EVENTS.
  *
  *     for (part = 0; part < rho_publish_num_parts(&report); part++) {
  *         rho_publish_tracks(&report, step, epoch, part, buffer, sizeof buffer, &size);
@@ -20,6 +20,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "rhotrack/body.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/message.h"
@@ -46,6 +47,26 @@ uint16_t rho_publish_num_parts(const struct rho_report *report);
  * Stack: 360 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step,
+                                                  int32_t epoch, uint16_t part, uint8_t *buffer,
+                                                  size_t capacity, size_t *size);
+
+/*
+ * Messages that the bodies of the report's tracks take, 1 where none has one yet; 0: the tracker was
+ * not told that its targets have bodies (rhotrack/body.h), or there is no tracker or report.
+ *   report  of the tracker's last step
+ * Cost: tracks. Stack: 160 bytes.
+ */
+uint16_t rho_publish_num_body_parts(const struct rho_tracker *tracker,
+                                    const struct rho_report *report);
+
+/*
+ * One part of these bodies (body_list_t), in the order of the tracks.
+ *   part  0 .. rho_publish_num_body_parts - 1
+ * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: tracks.
+ * Stack: 340 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_publish_bodies(const struct rho_tracker *tracker,
+                                                  const struct rho_report *report, int32_t step,
                                                   int32_t epoch, uint16_t part, uint8_t *buffer,
                                                   size_t capacity, size_t *size);
 

@@ -30,6 +30,26 @@ static const struct message_rules accumulator_cell_rules = {
     &accumulator_cell_format,
     {accumulator_cell_ints, accumulator_cell_floats, 3, 3}, {0, 0, 0, 0}};
 
+static const struct message_run body_runs[] = {
+    {offsetof(struct rho_message_body, track_id), 4, 14},
+};
+static const struct message_float_rule body_floats[] = {
+    {offsetof(struct rho_message_body, x_m), 4, -FLT_MAX, FLT_MAX},
+    {offsetof(struct rho_message_body, length_m), 2, 0.0f, 100000.0f},
+    {offsetof(struct rho_message_body, heading_rad), 1, -4.0f, 4.0f},
+    {offsetof(struct rho_message_body, sigma_length_m), 2, 0.0f, 100000.0f},
+    {offsetof(struct rho_message_body, sigma_heading_rad), 1, 0.0f, 10.0f},
+    {offsetof(struct rho_message_body, sigma_along_m), 2, 0.0f, 100000.0f},
+    {offsetof(struct rho_message_body, plots), 1, 0.0f, 1000000000.0f},
+};
+static const struct message_format body_format = {
+    RHO_MESSAGE_BODY_FINGERPRINT,
+    {body_runs, 1, 56}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules body_rules = {
+    &body_format,
+    {0, body_floats, 0, 7}, {0, 0, 0, 0}};
+
 static const struct message_run command_answer_runs[] = {
     {offsetof(struct rho_message_command_answer, utime), 8, 1},
     {offsetof(struct rho_message_command_answer, scan), 4, 3},
@@ -451,6 +471,27 @@ static const struct message_rules bearing_scan_rules = {
     &bearing_scan_format,
     {bearing_scan_ints, bearing_scan_floats, 1, 2}, {0, bearing_scan_element_floats, 0, 1}};
 
+static const struct message_run body_list_runs[] = {
+    {offsetof(struct rho_message_body_list, utime), 8, 1},
+    {offsetof(struct rho_message_body_list, scan), 4, 2},
+    {offsetof(struct rho_message_body_list, part), 2, 2},
+};
+static const struct message_int_rule body_list_ints[] = {
+    {offsetof(struct rho_message_body_list, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_body_list, num_parts), 2, 1, MESSAGE_RANGE, 1, 32767},
+    {offsetof(struct rho_message_body_list, part), 2, 1, MESSAGE_BELOW, 0, offsetof(struct
+     rho_message_body_list, num_parts)},
+};
+static const struct message_format body_list_format = {
+    RHO_MESSAGE_BODY_LIST_FINGERPRINT,
+    {body_list_runs, 3, 20}, {body_runs, 1, 56},
+    offsetof(struct rho_message_body_list, num_bodies),
+    offsetof(struct rho_message_body_list, bodies),
+    sizeof(struct rho_message_body), RHO_MESSAGE_BODY_LIST_MAX_BODIES};
+static const struct message_rules body_list_rules = {
+    &body_list_format,
+    {body_list_ints, 0, 3, 0}, {0, body_floats, 0, 7}};
+
 static const struct message_run clutter_map_runs[] = {
     {offsetof(struct rho_message_clutter_map, utime), 8, 1},
     {offsetof(struct rho_message_clutter_map, scan), 4, 2},
@@ -742,6 +783,8 @@ typedef char accumulator_head_fits[offsetof(struct rho_message_accumulator, num_
     offsetof(struct rho_message_accumulator_head, num_cells_total) ? 1 : -1];
 typedef char bearing_scan_head_fits[offsetof(struct rho_message_bearing_scan, sigma_rad) ==
     offsetof(struct rho_message_bearing_scan_head, sigma_rad) ? 1 : -1];
+typedef char body_list_head_fits[offsetof(struct rho_message_body_list, num_parts) ==
+    offsetof(struct rho_message_body_list_head, num_parts) ? 1 : -1];
 typedef char clutter_map_head_fits[offsetof(struct rho_message_clutter_map, num_parts) ==
     offsetof(struct rho_message_clutter_map_head, num_parts) ? 1 : -1];
 typedef char ghost_matrix_head_fits[offsetof(struct rho_message_ghost_matrix, num_parts) ==
@@ -771,6 +814,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
 {
     static const uint64_t fingerprints[RHO_NUM_MESSAGE_TYPES] = {
         RHO_MESSAGE_ACCUMULATOR_CELL_FINGERPRINT,
+        RHO_MESSAGE_BODY_FINGERPRINT,
         RHO_MESSAGE_COMMAND_ANSWER_FINGERPRINT,
         RHO_MESSAGE_COMMAND_FINGERPRINT,
         RHO_MESSAGE_ECHO_FINGERPRINT,
@@ -790,6 +834,7 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_ZONE_FINGERPRINT,
         RHO_MESSAGE_ACCUMULATOR_FINGERPRINT,
         RHO_MESSAGE_BEARING_SCAN_FINGERPRINT,
+        RHO_MESSAGE_BODY_LIST_FINGERPRINT,
         RHO_MESSAGE_CLUTTER_MAP_FINGERPRINT,
         RHO_MESSAGE_GHOST_MATRIX_FINGERPRINT,
         RHO_MESSAGE_HYPOTHESES_FINGERPRINT,
@@ -841,6 +886,24 @@ enum rho_status rho_message_accumulator_cell_validate(
     const struct rho_message_accumulator_cell *message, struct rho_message_place *place)
 {
     return rho_message_validate(&accumulator_cell_rules, message, place);
+}
+
+enum rho_status rho_message_body_encode(
+    const struct rho_message_body *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&body_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_body_decode(
+    const uint8_t *data, size_t size, struct rho_message_body *message)
+{
+    return rho_message_decode(&body_format, data, size, message);
+}
+
+enum rho_status rho_message_body_validate(
+    const struct rho_message_body *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&body_rules, message, place);
 }
 
 enum rho_status rho_message_command_answer_encode(
@@ -1209,6 +1272,37 @@ enum rho_status rho_message_bearing_scan_add(
     struct rho_message_writer *writer, const float *bearing_rad)
 {
     return rho_message_add(&bearing_scan_format, writer, bearing_rad);
+}
+
+enum rho_status rho_message_body_list_encode(
+    const struct rho_message_body_list *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&body_list_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_body_list_decode(
+    const uint8_t *data, size_t size, struct rho_message_body_list *message)
+{
+    return rho_message_decode(&body_list_format, data, size, message);
+}
+
+enum rho_status rho_message_body_list_validate(
+    const struct rho_message_body_list *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&body_list_rules, message, place);
+}
+
+enum rho_status rho_message_body_list_begin(
+    struct rho_message_writer *writer, uint8_t *buffer, size_t capacity,
+    const struct rho_message_body_list_head *head)
+{
+    return rho_message_begin(&body_list_format, writer, buffer, capacity, head);
+}
+
+enum rho_status rho_message_body_list_add(
+    struct rho_message_writer *writer, const struct rho_message_body *bodie)
+{
+    return rho_message_add(&body_list_format, writer, bodie);
 }
 
 enum rho_status rho_message_clutter_map_encode(

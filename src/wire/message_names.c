@@ -30,6 +30,23 @@ static const struct name accumulator_cell_names[] = {
     {offsetof(struct rho_message_accumulator_cell, track_id), "track_id"},
 };
 
+static const struct name body_names[] = {
+    {offsetof(struct rho_message_body, track_id), "track_id"},
+    {offsetof(struct rho_message_body, x_m), "x_m"},
+    {offsetof(struct rho_message_body, y_m), "y_m"},
+    {offsetof(struct rho_message_body, reference_x_m), "reference_x_m"},
+    {offsetof(struct rho_message_body, reference_y_m), "reference_y_m"},
+    {offsetof(struct rho_message_body, length_m), "length_m"},
+    {offsetof(struct rho_message_body, width_m), "width_m"},
+    {offsetof(struct rho_message_body, heading_rad), "heading_rad"},
+    {offsetof(struct rho_message_body, sigma_length_m), "sigma_length_m"},
+    {offsetof(struct rho_message_body, sigma_width_m), "sigma_width_m"},
+    {offsetof(struct rho_message_body, sigma_heading_rad), "sigma_heading_rad"},
+    {offsetof(struct rho_message_body, sigma_along_m), "sigma_along_m"},
+    {offsetof(struct rho_message_body, sigma_across_m), "sigma_across_m"},
+    {offsetof(struct rho_message_body, plots), "plots"},
+};
+
 static const struct name command_answer_names[] = {
     {offsetof(struct rho_message_command_answer, utime), "utime"},
     {offsetof(struct rho_message_command_answer, scan), "scan"},
@@ -297,6 +314,16 @@ static const struct name bearing_scan_names[] = {
     {offsetof(struct rho_message_bearing_scan, bearing_rad), "bearing_rad"},
 };
 
+static const struct name body_list_names[] = {
+    {offsetof(struct rho_message_body_list, utime), "utime"},
+    {offsetof(struct rho_message_body_list, scan), "scan"},
+    {offsetof(struct rho_message_body_list, epoch), "epoch"},
+    {offsetof(struct rho_message_body_list, part), "part"},
+    {offsetof(struct rho_message_body_list, num_parts), "num_parts"},
+    {offsetof(struct rho_message_body_list, num_bodies), "num_bodies"},
+    {offsetof(struct rho_message_body_list, bodies), "bodies"},
+};
+
 static const struct name clutter_map_names[] = {
     {offsetof(struct rho_message_clutter_map, utime), "utime"},
     {offsetof(struct rho_message_clutter_map, scan), "scan"},
@@ -457,6 +484,7 @@ const char *rho_message_type_name(enum rho_message_type type)
 {
     static const char type_names[RHO_NUM_MESSAGE_TYPES][19] = {
         "accumulator_cell_t",
+        "body_t",
         "command_answer_t",
         "command_t",
         "echo_t",
@@ -476,6 +504,7 @@ const char *rho_message_type_name(enum rho_message_type type)
         "zone_t",
         "accumulator_t",
         "bearing_scan_t",
+        "body_list_t",
         "clutter_map_t",
         "ghost_matrix_t",
         "hypotheses_t",
@@ -496,6 +525,11 @@ const char *rho_message_type_name(enum rho_message_type type)
 const char *rho_message_accumulator_cell_field(const struct rho_message_place *place)
 {
     return place ? find(accumulator_cell_names, 6, place->offset) : "unknown";
+}
+
+const char *rho_message_body_field(const struct rho_message_place *place)
+{
+    return place ? find(body_names, 14, place->offset) : "unknown";
 }
 
 const char *rho_message_command_answer_field(const struct rho_message_place *place)
@@ -597,6 +631,14 @@ const char *rho_message_bearing_scan_field(const struct rho_message_place *place
         return "bearing_rad";
     }
     return place ? find(bearing_scan_names, 9, place->offset) : "unknown";
+}
+
+const char *rho_message_body_list_field(const struct rho_message_place *place)
+{
+    if (place && place->element >= 0) {
+        return find(body_names, 14, place->offset);
+    }
+    return place ? find(body_list_names, 7, place->offset) : "unknown";
 }
 
 const char *rho_message_clutter_map_field(const struct rho_message_place *place)

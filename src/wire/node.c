@@ -541,15 +541,29 @@ void rho_node_count_time(struct rho_node *node, int64_t took_us)
 
 /* ---- Messages ---- */
 
-uint16_t rho_node_num_messages(const struct rho_node *node)
+/* Tracks and peaks; bodies come behind them. */
+static uint16_t num_without_bodies(const struct rho_node *node)
 {
     return is_ready(node) ? (uint16_t)(rho_publish_num_parts(node->config.report) + 1u) : 0;
 }
 
+uint16_t rho_node_num_messages(const struct rho_node *node)
+{
+    const uint16_t num_messages = num_without_bodies(node);
+
+    return RHO_BODIES && num_messages > 0
+               ? (uint16_t)(num_messages +
+                            rho_publish_num_body_parts(node->config.tracker, node->config.report))
+               : num_messages;
+}
+
 const char *rho_node_channel(const struct rho_node *node, uint16_t part)
 {
-    return part + 1u < rho_node_num_messages(node) ? RHO_MESSAGE_TRACK_LIST_CHANNEL
-                                                   : RHO_MESSAGE_PEAK_LIST_CHANNEL;
+    if (RHO_BODIES && part >= num_without_bodies(node)) {
+        return RHO_MESSAGE_BODY_LIST_CHANNEL;
+    }
+    return part + 1u < num_without_bodies(node) ? RHO_MESSAGE_TRACK_LIST_CHANNEL
+                                                : RHO_MESSAGE_PEAK_LIST_CHANNEL;
 }
 
 enum rho_status rho_node_publish(const struct rho_node *node, const struct rho_initiator *initiator,
@@ -567,6 +581,11 @@ enum rho_status rho_node_publish(const struct rho_node *node, const struct rho_i
     }
     if (part >= rho_node_num_messages(node)) {
         return RHO_ERROR_VALUE;
+    }
+    if (RHO_BODIES && part >= num_without_bodies(node)) {
+        return rho_publish_bodies(node->config.tracker, report, node->step, node->epoch,
+                                  (uint16_t)(part - num_without_bodies(node)), buffer, capacity,
+                                  size);
     }
     is_frame = frames_of(node) && node->stepped == RHO_NODE_FRAME;
     return rho_publish_peaks(is_frame ? NULL : initiator, is_frame ? node->config.passive : NULL,

@@ -25,6 +25,17 @@ check 'a truck is 12 m long' awk -F, '
     $1 > 6 && $1 < 8 && $2 == 1 { n++; bad += $19 < 10.5 || $19 > 13.5 || $20 < 1.5 || $20 > 4 }
     END { exit n < 20 || bad > 0 }' told.csv
 
+# ---- messages: of each step, in logs and of a node ----
+count() { grep -aoF "$2" "$1" | wc -l; }
+run track road/plots.csv --config road/scenario.ini -o told.lcm
+steps=$(tail -n +2 told.csv | cut -d, -f1 | uniq | wc -l)
+check 'a log has the bodies of each step' test "$(count told.lcm RHO_BODIES)" -ge "$steps"
+run convert road/plots.csv road.lcm --config road/scenario.ini
+run node --lcm "file://$PWD/road.lcm?speed=0" --config road/scenario.ini --log told-live.lcm
+check 'a node sends them' test "$(count told-live.lcm RHO_BODIES)" -eq "$(count told.lcm RHO_BODIES)"
+run node --lcm "file://$PWD/road.lcm?speed=0" --config silent.ini --log silent.lcm
+check 'and none where nothing is said' test "$(count silent.lcm RHO_BODIES)" -eq 0
+
 # ---- bad settings ----
 for bad in body_max_m=-1 body_max_m=x body_max_m=1e9; do
     run track road/plots.csv --set $bad

@@ -599,6 +599,34 @@ def test_a_node_tracks_messages(scene, tmp_path):
     assert "RHO_STATUS" in dict(node.status())
 
 
+def test_bodies_are_columns_and_messages(scene, tmp_path):
+    folder = scene("trucks", "--set", "duration_s=5")
+    settings = rhotrack.Settings(folder / "scenario.ini")
+    scans = rhotrack.read(folder / "plots.csv", settings=settings)
+    run = rhotrack.Tracker(settings).run(scans)
+    last = run[run["t_s"] == run["t_s"].max()]
+    known = last[~np.isnan(last["length_m"])]
+    assert len(known) >= 3 and np.all(known["length_m"] < 20)
+    subprocess.run([PROGRAM, "convert", folder / "plots.csv", tmp_path / "in.lcm",
+                    "--config", folder / "scenario.ini"], check=True, capture_output=True)
+    node, sent = rhotrack.Node(settings), []
+    for channel, data, now_s in events((tmp_path / "in.lcm").read_bytes()):
+        sent += node.take(channel, data, now_s)
+    sent += node.flush()
+    np.testing.assert_array_equal(node.tracks["length_m"], last["length_m"])
+    lists = [data for channel, data in sent if channel == "RHO_BODIES"]
+    assert len(lists) >= len(scans)  # in parts where they are many
+    utime, _, epoch, part, num_parts, count = struct.unpack_from(">qiihhh", lists[-1], 8)
+    assert (round(last["t_s"][0] * 1e6), 1, num_parts - 1) == (utime, epoch, part)
+    for row, one in zip(known[-count:], struct.iter_unpack(">i13f", lists[-1][30:])):
+        assert one[0] == row["track_id"]
+        assert one[1:3] == one[3:5] == (row["x_m"], row["y_m"])
+        assert one[5:13] == tuple(row[name] for name in (
+            "length_m", "width_m", "heading_rad", "sigma_length_m", "sigma_width_m",
+            "sigma_heading_rad", "sigma_along_m", "sigma_across_m"))
+    assert "length_m" not in rhotrack.Tracker(settings, body_max_m=0).run(scans).dtype.names
+
+
 def test_a_picture_shows_plots_and_confirmed_tracks(scene):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

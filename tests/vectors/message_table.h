@@ -7,8 +7,8 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
-#define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
+#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(body, BODY) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
+#define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(body_list, BODY_LIST, "RHO_BODIES") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
 #endif
 
 static const struct message_member MESSAGE_TABLE(accumulator_cell)[] = {
@@ -18,6 +18,23 @@ static const struct message_member MESSAGE_TABLE(accumulator_cell)[] = {
     {"scan_mask", offsetof(MESSAGE_STRUCT(accumulator_cell), scan_mask), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(65535)},
     {"plots", offsetof(MESSAGE_STRUCT(accumulator_cell), plots), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
     {"track_id", offsetof(MESSAGE_STRUCT(accumulator_cell), track_id), 0, 4, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(2147483647)},
+};
+
+static const struct message_member MESSAGE_TABLE(body)[] = {
+    {"track_id", offsetof(MESSAGE_STRUCT(body), track_id), 0, 4, 1, .rule = MEMBER_ANY},
+    {"x_m", offsetof(MESSAGE_STRUCT(body), x_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"y_m", offsetof(MESSAGE_STRUCT(body), y_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"reference_x_m", offsetof(MESSAGE_STRUCT(body), reference_x_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"reference_y_m", offsetof(MESSAGE_STRUCT(body), reference_y_m), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"length_m", offsetof(MESSAGE_STRUCT(body), length_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"width_m", offsetof(MESSAGE_STRUCT(body), width_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"heading_rad", offsetof(MESSAGE_STRUCT(body), heading_rad), 0, 4, 1, .is_float = true, .low = (float)(-4), .high = (float)(4)},
+    {"sigma_length_m", offsetof(MESSAGE_STRUCT(body), sigma_length_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"sigma_width_m", offsetof(MESSAGE_STRUCT(body), sigma_width_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"sigma_heading_rad", offsetof(MESSAGE_STRUCT(body), sigma_heading_rad), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(10)},
+    {"sigma_along_m", offsetof(MESSAGE_STRUCT(body), sigma_along_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"sigma_across_m", offsetof(MESSAGE_STRUCT(body), sigma_across_m), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e5)},
+    {"plots", offsetof(MESSAGE_STRUCT(body), plots), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e9)},
 };
 
 static const struct message_member MESSAGE_TABLE(command_answer)[] = {
@@ -286,6 +303,14 @@ static const struct message_member MESSAGE_TABLE(bearing_scan_element)[] = {
     {"bearing_rad", 0, 0, 4, 1, .is_float = true, .low = (float)(-3.1415927), .high = (float)(3.1415927)},
 };
 
+static const struct message_member MESSAGE_TABLE(body_list)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(body_list), utime), MESSAGE_HEAD(body_list, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(body_list), scan), MESSAGE_HEAD(body_list, scan), 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(body_list), epoch), MESSAGE_HEAD(body_list, epoch), 4, 1, .rule = MEMBER_ANY},
+    {"part", offsetof(MESSAGE_STRUCT(body_list), part), MESSAGE_HEAD(body_list, part), 2, 1, .rule = MEMBER_BELOW, .other = offsetof(MESSAGE_STRUCT(body_list), num_parts)},
+    {"num_parts", offsetof(MESSAGE_STRUCT(body_list), num_parts), MESSAGE_HEAD(body_list, num_parts), 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(32767)},
+};
+
 static const struct message_member MESSAGE_TABLE(clutter_map)[] = {
     {"utime", offsetof(MESSAGE_STRUCT(clutter_map), utime), MESSAGE_HEAD(clutter_map, utime), 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
     {"scan", offsetof(MESSAGE_STRUCT(clutter_map), scan), MESSAGE_HEAD(clutter_map, scan), 4, 1, .rule = MEMBER_ANY},
@@ -420,6 +445,7 @@ static const struct message_member MESSAGE_TABLE(zone_list)[] = {
 
 static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"accumulator_cell_t", MESSAGE_TABLE(accumulator_cell), 6, sizeof(MESSAGE_STRUCT(accumulator_cell)), .element_members = NULL},
+    {"body_t", MESSAGE_TABLE(body), 14, sizeof(MESSAGE_STRUCT(body)), .element_members = NULL},
     {"command_answer_t", MESSAGE_TABLE(command_answer), 7, sizeof(MESSAGE_STRUCT(command_answer)), .element_members = NULL},
     {"command_t", MESSAGE_TABLE(command), 13, sizeof(MESSAGE_STRUCT(command)), .element_members = NULL},
     {"echo_t", MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), .element_members = NULL},
@@ -443,6 +469,9 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"bearing_scan_t", MESSAGE_TABLE(bearing_scan), 7, sizeof(MESSAGE_STRUCT(bearing_scan)),
      {"num_bearings", offsetof(MESSAGE_STRUCT(bearing_scan), num_bearings), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(bearing_scan), bearing_rad), MESSAGE_TABLE(bearing_scan_element), 1, sizeof(float), 4, 256, MESSAGE_LIST_IS_POINTER},
+    {"body_list_t", MESSAGE_TABLE(body_list), 5, sizeof(MESSAGE_STRUCT(body_list)),
+     {"num_bodies", offsetof(MESSAGE_STRUCT(body_list), num_bodies), 0, 2, 1, .rule = MEMBER_ANY},
+     offsetof(MESSAGE_STRUCT(body_list), bodies), MESSAGE_TABLE(body), 14, sizeof(MESSAGE_STRUCT(body)), 56, 24, MESSAGE_LIST_IS_POINTER},
     {"clutter_map_t", MESSAGE_TABLE(clutter_map), 6, sizeof(MESSAGE_STRUCT(clutter_map)),
      {"num_echoes", offsetof(MESSAGE_STRUCT(clutter_map), num_echoes), 0, 2, 1, .rule = MEMBER_ANY},
      offsetof(MESSAGE_STRUCT(clutter_map), echoes), MESSAGE_TABLE(echo), 10, sizeof(MESSAGE_STRUCT(echo)), 34, 40, MESSAGE_LIST_IS_POINTER},

@@ -2,6 +2,7 @@
 #include "node.h"
 
 #include "node_settings.h"
+#include "rhotrack/body.h"
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"
@@ -101,6 +102,9 @@ static enum rho_status open_tracker(void)
         tracker.counters = counters;
         tracker.work = work;
         status = starts_open(&settings);
+    }
+    if (RHO_BODIES && NODE_BODY_MAX_M > 0.0f && status == RHO_OK) {
+        status = rho_tracker_set_body_max(&tracker, NODE_BODY_MAX_M);
     }
     return status;
 }

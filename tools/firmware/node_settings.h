@@ -34,6 +34,10 @@
 #ifndef NODE_ACCEL_MAX_MPS2
 #define NODE_ACCEL_MAX_MPS2 30.0f
 #endif
+/* Its longest target, where targets give several plots (RHO_BODIES 1); 0: they are points. */
+#ifndef NODE_BODY_MAX_M
+#define NODE_BODY_MAX_M 0.0f
+#endif
 #ifndef NODE_GATE
 #define NODE_GATE (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST)
 #endif

@@ -840,6 +840,10 @@ static void add_track(struct program_tracks *tracks, int64_t time_us,
             tracks->covariances =
                 must_realloc(tracks->covariances, tracks->capacity * sizeof *tracks->covariances);
         }
+        if (tracks->has_bodies) {
+            tracks->bodies =
+                must_realloc(tracks->bodies, tracks->capacity * sizeof *tracks->bodies);
+        }
     }
     struct program_track *row = &tracks->list[tracks->count];
 
@@ -872,10 +876,19 @@ static void add_track(struct program_tracks *tracks, int64_t time_us,
     tracks->count++;
 }
 
-static void add_tracks(struct program_tracks *tracks, const struct rho_report *report)
+/* With the bodies that the tracker knows, where it was told of any. */
+static void add_tracks(struct program_tracks *tracks, const struct rho_report *report,
+                       const struct rho_tracker *tracker)
 {
+    tracks->has_bodies = tracker->bodies.length_max_m > 0.0f;
     for (unsigned i = 0; i < report->num_tracks; i++) {
         add_track(tracks, report->time_us, &report->tracks[i]);
+        if (tracks->has_bodies) {
+            struct rho_body *body = &tracks->bodies[tracks->count - 1];
+
+            *body = (struct rho_body){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+            (void)rho_tracker_body_of(tracker, i, body);
+        }
     }
 }
 
@@ -883,6 +896,7 @@ void program_tracks_free(struct program_tracks *tracks)
 {
     free(tracks->list);
     free(tracks->covariances);
+    free(tracks->bodies);
 }
 
 struct program_pipeline *program_pipeline(const struct parameters *settings, bool has_covariances)
@@ -999,7 +1013,7 @@ bool program_pipeline_run(struct program_pipeline *made, const struct program_sc
             made->min_scans = made->pipeline->initiator->min_scans;
         }
         if (collects_tracks) {
-            add_tracks(&made->tracks, made->report);
+            add_tracks(&made->tracks, made->report, made->tracker);
         }
     }
     return true;
@@ -1210,6 +1224,6 @@ bool program_node_tracks(struct program_node *node, struct program_tracks *track
 {
     RETURN_ON_FAILURE(false)
     tracks->count = 0;
-    add_tracks(tracks, node_core_report(node->core));
+    add_tracks(tracks, node_core_report(node->core), node_core_live_tracker(node->core));
     return true;
 }

@@ -112,8 +112,9 @@ struct program_track {
 struct program_tracks {
     struct program_track *list;
     float (*covariances)[RHO_TRIANGLE(RHO_KALMAN_STATES)]; /* NULL: not wanted */
+    struct rho_body *bodies; /* NULL: targets are points; NaN: none of this track */
     size_t count, capacity;
-    bool has_covariances;
+    bool has_covariances, has_bodies;
 };
 
 void program_tracks_free(struct program_tracks *tracks);

@@ -119,7 +119,8 @@ static const struct command commands[] = {
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
      "lpLRTAmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
-     "RHO_TRACKS and RHO_PEAKS at each scan, RHO_STATUS, RHO_WORK and RHO_SENSORS once a second,\n"
+     "RHO_TRACKS and RHO_PEAKS at each scan, with body_max_m RHO_BODIES, and once a second\n"
+     "RHO_STATUS, RHO_WORK and RHO_SENSORS,\n"
      "with them what is learned of each sensor in turn, RHO_LEARNED,\n"
      "and what is known of clutter that comes back, RHO_CLUTTER, every five. Bad, late and lost "
      "messages are\n"

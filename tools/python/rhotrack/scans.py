@@ -14,6 +14,7 @@ from .settings import Settings, settings_of
 
 ROW = dtype_of("program_row")
 TRACK = dtype_of("program_track")
+BODY = dtype_of("rho_body")
 COVARIANCE = [f"cov_{a}_{b}" for i, a in enumerate(["x", "y", "z", "vx", "vy", "vz"])
               for b in ["x", "y", "z", "vx", "vy", "vz"][:i + 1]]
 _BLANK = np.zeros((), ROW)

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import pictures
 from ._core import FATES, NULL, Error, array_of, ffi, lib, must, plain, pointer_to
-from .scans import COVARIANCE, TRACK, as_scans, records
+from .scans import BODY, COVARIANCE, TRACK, as_scans, records
 from .settings import Settings, settings_of
 
 
@@ -32,16 +32,20 @@ def _array(tracks: Any) -> Tracks:
 
 def _plain_array(tracks: Any) -> np.ndarray:
     rows = array_of(tracks.list, tracks.count, TRACK)
-    if not tracks.has_covariances:
+    more = []
+    if tracks.has_covariances:
+        size = len(COVARIANCE)
+        flat = array_of(tracks.covariances, tracks.count * size, "f4").reshape(-1, size)
+        more += [(name, flat[:, i]) for i, name in enumerate(COVARIANCE)]
+    if tracks.has_bodies:
+        bodies = array_of(tracks.bodies, tracks.count, BODY)
+        more += [(name, bodies[name]) for name in BODY.names if name != "plots"]
+    if not more:
         return rows
-    size = len(COVARIANCE)
-    covariances = array_of(tracks.covariances, tracks.count * size, "f4").reshape(-1, size)
     wide = np.empty(len(rows), [(name, TRACK[name]) for name in TRACK.names]
-                    + [(name, "f4") for name in COVARIANCE])
-    for name in TRACK.names:
-        wide[name] = rows[name]
-    for i, name in enumerate(COVARIANCE):
-        wide[name] = covariances[:, i]
+                    + [(name, "f4") for name, _ in more])
+    for name, column in [*((name, rows[name]) for name in TRACK.names), *more]:
+        wide[name] = column
     return wide
 
 
@@ -52,7 +56,8 @@ class Tracker:
     tracks file: t_s (float64 s), track_id, status ("tentative", "confirmed", "coasting"), x_m ..
     vz_mps, ax_mps2 .. az_mps2, sigma_m, sigma_mps (float32; metres, m/s, m/s^2), hits, misses,
     sensor_id, plot (row of the plot in its scan, -1: none), update_age_us, score_nat,
-    maneuver_probability; with covariance=True also cov_x_x .. cov_vz_vz.
+    maneuver_probability; with covariance=True also cov_x_x .. cov_vz_vz; where body_max_m is set
+    also the body: length_m, width_m, heading_rad, their sigmas, sigma_along_m, sigma_across_m.
     """
 
     def __init__(self, settings: Settings | None = None, covariance: bool = False,

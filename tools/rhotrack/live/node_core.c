@@ -558,6 +558,11 @@ const struct rho_report *node_core_report(const struct node_core *core)
     return core->pipeline.report;
 }
 
+const struct rho_tracker *node_core_live_tracker(const struct node_core *core)
+{
+    return core->pipeline.tracker;
+}
+
 struct rho_clutter_map *node_core_clutter(struct node_core *core)
 {
     return &core->pipeline.tracker->clutter_map;

@@ -126,6 +126,22 @@ static void write_list(struct tracks_output *tracks, const struct rho_report *re
     }
 }
 
+/* Logs alone have room for them. */
+static void write_bodies(struct tracks_output *tracks, const struct rho_report *report)
+{
+    const struct rho_tracker *tracker = tracks->columns.bodies;
+    uint8_t buffer[RHO_MESSAGE_BODY_LIST_MAX_SIZE];
+    size_t size;
+
+    for (uint16_t part = 0; part < rho_publish_num_body_parts(tracker, report); part++) {
+        must_succeed(rho_publish_bodies(tracker, report, tracks->step, EPOCH, part, buffer,
+                                        sizeof buffer, &size),
+                     "publish");
+        lcm_log_must_write(&tracks->log, tracks->path, report->time_us,
+                           RHO_MESSAGE_BODY_LIST_CHANNEL, buffer, size);
+    }
+}
+
 static void add_to_map(struct geojson *map, int64_t time_us, const struct rho_track_report *track)
 {
     struct geojson_row row = {.time_us = time_us,
@@ -154,6 +170,9 @@ void tracks_output_report(struct tracks_output *tracks, const struct rho_report 
         add_report_to_map(tracks->map, report);
     } else if (tracks->is_log || tracks->asterix) {
         write_list(tracks, report);
+        if (tracks->is_log) {
+            write_bodies(tracks, report);
+        }
     } else {
         need_header(tracks);
         tracks_write_report(tracks->output.file, report, tracks->columns);

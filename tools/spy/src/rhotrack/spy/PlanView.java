@@ -138,6 +138,7 @@ final class PlanView extends JComponent {
         }
         if (options.shows(ViewOptions.Layer.ELLIPSES)) {
             TrackLayer.paintEllipses(g, scene, view);
+            TrackLayer.paintBodies(g, scene, view);
         }
         ThoughtLayer.paintHypotheses(g, scene, selected, view, seconds);
         TrackLayer.paintTracks(g, scene, view, seconds, labels);

@@ -85,6 +85,19 @@ final class TrackLayer {
         }
     }
 
+    static void paintBodies(Graphics2D g, Scene scene, ViewTransform view) {
+        g.setColor(Palette.TEXT);
+        g.setStroke(Palette.THIN);
+        for (Scene.Body body : scene.bodies()) {
+            double length = body.length() / view.metresPerPixel();
+            double width = body.width() / view.metresPerPixel();
+            AffineTransform place = AffineTransform.getTranslateInstance(view.screenX(body.centre().x()),
+                    view.screenY(body.centre().y()));
+            place.rotate(-body.heading()); // the screen's y points down
+            g.draw(place.createTransformedShape(new Rectangle2D.Double(-length / 2, -width / 2, length, width)));
+        }
+    }
+
     static void paintTracks(Graphics2D g, Scene scene, ViewTransform view, double seconds, LabelPlacer labels) {
         for (TrackMark track : scene.tracks()) {
             g.setColor(Palette.of(track.status()));

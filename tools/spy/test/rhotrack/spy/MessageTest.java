@@ -14,6 +14,8 @@ import lcm.lcm.LCMEncodable;
 import rhotrack.accumulator_cell_t;
 import rhotrack.accumulator_t;
 import rhotrack.bearing_scan_t;
+import rhotrack.body_list_t;
+import rhotrack.body_t;
 import rhotrack.clutter_map_t;
 import rhotrack.echo_t;
 import rhotrack.ghost_matrix_t;
@@ -49,6 +51,7 @@ final class MessageTest {
         check.group("bad messages", () -> bad(check));
         check.group("mutated messages", () -> mutated(check));
         check.group("picture", () -> picture(check));
+        check.group("bodies", () -> bodies(check));
         check.group("thoughts", () -> thoughts(check));
         check.group("bad thoughts", () -> badThoughts(check));
         check.group("pictures of thoughts", () -> thoughtsInPictures(check));
@@ -137,6 +140,44 @@ final class MessageTest {
         list.num_echoes = 1;
         list.echoes = new echo_t[] {echo};
         return list;
+    }
+
+    private static body_list_t bodies(int scan, double length) {
+        body_t body = new body_t();
+        body.track_id = 12;
+        body.x_m = 500;
+        body.length_m = (float) length;
+        body.width_m = 100;
+        body.heading_rad = 0.5f;
+        body_list_t list = new body_list_t();
+        list.scan = scan;
+        list.num_parts = 1;
+        list.num_bodies = 1;
+        list.bodies = new body_t[] {body};
+        return list;
+    }
+
+    private static void bodies(Checks check) throws IOException {
+        Model model = new Model();
+        ViewerPanel panel = new ViewerPanel(model);
+        Decoder decoder = new Decoder(model);
+        decoder.decode("RHO_POLAR_3", bytes(polarScan()));
+        decoder.decode("RHO_TRACKS", bytes(trackList(1, track_t.CONFIRMED)));
+        BufferedImage point = panel.picture(900, 600);
+        decoder.decode("RHO_BODIES", bytes(bodies(1, 400)));
+        check.equal("a body", List.of(new Scene.Body(12, new Place(500, 0), 400, 100, 0.5)), model.scene().bodies());
+        check.isTrue("is an outline", differ(point, panel.picture(900, 600), 0, 40, 640, 560) > 50);
+        decoder.decode("RHO_BODIES", bytes(bodies(2, -1)));
+        body_list_t turned = bodies(3, 400);
+        turned.bodies[0].heading_rad = Float.NaN;
+        decoder.decode("RHO_BODIES", bytes(turned));
+        turned = bodies(4, 400);
+        turned.part = 1;
+        decoder.decode("RHO_BODIES", bytes(turned));
+        check.equal("bad ones", 3L, model.scene().health().ignored());
+        check.equal("change nothing", 1, model.scene().bodies().size());
+        model.clear();
+        check.equal("forgotten", 0, model.scene().bodies().size());
     }
 
     private static work_t work(long work, long most, long partial) {
@@ -456,7 +497,7 @@ final class MessageTest {
             bytes(peaks()), bytes(new status_t()),
             bytes(sensors(0, 1, 3, 1, 0)), bytes(echoes(1, 0, 1, 300)), bytes(work(1, 2, 3)),
             bytes(learned(3, 2, 1, 0.6)), bytes(ghosts(1, 0, 1, ghost_t.ROW)), bytes(search(1, 7, 12)),
-            bytes(plane(1, 0, 4, 127)), bytes(hypotheses(12, 0.7f))};
+            bytes(plane(1, 0, 4, 127)), bytes(hypotheses(12, 0.7f)), bytes(bodies(1, 400))};
         int rounds = 20000;
         for (int i = 0; i < rounds; i++) {
             byte[] message = originals[i % originals.length].clone();

@@ -11,6 +11,8 @@ import java.util.Locale;
 import rhotrack.accumulator_cell_t;
 import rhotrack.accumulator_t;
 import rhotrack.bearing_scan_t;
+import rhotrack.body_list_t;
+import rhotrack.body_t;
 import rhotrack.clutter_map_t;
 import rhotrack.echo_t;
 import rhotrack.ghost_matrix_t;
@@ -52,7 +54,7 @@ public final class Decoder {
                 || fingerprint == clutter_map_t.LCM_FINGERPRINT || fingerprint == work_t.LCM_FINGERPRINT
                 || fingerprint == learned_t.LCM_FINGERPRINT || fingerprint == ghost_matrix_t.LCM_FINGERPRINT
                 || fingerprint == accumulator_t.LCM_FINGERPRINT || fingerprint == plane_t.LCM_FINGERPRINT
-                || fingerprint == hypotheses_t.LCM_FINGERPRINT;
+                || fingerprint == hypotheses_t.LCM_FINGERPRINT || fingerprint == body_list_t.LCM_FINGERPRINT;
     }
 
     public void decode(String channel, byte[] data) {
@@ -95,6 +97,9 @@ public final class Decoder {
         }
         if (fingerprint == clutter_map_t.LCM_FINGERPRINT) {
             return take(new clutter_map_t(in), in);
+        }
+        if (fingerprint == body_list_t.LCM_FINGERPRINT) {
+            return take(new body_list_t(in), in);
         }
         if (fingerprint == work_t.LCM_FINGERPRINT) {
             return take(new work_t(in), in);
@@ -194,6 +199,23 @@ public final class Decoder {
         Ellipse ellipse = Ellipse.of(track.covariance[0], track.covariance[1], track.covariance[2]);
         return new TrackMark(track.track_id, states[track.status - track_t.TENTATIVE], place, track.z_m, track.vx_mps,
                 track.vy_mps, track.hits, track.misses, track.score_nat, ellipse);
+    }
+
+    private boolean take(body_list_t list, DataInputStream in) throws IOException {
+        if (in.available() > 0 || list.num_bodies > body_list_t.MAX_BODIES || !isPart(list.part, list.num_parts)) {
+            return false;
+        }
+        List<Scene.Body> bodies = new ArrayList<>();
+        for (body_t body : list.bodies) {
+            Place centre = new Place(body.x_m, body.y_m);
+            boolean within = body.length_m >= 0 && body.length_m <= 1e5 && body.width_m >= 0 && body.width_m <= 1e5;
+            if (!centre.isSane() || !within || !(Math.abs(body.heading_rad) <= 4)) {
+                return false;
+            }
+            bodies.add(new Scene.Body(body.track_id, centre, body.length_m, body.width_m, body.heading_rad));
+        }
+        model.addBodies(list.epoch, list.scan, list.part, list.num_parts, bodies);
+        return true;
     }
 
     private boolean take(truth_list_t list, DataInputStream in) throws IOException {

@@ -22,9 +22,11 @@ public final class Model {
     private ListAssembler<TrackMark> trackParts = new ListAssembler<>();
     private ListAssembler<Scene.Truth> truthParts = new ListAssembler<>();
     private ListAssembler<Scene.Echo> echoParts = new ListAssembler<>();
+    private ListAssembler<Scene.Body> bodyParts = new ListAssembler<>();
     private TrackStore tracks = new TrackStore();
     private List<Scene.Truth> truth = List.of();
     private List<Scene.Echo> echoes = List.of();
+    private List<Scene.Body> bodies = List.of();
     private final Map<Integer, Place> sensors = new TreeMap<>();
     /** RHO_SENSORS: what is wrong with sensors, of each part of the list. */
     private final TreeMap<Integer, List<String>> sensorFaults = new TreeMap<>();
@@ -78,6 +80,10 @@ public final class Model {
         echoParts.add(epoch, scan, part, numParts, known).forEach(list -> echoes = List.copyOf(list.items()));
     }
 
+    public synchronized void addBodies(int epoch, int scan, int part, int numParts, List<Scene.Body> known) {
+        bodyParts.add(epoch, scan, part, numParts, known).forEach(list -> bodies = List.copyOf(list.items()));
+    }
+
     /** Messages of what the tracker thought, one after the other. */
     public synchronized void think(Consumer<Thinking> message) {
         message.accept(thinking);
@@ -128,9 +134,11 @@ public final class Model {
         trackParts = new ListAssembler<>();
         truthParts = new ListAssembler<>();
         echoParts = new ListAssembler<>();
+        bodyParts = new ListAssembler<>();
         tracks = new TrackStore();
         truth = List.of();
         echoes = List.of();
+        bodies = List.of();
         thinking.clear();
         changes++;
     }
@@ -146,7 +154,7 @@ public final class Model {
         Scene.Health health =
                 new Scene.Health(status, work, faults, age(statusNanos), age(tracksNanos), received, ignored);
         return new Scene(allPlots, allBearings, peaks.fading(), tracks.tracks(), tracks.trails(), truth,
-                echoes, new TreeMap<>(sensors), thinking.thoughts(tracks.tracks()), health);
+                echoes, bodies, new TreeMap<>(sensors), thinking.thoughts(tracks.tracks()), health);
     }
 
     private static double age(long nanos) {

@@ -10,7 +10,7 @@ import java.util.Map;
  */
 public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded<Bearings>> bearings,
         List<LookHistory.Faded<Peaks>> peaks, List<TrackMark> tracks, List<List<Place>> trails, List<Truth> truth,
-        List<Echo> echoes, Map<Integer, Place> sensors, Thoughts thoughts, Health health) {
+        List<Echo> echoes, List<Body> bodies, Map<Integer, Place> sensors, Thoughts thoughts, Health health) {
     /** Plots of (a part of) one look. */
     public record Plots(int sensorId, List<Place> places) {
     }
@@ -31,6 +31,10 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
 
     /** Clutter that the tracker knows: it comes back to its place. */
     public record Echo(Place place, int sensorId, int hits, double chance) {
+    }
+
+    /** The rectangle of a track with a body, its length along the heading. */
+    public record Body(int trackId, Place centre, double length, double width, double heading) {
     }
 
     /** What the tracker thought, where it was asked to show it. */

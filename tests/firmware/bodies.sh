@@ -1,0 +1,31 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# The node with bodies (RHO_BODIES, NODE_BODY_MAX_M in its configuration): one track a vehicle, and
+# RHO_BODIES at each step.
+# shellcheck source=tests/firmware/records.bash
+. "$(dirname "$0")/records.bash"
+. "$(dirname "$0")/../integration/checks.bash"
+
+cat >bodies.h <<'H'
+#define RHO_BODIES 1
+#define NODE_BODY_MAX_M 15.0f
+#include "nodes/traffic.h"
+H
+sed 's/BODY_MAX_M 15.0f/BODY_MAX_M 0.0f/' bodies.h >points.h
+build_with() { # configuration
+    gcc -std=c99 -O1 -ffp-contract=off -I"$root/include" -I"$root/tools/firmware" -I. \
+        -DRHO_CONFIG_FILE="\"$1.h\"" -o "./$1" "$root"/src/*/*.c \
+        "$root"/tools/firmware/{node,starts_best,replay}.c \
+        "$root"/tools/firmware/board/host/files_host.c
+}
+check 'a record of trucks and cars' record trucks trucks plots --set duration_s=20
+count() { grep -aoF "$2" "$1" | wc -l; }
+for name in bodies points; do
+    check "the node of $name builds" build_with $name
+    check 'and plays it' "./$name" trucks.lcm "$name.lcm"
+done
+lists=$(count bodies.lcm RHO_TRACKS)
+check 'bodies at each step' test "$lists" -gt 300 -a "$(count bodies.lcm RHO_BODIES)" -ge 390
+check 'none of points' test "$(count points.lcm RHO_BODIES)" -eq 0
+check 'whose tracks are many more' test "$(count points.lcm RHO_TRACKS)" -gt "$lists"
+finish
