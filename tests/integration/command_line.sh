@@ -29,6 +29,10 @@ for command in track maintain initiate publish convert; do
         check "help of $command: $word" grep -q "$word" stdout
     done
 done
+for command in track initiate maintain convert publish; do
+    run "$command" --help
+    check "help of $command names recordings of the network" grep -q 'NAME\.pcap, NAME\.pcapng' stdout
+done
 run publish --help
 check 'publish takes received_s' bash -c '! grep -q "no received_s" stdout'
 for command in track maintain; do

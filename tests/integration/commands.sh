@@ -65,6 +65,14 @@ wait_until 5 has_status open.csv confirmed
 check 'a thawed track is seen again' test "$(newest open.csv + 3)" = confirmed
 run command exclude x_m=-9000 y_m=-3000 x_max_m=9000 y_max_m=-1000
 check 'exclude is done' matches "$(cat stdout)" 'done'
+run command exclude x_m=9000 y_m=-3000 x_max_m=-9000 y_max_m=-1000
+check 'corners the wrong way round' says 2 \
+    'rhotrack: command: exclude: x_max_m=-9000 is not above x_m=9000'
+run command exclude x_m=-9000 y_m=-3000 x_max_m=9000 y_max_m=-3000
+check 'an area without height' says 2 \
+    'rhotrack: command: exclude: y_max_m=-3000 is not above y_m=-3000'
+run command exclude x_m=-9000 y_m=-3000 x_m=-8000 x_max_m=9000 y_max_m=-1000
+check 'a key twice' says 2 'rhotrack: command: x_m is given twice'
 run command drop "$south"
 check 'drop is done' matches "$(cat stdout)" "done: track $south"
 sleep 1.5

@@ -100,8 +100,25 @@ columns 'a name that nobody reads' 't_s=Zeit,x_n=Ost,y_m=Nord' \
 columns 'no pair' 'Zeit' "--columns 'Zeit': give NAME=COLUMN*"
 columns 'a column that is not there' 't_s=Zeit,x_m=East,y_m=Nord' \
     "german.csv:1: --columns: there is no column 'East'; the file has: Zeit, Ost, Nord"
-run track xy.csv --columns 't_s=Zeit' -o tracks.csv
-check '--columns: a file without any of them is read as it is' exits 0
+awk -F, 'NR == 1 { print "t_s,target_id,x_m,y_m" } NR > 1 { print }' xy.csv >truth_of_xy.csv
+run track xy.csv german.csv --columns 't_s=Zeit,x_m=Ost,y_m=Nord' -o tracks.csv
+check '--columns: a file without any of them is read as it is, beside one with them' exits 0
+for command in track initiate 'convert'; do
+    # shellcheck disable=SC2046
+    run $command xy.csv --columns 't_s=Ziet' $([ $command = convert ] && echo out.lcm)
+    check "--columns: a name that no file has, $command" says 2 \
+        "rhotrack: --columns: no file has a column 'Ziet'; there are: t_s, sensor_id, x_m, y_m"
+done
+run plot scans xy.csv -o out.svg --columns 't_s=Ziet'
+check '--columns: a name that no file has, plot' says 2 "rhotrack: --columns: no file has *"
+run evaluate truth_of_xy.csv own.tracks.csv --columns 't_s=Ziet' --json
+check '--columns: a name that no file has, evaluate' grep -q \
+    "^rhotrack: --columns: no file has a column 'Ziet'; there are: " stderr
+check '--columns: evaluate ends with 2' exits 2
+status=0
+"$program" track - --columns 't_s=Ziet' -o tracks.csv <xy.csv 2>stderr >stdout || status=$?
+check '--columns: a name that a pipe does not have' grep -q "^rhotrack: --columns: no file has " stderr
+check '--columns: a pipe ends with 2' exits 2
 run track xy.csv --columns 'x_m=y_m'
 check '--columns: two of a name' says 2 "rhotrack: xy.csv:1: --columns: the file has a column 'x_m', too"
 
@@ -197,6 +214,20 @@ check 'with tracks nothing is said of none' sh -c '! grep -q "no track" stderr'
 printf 't_s,sensor_id,x_m,y_m,time,range_km,lat\n1,1,2,3,x,y,z\n' >extra.csv
 run track extra.csv
 check 'columns of other names beside a known header are ignored' exits 0
+# Two radars, the second with another clock: their tracks differ where the sensor is not read.
+awk -F, -v OFS=, 'NR == 1 { print; next } { $2 = NR % 2 + 1; print }' xy.csv >two.csv
+for name in sensor Radar radar_id; do
+    sed "1s/sensor_id/$name/" two.csv >other.csv
+    run track two.csv -o own.tracks.csv --set sensor.2.time_bias_s=0.5
+    run track other.csv -o tracks.csv --set sensor.2.time_bias_s=0.5
+    check "a column '$name' beside a known header is the sensor" cmp own.tracks.csv tracks.csv
+    run convert other.csv other.lcm
+    run convert other.lcm back.csv
+    check "a column '$name' in messages, too" test "$(cut -d, -f2 back.csv | sort -u | wc -l)" -eq 3
+done
+printf 't_s,sensor,sensor_id,x_m,y_m\n1,north,1,2,3\n' >both.csv
+run track both.csv
+check 'beside a sensor_id it is ignored' exits 0
 
 # ---- what is refused ----
 refuse() { # name, LINE: what (a pattern), text as for printf

@@ -196,12 +196,20 @@ def million(browser, path, screenshot=None):
         browser.screenshot(screenshot)
 
 
+def listed(browser, path, text):
+    browser.open(path)
+    found = browser.js("document.getElementById('unlisted').textContent")
+    check("the list of tracks says what is not in it", found == text, found)
+
+
 with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
     chromium = Browser(folder)
     if sys.argv[1] == "functions":
         functions(chromium, sys.argv[2], int(sys.argv[3]), int(sys.argv[4]))
         if len(sys.argv) > 5:
             chromium.screenshot(sys.argv[5])
+    elif sys.argv[1] == "listed":
+        listed(chromium, *sys.argv[2:])
     else:
         million(chromium, *sys.argv[2:])
     check("no fault in the script", not chromium.faults, chromium.faults)

@@ -36,6 +36,30 @@ others = sum(b and not a for a, b in zip(of_target, taken)) / (len(rows) - sum(o
 assert share > 0.7 and others < 0.05, (share, others)
 assert array("scan_first", "I")[-1] == len(rows)
 EOF
+check 'nothing is said of colours' test ! -s stderr
+run simulate overlapping-radars -o biased --set duration_s=60
+run track biased/plots.csv --config biased/scenario.ini -o biased.csv --set sensor.1.time_bias_s=0.25
+run plot tracks biased/plots.csv biased.csv --config biased/scenario.ini -o biased.html
+check 'tracks of other settings: it is said' says 0 \
+    'rhotrack: *[0-9] of *[0-9] plots that the tracks took are in no scan of the files, and have *'
+run plot tracks biased/plots.csv biased.csv --config biased/scenario.ini -o biased.html \
+    --set sensor.1.time_bias_s=0.25
+check 'with these settings nothing is said' test "$status" -eq 0 -a ! -s stderr
+unnumbered in/plots.csv 4 4 >turns.csv
+run track turns.csv --set scan_interval_s=2 -o turns.tracks.csv
+run plot tracks turns.csv turns.tracks.csv -o turns.html
+check 'other turns: it is said' grep -q 'in no scan of the files' stderr
+run track turns.csv -o turns.tracks.csv
+run plot tracks turns.csv turns.tracks.csv -o turns.html
+check 'turns as track found them: nothing is said' bash -c '! grep -q "in no scan" stderr'
+python3 - <<'EOF2'
+with open("many.csv", "w") as file:
+    file.write("t_s,track_id,status,x_m,y_m\n")
+    for track in range(501):
+        for k in range(2):
+            file.write(f"{k},{track + 1},confirmed,{100 * track},{50 * k}\n")
+EOF2
+run plot tracks many.csv -o many.html
 run plot scans in/plots.csv --config in/scenario.ini -o scans.html
 check 'plot scans makes a page, too' exits 0
 check 'without tracks' grep -q '<title>rhotrack: 0 tracks, [1-9][0-9]* plots</title>' scans.html
@@ -61,6 +85,8 @@ browse() { # NAME ARGUMENT...: each line of page.py is a check
     check "$name: the browser came to its end" grep -q 'no fault in the script' drive
 }
 browse page functions page.html "$plots" 1
+browse '501 tracks' listed many.html 'The first 500 of 501 tracks; the others are on the map.'
+browse '3 tracks' listed page.html ''
 
 awk 'BEGIN {
     srand(1); print "t_s,sensor_id,x_m,y_m"

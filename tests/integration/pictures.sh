@@ -70,4 +70,13 @@ check 'as many marks as it says' test "$(grep -c 'use .* transform=.* color=.rgb
 run plot scans many.csv -o again.svg
 check 'the same ones each time' cmp many.svg again.svg
 
+# ---- a name with a quote ----
+mkdir "it's"
+for name in "it's/o'clock.svg" "it's/o'clock.png" "it's/o'clock.html"; do
+    run plot tracks in/plots.csv tracks.csv --config in/scenario.ini -o "$name"
+    check "a quote in the name of a picture: $name" test "$status" -eq 0 -a -s "$name"
+done
+run evaluate in/truth.csv tracks.csv -o "it's/figures.svg"
+check 'a quote in the name of a picture of figures' test "$status" -eq 0 -a -s "it's/figures.svg"
+check 'nothing is left beside them' test "$(ls "it's" | wc -l)" -eq 4
 finish

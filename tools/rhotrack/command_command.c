@@ -96,7 +96,16 @@ static float *field_of(struct rho_message_command *command, const char *key, siz
     return NULL;
 }
 
-/* Each key once, so that those given are counted. */
+static bool is_given(char **arguments, int num_arguments, const char *key, size_t length)
+{
+    for (int i = 0; i < num_arguments; i++) {
+        if (strncmp(arguments[i], key, length) == 0 && arguments[i][length] == '=') {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void read_value(const struct action *action, const char *text,
                        struct rho_message_command *command)
 {
@@ -115,14 +124,18 @@ static void read_value(const struct action *action, const char *text,
     }
 }
 
-static bool is_given(char **arguments, int num_arguments, const char *key, size_t length)
+/* An area has its lower left corner first. */
+static void check_corners(const struct rho_message_command *command)
 {
-    for (int i = 0; i < num_arguments; i++) {
-        if (strncmp(arguments[i], key, length) == 0 && arguments[i][length] == '=') {
-            return true;
+    const float low_m[2] = {command->x_m, command->y_m};
+    const float high_m[2] = {command->x_max_m, command->y_max_m};
+
+    for (int i = 0; i < 2; i++) {
+        if (!(low_m[i] < high_m[i])) {
+            fail(EXIT_USAGE, "command: exclude: %c_max_m=%g is not above %c_m=%g", "xy"[i],
+                 (double)high_m[i], "xy"[i], (double)low_m[i]);
         }
     }
-    return false;
 }
 
 static struct rho_message_command read_command(char **arguments, int num_arguments)
@@ -144,6 +157,10 @@ static struct rho_message_command read_command(char **arguments, int num_argumen
     num_arguments -= 1 + action->num_numbers;
     for (int i = 0; i < num_arguments; i++) {
         read_value(action, arguments[i], &command);
+        if (is_given(arguments, i, arguments[i], strcspn(arguments[i], "="))) {
+            fail(EXIT_USAGE, "command: %.*s is given twice", (int)strcspn(arguments[i], "="),
+                 arguments[i]);
+        }
     }
     for (const char *key = action->keys; *key; key += strcspn(key, " "), key += strspn(key, " ")) {
         if (!is_given(arguments, num_arguments, key, strcspn(key, " "))) {
@@ -153,6 +170,9 @@ static struct rho_message_command read_command(char **arguments, int num_argumen
     }
     if (rho_message_command_validate(&command, &place) != RHO_OK) {
         fail(EXIT_USAGE, "command: %s is outside its range", rho_message_command_field(&place));
+    }
+    if (action->action == RHO_MESSAGE_COMMAND_EXCLUDE) {
+        check_corners(&command);
     }
     return command;
 }

@@ -523,6 +523,17 @@ void command_line_check_ini(const struct command_line *line, const char *command
     }
 }
 
+/* All plots can be looked at before they are read. */
+static bool has_plain_files(const struct command_line *line)
+{
+    for (int i = 0; i < line->num_plot_files; i++) {
+        if (file_bytes(line->plot_files[i]) == 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void command_line_locate(struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments && lacks_origin(&line->parameters); i++) {
@@ -530,6 +541,9 @@ void command_line_locate(struct command_line *line)
     }
     for (int i = 0; i < line->num_plot_files; i++) {
         look_at_plots(line, line->plot_files[i]);
+    }
+    if (line->num_plot_files > 0 && has_plain_files(line)) {
+        table_form_check_columns();
     }
     parameters_locate(&line->parameters);
 }

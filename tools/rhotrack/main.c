@@ -9,6 +9,7 @@
 #include "base/hint.h"
 #include "command_line.h"
 #include "commands.h"
+#include "io/csv/table_form.h"
 
 #ifndef RHOTRACK_VERSION
 #define RHOTRACK_VERSION "0.1.0"
@@ -18,8 +19,8 @@
     "Plots in CSV have t_s,sensor_id and x_m,y_m[,z_m] or range_m,azimuth_rad; for places also\n"  \
     "lat_deg,lon_deg[,alt_m] (with the parameters origin_lat_deg and origin_lon_deg); and\n"       \
     "received_s, when a row came, where some come late. INPUT may be an LCM log (NAME.lcm)\n"      \
-    "or a recording in ASTERIX (NAME.ast: CAT048, CAT034), whose first radar is the origin if\n"   \
-    "none is set.\n"
+    "or a recording in ASTERIX (NAME.ast; CAT048, CAT034), also within one of the network\n"       \
+    "(NAME.pcap, NAME.pcapng); its first radar is the origin if none is set.\n"
 #define TRACK_FORMATS                                                                              \
     "OUTPUT, by its name: .lcm an LCM log, .ast ASTERIX (CAT062), .geojson a map (needs the\n"     \
     "origin), any other CSV.\n"
@@ -113,8 +114,9 @@ static const struct command commands[] = {
      "(plots) becomes the times of the events, and lat_deg,lon_deg places in the local frame. "
      "Damaged\n"
      "places of a log are skipped and reported; bad messages are refused, or with --keep-going\n"
-     "skipped and counted. Recordings in ASTERIX (.ast: CAT048 and CAT034) become either; tracks\n"
-     "become CAT062 where OUT ends with .ast.\n"},
+     "skipped and counted. Recordings in ASTERIX (NAME.ast; CAT048 and CAT034), also within those\n"
+     "of the network (NAME.pcap, NAME.pcapng), become either; tracks become CAT062 where OUT ends\n"
+     "with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
      "lpLRTAmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
@@ -138,7 +140,9 @@ static const struct command commands[] = {
     {"publish", command_publish, "INPUT... [--lcm URL] [--speed X] [--loop]", 1, INT_MAX,
      "lxOTksCN", "plays files as sensors, live",
      "Sends the messages of LCM logs, CSV files (plots, polar plots, bearings, truth, tracks) and\n"
-     "recordings in ASTERIX (NAME.ast: CAT048, CAT034) in time, the first one at once. CSV files\n"
+     "recordings in ASTERIX (NAME.ast, or in NAME.pcap, NAME.pcapng) in time, the first one at "
+     "once.\n"
+     "CSV files\n"
      "may have lat_deg, lon_deg, alt_m for places (parameters origin_lat_deg and origin_lon_deg);\n"
      "received_s sets when rows are sent. Messages of logs are sent as they are. With --loop "
      "times\n"
@@ -277,5 +281,8 @@ int main(int argc, char **argv)
         command_convert_refuse(&line);
     }
     command_line_locate(&line);
-    return command->run(&line);
+    const int exit_code = command->run(&line);
+
+    table_form_check_columns();
+    return exit_code;
 }

@@ -71,6 +71,8 @@ static void put_array(FILE *file, const char *name, struct bytes *bytes)
 /* ---- fates of plots ---- */
 
 /* From FATE_OF_TRACK on: the track's index. */
+#define LOST_SHARE 0.05 /* of plots that tracks took: rows of late scans may have another time */
+
 enum { FATE_OF_NO_TRACK, FATE_OF_TENTATIVE, FATE_OF_TRACK };
 
 /* A track took this plot of a scan. */
@@ -78,6 +80,7 @@ struct claim {
     int64_t time_us;
     int32_t sensor_id;
     uint32_t plot, fate;
+    bool is_found; /* among the scans */
 };
 
 static int by_scan_and_plot(const void *a, const void *b)
@@ -162,9 +165,9 @@ static struct claims find_claims(const struct plot_data *data)
 }
 
 /* The fate of a plot; where two tracks took it, of the one that was confirmed. */
-static uint32_t find_fate(const struct claims *claims, const struct rho_scan *scan, uint32_t plot)
+static uint32_t find_fate(struct claims *claims, const struct rho_scan *scan, uint32_t plot)
 {
-    const struct claim wanted = {scan->time_us, scan->sensor_id, plot, 0};
+    const struct claim wanted = {scan->time_us, scan->sensor_id, plot, 0, false};
     size_t low = 0, high = claims->count;
     uint32_t fate = FATE_OF_NO_TRACK;
     while (low < high) {
@@ -177,8 +180,25 @@ static uint32_t find_fate(const struct claims *claims, const struct rho_scan *sc
     }
     for (; low < claims->count && by_scan_and_plot(&claims->list[low], &wanted) == 0; low++) {
         fate = claims->list[low].fate > fate ? claims->list[low].fate : fate;
+        claims->list[low].is_found = true;
     }
     return fate;
+}
+
+/* Tracks of other scans than those of the files, as they are gathered here. */
+static void check_claims(const struct claims *claims)
+{
+    size_t lost = 0;
+    for (size_t i = 0; i < claims->count; i++) {
+        lost += !claims->list[i].is_found;
+    }
+    if ((double)lost > LOST_SHARE * (double)claims->count) {
+        fprintf(stderr,
+                "rhotrack: %zu of %zu plots that the tracks took are in no scan of the files, and "
+                "have the colour of no track: give all inputs of the tracks, and the settings that "
+                "made them (--config, --set scan_interval_s=...)\n",
+                lost, claims->count);
+    }
 }
 
 /* ---- what there is ---- */
@@ -209,6 +229,7 @@ static void put_plots(FILE *file, const struct plot_data *data, const struct par
             count += scan->num_plots;
         }
         scan_reader_close(reader);
+        check_claims(&claims);
     }
     add_uint32(&first, count);
     put_array(file, "scan_time", &time);

@@ -55,6 +55,16 @@ static void set_terminal(const struct picture *picture)
                    : "font 'Helvetica,15'");
 }
 
+/* As gnuplot takes it: within single quotes a single quote stands twice. */
+static void set_output(const struct picture *picture)
+{
+    fputs("set output '", picture->script);
+    for (const char *c = picture->temporary_path; *c; c++) {
+        fputs(*c == '\'' ? "''" : (char[2]){*c, '\0'}, picture->script);
+    }
+    fputs("'\n", picture->script);
+}
+
 struct picture picture_open(const char *path, int width, int height)
 {
     struct picture picture = {
@@ -69,12 +79,10 @@ struct picture picture_open(const char *path, int width, int height)
         fail(EXIT_RUNTIME, "%s: %s", picture.script_path, strerror(errno));
     }
     set_terminal(&picture);
-    fprintf(
-        picture.script,
-        "set output '%s'\n"
-        "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
-        "set grid lc rgb '#dddddd' lt 1 lw 0.7\nset key outside right top vertical Left reverse\n",
-        picture.temporary_path);
+    set_output(&picture);
+    fprintf(picture.script, "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
+                            "set grid lc rgb '#dddddd' lt 1 lw 0.7\n"
+                            "set key outside right top vertical Left reverse\n");
     for (size_t i = 0; i < NUM_COLOURS; i++) {
         fprintf(picture.script, "set linetype %zu lc rgb '%s' pt %d lw 1.3\n", i + 1, colours[i],
                 markers[i]);

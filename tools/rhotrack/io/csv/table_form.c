@@ -284,6 +284,8 @@ static struct {
     const char *name, *column;
 } renamed[COLUMNS_MAX];
 static size_t num_renamed;
+static bool is_renaming_done; /* of some file */
+static char names_seen[240];  /* of the newest other one */
 
 void table_form_set_columns(const char *text)
 {
@@ -354,6 +356,7 @@ static void rename_columns(struct table *table)
         const int column = table_find(table, renamed[i].column);
 
         if (column < 0) {
+            table_form_list(table, names_seen, sizeof names_seen);
             return;
         }
         if (table_find(table, renamed[i].name) >= 0) {
@@ -361,6 +364,15 @@ static void rename_columns(struct table *table)
                  (unsigned)table->header_line, renamed[i].name);
         }
         table->names[column] = renamed[i].name;
+    }
+    is_renaming_done = true;
+}
+
+void table_form_check_columns(void)
+{
+    if (num_renamed > 0 && !is_renaming_done) {
+        fail(EXIT_USAGE, "--columns: no file has a column '%s'%s%s", renamed[0].column,
+             *names_seen ? "; there are: " : "", names_seen);
     }
 }
 
@@ -376,7 +388,10 @@ static bool is_renamed(const char *name)
 
 /* ---- A header ---- */
 
-/* A header that the readers know needs no other names; extra columns of any name are ignored. */
+/*
+ * A header that the readers know needs no other names, but for the sensor's; extra columns of any
+ * name are ignored.
+ */
 static bool is_known(const struct table *table)
 {
     static const char *const places[] = {"x_m",         "range_m",   "lat_deg",
@@ -408,10 +423,11 @@ void table_form_name_columns(struct table *table)
         struct unit unit = {1, 0};
         const char *column;
 
-        if (is_left && !is_renamed(table->names[i])) {
+        column = column_of(table->names[i], &unit);
+        if (is_left && !is_renamed(table->names[i]) &&
+            (!column || strcmp(column, "sensor_id") != 0)) {
             continue;
         }
-        column = column_of(table->names[i], &unit);
         if (!column || table_find(table, column) >= 0) {
             continue; /* not known, or there already: the first one counts */
         }

@@ -35,6 +35,9 @@ void table_form_name_columns(struct table *table);
  */
 void table_form_set_columns(const char *text);
 
+/* Exit 2 where none of the files so far has a column of --columns. */
+void table_form_check_columns(void);
+
 /* The names that a file has. */
 void table_form_list(const struct table *table, char *text, size_t bytes);
 

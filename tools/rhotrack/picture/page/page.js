@@ -392,7 +392,11 @@ for (const [name, text, dot] of switches.filter(one => one[3] > 0)) {
     if (dot) label.append('i').style('background', dot);
     label.append('span').text(` ${text}`);
 }
-d3.select('#list').selectAll('button').data(d3.range(Math.min(numTracks, 500))).join('button')
+const LISTED_MAX = 500;
+if (numTracks > LISTED_MAX) {
+    element('unlisted').textContent = `The first ${LISTED_MAX} of ${numTracks} tracks; the others are on the map.`;
+}
+d3.select('#list').selectAll('button').data(d3.range(Math.min(numTracks, LISTED_MAX))).join('button')
     .style('border-left-color', colour).text(track => trackId[track]).on('click', (event, track) => {
         const last = trackFirst[track + 1] - 1;
         goTo(Math.max(state.at, d3.bisectLeft(times, trackTime[trackFirst[track]])));
