@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "false_track_rate.h"
 
+#include <float.h>
+
 #include "rhotrack/detail/approx.h"
 
 /*
@@ -9,7 +11,6 @@
  */
 #define PREDICTION_SPREAD 4.0f
 
-#define GAIN_MAX_NAT 60.0f
 #define NEVER_NAT (-1.0e6f)
 
 /*
@@ -487,7 +488,7 @@ float rho_initiator_stay_inside(const struct false_tracks *model, float start_na
 float rho_initiator_gain_of_hit(const struct false_tracks *model)
 {
     const struct search *search = model->search;
-    float least = GAIN_MAX_NAT;
+    float least = FLT_MAX;
     for (unsigned i = 0; i < model->num_classes; i++) {
         const struct place_class wide =
             widened(model, &model->classes[i], search->num_scans - 3u, 3);

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * False tracks an hour: thresholds that follow from clutter, and what they keep. Noise of 10 m,
- * scans of 2 s, targets of 100 to 400 m/s.
+ * scans of 2 s, targets of 100 to 400 m/s. The prior of a turn is asked of the private header: in
+ * scores it stands beside what a turn fits better.
  */
+#include "../../src/initiation/search.h"
 #include "initiator_setup.h"
 #include "rhotrack/tracker.h"
 
@@ -395,22 +397,76 @@ static void thresholds_of_known_clutter(void **state)
 {
     static const struct {
         int count;
-        float rate;
+        float rate, pd;
         int32_t start_mnat, confirm_mnat;
         int min_scans;
+        uint8_t span_hits[SCANS]; /* by the first scan of a set; more than there are: none */
+        double thin;
     } cases[] = {
-        {5, 1e-4f, -4771, 12670, 3}, {5, 1.0f, -4771, 5036, 3},    {25, 1e-4f, 49, 13093, 3},
-        {25, 1.0f, 49, 4745, 3},     {100, 1e-4f, -381, 12883, 4}, {250, 1.0f, -1954, 4307, 6},
+        {5, 1e-4f, 0.9f, -4771, 12670, 3, {3, 3, 3, 3, 3, 8, 8}, 1.82571803e-05},
+        {5, 1.0f, 0.9f, -4771, 5036, 3, {3, 3, 3, 3, 3, 8, 8}, 1.82571803e-05},
+        {25, 1e-4f, 0.9f, 49, 13093, 3, {4, 4, 4, 4, 3, 8, 8}, 7.91798229e-05},
+        {25, 1.0f, 0.9f, 49, 4745, 3, {4, 4, 4, 4, 3, 8, 8}, 7.91798229e-05},
+        {100, 1e-4f, 0.9f, -381, 12883, 4, {5, 5, 4, 4, 8, 8, 8}, 3.11258918e-04},
+        {250, 1.0f, 0.9f, -1954, 4307, 6, {6, 6, 8, 8, 8, 8, 8}, 9.01470543e-04},
+        {1, 1e-6f, 0.9f, -10000, 17879, 3, {3, 3, 3, 3, 3, 8, 8}, 3.85714839e-06},
+        {100, 1e4f, 0.9f, -381, -381, 4, {5, 5, 4, 4, 8, 8, 8}, 3.11258918e-04},
+        {25, 1e-6f, 0.05f, -10000, 174, 4, {4, 4, 4, 4, 8, 8, 8}, 7.91798229e-05},
+        {100, 1.0f, 0.1f, -10000, -5842, 5, {5, 5, 5, 8, 8, 8, 8}, 3.11258918e-04},
     };
-    const float within_mnat = RHO_MAX_PLOTS > 256 ? 100.0f : 1.0f;
+    const int is_sampled_alike = RHO_MAX_PLOTS <= 256;
+    const float within_mnat = is_sampled_alike ? 0.5f : 100.0f;
     (void)state;
     for (size_t i = 0; i < NUM(cases); i++) {
         struct rho_initiator_config config = usual(cases[i].rate);
+        config.pd = cases[i].pd;
         search_clutter(&config, cases[i].count);
         assert_float_equal(initiator.start_mnat, cases[i].start_mnat, within_mnat);
         assert_float_equal(initiator.confirm_mnat, cases[i].confirm_mnat, within_mnat);
         assert_int_equal(initiator.min_scans, cases[i].min_scans);
+        for (int k = 0; k < SCANS && is_sampled_alike; k++) {
+            assert_int_equal(initiator.span_hits[k], cases[i].span_hits[k]);
+        }
+        assert_float_equal(initiator.thin_clutter, cases[i].thin,
+                           (is_sampled_alike ? 0.01 : 0.1) * cases[i].thin);
     }
+}
+
+/*
+ * Targets that cross the area between two scans: the share of them that stay in it is no less than
+ * a millionth, and false sets are not impossible. Half or twice as many move what starts a track.
+ */
+static void targets_too_fast_for_the_area_have_thresholds_too(void **state)
+{
+    static const int32_t start_mnat[] = {3044, 6696}, min_scans[] = {7, 4};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const float half_m = 1000.0f * (float)(i + 1);
+        struct rho_initiator_config config = usual(1e-6f);
+        config.v_min_mps = 2000.0f;
+        config.v_max_mps = 3000.0f;
+        config.area = (struct rho_extent){-half_m, half_m, -half_m, half_m};
+        search_clutter(&config, 250);
+        assert_float_equal(initiator.confirm_mnat, start_mnat[i],
+                           RHO_MAX_PLOTS > 256 ? 600.0 : 0.5);
+        assert_int_equal(initiator.min_scans, min_scans[i]);
+    }
+}
+
+/* Without a rate to keep, a tenth of the targets turn; with one, the rate may ask for fewer. */
+static void a_tenth_of_the_targets_turn(void **state)
+{
+    struct search search = {.initiator = &initiator};
+    (void)state;
+    assert_float_equal(rho_initiator_log_turn_prior(&search), log(0.1), 1e-6);
+    /* half the scans' sets against a tenth of a false start: 3.5 / 0.1 e^-2 of it */
+    initiator.config.false_tracks_per_hour = 3600.0f;
+    initiator.start_mnat = 2000;
+    initiator.confirm_mnat = 9000;
+    search.keeps_rate = 1;
+    search.interval_s = 1.0f;
+    search.num_scans = SCANS;
+    assert_float_equal(rho_initiator_log_turn_prior(&search), log(0.1) - log(35.0) + 2.0, 1e-5);
 }
 
 /*
@@ -436,6 +492,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thresholds_of_known_clutter),
+        cmocka_unit_test(targets_too_fast_for_the_area_have_thresholds_too),
+        cmocka_unit_test(a_tenth_of_the_targets_turn),
         cmocka_unit_test(a_pause_is_three_intervals),
         cmocka_unit_test(a_clear_sky_confirms_a_target_at_its_third_plot),
         cmocka_unit_test(confirming_falls_as_more_false_tracks_are_allowed_but_not_below_starting),
