@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Where tracks end early, a new one is confirmed only when it is seen as targets are; elsewhere at
- * once.
+ * once. The figures are those of tracks that are made by hand, which takes the private header.
  */
+#include "../../src/tracker/step.h"
 #include "tracker_setup.h"
 
 #define SIGMA_M 20.0
@@ -125,6 +126,76 @@ static void what_died_is_forgotten(void **state)
     assert_true(show(-20000.0, -30000.0, 20) >= 18);
 }
 
+/* ---- figures --------------------------------------------------------------------------------- */
+
+static void expect_close(double is, double wanted)
+{
+    assert_true(fabs(is - wanted) <= 1e-4 * fabs(wanted) + 1e-6);
+}
+
+static void have(unsigned row, uint16_t hits, uint16_t misses)
+{
+    tracker.tracks[row] = (struct rho_track){
+        .status = RHO_TRACK_CONFIRMED, .hits = hits, .misses = misses, .plot = -1};
+    tracker.num_tracks = (uint16_t)(row + 1);
+}
+
+/* As the head of short_lived_tracks.c derives it, for 0.3 of a target's looks and one in ten. */
+static void the_evidence_needed_is_as_derived(void **state)
+{
+    struct step at = {.tracker = &tracker};
+    const double hit_nat = log(1.0 / 0.3), wanted = 3.0 * 1600.0 / 3600.0;
+    (void)state;
+    draw(1);
+    begin();
+    have(0, 100, 20);
+    have(1, 16, 5); /* established */
+    have(2, 15, 5); /* not yet: almost, by its evidence */
+    have(3, 7, 3);
+    tracker.wanted_per_hour = 3.0f;
+    tracker.ended_early = 20.0f;
+    tracker.established = 4.0f;
+    tracker.counted_us = 0;
+    at.time_us = 400000000;
+    rho_tracker_find_evidence_needed(&at);
+    const double kept = exp(-400.0 / 1600.0), ended = 20.0 * kept, established = 4.0 * kept;
+    const double pd = (9.0 + 100.0 + 16.0) / (10.0 + 120.0 + 21.0);
+    expect_close((double)tracker.ended_early, ended);
+    expect_close((double)tracker.established, established);
+    expect_close((double)at.miss_nat, log((1.0 - 0.3 * pd) / (1.0 - pd)));
+    const double miss_nat = (double)at.miss_nat;
+    assert_true(15.0 * hit_nat - 5.0 * miss_nat > 6.0 * hit_nat); /* almost: twice three hits */
+    assert_true(7.0 * hit_nat - 3.0 * miss_nat < 6.0 * hit_nat);
+    const double excess = ended - wanted - 0.5 * sqrt(ended);
+    expect_close((double)at.needed_nat,
+                 3.0 * hit_nat + log(10.0 * excess / (established + 1.0 + 2.0)));
+    /* a hit more or less about the evidence needed */
+    const double needed = (double)at.needed_nat;
+    const uint16_t hits = (uint16_t)ceil(needed / hit_nat);
+    have(3, hits, 0);
+    assert_false(rho_tracker_lacks_evidence(&at, &tracker.tracks[3]));
+    have(3, (uint16_t)(hits - 1), 0);
+    assert_true(rho_tracker_lacks_evidence(&at, &tracker.tracks[3]));
+}
+
+/* With its sixteenth plot, whichever row of the scan that is. */
+static void a_track_is_established_with_its_sixteenth_plot(void **state)
+{
+    struct step at = {.tracker = &tracker};
+    (void)state;
+    draw(1);
+    begin();
+    for (int16_t plot = -1; plot < 2; plot++) {
+        for (uint16_t hits = 15; hits < 18; hits++) {
+            tracker.established = 0.0f;
+            have(0, hits, 0);
+            tracker.tracks[0].plot = plot;
+            rho_tracker_note_established(&at, &tracker.tracks[0]);
+            assert_true(tracker.established == (hits == 16 && plot >= 0 ? 1.0f : 0.0f));
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -132,6 +203,8 @@ int main(void)
         cmocka_unit_test(a_few_deaths_are_chance),
         cmocka_unit_test(where_tracks_die_young_hits_are_counted),
         cmocka_unit_test(what_died_is_forgotten),
+        cmocka_unit_test(the_evidence_needed_is_as_derived),
+        cmocka_unit_test(a_track_is_established_with_its_sixteenth_plot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
