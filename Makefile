@@ -283,7 +283,10 @@ uninstall:
 quick_scripts := $(addprefix tests/integration/,claims.sh command_line.sh documents.sh examples.sh headers.sh layers.sh security.sh)
 quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
                  $(addprefix tools/gates/,layers.py tested.py poison.sh extract_example.sh)
-quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs))
+# What the embedded profile leaves out is tested in the other one.
+left_out := evidence bodies groups
+quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs)) \
+                  $(left_out:%=$(BUILD)/tests/workstation/unit/tracker/test_%)
 other_programs := $(filter-out $(quick_programs),$(unit_programs) $(tool_programs))
 other_scripts := $(filter-out $(quick_scripts),$(sort $(wildcard tests/integration/*.sh tests/lab/test_*.py)) \
                    tools/gates/gates.py tools/gates/determinism.sh)

@@ -96,6 +96,8 @@ class Tree:
                                 copy_function=self.copy)
             else:
                 self.copy(ROOT / name, folder / name)
+        makefile = (folder / "Makefile").read_text()
+        self.left_out = re.search(r"^left_out := (.*)$", makefile, re.M)[1].split()
         self.bytes = {}  # hash of each program of the sources without a change
         what = self.noticed_by("base", "status")
         if what:
@@ -139,7 +141,15 @@ class Tree:
         folder = self.folder / "tests"
         sources = sorted({path for pattern in patterns for path in folder.glob(pattern)})
         names = [str(path.relative_to(folder).with_suffix("")) for path in sources]
-        return [f"build/tests/{'embedded/' * name.startswith('unit/')}{name}" for name in names]
+        return [f"build/tests/{self.profile_of(name)}{name}" for name in names]
+
+    def profile_of(self, name):
+        """Where `make test` runs a program: unit tests of what the embedded profile leaves out are
+        run in the other one."""
+        if not name.startswith("unit/"):
+            return ""
+        is_left_out = name.rpartition("test_")[2] in self.left_out
+        return "workstation/" if is_left_out else "embedded/"
 
     def all_tests(self):
         return self.tests("unit/*/test_*.c", "tools/*/test_*.c", "scenario/test_*.c")
