@@ -57,6 +57,15 @@ static cJSON *allowed_json(const struct parameters *parameters)
     return object;
 }
 
+static cJSON *name_json(const struct sensor_name *named)
+{
+    cJSON *object = cJSON_CreateObject();
+
+    cJSON_AddStringToObject(object, "value", named->text);
+    cJSON_AddStringToObject(object, "source", parameters_source_name(named->source));
+    return object;
+}
+
 static void print_json(const struct parameters *parameters)
 {
     cJSON *object = cJSON_CreateObject();
@@ -82,6 +91,13 @@ static void print_json(const struct parameters *parameters)
             cJSON_AddItemToObject(object, name,
                                   parameter_json(&text, sensor->value[i], sensor->source[i]));
         }
+    }
+    for (size_t s = 0; s < parameters->num_names; s++) {
+        const struct sensor_name *named = &parameters->names[s];
+        char name[40];
+
+        snprintf(name, sizeof name, "sensor.%d.name", (int)named->sensor_id);
+        cJSON_AddItemToObject(object, name, name_json(named));
     }
     json_print(object);
 }

@@ -16,7 +16,7 @@
 #include "io/csv/table_form.h"
 #include "settings/method.h"
 
-enum { NUM_OPTIONS = 28, RUNS_MAX = 1000000 };
+enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
 
 /* Letters are the program's own names of the options; only -o and -h may be typed as such. */
 static const struct {
@@ -58,6 +58,7 @@ static const struct {
     {'O', "loop", NULL, "again and again; times and numbers of scans go on"},
     {'T', "for", "SECONDS", "ends by itself"},
     {'A', "commands", NULL, "takes an operator's commands, of `rhotrack command` (RHO_COMMANDS)"},
+    {'E', "metrics", "PORT", "http://127.0.0.1:PORT/metrics: counters, for Prometheus"},
     {'h', "help", NULL, "this text"},
 };
 
@@ -161,6 +162,9 @@ static bool take_live_option(struct command_line *line, char letter, char *argum
         return true;
     case 'A':
         line->commands = true;
+        return true;
+    case 'E':
+        line->metrics = (uint16_t)read_count("metrics", argument, 1, UINT16_MAX);
         return true;
     case 'T':
         line->seconds = read_decimal("for", argument, 1e-3, 1e9);

@@ -19,11 +19,13 @@
 #include "io/output/clutter_file.h"
 #include "io/scans/scan_interval_hint.h"
 #include "live/error_lines.h"
+#include "live/metrics.h"
 #include "live/node_core.h"
 #include "live/node_log.h"
 #include "live/node_print.h"
 #include "live/node_sensors.h"
 #include "live/node_tally.h"
+#include "live/page_server.h"
 #include "live/senders.h"
 #include "live/transport.h"
 #include "pipeline/pipeline.h"
@@ -58,6 +60,8 @@ struct node {
     struct node_core *core;
     struct node_print print;
     struct node_log *log;      /* NULL: none */
+    struct page_server *pages; /* of metrics; NULL: none */
+    const struct parameters *parameters;
     const char *snapshot_path; /* NULL: none */
     int64_t snapshot_us;       /* clock_us: when the next one is due */
     pid_t snapshot_writer;     /* 0: none is at work */
@@ -453,8 +457,9 @@ static int64_t least(int64_t a, int64_t b)
 /* Until a message, a signal, or whatever is due first. */
 static void wait_for_work(struct node *node)
 {
-    struct pollfd here[3] = {{.fd = node->signals, .events = POLLIN},
+    struct pollfd here[4] = {{.fd = node->signals, .events = POLLIN},
                              {.fd = node->hang_ups, .events = POLLIN},
+                             {.fd = page_server_descriptor(node->pages), .events = POLLIN},
                              {.fd = transport_descriptor(node->transport), .events = POLLIN}};
     int64_t due_us = least(least(node->status_us, node->end_us), node_print_due_us(&node->print));
     int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - clock_us();
@@ -466,10 +471,13 @@ static void wait_for_work(struct node *node)
         wait_us = 0;
     }
     struct timespec wait = {wait_us / 1000000, wait_us % 1000000 * 1000};
-    if (ppoll(here, 3, &wait, NULL) > 0) {
+    if (ppoll(here, 4, &wait, NULL) > 0) {
         node->is_over |= here[0].revents != 0;
         if (here[1].revents) {
             take_hang_up(node);
+        }
+        if (here[2].revents) {
+            page_server_run(node->pages);
         }
     }
 }
@@ -554,13 +562,34 @@ static void take_messages(struct node *node)
     }
 }
 
-static void send_status(struct node *node)
+static struct node_core_losses losses_of(const struct node *node)
 {
     const struct transport_counters network = transport_counters(node->transport);
-    const struct node_core_losses losses = {.datagrams_refused =
-                                                network.refused + network.refused_source,
-                                            .reports_not_printed = node->print.left_out,
-                                            .events_not_logged = node_log_left_out(node->log)};
+
+    return (struct node_core_losses){.datagrams_refused = network.refused + network.refused_source,
+                                     .reports_not_printed = node->print.left_out,
+                                     .events_not_logged = node_log_left_out(node->log)};
+}
+
+static void write_metrics(FILE *out, void *context)
+{
+    const struct node *node = context;
+    const struct metrics_source source = {
+        .core = node->core,
+        .transport = node->transport,
+        .parameters = node->parameters,
+        .messages_in = node->taken,
+        .losses = losses_of(node),
+        .pages_sent = page_server_sent(node->pages),
+        .clients_refused = page_server_refused(node->pages),
+    };
+
+    metrics_write(out, &source);
+}
+
+static void send_status(struct node *node)
+{
+    const struct node_core_losses losses = losses_of(node);
 
     node_core_status(node->core, &losses);
     if (node->statuses++ % CLUTTER_STATUSES == 0) {
@@ -590,6 +619,7 @@ static void keep_clocks(struct node *node)
             node->status_us = now_us + STATUS_US;
         }
         send_status(node);
+        page_server_run(node->pages); /* who was too slow goes */
     }
     keep_snapshot(node, now_us);
     node->is_over = node->is_over || now_us >= node->end_us;
@@ -637,7 +667,8 @@ static struct node_log_limits log_limits(const struct parameters *parameters)
 
 int command_node(struct command_line *line)
 {
-    struct node node = {.status_us = clock_us(), .end_us = INT64_MAX};
+    struct node node = {
+        .status_us = clock_us(), .end_us = INT64_MAX, .parameters = &line->parameters};
     const struct node_core_events events = {&node, on_send, on_step, on_restart, on_new_clock};
     const bool is_live = transport_is_live(line->lcm);
     const struct node_log_limits limits = log_limits(&line->parameters);
@@ -671,6 +702,8 @@ int command_node(struct command_line *line)
     take_signals(&node);
     start_watch(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
+    node.pages = page_server_open(line->metrics, "/metrics",
+                                  "text/plain; version=0.0.4; charset=utf-8", write_metrics, &node);
     node.log = node_log_open(line->log, is_live, &limits);
     node.print = node_print_start(line->print, is_live);
     if (line->seconds > 0) {
@@ -679,6 +712,7 @@ int command_node(struct command_line *line)
     run(&node);
     finish(&node);
     exit_code = node.exit_code;
+    page_server_close(node.pages);
     transport_close(node.transport);
     node_core_close(node.core);
     node_log_close(node.log);

@@ -119,7 +119,7 @@ static const struct command commands[] = {
      "with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
-     "lpLRTAmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
+     "lpLRTAEmPgWMsC", "the live tracker: LCM messages in, LCM messages out",
      "Tracks what sensors say on RHO_PLOTS_<n>, RHO_POLAR_<n> and RHO_BEARINGS_<n>, and publishes\n"
      "RHO_TRACKS and RHO_PEAKS at each scan, with body_max_m RHO_BODIES, and once a second\n"
      "RHO_STATUS, RHO_WORK and RHO_SENSORS,\n"
@@ -132,7 +132,7 @@ static const struct command commands[] = {
      "silent are named. With --snapshot a node that is started again goes on with its tracks.\n"
      "With --commands it does what `rhotrack command` asks for after the next step.\n"
      "A log goes into files of log_file_mb or log_file_s, of which the newest log_files stay; SIGHUP\n"
-     "opens its name anew.\n"
+     "opens its name anew. --metrics tells counters and times to programs of this machine.\n"
      "It ends on SIGINT and SIGTERM, or at the end of a log\n"
      "(--lcm file://NAME.lcm?speed=0), with a summary on standard error and exit code 0.\n"
      "udpm:// URLs have the options ttl=N (0: this machine, 1: this network), recv_buf_size=BYTES\n"

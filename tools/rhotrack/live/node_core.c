@@ -24,10 +24,8 @@
 #define COMMAND_WAIT_US 60000000 /* for a step, at most: longer than a turn of any radar */
 #define COMMAND_IS_LATE RHO_ERROR_STATE
 
-struct timing {
-    int64_t sum_us, max_us;
-    uint64_t steps;
-};
+const int64_t node_core_bounds_us[NODE_CORE_BOUNDS] = {100,   300,    1000,   3000,    10000,
+                                                       30000, 100000, 300000, 1000000, 3000000};
 
 /* The sensors' newest scans. */
 struct places {
@@ -41,7 +39,7 @@ struct node_core {
     struct pipeline_show *show; /* NULL: nothing is */
     struct rho_node node;
     struct sequence_counts order;
-    struct timing timing; /* of all steps */
+    struct node_core_times step_times, latencies;
     struct rho_scan_assembler assembler;
     struct refused_messages refused;
     struct rho_scan_assembler_counters taken, shown; /* taken: of refused scans, after all */
@@ -295,6 +293,40 @@ static void take_command(struct node_core *core, const uint8_t *data, size_t siz
 
 /* ---- The loop ---- */
 
+static void count_time(struct node_core_times *times, int64_t took_us)
+{
+    unsigned bound = 0;
+
+    while (bound < NODE_CORE_BOUNDS && took_us > node_core_bounds_us[bound]) {
+        bound++;
+    }
+    if (bound < NODE_CORE_BOUNDS) {
+        times->within[bound]++;
+    }
+    times->count++;
+    times->sum_us += took_us;
+    times->max_us = took_us > times->max_us ? took_us : times->max_us;
+}
+
+/* The step's scan waited for so long: of a frame of bearings, the scan that came last. */
+static int64_t waited_us(const struct node_core *core, enum rho_node_due due)
+{
+    int64_t heard_us = INT64_MIN;
+
+    for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
+        const struct rho_scan_assembler_source *source = &core->assembler.sources[i];
+        const bool is_of_step = due == RHO_NODE_FRAME
+                                    ? source->kind == RHO_SCAN_ASSEMBLER_BEARINGS
+                                    : source->kind != RHO_SCAN_ASSEMBLER_BEARINGS &&
+                                          source->sensor_id == core->node.scan.sensor_id;
+
+        if (source->is_used && is_of_step && source->heard_us > heard_us) {
+            heard_us = source->heard_us;
+        }
+    }
+    return heard_us == INT64_MIN || heard_us > core->node.now_us ? 0 : core->node.now_us - heard_us;
+}
+
 static void step(struct node_core *core, enum rho_node_due due)
 {
     const int64_t start_us = clock_us();
@@ -311,9 +343,8 @@ static void step(struct node_core *core, enum rho_node_due due)
     pipeline_count_zones(&core->pipeline);
     took_us = clock_us() - start_us;
     rho_node_count_time(&core->node, took_us);
-    core->timing.steps++;
-    core->timing.sum_us += took_us;
-    core->timing.max_us = took_us > core->timing.max_us ? took_us : core->timing.max_us;
+    count_time(&core->step_times, took_us);
+    count_time(&core->latencies, took_us + waited_us(core, due));
     if (core->events.stepped) {
         core->events.stepped(core->events.context, core->pipeline.report);
     }
@@ -598,14 +629,36 @@ const struct sequence_counts *node_core_order(const struct node_core *core)
     return &core->order;
 }
 
+const struct node_core_times *node_core_step_times(const struct node_core *core)
+{
+    return &core->step_times;
+}
+
+const struct node_core_times *node_core_latencies(const struct node_core *core)
+{
+    return &core->latencies;
+}
+
 double node_core_mean_us(const struct node_core *core)
 {
-    return core->timing.steps ? (double)core->timing.sum_us / (double)core->timing.steps : 0;
+    const struct node_core_times *times = &core->step_times;
+
+    return times->count ? (double)times->sum_us / (double)times->count : 0;
 }
 
 double node_core_max_us(const struct node_core *core)
 {
-    return (double)core->timing.max_us;
+    return (double)core->step_times.max_us;
+}
+
+const struct rho_tracker *node_core_state(const struct node_core *core)
+{
+    return core->pipeline.tracker;
+}
+
+const struct rho_zones *node_core_zones(const struct node_core *core)
+{
+    return core->pipeline.zones;
 }
 
 void node_core_close(struct node_core *core)

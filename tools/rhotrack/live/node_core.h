@@ -25,6 +25,7 @@
 #include "rhotrack/node.h"
 #include "rhotrack/scan_assembler.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/zones.h"
 #include "settings/parameters.h"
 
 struct node_core;
@@ -129,9 +130,26 @@ void node_core_send_clutter(const struct node_core *core);
 /* The tracker's map of clutter. */
 struct rho_clutter_map *node_core_clutter(struct node_core *core);
 
+/* Times since the start, how many of them were within each bound. */
+#define NODE_CORE_BOUNDS 10
+extern const int64_t node_core_bounds_us[NODE_CORE_BOUNDS];
+struct node_core_times {
+    int64_t sum_us, max_us;
+    uint64_t count;
+    uint64_t within[NODE_CORE_BOUNDS]; /* and not within the bound before */
+};
+
+/* Of the steps; and from the reception of a scan's last message to its tracks. */
+const struct node_core_times *node_core_step_times(const struct node_core *core);
+const struct node_core_times *node_core_latencies(const struct node_core *core);
+
 /* Mean and longest step in us since the start. */
 double node_core_mean_us(const struct node_core *core);
 double node_core_max_us(const struct node_core *core);
+
+/* The objects themselves, to be looked at. */
+const struct rho_tracker *node_core_state(const struct node_core *core);
+const struct rho_zones *node_core_zones(const struct node_core *core); /* NULL: there are none */
 
 void node_core_close(struct node_core *core);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "settings/parameters.h"
 
+#include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -284,6 +285,21 @@ static const struct sensor_name *find_sensor_name(const struct parameters *param
     return NULL;
 }
 
+static bool is_utf8(const char *text)
+{
+    const locale_t locale = newlocale(LC_CTYPE_MASK, "C.UTF-8", (locale_t)0);
+    locale_t before;
+    bool is_text = false;
+
+    if (locale) {
+        before = uselocale(locale);
+        is_text = mbstowcs(NULL, text, 0) != (size_t)-1;
+        uselocale(before);
+        freelocale(locale);
+    }
+    return is_text;
+}
+
 /* It stands in lines and in labels: characters that end those are none of a name. */
 static const char *refuse_sensor_name(const char *value)
 {
@@ -295,7 +311,7 @@ static const char *refuse_sensor_name(const char *value)
             return "has characters that are none of a name";
         }
     }
-    return *value ? NULL : "is empty";
+    return !*value ? "is empty" : is_utf8(value) ? NULL : "is not UTF-8";
 }
 
 static bool assign_sensor_name(struct parameters *parameters, int32_t sensor_id, const char *value,

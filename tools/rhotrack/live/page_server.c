@@ -1,0 +1,392 @@
+/* SPDX-License-Identifier: MIT */
+#include "live/page_server.h"
+
+#include <arpa/inet.h>
+#include <errno.h>
+#include <netinet/in.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "base/common.h"
+
+enum {
+    PLACES = 16,
+    REQUEST_BYTES = 4096,
+    ACCEPTED_MAX = 16, /* in one call */
+    LIFE_US = 2000000,
+    FRESH_US = 100000 /* for so long a page is sent again as it is */
+};
+
+enum client_state {
+    CLIENT_NONE = 0,
+    CLIENT_ASKS,
+    CLIENT_READS,
+    CLIENT_ENDS /* its answer is sent: what it still says is not looked at */
+};
+
+struct client {
+    enum client_state state;
+    int descriptor;
+    int64_t since_us;
+    size_t num_asked; /* bytes of the request */
+    char asked[REQUEST_BYTES];
+    char *answer;
+    size_t num_answer, sent;
+};
+
+struct page_server {
+    int listener, poll;
+    const char *path, *type;
+    page_server_write *write;
+    void *context;
+    char *page; /* the last one */
+    size_t num_page;
+    int64_t page_us; /* when it was made */
+    uint64_t sent, refused;
+    struct client clients[PLACES];
+};
+
+/* ---- Clients ---- */
+
+/*
+ * A process that saves a file beside the tracking has copies of all descriptors, which keep what is
+ * only closed here both open and polled.
+ */
+static void drop(const struct page_server *server, struct client *client)
+{
+    (void)epoll_ctl(server->poll, EPOLL_CTL_DEL, client->descriptor, NULL);
+    shutdown(client->descriptor, SHUT_RDWR);
+    close(client->descriptor);
+    free(client->answer);
+    client->answer = NULL;
+    client->num_asked = client->num_answer = client->sent = 0;
+    client->state = CLIENT_NONE;
+}
+
+/* A free place, or that of the client that has been there longest. */
+static struct client *have_place(struct page_server *server)
+{
+    struct client *found = &server->clients[0];
+
+    for (unsigned i = 0; i < PLACES; i++) {
+        struct client *client = &server->clients[i];
+
+        if (client->state == CLIENT_NONE) {
+            return client;
+        }
+        found = client->since_us < found->since_us ? client : found;
+    }
+    server->refused += found->state != CLIENT_ENDS;
+    drop(server, found);
+    return found;
+}
+
+/* ---- Answers ---- */
+
+static bool make_page(struct page_server *server)
+{
+    const int64_t now_us = clock_us();
+    FILE *out;
+
+    if (server->page && now_us < server->page_us + FRESH_US) {
+        return true;
+    }
+    free(server->page);
+    server->page = NULL;
+    out = open_memstream(&server->page, &server->num_page);
+    if (!out) {
+        return false;
+    }
+    server->write(out, server->context);
+    if (fclose(out)) {
+        free(server->page);
+        server->page = NULL;
+    }
+    server->page_us = now_us;
+    return server->page != NULL;
+}
+
+/* extra: lines of the head, each with its end. */
+static void answer(const struct page_server *server, struct client *client, const char *status,
+                   const char *extra, const char *type, const char *text, size_t size,
+                   bool has_text)
+{
+    FILE *out = open_memstream(&client->answer, &client->num_answer);
+
+    if (!out) {
+        drop(server, client);
+        return;
+    }
+    fprintf(out,
+            "HTTP/1.1 %s\r\nContent-Type: %s\r\nContent-Length: %zu\r\n%sConnection: close\r\n\r\n",
+            status, type, size, extra);
+    if (has_text) {
+        fwrite(text, 1, size, out);
+    }
+    if (fclose(out)) {
+        drop(server, client);
+        return;
+    }
+    client->state = CLIENT_READS;
+}
+
+static void refuse(struct page_server *server, struct client *client, const char *status,
+                   const char *extra)
+{
+    char text[128];
+    const int size = snprintf(text, sizeof text, "%s; the page is %s\n", status, server->path);
+
+    server->refused++;
+    answer(server, client, status, extra, "text/plain", text, (size_t)size, true);
+}
+
+/* "GET /metrics HTTP/1.1": its three words, in place. */
+static bool split_line(char *line, char *words[3])
+{
+    line[strcspn(line, "\r\n")] = '\0';
+    for (int i = 0; i < 3; i++) {
+        words[i] = line;
+        line += strcspn(line, " ");
+        if (*line) {
+            *line++ = '\0';
+        }
+    }
+    return *line == '\0' && strncmp(words[2], "HTTP/1.", 7) == 0;
+}
+
+static void answer_request(struct page_server *server, struct client *client)
+{
+    char *words[3];
+    bool is_head;
+
+    client->asked[client->num_asked] = '\0';
+    if (memchr(client->asked, '\0', client->num_asked) || !split_line(client->asked, words)) {
+        refuse(server, client, "400 Bad Request", "");
+        return;
+    }
+    words[1][strcspn(words[1], "?")] = '\0';
+    is_head = strcmp(words[0], "HEAD") == 0;
+    if (!is_head && strcmp(words[0], "GET") != 0) {
+        refuse(server, client, "405 Method Not Allowed", "Allow: GET, HEAD\r\n");
+    } else if (strcmp(words[1], server->path) != 0) {
+        refuse(server, client, "404 Not Found", "");
+    } else if (!make_page(server)) {
+        refuse(server, client, "503 Service Unavailable", "");
+    } else {
+        server->sent++;
+        answer(server, client, "200 OK", "", server->type, server->page, server->num_page,
+               !is_head);
+    }
+}
+
+/* ---- What clients say and take ---- */
+
+static bool is_for_later(ssize_t done)
+{
+    return done < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR);
+}
+
+static bool ends_head(const char *text, size_t size)
+{
+    return memmem(text, size, "\r\n\r\n", 4) || memmem(text, size, "\n\n", 2);
+}
+
+/* One piece at a call. */
+static void hear(struct page_server *server, struct client *client)
+{
+    const size_t room = sizeof client->asked - 1 - client->num_asked;
+    const ssize_t got = recv(client->descriptor, client->asked + client->num_asked, room, 0);
+
+    if (is_for_later(got)) {
+        return;
+    }
+    if (got <= 0) {
+        drop(server, client);
+        return;
+    }
+    client->num_asked += (size_t)got;
+    if (ends_head(client->asked, client->num_asked)) {
+        answer_request(server, client);
+    } else if (client->num_asked == sizeof client->asked - 1) {
+        refuse(server, client, "431 Request Header Fields Too Large", "");
+    }
+}
+
+static void tell(const struct page_server *server, struct client *client)
+{
+    const ssize_t done = send(client->descriptor, client->answer + client->sent,
+                              client->num_answer - client->sent, MSG_NOSIGNAL);
+
+    if (is_for_later(done)) {
+        return;
+    }
+    if (done < 0) {
+        drop(server, client);
+        return;
+    }
+    client->sent += (size_t)done;
+    if (client->sent == client->num_answer) {
+        shutdown(client->descriptor, SHUT_WR);
+        client->state = CLIENT_ENDS;
+    }
+}
+
+/* The client closes first, so that its kernel does not throw away the answer. */
+static void let_end(const struct page_server *server, struct client *client)
+{
+    char text[1024];
+    const ssize_t got = recv(client->descriptor, text, sizeof text, 0);
+
+    if (got == 0 || (got < 0 && !is_for_later(got))) {
+        drop(server, client);
+    }
+}
+
+static void serve(struct page_server *server, struct client *client)
+{
+    if (client->state == CLIENT_ASKS) {
+        hear(server, client);
+    }
+    if (client->state == CLIENT_READS) {
+        tell(server, client);
+    }
+    if (client->state == CLIENT_ENDS) {
+        let_end(server, client);
+    }
+    if (client->state != CLIENT_NONE) {
+        struct epoll_event event = {.events = client->state == CLIENT_READS ? EPOLLOUT : EPOLLIN,
+                                    .data.ptr = client};
+
+        (void)epoll_ctl(server->poll, EPOLL_CTL_MOD, client->descriptor, &event);
+    }
+}
+
+static void accept_clients(struct page_server *server)
+{
+    for (int i = 0; i < ACCEPTED_MAX; i++) {
+        const int descriptor = accept4(server->listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
+        struct client *client;
+        struct epoll_event event = {.events = EPOLLIN};
+
+        if (descriptor < 0) {
+            return;
+        }
+        client = have_place(server);
+        event.data.ptr = client;
+        if (epoll_ctl(server->poll, EPOLL_CTL_ADD, descriptor, &event)) {
+            close(descriptor);
+            continue;
+        }
+        client->state = CLIENT_ASKS;
+        client->descriptor = descriptor;
+        client->since_us = clock_us();
+        serve(server, client); /* most have asked by now */
+    }
+}
+
+static void drop_old(struct page_server *server)
+{
+    const int64_t now_us = clock_us();
+
+    for (unsigned i = 0; i < PLACES; i++) {
+        struct client *client = &server->clients[i];
+
+        if (client->state != CLIENT_NONE && now_us > client->since_us + LIFE_US) {
+            server->refused += client->state != CLIENT_ENDS;
+            drop(server, client);
+        }
+    }
+}
+
+void page_server_run(struct page_server *server)
+{
+    struct epoll_event events[PLACES + 1];
+    int count;
+
+    if (!server) {
+        return;
+    }
+    drop_old(server);
+    count = epoll_wait(server->poll, events, PLACES + 1, 0);
+    for (int i = 0; i < count; i++) {
+        struct client *client = events[i].data.ptr;
+
+        if (client && client->state != CLIENT_NONE) {
+            serve(server, client);
+        }
+    }
+    accept_clients(server); /* last: a place that it takes is of none of the events */
+}
+
+/* ---- Start and end ---- */
+
+static int listen_at(uint16_t port)
+{
+    const struct sockaddr_in address = {
+        .sin_family = AF_INET, .sin_port = htons(port), .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
+    const int on = 1, listener = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+
+    if (listener < 0 || setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) ||
+        bind(listener, (const struct sockaddr *)&address, sizeof address) ||
+        listen(listener, PLACES)) {
+        fail(EXIT_RUNTIME, "port %u of 127.0.0.1: %s", port, strerror(errno));
+    }
+    return listener;
+}
+
+struct page_server *page_server_open(uint16_t port, const char *path, const char *type,
+                                     page_server_write *write, void *context)
+{
+    struct epoll_event event = {.events = EPOLLIN};
+    struct page_server *server;
+
+    if (port == 0) {
+        return NULL;
+    }
+    server = must_calloc(1, sizeof *server);
+    server->listener = listen_at(port);
+    server->poll = epoll_create1(EPOLL_CLOEXEC);
+    if (server->poll < 0 || epoll_ctl(server->poll, EPOLL_CTL_ADD, server->listener, &event)) {
+        fail(EXIT_RUNTIME, "epoll: %s", strerror(errno));
+    }
+    server->path = path;
+    server->type = type;
+    server->write = write;
+    server->context = context;
+    return server;
+}
+
+int page_server_descriptor(const struct page_server *server)
+{
+    return server ? server->poll : -1;
+}
+
+uint64_t page_server_sent(const struct page_server *server)
+{
+    return server ? server->sent : 0;
+}
+
+uint64_t page_server_refused(const struct page_server *server)
+{
+    return server ? server->refused : 0;
+}
+
+void page_server_close(struct page_server *server)
+{
+    if (!server) {
+        return;
+    }
+    for (unsigned i = 0; i < PLACES; i++) {
+        if (server->clients[i].state != CLIENT_NONE) {
+            drop(server, &server->clients[i]);
+        }
+    }
+    close(server->poll);
+    close(server->listener);
+    free(server->page);
+    free(server);
+}
