@@ -22,6 +22,7 @@
 #include "rhotrack/measurement.h"
 #include "rhotrack/operator.h"
 #include "rhotrack/passive.h"
+#include "rhotrack/reflector_learning.h"
 #include "rhotrack/reflectors.h"
 #include "rhotrack/settings.h"
 #include "rhotrack/snapshot.h"

@@ -74,6 +74,7 @@ enum rho_snapshot_kind {
     /* struct rho_clutter_map, of a tracker: the places that it has learned; not with RHO_MAX_ECHOES
      * 0 */
     RHO_SNAPSHOT_CLUTTER_MAP,
+    RHO_SNAPSHOT_REFLECTORS, /* struct rho_reflector_learning; not with RHO_MAX_REFLECTORS 0 */
 };
 
 /* An object of the caller. */

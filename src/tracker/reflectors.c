@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "images.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "step.h"
@@ -133,41 +134,43 @@ static void reflect_covariance(const struct wall *wall, float p[21])
     rho_linalg_turn6(p, RHO_VX, RHO_VY, c, -s);
 }
 
-/* The line of sight from the sensor to the image crosses the wall. */
-static int is_seen(const struct step *step, const struct wall *wall, const struct rho_track *track,
-                   const struct rho_kalman *image)
+int rho_reflector_image(const struct rho_reflector *reflector, const struct rho_sensor *sensor,
+                        float slack_m, const struct rho_kalman *of, struct rho_kalman *image,
+                        float *crossing_m)
 {
+    const struct wall wall = wall_of(reflector);
     float sensor_along_m, image_along_m;
-    const float sensor_m = before(wall, step->sensor ? step->sensor->x_m : 0.0f,
-                                  step->sensor ? step->sensor->y_m : 0.0f, &sensor_along_m);
-    const float image_m = before(wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
-    if (!(sensor_m * image_m < 0.0f)) {
-        return 0;
-    }
-    const float slack_m = BESIDE_SIGMAS * rho_track_sigma_m(track);
-    const float crossing_m =
-        sensor_along_m + (image_along_m - sensor_along_m) * sensor_m / (sensor_m - image_m);
-    return crossing_m >= -slack_m && crossing_m <= wall->length_m + slack_m;
-}
-
-/* 0: none is seen. */
-static int make_image(struct step *step, unsigned reflector, const struct rho_track *track,
-                      struct rho_kalman *image)
-{
-    const struct wall wall = wall_of(&step->tracker->reflectors[reflector]);
-    rho_tracker_spend(step, IMAGE_UNITS);
-    *image = track->kalman;
+    *image = *of;
     image->state[RHO_X] -= wall.x_m;
     image->state[RHO_Y] -= wall.y_m;
     reflect(&wall, &image->state[RHO_X], &image->state[RHO_Y]);
     reflect(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
     image->state[RHO_X] += wall.x_m;
     image->state[RHO_Y] += wall.y_m;
-    if (!is_seen(step, &wall, track, image)) {
+    const float sensor_m =
+        before(&wall, sensor ? sensor->x_m : 0.0f, sensor ? sensor->y_m : 0.0f, &sensor_along_m);
+    const float image_m = before(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
+    if (!(sensor_m * image_m < 0.0f)) {
+        return 0;
+    }
+    *crossing_m =
+        sensor_along_m + (image_along_m - sensor_along_m) * sensor_m / (sensor_m - image_m);
+    if (!(*crossing_m >= -slack_m && *crossing_m <= wall.length_m + slack_m)) {
         return 0;
     }
     reflect_covariance(&wall, image->covariance);
     return 1;
+}
+
+/* 0: none is seen. */
+static int make_image(struct step *step, unsigned reflector, const struct rho_track *track,
+                      struct rho_kalman *image)
+{
+    float crossing_m;
+    rho_tracker_spend(step, IMAGE_UNITS);
+    return rho_reflector_image(&step->tracker->reflectors[reflector], step->sensor,
+                               BESIDE_SIGMAS * rho_track_sigma_m(track), &track->kalman, image,
+                               &crossing_m);
 }
 
 /* A target may have images where it has plots of its own, and not from behind. */

@@ -5,6 +5,7 @@
 
 #include "rhotrack/initiator.h"
 #include "rhotrack/passive.h"
+#include "rhotrack/reflector_learning.h"
 #include "rhotrack/settings.h"
 #include "rhotrack/tracker.h"
 
@@ -145,6 +146,10 @@ static const uint32_t facts[] = {
     sizeof(struct rho_clutter_map),
     sizeof(struct rho_echo),
     PLACE(rho_clutter_map, echoes),
+    sizeof(struct rho_reflector_learning),
+    sizeof(struct rho_learned_reflector),
+    PLACE(rho_reflector_learning, lines),
+    PLACE(rho_learned_reflector, witnesses),
 };
 
 static uint32_t layout(void)
@@ -168,6 +173,8 @@ static size_t size_of(uint32_t kind)
         return sizeof(struct rho_settings);
     case RHO_SNAPSHOT_CLUTTER_MAP:
         return RHO_MAX_ECHOES > 0 ? sizeof(struct rho_clutter_map) : 0;
+    case RHO_SNAPSHOT_REFLECTORS:
+        return RHO_MAX_REFLECTORS > 0 ? sizeof(struct rho_reflector_learning) : 0;
     default:
         return 0;
     }
@@ -187,6 +194,9 @@ static int is_sound(uint32_t kind, const void *object)
     case RHO_SNAPSHOT_CLUTTER_MAP:
         return RHO_MAX_ECHOES > 0 &&
                rho_clutter_map_is_sound((const struct rho_clutter_map *)object);
+    case RHO_SNAPSHOT_REFLECTORS:
+        return RHO_MAX_REFLECTORS > 0 &&
+               rho_reflector_learning_is_sound((const struct rho_reflector_learning *)object);
     default:
         return 0;
     }

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# A guard rail that shows cars a second time: told, by a file or by an option, it has no tracks.
+# A guard rail that shows cars a second time: told, by a file or by an option, it has no tracks; and
+# none once it is learned.
 # shellcheck source=tests/integration/checks.bash
 . "$(dirname "$0")/checks.bash"
 
@@ -12,11 +13,29 @@ run evaluate rail/truth.csv told.csv --set gospa_cutoff_m=3 --json
 check 'cars have one track each' json stdout \
     'o["switches"] == 0 and o["completeness"] > 0.97 and o["tracks"] <= 16'
 grep -v reflectors rail/scenario.ini >silent.ini
-run track rail/plots.csv --config silent.ini -o silent.csv
+run track rail/plots.csv --config silent.ini --set learn_reflectors=0 --json -o silent.csv
+check 'nothing is learned where it is switched off' json stdout '"learned_reflectors" not in o'
 run evaluate rail/truth.csv silent.csv --set gospa_cutoff_m=3 --json
 check 'where nothing is said images have tracks' json stdout \
     'o["tracks"] > 30 and o["false_per_scan"] > 0.5'
-run track rail/plots.csv --config silent.ini --set 'reflectors=0 14 200 14' -o option.csv
+run track rail/plots.csv --config silent.ini --json -o learned.csv
+check 'nobody told, the rail is learned' json stdout 'len(o["learned_reflectors"]) == 1 and all(
+    abs(y - 14) < 0.5 for y in (o["learned_reflectors"][0]["from_m"][1],
+                                o["learned_reflectors"][0]["to_m"][1]))'
+check 'the summary says it' grep -q ', a wall is learned: ' stderr
+after() { # file: rows of confirmed tracks behind the rail, no car's, in the last 15 s
+    awk -F, '$1 > 26 && $3 == "confirmed" && $5 > 14.5 && !($5 > 20 && $5 < 22) {n++} END {print n + 0}' \
+        "$1"
+}
+check 'images have tracks' test "$(after silent.csv)" -gt 100
+check 'and none once the rail is learned' test "$(after learned.csv)" -le 3
+run convert rail/plots.csv rail.lcm --config silent.ini
+run node --lcm "file://$PWD/rail.lcm?speed=0" --config silent.ini --snapshot rail.snapshot
+check 'a node says so when it is learned' grep -q '^rhotrack: a wall is learned: ' stderr
+run node --lcm "file://$PWD/rail.lcm?speed=0" --config silent.ini --snapshot rail.snapshot
+check 'and knows it after a restart' grep -q 'a wall is learned: ' stderr
+run track rail/plots.csv --config silent.ini --set 'reflectors=0 14 200 14' --json -o option.csv
+check 'what is told is not learned' json stdout '"learned_reflectors" not in o'
 check 'an option says it' cmp told.csv option.csv
 run config --set 'reflectors=0 14 200 14, -5 1e2 5 100.5'
 check 'config shows it' grep -q '^reflectors .*0 14 200 14, -5 100 5 100.5' stdout

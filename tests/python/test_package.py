@@ -627,6 +627,18 @@ def test_bodies_are_columns_and_messages(scene, tmp_path):
     assert "length_m" not in rhotrack.Tracker(settings, body_max_m=0).run(scans).dtype.names
 
 
+def test_walls_are_learned(scene):
+    folder = scene("guard-rail", "--set", "reflectors.0.is_told=false", "--set", "duration_s=25")
+    tracker = rhotrack.Tracker(rhotrack.Settings(folder / "scenario.ini"))
+    assert tracker.learned_reflectors.shape == (0, 4)
+    tracker.run(rhotrack.read(folder / "plots.csv", settings=tracker.settings))
+    assert tracker.learned_reflectors.shape == (1, 4)
+    np.testing.assert_allclose(tracker.learned_reflectors[0, 1::2], 14, atol=0.5)
+    off = rhotrack.Tracker(tracker.settings, learn_reflectors=0)
+    off.run(rhotrack.read(folder / "plots.csv", settings=tracker.settings))
+    assert off.learned_reflectors.shape == (0, 4)
+
+
 def test_a_picture_shows_plots_and_confirmed_tracks(scene):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

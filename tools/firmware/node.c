@@ -6,6 +6,7 @@
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"
+#include "rhotrack/reflector_learning.h"
 #include "rhotrack/udpm.h"
 #include "starts.h"
 
@@ -17,6 +18,7 @@ static struct rho_tracker tracker;
 static struct rho_frames frames;
 static struct rho_report report;
 static struct rho_node node;
+static struct rho_reflector_learning learning; /* with NODE_LEARNS_REFLECTORS */
 
 static struct rho_udpm_guard guard;
 
@@ -113,6 +115,9 @@ static void step(void)
 {
     int64_t start_us = settings.clock_us(settings.context);
     if (starts_step(&node) == RHO_OK) {
+        if (NODE_LEARNS_REFLECTORS && node.stepped == RHO_NODE_SCAN) {
+            (void)!rho_reflector_learning_step(&learning, &tracker, &node.scan, &report);
+        }
         rho_node_count_time(&node, settings.clock_us(settings.context) - start_us);
         if (settings.stepped) {
             settings.stepped(settings.context, &report);
@@ -254,6 +259,9 @@ enum rho_status node_start(const struct node_config *config)
     }
     if (status == RHO_OK) {
         status = open_node();
+    }
+    if (NODE_LEARNS_REFLECTORS && status == RHO_OK) {
+        status = rho_reflector_learning_init(&learning, sizeof learning);
     }
     is_started = status == RHO_OK;
     return status;

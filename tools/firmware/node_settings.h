@@ -38,6 +38,10 @@
 #ifndef NODE_BODY_MAX_M
 #define NODE_BODY_MAX_M 0.0f
 #endif
+/* 1: walls that show targets twice are learned (RHO_MAX_REFLECTORS above 0). */
+#ifndef NODE_LEARNS_REFLECTORS
+#define NODE_LEARNS_REFLECTORS 0
+#endif
 #ifndef NODE_GATE
 #define NODE_GATE (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? RHO_TRACKER_BEST : RHO_TRACKER_NEAREST)
 #endif

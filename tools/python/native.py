@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 FLAGS = ["-std=c11", "-DRHO_PROFILE_WORKSTATION"]
 SOURCE = '#include "program.h"\n#include "rhotrack/detail/angle.h"\n'
 MACROS = ("RHO_MAX_PLOTS", "RHO_MAX_BEARINGS", "RHO_HOUGH_VOTE", "RHO_PAPER_RHO_CELLS",
-          "RHO_MEASURES_RANGE_RATE")
+          "RHO_MEASURES_RANGE_RATE", "RHO_LEARNED_REFLECTORS")
 
 
 def declarations(compiler, include):

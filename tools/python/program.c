@@ -913,6 +913,7 @@ struct program_pipeline *program_pipeline(const struct parameters *settings, boo
     made->report = made->pipeline->report;
     made->tracks.has_covariances = has_covariances;
     pipeline_open(made->pipeline, made->settings);
+    made->learning = made->pipeline->learning;
     return made;
 }
 

@@ -123,10 +123,11 @@ struct program_pipeline {
     struct pipeline *pipeline;
     struct parameters *settings;
     bool is_open;
-    struct rho_tracker *tracker;     /* in memory of the pipeline, as */
-    const struct rho_report *report; /* of the last step */
-    uint16_t min_scans;              /* M of the initiator of the newest plots; 0: none yet */
-    struct program_tracks tracks;    /* of the last program_pipeline_run */
+    struct rho_tracker *tracker;                   /* in memory of the pipeline, as */
+    const struct rho_report *report;               /* of the last step */
+    const struct rho_reflector_learning *learning; /* NULL: walls are not learned */
+    uint16_t min_scans;           /* M of the initiator of the newest plots; 0: none yet */
+    struct program_tracks tracks; /* of the last program_pipeline_run */
 };
 
 struct program_pipeline *program_pipeline(const struct parameters *settings, bool has_covariances);

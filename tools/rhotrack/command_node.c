@@ -76,9 +76,10 @@ struct node {
     int64_t status_us, end_us; /* clock_us: when the next status is due; when it is over */
     int64_t finish_us;         /* clock_us: until when outputs are waited for at the end */
     unsigned statuses;         /* that were sent */
-    int64_t restarts_us;       /* clock_us: of the first of the restarts below */
-    unsigned restarts;         /* of sensors, within WARNING_US */
-    bool is_over, is_waiting;  /* waiting: nothing is left to receive */
+    bool knows_wall[RHO_LEARNED_REFLECTORS];
+    int64_t restarts_us;      /* clock_us: of the first of the restarts below */
+    unsigned restarts;        /* of sensors, within WARNING_US */
+    bool is_over, is_waiting; /* waiting: nothing is left to receive */
     int exit_code;
     uint64_t taken; /* messages */
 };
@@ -223,12 +224,34 @@ static void watch_sensors(struct node *node)
     node_sensors_watch(&node->sensors, node->core, node->print.is_terminal ? NULL : stderr);
 }
 
+/* A wall that is learned, or forgotten, is told of once. */
+static void watch_walls(struct node *node)
+{
+    struct rho_reflector wall;
+
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        const bool is_known = node_core_wall(node->core, i, &wall);
+
+        if (is_known && !node->knows_wall[i]) {
+            fprintf(stderr, "rhotrack: a wall is learned: %.1f %.1f %.1f %.1f\n",
+                    (double)wall.from_x_m, (double)wall.from_y_m, (double)wall.to_x_m,
+                    (double)wall.to_y_m);
+        } else if (!is_known && node->knows_wall[i]) {
+            fputs("rhotrack: a wall that was learned shows no images any more\n", stderr);
+        }
+        node->knows_wall[i] = is_known;
+    }
+}
+
 static void on_step(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
     node_print_step(&node->print, report);
     watch_sensors(node);
+    if (!node->print.is_terminal) {
+        watch_walls(node);
+    }
 }
 
 /* Many sensors may begin again at once, but who makes them do so all the time is not told of. */

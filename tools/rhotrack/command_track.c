@@ -289,7 +289,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
                     tracking->pipeline.tracker->looks[i].sensor_id);
         }
     }
-    learned_print(tracking->pipeline.tracker, stderr);
+    learned_print(tracking->pipeline.tracker, tracking->pipeline.learning, stderr);
     if (work->partial_steps > 0) {
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
@@ -412,6 +412,10 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
                             echoes_known(&tracking->pipeline.tracker->clutter_map));
     cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->pipeline.tracker));
     cJSON_AddItemToObject(object, "learned", learned_json(tracking->pipeline.tracker));
+    if (learned_walls(tracking->pipeline.learning) > 0) {
+        cJSON_AddItemToObject(object, "learned_reflectors",
+                              learned_walls_json(tracking->pipeline.learning));
+    }
     cJSON_AddItemToObject(object, "origin", origin_json(parameters));
     if (tracking->pipeline.zones) {
         cJSON_AddItemToObject(object, "zones", zones_json(tracking->pipeline.zones));

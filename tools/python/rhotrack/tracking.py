@@ -117,6 +117,15 @@ class Tracker:
         return tracker.start_mnat / 1000, tracker.confirm_mnat / 1000
 
     @property
+    def learned_reflectors(self) -> np.ndarray:
+        """(n, 4): from x, y to x, y of walls that are learned from what they show, m."""
+        wall, found = ffi.new("struct rho_reflector *"), []
+        for i in range(lib.RHO_LEARNED_REFLECTORS):
+            if lib.rho_reflector_learning_wall(self._pipeline.learning, i, wall):
+                found.append((wall.from_x_m, wall.from_y_m, wall.to_x_m, wall.to_y_m))
+        return np.array(found, "f4").reshape(-1, 4)
+
+    @property
     def sensors(self) -> dict[int, dict[str, Any]]:
         """By sensor_id: factors on stated sigmas and the pd by ring of range, as learned."""
         tracker, found = self._pipeline.tracker, {}

@@ -339,6 +339,9 @@ static void step(struct node_core *core, enum rho_node_due due)
         return;
     }
     start_tracks(core, due);
+    if (due == RHO_NODE_SCAN) {
+        pipeline_learn_walls(&core->pipeline, &core->node.scan);
+    }
     run_commands(core);
     pipeline_count_zones(&core->pipeline);
     took_us = clock_us() - start_us;
@@ -594,6 +597,11 @@ const struct rho_tracker *node_core_live_tracker(const struct node_core *core)
     return core->pipeline.tracker;
 }
 
+int node_core_wall(const struct node_core *core, unsigned place, struct rho_reflector *wall)
+{
+    return rho_reflector_learning_wall(core->pipeline.learning, place, wall);
+}
+
 struct rho_clutter_map *node_core_clutter(struct node_core *core)
 {
     return &core->pipeline.tracker->clutter_map;
@@ -670,5 +678,5 @@ void node_core_close(struct node_core *core)
 
 void node_core_print_learned(const struct node_core *core, FILE *to)
 {
-    learned_print(core->pipeline.tracker, to);
+    learned_print(core->pipeline.tracker, core->pipeline.learning, to);
 }

@@ -23,6 +23,7 @@
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"
+#include "rhotrack/reflector_learning.h"
 #include "rhotrack/scan_assembler.h"
 #include "rhotrack/tracker.h"
 #include "rhotrack/zones.h"
@@ -124,6 +125,9 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
 /* Scans after which a sensor is believed. */
 int node_core_follow_scans(const struct node_core *core);
 
+/* The wall that was learned at this place (reflector_learning.h); 0: none. */
+int node_core_wall(const struct node_core *core, unsigned place, struct rho_reflector *wall);
+
 /* Sends what is known of clutter that comes back, RHO_CLUTTER. */
 void node_core_send_clutter(const struct node_core *core);
 
@@ -153,7 +157,7 @@ const struct rho_zones *node_core_zones(const struct node_core *core); /* NULL: 
 
 void node_core_close(struct node_core *core);
 
-/* Learned values of sensors that are not as stated (learned.h). */
+/* Learned values of sensors that are not as stated, and learned walls (learned.h). */
 void node_core_print_learned(const struct node_core *core, FILE *to);
 
 #endif

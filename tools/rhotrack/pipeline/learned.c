@@ -7,7 +7,20 @@
 
 #include "base/common.h"
 
-void learned_print(const struct rho_tracker *tracker, FILE *to)
+static void print_walls(const struct rho_reflector_learning *walls, FILE *to)
+{
+    struct rho_reflector wall;
+
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        if (rho_reflector_learning_wall(walls, i, &wall)) {
+            fprintf(to, ", a wall is learned: %.1f %.1f %.1f %.1f", (double)wall.from_x_m,
+                    (double)wall.from_y_m, (double)wall.to_x_m, (double)wall.to_y_m);
+        }
+    }
+}
+
+void learned_print(const struct rho_tracker *tracker, const struct rho_reflector_learning *walls,
+                   FILE *to)
 {
     for (uint32_t i = 0; i < tracker->num_sensors; i++) {
         const struct rho_sensor *sensor = &tracker->sensors[i];
@@ -27,6 +40,7 @@ void learned_print(const struct rho_tracker *tracker, FILE *to)
                     (double)least);
         }
     }
+    print_walls(walls, to);
 }
 
 struct cJSON *learned_json(const struct rho_tracker *tracker)
@@ -50,6 +64,37 @@ struct cJSON *learned_json(const struct rho_tracker *tracker)
         cJSON_AddItemToObject(object, "pd", rings);
         cJSON_AddNumberToObject(object, "looks", known.looks);
         cJSON_AddItemToArray(list, object);
+    }
+    return list;
+}
+
+unsigned learned_walls(const struct rho_reflector_learning *walls)
+{
+    struct rho_reflector wall;
+    unsigned count = 0;
+
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        count += rho_reflector_learning_wall(walls, i, &wall) != 0;
+    }
+    return count;
+}
+
+struct cJSON *learned_walls_json(const struct rho_reflector_learning *walls)
+{
+    cJSON *list = cJSON_CreateArray();
+    struct rho_reflector wall;
+
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        if (rho_reflector_learning_wall(walls, i, &wall)) {
+            const double places[4] = {(double)wall.from_x_m, (double)wall.from_y_m,
+                                      (double)wall.to_x_m, (double)wall.to_y_m};
+            cJSON *object = cJSON_CreateObject();
+
+            cJSON_AddItemToObject(object, "from_m", cJSON_CreateDoubleArray(places, 2));
+            cJSON_AddItemToObject(object, "to_m", cJSON_CreateDoubleArray(places + 2, 2));
+            cJSON_AddNumberToObject(object, "witnesses", walls->lines[i].witnesses_for);
+            cJSON_AddItemToArray(list, object);
+        }
     }
     return list;
 }

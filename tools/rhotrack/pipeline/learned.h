@@ -5,13 +5,22 @@
 
 #include <stdio.h>
 
+#include "rhotrack/reflector_learning.h"
 #include "rhotrack/tracker.h"
 
-/* Of sensors that are not as stated, each with a comma before it: part of a summary. */
-void learned_print(const struct rho_tracker *tracker, FILE *to);
+/*
+ * Of sensors that are not as stated, and of walls that are learned (NULL: none are), each with a
+ * comma before it: part of a summary.
+ */
+void learned_print(const struct rho_tracker *tracker, const struct rho_reflector_learning *walls,
+                   FILE *to);
 
 /* A list, the caller's. */
 struct cJSON;
 struct cJSON *learned_json(const struct rho_tracker *tracker);
+
+/* How many walls are learned (NULL: none are), and a list of them. */
+unsigned learned_walls(const struct rho_reflector_learning *walls);
+struct cJSON *learned_walls_json(const struct rho_reflector_learning *walls);
 
 #endif

@@ -37,6 +37,7 @@ void pipeline_free(struct pipeline *pipeline)
     free(pipeline->starts);
     free(pipeline->paper);
     free(pipeline->zones);
+    free(pipeline->learning);
     free(pipeline->tracker);
     free(pipeline->report);
     free(pipeline->plots);
@@ -196,6 +197,16 @@ static void open_zones(struct pipeline *pipeline, const struct parameters *param
     }
 }
 
+/* Walls stay where they are when a clock was set. */
+static void open_learning(struct pipeline *pipeline, const struct parameters *parameters)
+{
+    if (parameters->value[PARAMETER_LEARN_REFLECTORS] > 0 && !pipeline->learning) {
+        pipeline->learning = must_alloc(sizeof *pipeline->learning);
+        must_succeed(rho_reflector_learning_init(pipeline->learning, sizeof *pipeline->learning),
+                     "learn_reflectors");
+    }
+}
+
 void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters)
 {
     struct rho_tracker_config maintain;
@@ -220,6 +231,7 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
         "body_max_m");
     open_starts(pipeline, parameters);
     open_zones(pipeline, parameters);
+    open_learning(pipeline, parameters);
 }
 
 static void open_paper(struct pipeline *pipeline, const struct parameters *parameters)
@@ -276,6 +288,15 @@ void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *sca
     }
 }
 
+void pipeline_learn_walls(struct pipeline *pipeline, const struct rho_scan *scan)
+{
+    if (pipeline->learning) {
+        must_succeed(rho_reflector_learning_step(pipeline->learning, pipeline->tracker, scan,
+                                                 pipeline->report),
+                     "learn_reflectors");
+    }
+}
+
 void pipeline_count_zones(struct pipeline *pipeline)
 {
     if (pipeline->zones) {
@@ -290,6 +311,7 @@ void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
 
     must_succeed(rho_tracker_step(pipeline->tracker, initiator, scan, pipeline->report), "step");
     pipeline_start_tracks(pipeline, scan, NULL);
+    pipeline_learn_walls(pipeline, scan);
     pipeline_count_zones(pipeline);
 }
 

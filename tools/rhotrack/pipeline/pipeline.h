@@ -7,6 +7,7 @@
 #define RHOTRACK_TOOL_PIPELINE_H
 
 #include "rhotrack/paper_starts.h"
+#include "rhotrack/reflector_learning.h"
 #include "rhotrack/zones.h"
 #include "settings/parameters.h"
 
@@ -33,7 +34,8 @@ struct pipeline {
     /* the papers' methods where the parameters ask for them; else NULL */
     struct rho_paper_starts *starts;
     struct rho_passive_paper *paper;
-    struct rho_zones *zones; /* NULL where the parameters have none */
+    struct rho_zones *zones;                 /* NULL where the parameters have none */
+    struct rho_reflector_learning *learning; /* NULL where the parameters want none */
     struct rho_tracker *tracker;
     struct rho_report *report;
     struct rho_plot *plots; /* RHO_MAX_PLOTS, for the caller's scans */
@@ -81,6 +83,9 @@ void pipeline_reopen_paper(struct pipeline *pipeline);
  */
 void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
                            const struct rho_frame *frame);
+
+/* After a step of plots and its starts: walls are learned. */
+void pipeline_learn_walls(struct pipeline *pipeline, const struct rho_scan *scan);
 
 /* After a step and its starts: the zones count its tracks. */
 void pipeline_count_zones(struct pipeline *pipeline);

@@ -24,10 +24,10 @@ static int32_t initiators_of(const struct pipeline *pipeline)
                                        : OF_SENSORS;
 }
 
-/* Tracker, initiators, passive; in new memory. */
+/* Tracker, initiators, passive, learned walls; in new memory. */
 static struct rho_snapshot_part *list_parts(const struct pipeline *pipeline, unsigned *num_parts)
 {
-    struct rho_snapshot_part *parts = must_calloc(pipeline->num_initiators + 2, sizeof *parts);
+    struct rho_snapshot_part *parts = must_calloc(pipeline->num_initiators + 3, sizeof *parts);
     unsigned count = 0;
 
     parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, initiators_of(pipeline),
@@ -40,6 +40,10 @@ static struct rho_snapshot_part *list_parts(const struct pipeline *pipeline, uns
     }
     parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_PASSIVE, 0, pipeline->passive,
                                                 sizeof *pipeline->passive};
+    if (pipeline->learning) {
+        parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_REFLECTORS, 0, pipeline->learning,
+                                                    sizeof *pipeline->learning};
+    }
     *num_parts = count;
     return parts;
 }
@@ -157,14 +161,14 @@ static const char *reason_of(enum rho_status status)
 static bool add_initiators(struct pipeline *pipeline, const struct rho_snapshot_part *parts,
                            unsigned num_parts)
 {
-    const unsigned last = num_parts - 1;
-
+    const unsigned others = pipeline->learning ? 3 : 2; /* than initiators */
     const bool has_sensors = parts[0].id == OF_SENSORS || parts[0].id == OF_PAIRS;
 
-    for (unsigned i = 1; i < last && has_sensors && !pipeline->has_one_initiator; i++) {
+    for (unsigned i = 1; i + others <= num_parts && has_sensors && !pipeline->has_one_initiator;
+         i++) {
         (void)pipeline_initiator(pipeline, parts[i].id);
     }
-    return num_parts == pipeline->num_initiators + 2 && parts[0].id == initiators_of(pipeline);
+    return num_parts == pipeline->num_initiators + others && parts[0].id == initiators_of(pipeline);
 }
 
 static bool is_same(const void *one, const void *other, size_t size)

@@ -83,6 +83,8 @@
       "the same: the most; 1: never more")                                                         \
     X(LEARN_PD_MIN, "learn_pd_min", "-", 0.5, 0.1, 1, 0, 0,                                        \
       "pd as learned by range: least share of that stated; 1: as stated")                          \
+    X(LEARN_REFLECTORS, "learn_reflectors", "-", 1, 0, 1, 1, 1,                                    \
+      "walls that show targets twice are learned; 0: those of reflectors alone are known")         \
     X(SCAN_INTERVAL_S, "scan_interval_s", "s", 0, 0, 60, 0, 1,                                     \
       "rows of a sensor within it are one scan; 0: rows of equal t_s; unset: turns, if found")     \
     X(AREA_X_MIN_M, "area_x_min_m", "m", 0, -2e6, 2e6, 0, 0,                                       \

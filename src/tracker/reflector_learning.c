@@ -1,0 +1,662 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * reflector_learning: lines between tracks and their images, observed until they are walls.
+ */
+#include "rhotrack/reflector_learning.h"
+
+#include <string.h>
+
+#include "images.h"
+#include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/gate.h"
+#include "rhotrack/detail/linalg.h"
+#include "step.h"
+
+#define MAGIC 0x52464c4eu /* "RFLN" */
+
+/* Work of a step: pairs of tracks; plots that are compared with images, over all images. */
+#define PAIRS_MAX 256u
+#define IMAGES_MAX 16u
+#define PLOTS_MAX 65536u
+
+/* ---- pairs of tracks ---- */
+#define TARGET_HITS 8  /* of a track that may have an image */
+#define IMAGE_HITS 5   /* of one that may be an image */
+#define PAIR_CHI2 9.2f /* 99 % in two dimensions: beside each other, at one speed along the line */
+#define APART_SIGMAS 6.0f /* between a target and its image */
+#define SPEED_SIGMAS 5.0f /* along the line, which has its direction from it */
+#define LINE_SIGMAS 3.0f  /* off a line that is known, and off its direction */
+
+/* ---- witnesses ---- */
+#define OBSERVED_PAIRS 3.0f /* from which a line is observed */
+#define JUDGED_LOOKS 24
+#define FOR_HITS 4 /* of these, and of each plot beside the image so many more: */
+#define HITS_OF_OTHER 3
+#define REPEATED 8.0f /* a target's errors stay for about so many looks */
+
+/* ---- walls ---- */
+#define WALL_WITNESSES 4
+#define WALL_RATIO 4
+#define WALL_LATE_ONES 2
+#define WALL_DISTANCES 1.25f
+#define WALL_SIGMA 1.0f
+#define MEMORY_WITNESSES 16 /* both counts are halved there */
+
+/* Two lines are one where their ends are so near: tracks' sigmas. */
+#define SAME_SIGMAS 6.0f
+
+/* A line that is not known better than so has no use for its neighbours: m, m and 1. */
+#define VARIANCE_MAX 1e12f
+
+enum rho_status rho_reflector_learning_init(struct rho_reflector_learning *learning, size_t size)
+{
+    if (!learning) {
+        return RHO_ERROR_NULL;
+    }
+    if (size != sizeof *learning) {
+        return RHO_ERROR_SIZE;
+    }
+    memset(learning, 0, sizeof *learning);
+    learning->magic = MAGIC;
+    return RHO_OK;
+}
+
+/* ---- lines ----------------------------------------------------------------------------------- */
+
+static void to_frame(const struct rho_learned_reflector *line, float x_m, float y_m, float *along_m,
+                     float *across_m)
+{
+    const float dx_m = x_m - line->x_m, dy_m = y_m - line->y_m;
+    *along_m = dx_m * line->cos_along + dy_m * line->sin_along;
+    *across_m = dy_m * line->cos_along - dx_m * line->sin_along;
+}
+
+static float across_at(const struct rho_learned_reflector *line, float along_m)
+{
+    return line->offset_m + line->slope * along_m;
+}
+
+static float variance_at(const struct rho_learned_reflector *line, float along_m)
+{
+    const float *p = line->variance;
+    return p[0] + along_m * (2.0f * p[1] + along_m * p[2]);
+}
+
+static void place_at(const struct rho_learned_reflector *line, float along_m, float *x_m,
+                     float *y_m)
+{
+    const float across_m = across_at(line, along_m);
+    *x_m = line->x_m + along_m * line->cos_along - across_m * line->sin_along;
+    *y_m = line->y_m + along_m * line->sin_along + across_m * line->cos_along;
+}
+
+static struct rho_reflector wall_of(const struct rho_learned_reflector *line)
+{
+    struct rho_reflector wall;
+    const float short_m = RHO_REFLECTOR_LEAST_M - (line->to_m - line->from_m);
+    const float more_m = short_m > 0.0f ? short_m : 0.0f;
+    place_at(line, line->from_m - more_m, &wall.from_x_m, &wall.from_y_m);
+    place_at(line, line->to_m + more_m, &wall.to_x_m, &wall.to_y_m);
+    return wall;
+}
+
+/* A place half way between a target and its image; the line's frame has no error along it. */
+static void refine(struct rho_learned_reflector *line, float along_m, float across_m,
+                   float variance_m2)
+{
+    float *p = line->variance;
+    const float s = variance_at(line, along_m) + variance_m2;
+    const float to_offset = p[0] + along_m * p[1], to_slope = p[1] + along_m * p[2];
+    const float off_m = across_m - across_at(line, along_m);
+    if (!(s > 0.0f)) {
+        return;
+    }
+    line->offset_m += to_offset / s * off_m;
+    line->slope += to_slope / s * off_m;
+    p[0] -= to_offset * to_offset / s;
+    p[1] -= to_offset * to_slope / s;
+    p[2] -= to_slope * to_slope / s;
+}
+
+static void reach_to(struct rho_learned_reflector *line, float along_m)
+{
+    line->from_m = along_m < line->from_m ? along_m : line->from_m;
+    line->to_m = along_m > line->to_m ? along_m : line->to_m;
+}
+
+/* A target that has a plot of this scan, and may have an image. */
+static int is_target(const struct rho_track_report *track, const struct rho_scan *scan)
+{
+    return track->plot >= 0 && (uint32_t)track->plot < scan->num_plots &&
+           track->status == RHO_TRACK_CONFIRMED && track->hits >= TARGET_HITS;
+}
+
+/* ---- pairs of tracks ------------------------------------------------------------------------- */
+
+/* What two tracks say of a line half way between them. */
+struct between {
+    float x_m, y_m, cos_along, sin_along;
+    float variance_m2, slope_variance; /* across the line; of its direction */
+    float crossing_x_m, crossing_y_m;  /* of the line of sight to the image */
+    float sigma_m;                     /* of the target's place */
+};
+
+/* Of a covariance at x and y from `first` on, in a direction. */
+static float variance_along(const float *covariance, int first, float cos_along, float sin_along)
+{
+    return covariance[RHO_AT(first, first)] * cos_along * cos_along +
+           2.0f * covariance[RHO_AT(first + 1, first)] * cos_along * sin_along +
+           covariance[RHO_AT(first + 1, first + 1)] * sin_along * sin_along;
+}
+
+/* The line of sight to the image crosses the line, which the target is before. */
+static int is_behind(const struct rho_sensor *sensor, const struct rho_track_report *target,
+                     const struct rho_track_report *image, struct between *between)
+{
+    const float x_m = sensor ? sensor->x_m : 0.0f, y_m = sensor ? sensor->y_m : 0.0f;
+    const float c = between->cos_along, s = between->sin_along;
+    const float sensor_m = (y_m - between->y_m) * c - (x_m - between->x_m) * s;
+    const float target_m =
+        (target->state[RHO_Y] - between->y_m) * c - (target->state[RHO_X] - between->x_m) * s;
+    const float image_m =
+        (image->state[RHO_Y] - between->y_m) * c - (image->state[RHO_X] - between->x_m) * s;
+    if (!(sensor_m * target_m > 0.0f) || !(sensor_m * image_m < 0.0f)) {
+        return 0;
+    }
+    const float part = sensor_m / (sensor_m - image_m);
+    between->crossing_x_m = x_m + part * (image->state[RHO_X] - x_m);
+    between->crossing_y_m = y_m + part * (image->state[RHO_Y] - y_m);
+    return 1;
+}
+
+/* Target and image are beside each other, and as fast along the line, which has its direction from
+ * their velocities. */
+static int may_be_image(const struct rho_sensor *sensor, const struct rho_track_report *target,
+                        const struct rho_track_report *image, struct between *between)
+{
+    const float *t = target->state, *g = image->state;
+    const float dx_m = g[RHO_X] - t[RHO_X], dy_m = g[RHO_Y] - t[RHO_Y];
+    const float vx_mps = 0.5f * (g[RHO_VX] + t[RHO_VX]), vy_mps = 0.5f * (g[RHO_VY] + t[RHO_VY]);
+    const float speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
+    const float apart_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
+    const float sigma_m2 = target->sigma_m * target->sigma_m + image->sigma_m * image->sigma_m;
+    if (!(speed_mps > 0.0f) || apart_m * apart_m < APART_SIGMAS * APART_SIGMAS * sigma_m2) {
+        return 0;
+    }
+    const float c = vx_mps / speed_mps, s = vy_mps / speed_mps;
+    const float across_mps2 = variance_along(target->covariance, RHO_VX, -s, c) +
+                              variance_along(image->covariance, RHO_VX, -s, c);
+    const float along_mps2 = variance_along(target->covariance, RHO_VX, c, s) +
+                             variance_along(image->covariance, RHO_VX, c, s);
+    const float turned = 0.25f * across_mps2 / (speed_mps * speed_mps);
+    const float along_m2 = variance_along(target->covariance, RHO_X, c, s) +
+                           variance_along(image->covariance, RHO_X, c, s) +
+                           turned * apart_m * apart_m;
+    const float off_m = dx_m * c + dy_m * s;
+    const float off_mps = (g[RHO_VX] - t[RHO_VX]) * c + (g[RHO_VY] - t[RHO_VY]) * s;
+    if (turned * SPEED_SIGMAS * SPEED_SIGMAS > 1.0f || !(along_m2 > 0.0f) || !(along_mps2 > 0.0f) ||
+        off_m * off_m / along_m2 + off_mps * off_mps / along_mps2 > PAIR_CHI2) {
+        return 0;
+    }
+    between->x_m = 0.5f * (t[RHO_X] + g[RHO_X]);
+    between->y_m = 0.5f * (t[RHO_Y] + g[RHO_Y]);
+    between->cos_along = c;
+    between->sin_along = s;
+    between->variance_m2 = 0.25f * (variance_along(target->covariance, RHO_X, -s, c) +
+                                    variance_along(image->covariance, RHO_X, -s, c));
+    between->slope_variance = turned;
+    between->sigma_m = target->sigma_m;
+    return is_behind(sensor, target, image, between);
+}
+
+/* The line goes through the place, in the direction that two tracks say. */
+static int is_on(const struct rho_learned_reflector *line, const struct between *between)
+{
+    float along_m, across_m;
+    to_frame(line, between->x_m, between->y_m, &along_m, &across_m);
+    const float off_m = across_m - across_at(line, along_m);
+    const float limit_m2 = variance_at(line, along_m) + between->variance_m2;
+    /* either way along: the sign of the cosine does not matter */
+    const float cosine =
+        between->cos_along * line->cos_along + between->sin_along * line->sin_along;
+    const float sine = between->sin_along * line->cos_along - between->cos_along * line->sin_along;
+    const float turned = cosine > 0.0f ? sine - line->slope : -sine - line->slope;
+    return off_m * off_m <= LINE_SIGMAS * LINE_SIGMAS * limit_m2 &&
+           turned * turned <=
+               LINE_SIGMAS * LINE_SIGMAS * (between->slope_variance + line->variance[2]);
+}
+
+static void begin_line(struct rho_learned_reflector *line, const struct between *between)
+{
+    float across_m;
+    memset(line, 0, sizeof *line);
+    line->x_m = between->x_m;
+    line->y_m = between->y_m;
+    line->cos_along = between->cos_along;
+    line->sin_along = between->sin_along;
+    line->variance[0] = between->variance_m2;
+    line->variance[2] = between->slope_variance;
+    line->pairs = 1.0f;
+    line->sigma_m = between->sigma_m;
+    line->is_taken = 1;
+    to_frame(line, between->crossing_x_m, between->crossing_y_m, &line->from_m, &across_m);
+    line->to_m = line->from_m;
+}
+
+/* The line that two tracks are on, or a new one: of those that are only observed, that with the
+ * fewest pairs makes room, once others have come as often. */
+static void note_pair(struct rho_reflector_learning *learning, const struct between *between)
+{
+    struct rho_learned_reflector *least = 0;
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        struct rho_learned_reflector *line = &learning->lines[i];
+        if (line->is_taken && is_on(line, between)) {
+            float along_m, across_m;
+            to_frame(line, between->x_m, between->y_m, &along_m, &across_m);
+            refine(line, along_m, across_m, REPEATED * between->variance_m2);
+            to_frame(line, between->crossing_x_m, between->crossing_y_m, &along_m, &across_m);
+            reach_to(line, along_m);
+            line->pairs += 1.0f;
+            return;
+        }
+        if (!line->is_used && (!least || line->pairs < least->pairs)) {
+            least = line;
+        }
+    }
+    if (least) {
+        least->pairs -= 1.0f;
+        if (least->pairs < 0.0f) {
+            begin_line(least, between);
+        }
+    }
+}
+
+static void look_for_pairs(struct rho_reflector_learning *learning, const struct rho_sensor *sensor,
+                           const struct rho_scan *scan, const struct rho_report *report)
+{
+    const uint32_t num_tracks = report->num_tracks, all = num_tracks * num_tracks;
+    struct between between;
+    for (uint32_t i = 0; i < PAIRS_MAX && i < all; i++) {
+        const uint32_t pair = learning->next_pair < all ? learning->next_pair : 0;
+        const struct rho_track_report *target = &report->tracks[pair / num_tracks],
+                                      *image = &report->tracks[pair % num_tracks];
+        learning->next_pair = pair + 1u;
+        if (target != image && is_target(target, scan) && image->plot >= 0 &&
+            image->hits >= IMAGE_HITS && may_be_image(sensor, target, image, &between)) {
+            note_pair(learning, &between);
+        }
+    }
+}
+
+/* ---- witnesses ------------------------------------------------------------------------------- */
+
+/* The scan, and what a sensor could see of an image in it. */
+struct look {
+    const struct rho_scan *scan;
+    const struct rho_sensor *sensor;
+    float noise_density;
+    float body_max_m;
+    unsigned images_left;
+};
+
+static int looked_at(const struct look *look, const struct rho_kalman *image)
+{
+    const struct rho_plot at = {
+        .x_m = image->state[RHO_X], .y_m = image->state[RHO_Y], .z_m = image->state[RHO_Z]};
+    const float from_x_m = look->sensor ? look->sensor->x_m : 0.0f,
+                from_y_m = look->sensor ? look->sensor->y_m : 0.0f;
+    return rho_tracker_covers(look->sensor, &at, look->scan->measures) &&
+           rho_angle_in_sector(rho_atan2(at.y_m - from_y_m, at.x_m - from_x_m),
+                               look->scan->sector_from_rad, look->scan->sector_to_rad);
+}
+
+/* The row of the nearest plot in the gate that is not the target's own, -1: none. */
+static int32_t nearest_plot(const struct look *look, const struct rho_kalman *image, int32_t own)
+{
+    struct rho_gate gate;
+    struct rho_gate_result result;
+    float least = 0.0f;
+    int32_t nearest = -1;
+    rho_gate_open(&gate, image, look->noise_density, look->sensor, look->scan->measures);
+    for (uint32_t i = 0; i < look->scan->num_plots; i++) {
+        const struct rho_plot *plot = &look->scan->plots[i];
+        if ((int32_t)i != own && rho_measurement_is_valid(plot, look->scan->measures) &&
+            rho_gate_test(&gate, plot, &result) && (nearest < 0 || result.distance2 < least)) {
+            least = result.distance2;
+            nearest = (int32_t)i;
+        }
+    }
+    return nearest;
+}
+
+/* What is not known of the line widens the image's gate: twice its error, across it. */
+static void widen(const struct rho_learned_reflector *line, float along_m, struct rho_kalman *image)
+{
+    const float variance_m2 = 4.0f * variance_at(line, along_m);
+    const float c = line->cos_along, s = line->sin_along;
+    image->covariance[RHO_AT(RHO_X, RHO_X)] += variance_m2 * s * s;
+    image->covariance[RHO_AT(RHO_Y, RHO_X)] -= variance_m2 * s * c;
+    image->covariance[RHO_AT(RHO_Y, RHO_Y)] += variance_m2 * c * c;
+}
+
+/* A target's image has a plot: the line is half way between both. */
+static void learn_place(struct rho_learned_reflector *line, const struct look *look,
+                        const struct rho_track_report *target, const struct rho_plot *plot,
+                        float crossing_m)
+{
+    struct rho_measurement seen;
+    float noise[6], along_m, across_m;
+    rho_measurement_open(plot, 0, look->sensor, &seen);
+    rho_measurement_covariance(&seen, noise);
+    const float after_s = (float)plot->offset_us * 1e-6f;
+    to_frame(line, 0.5f * (target->state[RHO_X] + after_s * target->state[RHO_VX] + plot->x_m),
+             0.5f * (target->state[RHO_Y] + after_s * target->state[RHO_VY] + plot->y_m), &along_m,
+             &across_m);
+    const float variance_m2 =
+        0.25f * (variance_along(target->covariance, RHO_X, -line->sin_along, line->cos_along) +
+                 variance_along(noise, RHO_X, -line->sin_along, line->cos_along));
+    refine(line, along_m, across_m, REPEATED * variance_m2);
+    reach_to(line, crossing_m);
+    line->sigma_m += 0.05f * (target->sigma_m - line->sigma_m);
+}
+
+static void judge(struct rho_reflector_learning *learning, struct rho_learned_reflector *line,
+                  const struct rho_reflector_witness *witness,
+                  const struct rho_track_report *target)
+{
+    float along_m, across_m;
+    if (witness->hits < FOR_HITS + HITS_OF_OTHER * witness->other) {
+        line->witnesses_against++;
+    } else {
+        to_frame(line, target->state[RHO_X], target->state[RHO_Y], &along_m, &across_m);
+        across_m -= across_at(line, along_m);
+        across_m = across_m < 0.0f ? -across_m : across_m;
+        if (line->witnesses_for == 0) {
+            line->near_m = line->far_m = across_m;
+            line->first = learning->steps;
+        } else if (witness->since > line->first && line->late_ones < UINT8_MAX) {
+            line->late_ones++;
+        }
+        line->near_m = across_m < line->near_m ? across_m : line->near_m;
+        line->far_m = across_m > line->far_m ? across_m : line->far_m;
+        line->witnesses_for++;
+    }
+    if (line->witnesses_for + line->witnesses_against >= MEMORY_WITNESSES) {
+        line->witnesses_for /= 2;
+        line->witnesses_against /= 2;
+    }
+}
+
+/* The place of a witness, or a free one; NULL: there is none. */
+static struct rho_reflector_witness *witness_of(struct rho_learned_reflector *line,
+                                                uint32_t track_id)
+{
+    struct rho_reflector_witness *found = 0;
+    for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) {
+        struct rho_reflector_witness *witness = &line->witnesses[i];
+        if (witness->track_id == track_id) {
+            return witness;
+        }
+        if (!found && witness->track_id == 0) {
+            found = witness;
+        }
+    }
+    return found;
+}
+
+static void forget_ended(struct rho_learned_reflector *line, const struct rho_report *report)
+{
+    for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) {
+        struct rho_reflector_witness *witness = &line->witnesses[i];
+        unsigned row = 0;
+        while (row < report->num_tracks && report->tracks[row].track_id != witness->track_id) {
+            row++;
+        }
+        if (row == report->num_tracks) {
+            witness->track_id = 0;
+        }
+    }
+}
+
+/* How far the gate of the image reaches, with plots as uncertain as the target's own. */
+static float reach_of(const struct look *look, const struct rho_track_report *target,
+                      const struct rho_kalman *image)
+{
+    const struct rho_plot *own = &look->scan->plots[target->plot];
+    const float sigma_m =
+        own->sigma_cross_m > own->sigma_range_m ? own->sigma_cross_m : own->sigma_range_m;
+    struct rho_gate gate;
+    float half_m[2];
+    rho_gate_open(&gate, image, look->noise_density, look->sensor, look->scan->measures);
+    rho_gate_box(&gate, sigma_m, 0.0f, half_m);
+    return half_m[0] + half_m[1];
+}
+
+/* Plots of the target's own body would be taken for the image's. */
+static int is_apart(const struct look *look, const struct rho_track_report *target,
+                    const struct rho_kalman *image)
+{
+    const float dx_m = image->state[RHO_X] - target->state[RHO_X],
+                dy_m = image->state[RHO_Y] - target->state[RHO_Y];
+    return dx_m * dx_m + dy_m * dy_m > look->body_max_m * look->body_max_m;
+}
+
+/* Looks for a plot at the track's image, and once as far beside it as the gate does not reach. */
+static void observe(struct rho_reflector_learning *learning, struct rho_learned_reflector *line,
+                    struct look *look, const struct rho_track_report *target)
+{
+    const struct rho_reflector wall = wall_of(line);
+    struct rho_kalman of, image;
+    float crossing_m;
+    memcpy(of.state, target->state, sizeof of.state);
+    memcpy(of.covariance, target->covariance, sizeof of.covariance);
+    const float slack_m = line->is_used ? 0.1f * (line->to_m - line->from_m) : 0.0f;
+    if (!rho_reflector_image(&wall, look->sensor, slack_m, &of, &image, &crossing_m) ||
+        !looked_at(look, &image)) {
+        return;
+    }
+    crossing_m += line->from_m;
+    widen(line, crossing_m, &image);
+    struct rho_reflector_witness *witness = witness_of(line, target->track_id);
+    if (!witness || !is_apart(look, target, &image)) {
+        return;
+    }
+    if (witness->track_id == 0) {
+        *witness =
+            (struct rho_reflector_witness){.track_id = target->track_id, .since = learning->steps};
+    }
+    look->images_left--;
+    const int32_t nearest = nearest_plot(look, &image, target->plot);
+    if (nearest >= 0) {
+        learn_place(line, look, target, &look->scan->plots[nearest], crossing_m);
+    }
+    if (witness->looks >= JUDGED_LOOKS || crossing_m < line->from_m || crossing_m > line->to_m) {
+        return;
+    }
+    const float reach_m = reach_of(look, target, &image);
+    const float beside_m = witness->looks % 2u ? 2.0f * reach_m : -2.0f * reach_m;
+    image.state[RHO_X] += beside_m * line->cos_along;
+    image.state[RHO_Y] += beside_m * line->sin_along;
+    witness->hits = (uint16_t)(witness->hits + (nearest >= 0));
+    witness->other = (uint16_t)(witness->other + (nearest_plot(look, &image, target->plot) >= 0));
+    witness->looks++;
+    if (witness->looks == JUDGED_LOOKS) {
+        judge(learning, line, witness, target);
+    }
+}
+
+static void look_at_images(struct rho_reflector_learning *learning, struct look *look,
+                           const struct rho_report *report)
+{
+    for (unsigned k = 0; k < RHO_LEARNED_REFLECTORS && look->images_left > 0; k++) {
+        struct rho_learned_reflector *line =
+            &learning->lines[(learning->next_line + k) % RHO_LEARNED_REFLECTORS];
+        if (!line->is_taken || (!line->is_used && line->pairs < OBSERVED_PAIRS)) {
+            continue;
+        }
+        forget_ended(line, report);
+        for (unsigned i = 0; i < report->num_tracks && look->images_left > 0; i++) {
+            const struct rho_track_report *target = &report->tracks[i];
+            if (is_target(target, look->scan)) {
+                observe(learning, line, look, target);
+            }
+        }
+    }
+    learning->next_line = (learning->next_line + 1u) % RHO_LEARNED_REFLECTORS;
+}
+
+/* ---- walls ----------------------------------------------------------------------------------- */
+
+static int is_same(const struct rho_learned_reflector *line, const struct rho_reflector *wall)
+{
+    const float limit_m = SAME_SIGMAS * line->sigma_m;
+    float x_m[2], y_m[2];
+    place_at(line, line->from_m, &x_m[0], &y_m[0]);
+    place_at(line, line->to_m, &x_m[1], &y_m[1]);
+    const float along_x_m = wall->to_x_m - wall->from_x_m,
+                along_y_m = wall->to_y_m - wall->from_y_m;
+    const float length_m = rho_sqrt(along_x_m * along_x_m + along_y_m * along_y_m);
+    for (int i = 0; i < 2; i++) {
+        const float off_m =
+            ((y_m[i] - wall->from_y_m) * along_x_m - (x_m[i] - wall->from_x_m) * along_y_m) /
+            length_m;
+        if (!(off_m <= limit_m && off_m >= -limit_m)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int is_well_known(const struct rho_learned_reflector *line)
+{
+    const float limit_m2 = WALL_SIGMA * WALL_SIGMA * line->sigma_m * line->sigma_m;
+    return variance_at(line, line->from_m) <= limit_m2 && variance_at(line, line->to_m) <= limit_m2;
+}
+
+static int is_wall(const struct rho_learned_reflector *line)
+{
+    return line->witnesses_for >= WALL_WITNESSES &&
+           line->witnesses_for >= WALL_RATIO * line->witnesses_against &&
+           line->late_ones >= WALL_LATE_ONES && line->far_m >= WALL_DISTANCES * line->near_m &&
+           is_well_known(line);
+}
+
+/* Walls that the tracker knows already are not learned. */
+static void decide(struct rho_reflector_learning *learning, const struct rho_tracker *tracker,
+                   struct rho_learned_reflector *line)
+{
+    if (line->witnesses_against > line->witnesses_for + 1) {
+        line->is_taken = line->is_used = 0;
+        line->pairs = 0.0f;
+    } else if (line->is_taken && !line->is_used && is_wall(line)) {
+        line->is_used = learning->num_told + learning->num_used < RHO_MAX_REFLECTORS;
+        for (unsigned i = 0; i < tracker->num_reflectors; i++) {
+            if (is_same(line, &tracker->reflectors[i])) {
+                line->is_taken = line->is_used = 0;
+                line->pairs = 0.0f;
+            }
+        }
+        learning->num_used = (uint16_t)(learning->num_used + line->is_used);
+    }
+}
+
+int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, unsigned place,
+                                struct rho_reflector *reflector)
+{
+    if (!learning || !reflector || place >= RHO_LEARNED_REFLECTORS ||
+        !learning->lines[place].is_used) {
+        return 0;
+    }
+    *reflector = wall_of(&learning->lines[place]);
+    return 1;
+}
+
+/* Those that were told, and behind them those that are learned. */
+static enum rho_status set_walls(struct rho_reflector_learning *learning,
+                                 struct rho_tracker *tracker)
+{
+    struct rho_reflector walls[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
+    unsigned count = learning->num_told;
+    memcpy(walls, tracker->reflectors, count * sizeof walls[0]);
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count < RHO_MAX_REFLECTORS; i++) {
+        count += rho_reflector_learning_wall(learning, i, &walls[count]) != 0;
+    }
+    learning->num_used = (uint16_t)(count - learning->num_told);
+    return rho_tracker_set_reflectors(tracker, walls, count);
+}
+
+enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learning,
+                                            struct rho_tracker *tracker,
+                                            const struct rho_scan *scan,
+                                            const struct rho_report *report)
+{
+    if (!learning || !tracker || !scan || !report || (scan->num_plots && !scan->plots)) {
+        return RHO_ERROR_NULL;
+    }
+    if (learning->magic != MAGIC || !rho_tracker_is_ready(tracker)) {
+        return RHO_ERROR_STATE;
+    }
+    if (RHO_MAX_REFLECTORS == 0) {
+        return RHO_ERROR_CAPACITY;
+    }
+    if (scan->time_us < tracker->time_us) {
+        return RHO_OK;
+    }
+    if (report->time_us != scan->time_us || report->num_tracks > RHO_MAX_TRACKS) {
+        return RHO_ERROR_VALUE;
+    }
+    if (tracker->num_reflectors != learning->num_told + learning->num_used) {
+        learning->num_told = tracker->num_reflectors; /* others were told */
+        learning->num_used = 0;
+    }
+    const unsigned of_plots = scan->num_plots > 0 ? PLOTS_MAX / (2u * scan->num_plots) : IMAGES_MAX;
+    struct look look = {.scan = scan,
+                        .sensor = rho_tracker_find_sensor(tracker, scan->sensor_id),
+                        .noise_density = 1.0f,
+                        .body_max_m = tracker->bodies.length_max_m,
+                        .images_left = of_plots < IMAGES_MAX ? of_plots + 1u : IMAGES_MAX};
+    const int has_walls = learning->num_used > 0;
+    learning->steps++;
+    look_for_pairs(learning, look.sensor, scan, report);
+    look_at_images(learning, &look, report);
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        decide(learning, tracker, &learning->lines[i]);
+    }
+    unsigned num_used = 0;
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        num_used += learning->lines[i].is_used;
+    }
+    return has_walls || num_used > 0 ? set_walls(learning, tracker) : RHO_OK;
+}
+
+/* ---- objects of unknown origin --------------------------------------------------------------- */
+
+static int is_sound_line(const struct rho_learned_reflector *line)
+{
+    return line->is_taken <= 1 && line->is_used <= line->is_taken && rho_is_coordinate(line->x_m) &&
+           rho_is_coordinate(line->y_m) && rho_is_within(line->cos_along, -1.001f, 1.001f) &&
+           rho_is_within(line->sin_along, -1.001f, 1.001f) && rho_is_coordinate(line->offset_m) &&
+           rho_is_within(line->slope, -10.0f, 10.0f) &&
+           rho_is_within(line->variance[0], -VARIANCE_MAX, VARIANCE_MAX) &&
+           rho_is_within(line->variance[1], -VARIANCE_MAX, VARIANCE_MAX) &&
+           rho_is_within(line->variance[2], -VARIANCE_MAX, VARIANCE_MAX) &&
+           rho_is_coordinate(line->from_m) && rho_is_coordinate(line->to_m) &&
+           line->from_m <= line->to_m && rho_is_within(line->pairs, -1.0f, 1e9f) &&
+           rho_is_within(line->sigma_m, 0.0f, 1e6f) && rho_is_within(line->near_m, 0.0f, 1e9f) &&
+           rho_is_within(line->far_m, 0.0f, 1e9f);
+}
+
+int rho_reflector_learning_is_sound(const struct rho_reflector_learning *learning)
+{
+    if (learning->magic != MAGIC || learning->num_told > RHO_MAX_REFLECTORS ||
+        learning->num_used > RHO_MAX_REFLECTORS || learning->next_line >= RHO_LEARNED_REFLECTORS) {
+        return 0;
+    }
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        if (!is_sound_line(&learning->lines[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}

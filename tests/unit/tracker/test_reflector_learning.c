@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Walls that nobody told of are learned from the images of cars that pass; lanes, formations and
+ * clutter are no walls; what was learned is used, refined, kept and forgotten.
+ */
+#include "rhotrack/reflector_learning.h"
+#include "rhotrack/snapshot.h"
+#include "tracker_setup.h"
+
+#define SENSOR 1
+#define STEP_S 0.1
+#define WALL_M 40.0 /* y of the wall */
+#define BEHIND_M 45.0f
+#define EVERY 50  /* steps from one car to the next */
+#define DRIVE 150 /* steps that each takes */
+
+static struct rho_reflector_learning learning;
+
+static void prepare(uint64_t seed)
+{
+    const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 1e3f};
+    draw(seed);
+    config.v_max_mps = initiation.v_max_mps = 60.0f;
+    begin();
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
+    assert_int_equal(rho_reflector_learning_init(&learning, sizeof learning), RHO_OK);
+}
+
+static void look(int k)
+{
+    static struct rho_plot seen[PLOTS_MAX];
+    struct rho_scan scan = {.time_us = INT64_C(100000) * k, .sensor_id = SENSOR};
+    memcpy(seen, plots, sizeof seen);
+    const uint32_t count = num_plots;
+    step_scan(scan);
+    scan.plots = seen;
+    scan.num_plots = count;
+    assert_int_equal(rho_reflector_learning_step(&learning, &tracker, &scan, &report), RHO_OK);
+    assert_true(rho_reflector_learning_is_sound(&learning));
+    assert_true(k % 100 > 0 || rho_tracker_is_sound(&tracker));
+}
+
+/* Car number i at this step, in one of three lanes; 0: it is not there. */
+static int place_of(int i, int k, double *x_m, double *y_m)
+{
+    const double speed_mps = 18.0 + i % 4;
+    *x_m = (i % 3 == 1 ? 1.0 : -1.0) * (speed_mps * STEP_S * (k - EVERY * i) - 140.0);
+    *y_m = 20.0 + 5.0 * (i % 3);
+    return k >= EVERY * i && k < EVERY * i + DRIVE;
+}
+
+/* One step of such traffic, whose images are seen so often. */
+static void traffic(int k, double share)
+{
+    double x_m, y_m;
+    for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
+        if (i < 0 || !place_of(i, k, &x_m, &y_m)) {
+            continue;
+        }
+        if (uniform(0.0, 1.0) < 0.9) {
+            add_noisy(x_m, y_m, 0.5);
+        }
+        if (uniform(0.0, 1.0) < share) {
+            add_noisy(x_m, 2.0 * WALL_M - y_m, 0.5);
+        }
+    }
+}
+
+static unsigned num_walls(struct rho_reflector *wall)
+{
+    unsigned count = 0;
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        count += rho_reflector_learning_wall(&learning, i, wall) != 0;
+    }
+    return count;
+}
+
+static unsigned num_behind(void)
+{
+    unsigned count = 0;
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        count += report.tracks[i].state[RHO_Y] > BEHIND_M;
+    }
+    return count;
+}
+
+static void is_the_wall(const struct rho_reflector *wall)
+{
+    assert_true(fabs((double)wall->from_y_m - WALL_M) < 1.0);
+    assert_true(fabs((double)wall->to_y_m - WALL_M) < 1.0);
+    assert_true(fabs((double)(wall->to_x_m - wall->from_x_m)) > 50.0);
+}
+
+static void a_wall_is_learned_from_cars_that_pass(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        static const double shares[] = {0.3, 0.9};
+        for (size_t s = 0; s < 2; s++) {
+            struct rho_reflector wall;
+            unsigned before = 0, after = 0;
+            prepare(seed);
+            for (int k = 0; k < 1500; k++) {
+                traffic(k, shares[s]);
+                look(k);
+                before += k < 600 ? num_behind() : 0;
+                after += k >= 800 ? num_behind() : 0;
+            }
+            assert_int_equal(num_walls(&wall), 1);
+            is_the_wall(&wall);
+            assert_int_equal(tracker.num_reflectors, 1);
+            assert_memory_equal(&tracker.reflectors[0], &wall, sizeof wall);
+            print_message("%u tracks of images before, %u after\n", before, after);
+            assert_true(before > 30);
+            assert_true(after < 7); /* of 700 steps */
+        }
+    }
+}
+
+static void without_images_nothing_is_learned(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        struct rho_reflector wall;
+        prepare(seed);
+        for (int k = 0; k < 1000; k++) {
+            traffic(k, 0.0);
+            for (int i = 0; i < 12; i++) { /* clutter, about as much before the line as behind */
+                const double x_m = uniform(-150.0, 150.0), y_m = uniform(5.0, 90.0);
+                (void)add(x_m, y_m, 0.5);
+            }
+            look(k);
+        }
+        assert_int_equal(num_walls(&wall), 0);
+        assert_int_equal(tracker.num_reflectors, 0);
+    }
+}
+
+/* Pairs side by side, one after the other: each mirrors the other in the middle of the road. */
+static void two_lanes_are_no_wall(void **state)
+{
+    struct rho_reflector wall;
+    unsigned most = 0;
+    (void)state;
+    prepare(3);
+    for (int k = 0; k < 2000; k++) {
+        double x_m, y_m;
+        for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
+            if (i >= 0 && place_of(3 * i, 2 * EVERY * i + k, &x_m, &y_m)) {
+                add_noisy(x_m, 36.0, 0.5);
+                add_noisy(x_m, 44.0, 0.5);
+            }
+        }
+        look(k);
+        for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+            most = learning.lines[i].witnesses_for > most ? learning.lines[i].witnesses_for : most;
+        }
+        assert_int_equal(num_walls(&wall), 0);
+    }
+    assert_true(most >= 4); /* all speak for it, at one distance */
+}
+
+/* Eight abreast: four pairs that mirror one another in one line, at four distances, and nobody
+ * comes later. */
+static void a_formation_is_no_wall(void **state)
+{
+    struct rho_reflector wall;
+    unsigned most = 0;
+    (void)state;
+    prepare(4);
+    for (int k = 0; k < 600; k++) {
+        for (int i = 0; i < 8; i++) {
+            add_noisy(12.0 * STEP_S * k - 300.0, 60.0 + 10.0 * i, 0.5);
+        }
+        look(k);
+        for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+            most = learning.lines[i].witnesses_for > most ? learning.lines[i].witnesses_for : most;
+        }
+        assert_int_equal(num_walls(&wall), 0);
+    }
+    assert_true(most >= 4);
+}
+
+static void a_car_behind_a_learned_wall_is_found(void **state)
+{
+    unsigned found = 0;
+    (void)state;
+    prepare(6);
+    for (int k = 0; k < 1500; k++) {
+        traffic(k, 0.3);
+        if (k >= 1200) { /* as far behind as images are, and slower */
+            add_noisy(0.6 * (k - 1200) - 100.0, 55.0, 0.5);
+        }
+        look(k);
+        found += k >= 1230 && num_behind() >= 1;
+    }
+    assert_int_equal(tracker.num_reflectors, 1);
+    assert_true(found >= 255);
+}
+
+/* Told walls stay before the learned ones, and are not learned again. */
+static void told_walls_stay(void **state)
+{
+    static const struct rho_reflector told[] = {{-300.0f, -40.0f, 300.0f, -40.0f},
+                                                {-300.0f, 40.0f, 300.0f, 40.0f}};
+    (void)state;
+    for (unsigned num_told = 1; num_told <= 2; num_told++) {
+        struct rho_reflector wall;
+        prepare(7);
+        assert_int_equal(rho_tracker_set_reflectors(&tracker, told, num_told), RHO_OK);
+        for (int k = 0; k < 1200; k++) {
+            traffic(k, 0.9);
+            look(k);
+        }
+        assert_int_equal(num_walls(&wall), 2 - num_told);
+        assert_int_equal(tracker.num_reflectors, 2);
+        assert_memory_equal(tracker.reflectors, told, num_told * sizeof told[0]);
+        /* told anew, or begun anew: the learned one goes behind */
+        assert_int_equal(rho_tracker_set_reflectors(&tracker, NULL, 0), RHO_OK);
+        look(1200);
+        assert_int_equal(tracker.num_reflectors, 2 - num_told);
+    }
+}
+
+static void a_wall_that_is_gone_is_forgotten(void **state)
+{
+    struct rho_reflector wall;
+    int k = 0;
+    (void)state;
+    prepare(8);
+    for (; k < 900; k++) {
+        traffic(k, 0.3);
+        look(k);
+    }
+    assert_int_equal(tracker.num_reflectors, 1);
+    for (; k < 4000; k++) {
+        traffic(k, 0.0);
+        look(k);
+    }
+    assert_int_equal(num_walls(&wall), 0);
+    assert_int_equal(tracker.num_reflectors, 0);
+}
+
+/* What was learned goes into a snapshot by itself, and on in another tracker. */
+static void a_snapshot_keeps_walls(void **state)
+{
+    static uint8_t image[sizeof learning + 256] __attribute__((aligned(8)));
+    struct rho_snapshot_part part = {
+        .kind = RHO_SNAPSHOT_REFLECTORS, .object = &learning, .size = sizeof learning};
+    struct rho_reflector before, after;
+    size_t size;
+    (void)state;
+    prepare(9);
+    for (int k = 0; k < 900; k++) {
+        traffic(k, 0.3);
+        look(k);
+    }
+    assert_int_equal(num_walls(&before), 1);
+    assert_int_equal(rho_snapshot_save(&part, 1, 0, image, sizeof image, &size), RHO_OK);
+    prepare(9);
+    assert_int_equal(rho_snapshot_load(&part, 1, image, size), RHO_OK);
+    assert_int_equal(num_walls(&after), 1);
+    assert_memory_equal(&before, &after, sizeof after);
+    look(901);
+    assert_int_equal(tracker.num_reflectors, 1);
+    learning.lines[2].slope = NAN;
+    assert_int_equal(rho_snapshot_save(&part, 1, 0, image, sizeof image, &size), RHO_ERROR_STATE);
+}
+
+static void an_old_scan_teaches_nothing(void **state)
+{
+    struct rho_reflector_learning before;
+    (void)state;
+    config.late_max_s = 10.0f;
+    prepare(2);
+    for (int k = 0; k < 120; k++) {
+        traffic(k, 0.9);
+        look(k);
+    }
+    before = learning;
+    traffic(115, 0.9);
+    look(115);
+    assert_memory_equal(&before, &learning, sizeof learning);
+}
+
+static void wrong_calls_change_nothing(void **state)
+{
+    struct rho_reflector_learning before;
+    struct rho_reflector wall = {0};
+    struct rho_scan scan = {.sensor_id = SENSOR};
+    struct rho_tracker *none = NULL;
+    (void)state;
+    assert_int_equal(rho_reflector_learning_init(NULL, sizeof learning), RHO_ERROR_NULL);
+    assert_int_equal(rho_reflector_learning_init(&learning, 3), RHO_ERROR_SIZE);
+    prepare(1);
+    look(0);
+    before = learning;
+    assert_int_equal(rho_reflector_learning_step(NULL, &tracker, &scan, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_reflector_learning_step(&learning, none, &scan, &report), RHO_ERROR_NULL);
+    assert_int_equal(rho_reflector_learning_step(&learning, &tracker, NULL, &report),
+                     RHO_ERROR_NULL);
+    assert_int_equal(rho_reflector_learning_step(&learning, &tracker, &scan, NULL), RHO_ERROR_NULL);
+    scan.num_plots = 1;
+    assert_int_equal(rho_reflector_learning_step(&learning, &tracker, &scan, &report),
+                     RHO_ERROR_NULL);
+    scan = (struct rho_scan){.time_us = 5};
+    assert_int_equal(rho_reflector_learning_step(&learning, &tracker, &scan, &report),
+                     RHO_ERROR_VALUE);
+    assert_int_equal(rho_reflector_learning_wall(&learning, 0, &wall), 0);
+    assert_int_equal(rho_reflector_learning_wall(NULL, 0, &wall), 0);
+    assert_int_equal(rho_reflector_learning_wall(&learning, RHO_LEARNED_REFLECTORS, &wall), 0);
+    assert_memory_equal(&before, &learning, sizeof learning);
+    learning.magic = 0;
+    scan.time_us = 0;
+    assert_int_equal(rho_reflector_learning_step(&learning, &tracker, &scan, &report),
+                     RHO_ERROR_STATE);
+    assert_false(rho_reflector_learning_is_sound(&learning));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_wall_is_learned_from_cars_that_pass),
+        cmocka_unit_test(without_images_nothing_is_learned),
+        cmocka_unit_test(two_lanes_are_no_wall),
+        cmocka_unit_test(a_formation_is_no_wall),
+        cmocka_unit_test(a_car_behind_a_learned_wall_is_found),
+        cmocka_unit_test(told_walls_stay),
+        cmocka_unit_test(a_wall_that_is_gone_is_forgotten),
+        cmocka_unit_test(a_snapshot_keeps_walls),
+        cmocka_unit_test(an_old_scan_teaches_nothing),
+        cmocka_unit_test(wrong_calls_change_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
