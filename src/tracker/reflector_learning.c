@@ -579,7 +579,7 @@ static enum rho_status set_walls(struct rho_reflector_learning *learning,
     struct rho_reflector walls[RHO_MAX_REFLECTORS > 0 ? RHO_MAX_REFLECTORS : 1];
     unsigned count = learning->num_told;
     memcpy(walls, tracker->reflectors, count * sizeof walls[0]);
-    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count < RHO_MAX_REFLECTORS; i++) {
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count != RHO_MAX_REFLECTORS; i++) {
         count += rho_reflector_learning_wall(learning, i, &walls[count]) != 0;
     }
     learning->num_used = (uint16_t)(count - learning->num_told);
