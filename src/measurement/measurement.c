@@ -9,7 +9,6 @@
 
 /* Least range at which a line of sight is defined. */
 #define RANGE_LEAST_M 1.0f
-#define LEVEL_LEAST_M 1.0e-3f
 #define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
 #define RANGE_MAX_M RHO_LIMIT_POSITION_M
@@ -291,7 +290,7 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
             open_without_sight(plot, &factors, out);
             return;
         }
-        ground_m = dx_m = LEVEL_LEAST_M; /* overhead: any azimuth will do */
+        ground_m = dx_m = RHO_LIMIT_SIGMA_MIN; /* overhead: any azimuth will do */
         dy_m = 0.0f;
     }
     out->cos_azimuth = dx_m / ground_m;

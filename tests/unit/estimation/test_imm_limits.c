@@ -389,6 +389,20 @@ static void a_step_refuses_times_that_are_none(void **state)
     }
 }
 
+/* Of a target that hardly moves, so that nothing grows too large. */
+static void a_step_has_a_day_at_most(void **state)
+{
+    const struct rho_imm_model model = {
+        .memory_s = 1e6f, .steady_s = 1.0f, .maneuver_s = 1.0f, .speed_sigma_mps = 1e-3f};
+    struct rho_imm imm = started(&model, 3, 1.0f);
+
+    (void)state;
+    assert_int_equal(predict(&imm, &model, 1.0e5f), RHO_OK);
+    assert_int_equal(predict(&imm, &model, -1.0e5f), RHO_OK);
+    assert_int_equal(predict(&imm, &model, 1.1e5f), RHO_ERROR_VALUE);
+    assert_int_equal(predict(&imm, &model, -1.1e5f), RHO_ERROR_VALUE);
+}
+
 static void what_grows_beyond_the_limit_is_refused(void **state)
 {
     const struct rho_imm_model model = some_model(100.0f, 1000.0f);
@@ -636,6 +650,7 @@ int main(void)
         cmocka_unit_test(any_sigma_follows_any_other),
         cmocka_unit_test(a_hostile_walk_stays_sane),
         cmocka_unit_test(a_step_refuses_times_that_are_none),
+        cmocka_unit_test(a_step_has_a_day_at_most),
         cmocka_unit_test(what_grows_beyond_the_limit_is_refused),
         cmocka_unit_test(what_is_no_number_is_refused),
         cmocka_unit_test(a_plot_that_is_no_number_is_in_no_gate_and_no_update),

@@ -134,6 +134,11 @@ static void configurations_are_checked(void **state)
         assert_false(rho_input_is_usable(&config));
     }
     config = paper();
+    config.noise_m = config.noise_mps = 1.0e6f;
+    assert_true(rho_input_is_usable(&config));
+    config.noise_m = 1.01e6f;
+    assert_false(rho_input_is_usable(&config));
+    config = paper();
     assert_int_equal(rho_input_start(NULL, &config, &kalman), RHO_ERROR_NULL);
     assert_int_equal(rho_input_start(&input, NULL, &kalman), RHO_ERROR_NULL);
     assert_int_equal(rho_input_start(&input, &config, NULL), RHO_ERROR_NULL);

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Two constants of the filter with two models whose edges no plot meets but by chance: this test
+ * includes private headers.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "../../src/estimation/imm_axes.h"
+#include "../../src/estimation/imm_plane.h"
+
+static void a_range_rate_needs_a_metre(void **state)
+{
+    static const float covariance[RHO_TRIANGLE(RHO_IMM_STATES)] = {1.0f, 0.0f, 1.0f};
+    struct plane_rate rate;
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const float at[RHO_IMM_STATES] = {i % 2 ? 1.01f : 0.0f, i % 2 ? 0.0f : 0.99f};
+        const struct rho_sensor beside = {.x_m = -0.01f, .y_m = -0.02f};
+        const double range_m =
+            hypot((double)at[0] + 0.01 * (i / 2), (double)at[1] + 0.02 * (i / 2));
+        assert_int_equal(rho_imm_plane_predict_rate(at, covariance, i < 2 ? NULL : &beside, &rate),
+                         range_m >= 1.0);
+    }
+}
+
+/* A model with no probability at all has 1e-9 of it, which evidence of e^20 makes a half. */
+static void a_ruled_out_model_keeps_a_billionth(void **state)
+{
+    static const float variance[2] = {4.0f, 4.0f};
+    const float far = (float)sqrt(4.0 * 2.0 * log(1e9)), far_and_near[2] = {far, 0.0f},
+                near_and_far[2] = {0.0f, far};
+    struct rho_imm imm = {.probability = 0.0f};
+    float gain_nat;
+    (void)state;
+    rho_imm_update_probability(&imm, far_and_near, variance, &gain_nat);
+    assert_true(fabs((double)imm.probability - 0.5) < 1e-3);
+    assert_true(fabs((double)gain_nat - log(2e-9 / sqrt(4.0 * 6.283185307))) < 1e-3);
+    imm.probability = 1.0f;
+    rho_imm_update_probability(&imm, near_and_far, variance, &gain_nat);
+    assert_true(fabs((double)imm.probability - 0.5) < 1e-3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_range_rate_needs_a_metre),
+        cmocka_unit_test(a_ruled_out_model_keeps_a_billionth),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
