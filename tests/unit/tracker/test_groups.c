@@ -175,6 +175,9 @@ static void work_is_counted(void **state)
     assert_int_equal(at.work, 6);
     (void)groups_of_two(0, 5.0, 0.0);
     assert_int_equal(at.work, 2 + 2 * 1);
+    tracker.config.work_max = 800000;
+    group();
+    assert_int_equal(at.share.end, 100000); /* of all work an eighth */
 }
 
 static void rows_are_those_of_the_plots_again(void **state)
