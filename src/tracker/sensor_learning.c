@@ -28,10 +28,9 @@
 
 /* Tracks that are likelier to turn teach nothing of noise. */
 #define MANEUVER_MAX 0.2f
-#define HAS_INNOVATION 1u
-#define IS_MISSED 2u
+enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 #define SHOWN_PER_SIGMA 16.0f
-#define SIGMAS_MAX 7.9f
+#define SIGMAS_MAX (127.0f / SHOWN_PER_SIGMA) /* what int8_t holds */
 
 /* Squared innovations count so far; their mean then, of a normal distribution. */
 #define CUT2 2.25f

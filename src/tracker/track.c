@@ -10,7 +10,7 @@
 #include "rhotrack/detail/approx.h"
 
 #define SCORE_LIMIT_MNAT 1000000000
-#define SCORE_LIMIT_NAT 1.0e6f
+#define SCORE_LIMIT_NAT (0.001f * (float)SCORE_LIMIT_MNAT)
 
 /* ---- life cycle ------------------------------------------------------------------------------ */
 

@@ -277,6 +277,152 @@ static void a_track_hides_where_there_is_little_clutter(void **state)
     }
 }
 
+/* ---- what a sensor sees ---------------------------------------------------------------------- */
+
+/* Four sigmas beyond the range. */
+static void plots_at_the_border_are_covered(void **state)
+{
+    (void)state;
+    const struct rho_plot inside = {.x_m = 1e5f + 39.0f, .sigma_range_m = 10.0f},
+                          outside = {.x_m = 1e5f + 41.0f, .sigma_range_m = 10.0f};
+    assert_true(rho_tracker_covers(&radar, &inside, 0));
+    assert_false(rho_tracker_covers(&radar, &outside, 0));
+}
+
+/* A radar with a notch of 10 m/s; a track across its line of sight is in it, 99 % at most. */
+static void a_track_is_blind_for_five_minutes_in_little_clutter(void **state)
+{
+    const double sigma_m = sqrt(3.0 / (3.14159265 * 9.0 * 1e-8));
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct rho_sensor notched = radar;
+        notched.notch_mps = 10.0f;
+        prepare();
+        at.sensor = &notched;
+        at.time_us = 400000000;
+        struct rho_track *track = have_track(0.0, i < 2 ? 10.0 : sigma_m * (i == 2 ? 0.99 : 1.01));
+        track->filter = RHO_TRACK_KALMAN;
+        track->kalman.state[RHO_VY] = 100.0f;
+        track->kalman.covariance[RHO_AT(3, 3)] = track->kalman.covariance[RHO_AT(4, 4)] = 1e-4f;
+        track->updated_us = at.time_us - (i == 1 ? 301000000 : 299000000);
+        rho_tracker_find_blind(&at);
+        if (i < 2) {
+            assert_int_equal(track->blind_percent, i == 0 ? 99 : 0);
+        } else {
+            assert_int_equal(track->blind_percent > 0, i == 2);
+        }
+    }
+}
+
+static void a_few_targets_in_the_notch_are_seen(void **state)
+{
+    struct rho_sensor notched = radar;
+    (void)state;
+    notched.notch_mps = 10.0f;
+    prepare();
+    at.sensor = &notched;
+    struct rho_track *track = have_track(0.0, 10.0);
+    track->kalman.state[RHO_VY] = 100.0f;
+    track->blind_percent = 80;
+    const struct detection seen = rho_tracker_detection_beside_notch(&at, track);
+    const double pd = exp((double)at.log_pd);
+    assert_float_equal(seen.log_pd, log(pd * 0.2 + 0.03 * 0.8), 1e-5);
+    assert_float_equal(seen.log_miss, log(1.0 - pd * 0.2), 1e-5);
+}
+
+/* Up to a minute between steps teaches; a longer silence begins anew. */
+static void manoeuvres_are_learned_while_tracks_are_looked_at(void **state)
+{
+    (void)state;
+    if (!RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
+        skip();
+    }
+    for (int i = 0; i < 2; i++) {
+        prepare();
+        have_track(0.0, 10.0)->hits = 16;
+        at.model.hypotheses = &tracker.hypotheses;
+        rho_tracker_learn_manoeuvre_interval(&at, i ? 61.0f : 59.0f);
+        assert_float_equal(tracker.straight_s, i ? 0.0 : 59.0, 1e-4);
+        tracker.straight_s = 7.0f;
+        tracker.time_us = 0;
+        rho_tracker_reset_manoeuvre_interval(&tracker, i ? 61000000 : 59000000);
+        assert_float_equal(tracker.straight_s, i ? 0.0 : 7.0, 1e-4);
+    }
+}
+
+static void scans_may_be_late_by_a_minute(void **state)
+{
+    (void)state;
+    if (!RHO_SECTORS) {
+        skip();
+    }
+    draw(1);
+    config.late_max_s = 60.0f;
+    assert_true(rho_tracker_is_late_usable(&config));
+    config.late_max_s = 60.1f;
+    assert_false(rho_tracker_is_late_usable(&config));
+}
+
+/* ---- images ---------------------------------------------------------------------------------- */
+
+#if RHO_MAX_REFLECTORS > 0
+
+/* A wall of 1 km north of the radar, and a track that is seen in it at x, 2 km. */
+static struct rho_track *have_wall(float x_m)
+{
+    static const struct rho_reflector wall = {
+        .from_x_m = -500.0f, .from_y_m = 1000.0f, .to_x_m = 500.0f, .to_y_m = 1000.0f};
+    prepare();
+    assert_int_equal(rho_tracker_set_reflectors(&tracker, &wall, 1), RHO_OK);
+    struct rho_track *track = have_track(0.0, 10.0);
+    track->kalman.state[RHO_X] = x_m;
+    return track;
+}
+
+static int is_ghost(float x_m, uint16_t hits)
+{
+    have_wall(x_m)->hits = hits;
+    put((double)x_m, 2000.0);
+    rho_tracker_sort_plots(&at);
+    rho_tracker_mark_images(&at);
+    return report.fates[0] == RHO_FATE_GHOST;
+}
+
+/* Of a track of three hits; the line of sight misses the wall by three sigmas of 10 m at most. */
+static void a_track_has_an_image_in_a_wall(void **state)
+{
+    (void)state;
+    assert_true(is_ghost(800.0f, 3));
+    assert_int_equal(at.work, 12 + 3);
+    assert_false(is_ghost(800.0f, 2));
+    assert_true(is_ghost(1058.0f, 3));
+    assert_false(is_ghost(1062.0f, 3));
+}
+
+static int is_image(double off_m, uint16_t hits, uint16_t misses)
+{
+    have_wall(800.0f)->hits = 30;
+    struct rho_track *image = have_track(0.0, 10.0);
+    image->kalman.state[RHO_X] = 800.0f;
+    image->kalman.state[RHO_Y] = (float)(2000.0 + off_m);
+    image->hits = hits;
+    image->misses = misses;
+    rho_tracker_end_images(&at);
+    return tracker.num_tracks == 1;
+}
+
+/* Within a chi-square of 18.5, of both variances; an established one if it is seen seldom. */
+static void a_track_at_an_image_ends(void **state)
+{
+    (void)state;
+    assert_true(is_image(sqrt(18.4 * 200.0), 8, 0));
+    assert_false(is_image(sqrt(18.6 * 200.0), 8, 0));
+    assert_true(is_image(0.0, 20, 14));
+    assert_false(is_image(0.0, 20, 13));
+}
+
+#endif
+
 /* ---- work ------------------------------------------------------------------------------------ */
 
 #define WORK_MAX 1600000u
@@ -353,6 +499,11 @@ static void scores_have_limits(void **state)
     (void)state;
     assert_true(rho_tracker_is_score(1000000000) && rho_tracker_is_score(-1000000000));
     assert_false(rho_tracker_is_score(1000000001) || rho_tracker_is_score(-1000000001));
+    prepare();
+    initiator.confirm_mnat = 1000000000;
+    assert_true(rho_initiator_is_sound(&initiator));
+    initiator.confirm_mnat = 1000000001;
+    assert_false(rho_initiator_is_sound(&initiator));
 }
 
 int main(void)
@@ -372,6 +523,15 @@ int main(void)
         cmocka_unit_test(clutter_has_an_area_and_a_density),
         cmocka_unit_test(a_tentative_track_falls_by_a_hundred_to_one),
         cmocka_unit_test(a_track_hides_where_there_is_little_clutter),
+        cmocka_unit_test(plots_at_the_border_are_covered),
+        cmocka_unit_test(a_track_is_blind_for_five_minutes_in_little_clutter),
+        cmocka_unit_test(a_few_targets_in_the_notch_are_seen),
+        cmocka_unit_test(manoeuvres_are_learned_while_tracks_are_looked_at),
+        cmocka_unit_test(scans_may_be_late_by_a_minute),
+#if RHO_MAX_REFLECTORS > 0
+        cmocka_unit_test(a_track_has_an_image_in_a_wall),
+        cmocka_unit_test(a_track_at_an_image_ends),
+#endif
         cmocka_unit_test(each_phase_has_its_share),
         cmocka_unit_test(work_for_excluded_areas_is_counted),
         cmocka_unit_test(a_scan_has_four_parts),
