@@ -155,13 +155,23 @@ def write_asterix(folder):
         return block(34, b"\xf0\x00\x01" + (b"\x02" if sector else b"\x01") + time + bytes(
             (sector, )))
 
+    def old(turn, azimuth):
+        time = int(128 * (100 + 4 * (turn + azimuth / 65536)))
+        return block(1, b"\xf2\x00\x01\x10" + struct.pack(">HHH", 4500, azimuth, time)) + (
+            block(2, b"\xd0\x00\x01\x01" + time.to_bytes(3, "big")) if azimuth < 8192 else b"")
+
     (folder / "fuzz_asterix").mkdir(parents=True, exist_ok=True)
     (folder / "fuzz_tables").mkdir(parents=True, exist_ok=True)
     text = (HERE.parent / "vectors" / "asterix_vectors.h").read_text(encoding="utf-8")
-    for category, vectors in re.findall(r" vectors_(\d+)\[\] = \{(.*?)\n\};", text, re.S):
+    for category, kind, vectors in re.findall(
+            r" vectors_(\d+)(_plot|_track)?\[\] = \{(.*?)\n\};", text, re.S):
         for i, record in enumerate(re.findall(r'"([0-9a-f]+)"', vectors)):
             data = block(int(category), bytes.fromhex(record))
-            (folder / "fuzz_asterix" / f"{category}-{i}").write_bytes(bytes((i % 8,)) + data)
+            (folder / "fuzz_asterix" / f"{category}{kind}-{i}").write_bytes(bytes((i % 8,)) + data)
+    for rules in range(8):
+        radar = b"".join(old(turn, 8192 * i + 77) for turn in range(4) for i in range(8))
+        (folder / "fuzz_asterix" / f"old-{rules}").write_bytes(bytes((rules,)) + radar)
+        (folder / "fuzz_tables" / f"asterix-old-{rules}").write_bytes(bytes((rules,)) + radar)
     for sectors in (0, 1, 8):
         radar = b"".join(
             crossing(turn, 256 // sectors * i) + plot(turn, 8192 * i + 77) +

@@ -306,7 +306,7 @@ refused overrun "$good\\x30\\x00\\x06\\xf0\\x00\\x01" 'byte 20: I048/140 goes be
 refused beyond "$good\\x22\\x00\\x06\\x01\\x01\\x80" \
     'byte 17: the field specification of a record of CAT034 has 3 bytes'
 refused other '\x3f\x00\x04\x00' \
-    'not one plot (CAT048), north marker or sector crossing (CAT034) in it'
+    'not one plot (CAT048, CAT001), north marker or sector crossing (CAT034, CAT002) in it'
 run_piped() { # file, arguments: as run, the file on standard input
     status=0
     "$program" "${@:2}" <"$1" >stdout 2>stderr || status=$?
@@ -364,7 +364,8 @@ bad = list(blocks); bad[middle] = bad[middle][:4] + b"\xff" * (len(bad[middle]) 
 open("bad_record.ast", "wb").write(b"".join(bad))
 bad[middle] = b"\x30\x00\x01garbage"
 open("bad_length.ast", "wb").write(b"".join(bad))
-open("with_others.ast", "wb").write(b"".join(blocks[:middle] + [b"\x01\x00\x05ab", b"\x15\x00\x03"] + blocks[middle:]))
+open("with_others.ast", "wb").write(b"".join(blocks[:middle] + [b"\x3e\x00\x0b\x90\x00\x01\x00\x00\x80\x00\x01",
+                                            b"\x15\x00\x05ab", b"\x15\x00\x03"] + blocks[middle:]))
 PYTHON
 for name in bad_record bad_length; do
     run convert "$name.ast" "$name.csv"
@@ -377,11 +378,54 @@ for name in bad_record bad_length; do
         "^rhotrack: $name.ast: [0-9]+ bytes skipped at 1 bad places" stderr
 done
 run convert with_others.ast with_others.csv
-check 'other categories are left out and counted' \
-    grep -qx \
-    'rhotrack: with_others.ast: blocks of other categories left out: 1 of CAT001, 1 of CAT021' \
-    stderr
+check 'other categories are left out, a line each' diff - stderr <<'LINES'
+rhotrack: with_others.ast: CAT021 left out: 2 blocks
+rhotrack: with_others.ast: CAT062 left out: 2 records in 1 blocks; these are tracks
+LINES
 check 'and change nothing' cmp with_others.csv turns.csv
+
+# ---- CAT001 and CAT002 ----
+# As the same plots in CAT048, but for ranges in 1/128 NM and times without multiples of 512 s.
+sed 's/and abs(float(row\["range_rate_mps.*/]/; s/1852 \/ 512/1852 \/ 256/' same.py >same_old.py
+for kind in plots tracks; do
+    for sectors in 32 1 0; do
+        name=old_${kind}_$sectors
+        python3 "$write" sim/plots.csv $name.ast --old $kind --sectors $sectors
+        run convert $name.ast $name.csv
+        check "$name: convert ends well" exits 0
+        if [ $sectors -gt 0 ]; then
+            check "$name: every plot is as it was sent" python3 same_old.py sim/plots.csv $name.csv
+        fi
+        run track $name.ast -o $name.tracks.csv --json
+        check "$name: its targets have tracks" json stdout '17 <= o["tracks_confirmed"] <= 23'
+    done
+    check "$kind: without CAT002 plots become turns, and it is said" grep -q \
+        "old_${kind}_0.ast: sensor 1: rows of a turn .* turns of \(4\|4.00.\|3.99.\) s by azimuth, clockwise" stderr
+    check "$kind: and each line once" test -z "$(sort stderr | uniq -d)"
+done
+check 'by sectors there are 32 a turn, too' test \
+    "$(awk -F, 'NR > 1 && $3 == ""' old_plots_32.csv | wc -l)" -eq 480
+python3 "$write" sim/plots.csv midnight.ast --old plots --start 86390
+run convert midnight.ast midnight.csv
+check 'times go on at midnight, and every 512 s' python3 - <<'PYTHON'
+import csv
+times = [float(row["t_s"]) for row in csv.DictReader(open("midnight.csv"))]
+assert times == sorted(times) and 86389 < times[0] < 86391 and 86445 < times[-1] < 86455, times[-1]
+PYTHON
+cp old_plots_32.ast old
+run convert old old.csv
+check 'known by what is in it' cmp old.csv old_plots_32.csv
+for name in old_plots_32 old_tracks_32; do
+    head -c 20000 $name.ast >cut.ast
+    run convert cut.ast cut.csv
+    check "$name: a cut one is refused with its byte" grep -q '^rhotrack: cut.ast: byte [0-9]*: ' stderr
+done
+if python3 -c 'import asterix.generated' 2>/dev/null; then
+    for name in old_plots_32 old_tracks_32; do
+        check "$name: libasterix reads it" python3 "$tests/../vectors/make_asterix_vectors.py" \
+            --check $name.ast
+    done
+fi
 
 # ---- Live ----
 cat >play.py <<'PYTHON'

@@ -16,13 +16,20 @@ import sys
 
 from asterix import base, generated
 
-CATEGORIES = {34: (generated.Cat_034_1_27, generated.Cat_034_1_29),
+CATEGORIES = {1: (generated.Cat_001_1_2, generated.Cat_001_1_4),
+              2: (generated.Cat_002_1_0, generated.Cat_002_1_2),
+              34: (generated.Cat_034_1_27, generated.Cat_034_1_29),
               48: (generated.Cat_048_1_27, generated.Cat_048_1_32),
               62: (generated.Cat_062_1_18, generated.Cat_062_1_21)}
 RECORDS = 60  # of each category
 
 # What rhotrack reads: item, sub-items by their names.
 VALUES = {
+    1: [
+        "010/SAC", "010/SIC", "141", "020/TYP", "020/SIM", "020/SSRPSR", "020/RAB", "020/TST",
+        "040/RHO", "040/THETA", "070/MODE3A", "090/V", "090/G", "090/HGT", "161"
+    ],
+    2: ["010/SAC", "010/SIC", "000", "020", "030", "041"],
     34: ["000", "020", "030", "041", "120/HGT", "120/LAT", "120/LON"],
     48: [
         "010/SAC", "010/SIC", "140", "020/TYP", "020/SIM", "020/RAB", "020/TST", "020/ERR",
@@ -123,32 +130,42 @@ def to_bytes(bits):
     return bytes(int("".join(map(str, bits[i:i + 8])), 2) for i in range(0, len(bits), 8))
 
 
-def draw_record(rng, spec):
-    items = [getattr(item, "cv_non_spare", None) for item in spec.cv_uap.cv_record.cv_items_list]
+def profile_of(spec, uap):
+    """uap: of CAT001, "plot" or "track"; else None."""
+    return spec.cv_uap.cv_uaps[uap] if uap else spec.cv_uap.cv_record
+
+
+def draw_record(rng, spec, uap=None):
+    items = [getattr(item, "cv_non_spare", None) for item in profile_of(spec, uap).cv_items_list]
     share = rng.choice((0.2, 0.5, 0.9))
     present = [item is not None and rng.random() < share for item in items]
     present[0] = True
+    present[1] |= uap is not None  # its first bit says which profile it is
     kept = list(present)
     bits = specification(present)
     for item, there in zip(items, kept):
         if there:
-            bits += draw_rule(rng, item.cv_rule)
+            drawn = draw_rule(rng, item.cv_rule)
+            if uap and item.cv_name == "020":
+                drawn[0] = int(uap == "track")
+            bits += drawn
     return to_bytes(bits)
 
 
 # ---- What libasterix says of them ----
 
-def parse(spec, data):
-    records = spec.cv_uap.parse(base.Bits.from_bytes(data))
+def parse(spec, data, uap=None):
+    bits = base.Bits.from_bytes(data)
+    records = spec.cv_uap.parse(uap, bits) if uap else spec.cv_uap.parse(bits)
     if isinstance(records, ValueError):
         raise records
     return records
 
 
-def sizes_of(spec, record):
+def sizes_of(spec, record, uap=None):
     """Bytes of the item at each place of the profile; 0 where there is none."""
     sizes = []
-    for place in spec.cv_uap.cv_record.cv_items_list:
+    for place in profile_of(spec, uap).cv_items_list:
         non_spare = getattr(place, "cv_non_spare", None)
         item = record.get_item(non_spare.cv_name) if non_spare else None
         sizes.append(len(item.unparse()) // 8 if item is not None else 0)
@@ -158,6 +175,8 @@ def sizes_of(spec, record):
 def find(record, path):
     """The element at a path of names, or None."""
     names = path.split("/")
+    if names[0] not in record.cv_items_dict:
+        return None
     node = record.get_item(names[0])
     for name in names[1:]:
         if node is None:
@@ -171,31 +190,32 @@ def value_of(record, path):
     if node is None:
         return "NAN"
     content = node.variation.rule.content
-    if path == "090/FL":  # edition 1.27 was without a sign by its letter; later ones have it
+    if path in ("090/FL", "090/HGT"):  # edition 1.27 was without a sign by its letter; later ones have it
         return repr(((node.variation.as_uint() + 8192) % 16384 - 8192) / 4)
     if isinstance(content, base.ContentQuantity):
         return repr(content._as_quantity())
     return str(node.variation.as_uint())
 
 
-def write_records(category):
+def write_records(category, uap=None):
     specs = CATEGORIES[category]
-    rng = random.Random(f"rhotrack {category}")
-    places = len(specs[0].cv_uap.cv_record.cv_items_list)
+    rng = random.Random(f"rhotrack {category} {uap}" if uap else f"rhotrack {category}")
+    places = len(profile_of(specs[0], uap).cv_items_list)
     paths = VALUES[category]
+    name = f"{category}_{uap.upper()}" if uap else str(category)
     print(f"/* values: {', '.join(paths)}; NAN: not there */")
     print(
-        f"enum {{ VECTORS_{category}_PLACES = {places}, VECTORS_{category}_VALUES = {len(paths)} }};"
+        f"enum {{ VECTORS_{name}_PLACES = {places}, VECTORS_{name}_VALUES = {len(paths)} }};"
     )
     print(
         f"static const struct {{ const char *hex; uint16_t sizes[{places}]; double values[{len(paths)}]; }}"
-        f" vectors_{category}[] = {{")
+        f" vectors_{name.lower()}[] = {{")
     for i in range(RECORDS):
         spec = specs[i % 2]
-        data = draw_record(rng, spec)
-        records = parse(spec, data)
+        data = draw_record(rng, spec, uap)
+        records = parse(spec, data, uap)
         assert len(records) == 1
-        sizes = ", ".join(map(str, sizes_of(spec, records[0])))
+        sizes = ", ".join(map(str, sizes_of(spec, records[0], uap)))
         values = ", ".join(value_of(records[0], path) for path in paths)
         print(f'    {{"{data.hex()}",\n     {{{sizes}}},\n     {{{values}}}}},')
     print("};\n")
@@ -293,7 +313,12 @@ def check(path):
     at = records = 0
     while at < len(data):
         size = int.from_bytes(data[at + 1:at + 3], "big")
-        records += len(parse(CATEGORIES[data[at]][0], data[at + 3:at + size]))
+        category, spec = data[at], CATEGORIES[data[at]][0]
+        bits = base.Bits.from_bytes(data[at + 3:at + size])
+        uaps = spec.cv_uap.parse_any_uap(bits, 3) if category == 1 else [spec.cv_uap.parse(bits)]
+        if isinstance(uaps, ValueError) or not uaps or isinstance(uaps[0], ValueError):
+            raise ValueError(f"byte {at}")
+        records += len(uaps[0])
         at += size
     print(f"{records} records")
 
@@ -303,8 +328,10 @@ def main():
         check(sys.argv[2])
         return
     print(HEADER)
-    for category in CATEGORIES:
+    for category in (34, 48, 62, 2):
         write_records(category)
+    write_records(1, "plot")
+    write_records(1, "track")
     write_tracks()
     print("#endif")
 

@@ -19,7 +19,7 @@
     "Plots in CSV have t_s,sensor_id and x_m,y_m[,z_m] or range_m,azimuth_rad; for places also\n"  \
     "lat_deg,lon_deg[,alt_m] (with the parameters origin_lat_deg and origin_lon_deg); and\n"       \
     "received_s, when a row came, where some come late. INPUT may be an LCM log (NAME.lcm)\n"      \
-    "or a recording in ASTERIX (NAME.ast; CAT048, CAT034), also within one of the network\n"       \
+    "or a recording in ASTERIX (NAME.ast; CAT048, CAT034, CAT001, CAT002), also of the network\n"  \
     "(NAME.pcap, NAME.pcapng); its first radar is the origin if none is set.\n"
 #define TRACK_FORMATS                                                                              \
     "OUTPUT, by its name: .lcm an LCM log, .ast ASTERIX (CAT062), .geojson a map (needs the\n"     \

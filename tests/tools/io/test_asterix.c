@@ -109,6 +109,86 @@ static void test_plots(void **state)
     }
 }
 
+/* Values of CAT001, by either profile. */
+static void check_old_plot(const struct asterix_record *record, bool is_track, const double *v)
+{
+    struct asterix_plot plot;
+
+    assert_int_equal(record->is_track, is_track);
+    asterix_plot_read(record, &plot);
+    check_value(plot.source.is_given, plot.source.sac, v[0]);
+    check_value(plot.source.is_given, plot.source.sic, v[1]);
+    check_value(plot.has_time, plot.time_128 / 128.0, v[2]);
+    assert_int_equal(plot.is_time_truncated, plot.has_time);
+    check_value(plot.has_type, is_track, v[3]);
+    check_value(plot.has_type, plot.is_simulated, v[4]);
+    check_value(plot.has_type, plot.type, v[5]);
+    check_value(plot.has_type, plot.is_fixed, v[6]);
+    check_value(!isnan(v[7]), plot.is_test, v[7]);
+    check_value(plot.has_position, plot.range * ASTERIX_RANGE_M / 1852, v[8]);
+    check_value(plot.has_position, plot.azimuth * 360.0 / ASTERIX_TURN, v[9]);
+    check_value(plot.has_mode_a, plot.mode_a, v[10]);
+    check_value(plot.has_level, plot.is_level_bad, fmax(v[11], v[12]));
+    check_value(plot.has_level, plot.level / 4.0, v[13]);
+    check_value(plot.has_track, plot.track, v[14]);
+    assert_false(plot.has_height || plot.has_doppler || plot.is_beyond);
+}
+
+static void test_old_plots(void **state)
+{
+    uint8_t bytes[RECORD_MAX];
+
+    (void)state;
+    for (size_t i = 0; i < COUNT(vectors_1_plot); i++) {
+        struct asterix_record record = check_record(ASTERIX_OLD_PLOTS, vectors_1_plot[i].hex, bytes,
+                                                    vectors_1_plot[i].sizes, VECTORS_1_PLOT_PLACES);
+
+        check_old_plot(&record, false, vectors_1_plot[i].values);
+    }
+    for (size_t i = 0; i < COUNT(vectors_1_track); i++) {
+        struct asterix_record record =
+            check_record(ASTERIX_OLD_PLOTS, vectors_1_track[i].hex, bytes, vectors_1_track[i].sizes,
+                         VECTORS_1_TRACK_PLACES);
+
+        check_old_plot(&record, true, vectors_1_track[i].values);
+    }
+}
+
+static void test_old_services(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(vectors_2); i++) {
+        const double *v = vectors_2[i].values;
+        uint8_t bytes[RECORD_MAX];
+        struct asterix_record record = check_record(ASTERIX_OLD_SERVICE, vectors_2[i].hex, bytes,
+                                                    vectors_2[i].sizes, VECTORS_2_PLACES);
+        struct asterix_service service;
+
+        asterix_service_read(&record, &service);
+        check_value(service.source.is_given, service.source.sac, v[0]);
+        check_value(service.source.is_given, service.source.sic, v[1]);
+        check_value(service.has_type, service.type, v[2]);
+        check_value(service.has_sector, service.sector * 360.0 / 256, v[3]);
+        check_value(service.has_time, service.time_128 / 128.0, v[4]);
+        check_value(service.has_period, service.period_128 / 128.0, v[5]);
+        assert_false(service.place.is_given);
+    }
+}
+
+/* Items in random order (RFS), which libasterix does not make: by hand from the specification. */
+static void test_random_fields(void **state)
+{
+    /* 010, then RFS of 040 (FRN 3) and 141 (FRN 7), of a plot */
+    static const uint8_t plot[] = {0x81, 0x01, 0x02, 10, 20, 2, 3, 1, 2, 3, 4, 7, 5, 6};
+    struct asterix_record record;
+    struct asterix_error error = {.reason = ""};
+
+    (void)state;
+    assert_true(asterix_record_read(ASTERIX_OLD_PLOTS, plot, sizeof plot, &record, &error));
+    assert_int_equal(record.size, sizeof plot);
+    assert_int_equal(record.sizes[20], 9);
+}
+
 static void test_services(void **state)
 {
     (void)state;
@@ -282,6 +362,15 @@ static void test_bad_records(void **state)
     check_bad_record(48, "010101040000", 4, "I048/SP says that it has no bytes");
     check_bad_record(34, "0440", 1, "I034/050 has an item at place 2, where none is");
     check_bad_record(9, "80", 0, "category 9 is not known");
+    check_bad_record(1, "c0010203", 3, "I001/020 goes beyond its data block");
+    check_bad_record(1, "010102", 3, "I001/RFS goes beyond its data block");
+    check_bad_record(1, "0101020110", 3, "I001/RFS has an item at place 16, where none is");
+    check_bad_record(1, "0101020115", 3, "I001/RFS has an item at place 21, where none is");
+    check_bad_record(1, "01010202", 3, "I001/RFS has an item at place 0, where none is");
+    check_bad_record(1, "010102010301", 5, "I001/040 goes beyond its data block");
+    check_bad_record(1, "c1014001020000", 2,
+                     "a record of CAT001 has an item at place 16, where none is");
+    check_bad_record(2, "0108", 1, "a record of CAT002 has an item at place 12, where none is");
 }
 
 static void test_blocks(void **state)
@@ -317,10 +406,12 @@ static void test_sensor_ids(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plots),  cmocka_unit_test(test_services),
-        cmocka_unit_test(test_tracks), cmocka_unit_test(test_tracks_written),
-        cmocka_unit_test(test_limits), cmocka_unit_test(test_bad_records),
-        cmocka_unit_test(test_blocks), cmocka_unit_test(test_sensor_ids),
+        cmocka_unit_test(test_plots),          cmocka_unit_test(test_services),
+        cmocka_unit_test(test_old_plots),      cmocka_unit_test(test_old_services),
+        cmocka_unit_test(test_random_fields),  cmocka_unit_test(test_tracks),
+        cmocka_unit_test(test_tracks_written), cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_bad_records),    cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_sensor_ids),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -62,7 +62,17 @@ bool asterix_block_read(const uint8_t *data, size_t size, struct asterix_block *
 
 bool asterix_category_is_known(uint8_t category)
 {
-    return asterix_category_find(category);
+    return asterix_category_find(category, false);
+}
+
+bool asterix_category_is_plots(uint8_t category)
+{
+    return category == ASTERIX_PLOTS || category == ASTERIX_OLD_PLOTS;
+}
+
+bool asterix_category_is_service(uint8_t category)
+{
+    return category == ASTERIX_SERVICE || category == ASTERIX_OLD_SERVICE;
 }
 
 /* ---- Items ---- */
@@ -171,11 +181,60 @@ static bool take_compound(struct cursor *cursor, const struct asterix_item *item
     return true;
 }
 
+/* Items in any order, each behind its place in the profile; none of them has parts. */
+static bool take_any(struct cursor *cursor, const struct asterix_category *profile)
+{
+    size_t start = cursor->at, count = start < cursor->size ? cursor->data[start] : 0;
+
+    cursor->at++;
+    for (size_t i = 0; i < count; i++) {
+        size_t place = cursor->at < cursor->size ? cursor->data[cursor->at] : 0;
+        const struct asterix_item *item =
+            place > 0 && place <= profile->num_items ? &profile->items[place - 1] : NULL;
+
+        if (!item || item->form == ASTERIX_NONE || item->form == ASTERIX_ANY) {
+            return refuse(cursor, start, "I%03u/RFS has an item at place %zu, where none is",
+                          cursor->category, place);
+        }
+        cursor->at++;
+        if (!take_simple(cursor, item, NULL)) {
+            return false;
+        }
+    }
+    return start < cursor->size ||
+           refuse(cursor, start, "I%03u/RFS goes beyond its data block", cursor->category);
+}
+
+static bool take(struct cursor *cursor, const struct asterix_category *profile,
+                 const struct asterix_item *item)
+{
+    switch (item->form) {
+    case ASTERIX_COMPOUND:
+        return take_compound(cursor, item);
+    case ASTERIX_ANY:
+        return take_any(cursor, profile);
+    default:
+        return take_simple(cursor, item, NULL);
+    }
+}
+
+/* CAT001: the first bit of item 020 chooses the profile. */
+static bool is_of_track(const struct cursor *cursor)
+{
+    const size_t behind = count_extended(cursor, 1);
+
+    return cursor->category == ASTERIX_OLD_PLOTS && cursor->size > 0 &&
+           (cursor->data[0] >> (BITS - I001_020) & 1) &&
+           behind + (cursor->data[0] >> BITS & 1) * 2u < cursor->size &&
+           cursor->data[behind + (cursor->data[0] >> BITS & 1) * 2u] >> 7;
+}
+
 bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
                          struct asterix_record *record, struct asterix_error *error)
 {
     struct cursor cursor = {.data = data, .size = size, .category = category, .error = error};
-    const struct asterix_category *profile = asterix_category_find(category);
+    const bool is_track = is_of_track(&cursor);
+    const struct asterix_category *profile = asterix_category_find(category, is_track);
     char name[24];
     uint64_t present = 0;
 
@@ -186,7 +245,7 @@ bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
     if (!take_specification(&cursor, profile->items, profile->num_items, name, &present)) {
         return false;
     }
-    *record = (struct asterix_record){.category = category};
+    *record = (struct asterix_record){.category = category, .is_track = is_track};
     for (size_t i = 0; i < profile->num_items; i++) {
         const struct asterix_item *item = &profile->items[i];
         size_t start = cursor.at;
@@ -194,8 +253,7 @@ bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
         if (!(present >> i & 1)) {
             continue;
         }
-        if (item->form == ASTERIX_COMPOUND ? !take_compound(&cursor, item)
-                                           : !take_simple(&cursor, item, NULL)) {
+        if (!take(&cursor, profile, item)) {
             return false;
         }
         record->items[i] = data + start;

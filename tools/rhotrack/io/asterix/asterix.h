@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * asterix: EUROCONTROL's format of radar messages, from bytes to values: CAT048 (plots of one
- * radar), CAT034 (what the radar says of its antenna and itself) and CAT062 (tracks).
+ * radar), CAT034 (what the radar says of its antenna and itself), their forerunners CAT001 and
+ * CAT002, and CAT062 (tracks).
  *
- * Data blocks (category, length, records) of any category are told apart. Records of these three
+ * Data blocks (category, length, records) of any category are told apart. Records of these five
  * are taken apart by their field specification, with the length of every item of the standard
- * profiles (CAT048 1.27 to 1.32, CAT034 1.27 to 1.29, CAT062 1.18 to 1.21), so that any valid
- * record can be skipped. No heap, no recursion; nothing is read beyond the bytes that are given.
+ * profiles (CAT048 1.27 to 1.32, CAT034 1.27 to 1.29, CAT001 1.2 to 1.4, CAT002 1.0 to 1.2, CAT062
+ * 1.18 to 1.21), so that any valid record can be skipped. No heap, no recursion; nothing is read beyond the bytes that are given.
  * Cost: proportional to the bytes.
  */
 #ifndef RHOTRACK_TOOL_ASTERIX_H
@@ -16,7 +17,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define ASTERIX_SERVICE 34u /* categories */
+#define ASTERIX_OLD_PLOTS 1u /* categories */
+#define ASTERIX_OLD_SERVICE 2u
+#define ASTERIX_SERVICE 34u
 #define ASTERIX_PLOTS 48u
 #define ASTERIX_TRACKS 62u
 
@@ -51,13 +54,16 @@ struct asterix_error {
 bool asterix_block_read(const uint8_t *data, size_t size, struct asterix_block *block,
                         struct asterix_error *error);
 
-/* Whether records of the category can be taken apart. */
+/* Whether records of the category can be taken apart; are a radar's plots, or of its antenna. */
 bool asterix_category_is_known(uint8_t category);
+bool asterix_category_is_plots(uint8_t category);
+bool asterix_category_is_service(uint8_t category);
 
 /* Items by their place in the profile, from 0; NULL where the record has none. */
 struct asterix_record {
     uint8_t category;
-    size_t size; /* of the record */
+    bool is_track; /* CAT001: by the profile of the radar's own tracks, not by that of plots */
+    size_t size;   /* of the record */
     const uint8_t *items[ASTERIX_MAX_ITEMS];
     uint16_t sizes[ASTERIX_MAX_ITEMS];
 };
@@ -81,17 +87,19 @@ struct asterix_source {
  */
 int32_t asterix_sensor_id(const struct asterix_source *source);
 
-/* I048: one plot. Values that are not given are 0. */
+/* I048 or I001: one plot, or the plot of a radar's own track. Values that are not given are 0. */
 struct asterix_plot {
     struct asterix_source source;
-    bool has_time;     /* 140 */
-    uint32_t time_128; /* 1/128 s since midnight, UTC; may be a day or more, which is wrong */
-    bool has_type;     /* 020 */
-    uint8_t type;      /* 0: no detection, 1: primary, 2: secondary, 3: both, 4 .. 7: Mode S */
+    bool has_time;          /* 140 */
+    uint32_t time_128;      /* 1/128 s since midnight, UTC; may be a day or more, which is wrong */
+    bool is_time_truncated; /* I001/141: time_128 is the rest of it after multiples of 512 s */
+    bool has_type;          /* 020 */
+    uint8_t type;           /* 0: no detection, 1: primary, 2: secondary, 3: both, 4 .. 7: Mode S */
     bool is_simulated, is_test, is_fixed; /* fixed: a field monitor's transponder */
     bool is_beyond;                       /* the range is beyond what 040 can say */
     bool has_position;                    /* 040 */
-    uint16_t range, azimuth;              /* slant range in ASTERIX_RANGE_M, 1/ASTERIX_TURN turn */
+    uint32_t range;                       /* slant range in ASTERIX_RANGE_M */
+    uint16_t azimuth;                     /* 1/ASTERIX_TURN turn */
     bool has_level, is_level_bad;         /* 090; bad: not validated, or garbled */
     int16_t level;                        /* in ASTERIX_HEIGHT_M, of the standard atmosphere */
     bool has_height;                      /* 110 */
@@ -117,7 +125,7 @@ struct asterix_place {
 #define ASTERIX_NORTH 1 /* types of I034 */
 #define ASTERIX_SECTOR 2
 
-/* I034: what the radar says of its antenna and place. */
+/* I034 or I002: what the radar says of its antenna, and (I034) of its place. */
 struct asterix_service {
     struct asterix_source source;
     bool has_type; /* 000 */

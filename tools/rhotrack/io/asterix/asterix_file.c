@@ -24,14 +24,15 @@ struct asterix_file {
     uint8_t category;
     size_t block_end; /* of the block under way; at: outside one */
     uint64_t records, bytes_skipped, places_skipped;
-    uint64_t others[256]; /* blocks of categories that are not read */
+    /* blocks of categories that are not read, and their records where these can be told apart */
+    uint64_t others[256], other_records[256];
 };
 
 /* ---- What sort of file ---- */
 
 static bool is_wanted(uint8_t category)
 {
-    return category == ASTERIX_SERVICE || category == ASTERIX_PLOTS;
+    return asterix_category_is_plots(category) || asterix_category_is_service(category);
 }
 
 bool asterix_block_is_good(const uint8_t *data, size_t size)
@@ -222,6 +223,22 @@ static void skip_bad(struct asterix_file *file, const struct asterix_error *erro
 
 /* ---- Records ---- */
 
+/* Of a block that is skipped, up to a bad one. */
+static uint64_t count_records(const struct asterix_block *block)
+{
+    struct asterix_record record;
+    struct asterix_error error;
+    uint64_t count = 0;
+
+    for (size_t at = 0;
+         at < block->size && asterix_record_read(block->category, block->records + at,
+                                                 block->size - at, &record, &error);
+         at += record.size) {
+        count++;
+    }
+    return count;
+}
+
 /* The next block that is read begins. Returns false at the end. */
 static bool next_block(struct asterix_file *file)
 {
@@ -243,6 +260,7 @@ static bool next_block(struct asterix_file *file)
             return true;
         } else {
             file->others[block.category]++;
+            file->other_records[block.category] += count_records(&block);
             file->at += ASTERIX_HEADER_BYTES + block.size;
         }
     }
@@ -297,7 +315,7 @@ struct asterix_place asterix_file_place(const char *path)
     }
     file = asterix_file_open(path, true);
     while (!service.place.is_given && asterix_file_next(file, &record)) {
-        if (record.category == ASTERIX_SERVICE) {
+        if (asterix_category_is_service(record.category)) {
             asterix_service_read(&record, &service);
         }
     }
@@ -307,21 +325,19 @@ struct asterix_place asterix_file_place(const char *path)
 
 /* ---- What was skipped ---- */
 
+/* A line a category. */
 static void report_others(const struct asterix_file *file)
 {
-    const char *between = "blocks of other categories left out: ";
-
     for (int i = 0; i < 256; i++) {
-        if (file->others[i] > 0) {
-            if (*between != ',') {
-                fprintf(stderr, "rhotrack: %s: ", file->path);
-            }
-            fprintf(stderr, "%s%" PRIu64 " of CAT%03d", between, file->others[i], i);
-            between = ", ";
+        if (file->others[i] == 0) {
+            continue;
         }
-    }
-    if (*between == ',') {
-        fputc('\n', stderr);
+        fprintf(stderr, "rhotrack: %s: CAT%03d left out: ", file->path, i);
+        if (file->other_records[i] > 0) {
+            fprintf(stderr, "%" PRIu64 " records in ", file->other_records[i]);
+        }
+        fprintf(stderr, "%" PRIu64 " blocks%s\n", file->others[i],
+                i == ASTERIX_TRACKS ? "; these are tracks" : "");
     }
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * asterix_file: the records of CAT034 and CAT048 of a recording: data blocks one after the other,
+ * asterix_file: the records of radars (CAT048, CAT034, CAT001, CAT002) of a recording: data blocks one after the other,
  * as they were sent; or those in the UDP datagrams of a network recording (captured_datagrams.h).
  *
- * Blocks of other categories are skipped and counted. A bad place is an error, `rhotrack: FILE:
+ * Blocks of other categories are skipped and counted, a line each. A bad place is an error, `rhotrack: FILE:
  * byte N: what is wrong`, exit 2; with keep_going the rest of its block is skipped, and where its
  * length is not to be believed all bytes up to the next block of these categories that is good as a
  * whole. In a network recording the place is `packet N, byte M of its content`; datagrams that are
@@ -18,11 +18,11 @@
 
 /*
  * Whether a file is a recording: a name that ends with .ast or .asterix, or a plain file that
- * begins with a data block of CAT034 or CAT048 that is good as a whole, or as a network recording.
+ * begins with a data block of such records that is good as a whole, or as a network recording.
  */
 bool asterix_file_is_asterix(const char *path);
 
-/* Whether a data block of CAT034 or CAT048 begins there of which every record can be read. */
+/* Whether such a data block begins there of which every record can be read. */
 bool asterix_block_is_good(const uint8_t *data, size_t size);
 
 /*

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The profiles of EUROCONTROL-SPEC-0149, parts 2b (CAT034), 4 (CAT048) and 9 (CAT062). */
+/*
+ * The profiles of EUROCONTROL-SPEC-0149, parts 2a (CAT001), 2b (CAT002, CAT034), 4 (CAT048) and 9
+ * (CAT062).
+ */
 #include "io/asterix/asterix_items.h"
 
 #define COUNT(list) (uint8_t)(sizeof(list) / sizeof(*(list)))
@@ -31,6 +34,54 @@
     {                                                                                              \
         "", ASTERIX_NONE, 0, 0, NULL                                                               \
     }
+
+#define ANY(name)                                                                                  \
+    {                                                                                              \
+        name, ASTERIX_ANY, 0, 0, NULL                                                              \
+    }
+
+/* ---- CAT001 ---- */
+
+static const struct asterix_item i001[I001_ITEMS] = {
+    FIXED("010", 2),
+    EXTENDED("020"),
+    FIXED("040", 4),
+    FIXED("070", 2),
+    FIXED("090", 2),
+    EXTENDED("130"),
+    FIXED("141", 2),
+    FIXED("050", 2),
+    FIXED("120", 1),
+    FIXED("131", 1),
+    FIXED("080", 2),
+    FIXED("100", 4),
+    FIXED("060", 2),
+    EXTENDED("030"),
+    FIXED("150", 1),
+    NONE,
+    NONE,
+    NONE,
+    NONE,
+    EXPLICIT("SP"),
+    ANY("RFS"),
+};
+
+static const struct asterix_item i001_track[I001_TRACK_ITEMS] = {
+    FIXED("010", 2), EXTENDED("020"), FIXED("161", 2), FIXED("040", 4), FIXED("042", 4),
+    FIXED("200", 4), FIXED("070", 2), FIXED("090", 2), FIXED("141", 2), EXTENDED("130"),
+    FIXED("131", 1), FIXED("120", 1), EXTENDED("170"), EXTENDED("210"), FIXED("050", 2),
+    FIXED("080", 2), FIXED("100", 4), FIXED("060", 2), EXTENDED("030"), EXPLICIT("SP"),
+    ANY("RFS"),      FIXED("150", 1),
+};
+
+/* ---- CAT002 ---- */
+
+static const struct asterix_item i002[I002_ITEMS] = {
+    FIXED("010", 2), FIXED("000", 1), FIXED("020", 1), FIXED("030", 3),
+    FIXED("041", 2), EXTENDED("050"), EXTENDED("060"), REPEATED("070", 2),
+    FIXED("100", 8), FIXED("090", 2), EXTENDED("080"), NONE,
+    EXPLICIT("SP"),  ANY("RFS"),
+};
 
 /* ---- CAT034 ---- */
 
@@ -166,11 +217,18 @@ static const struct asterix_item i062[I062_ITEMS] = {
     EXPLICIT("SP"),
 };
 
-const struct asterix_category *asterix_category_find(uint8_t category)
+const struct asterix_category *asterix_category_find(uint8_t category, bool is_track)
 {
-    static const struct asterix_category categories[] = {
-        {34, I034_ITEMS, i034}, {48, I048_ITEMS, i048}, {62, I062_ITEMS, i062}};
+    static const struct asterix_category tracks = {1, I001_TRACK_ITEMS, i001_track};
+    static const struct asterix_category categories[] = {{1, I001_ITEMS, i001},
+                                                         {2, I002_ITEMS, i002},
+                                                         {34, I034_ITEMS, i034},
+                                                         {48, I048_ITEMS, i048},
+                                                         {62, I062_ITEMS, i062}};
 
+    if (category == tracks.category && is_track) {
+        return &tracks;
+    }
     for (size_t i = 0; i < sizeof categories / sizeof *categories; i++) {
         if (categories[i].category == category) {
             return &categories[i];

@@ -5,6 +5,7 @@
 #ifndef RHOTRACK_TOOL_ASTERIX_ITEMS_H
 #define RHOTRACK_TOOL_ASTERIX_ITEMS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,6 +16,7 @@ enum asterix_form {
     ASTERIX_REPEATED,    /* a count, then so many times `bytes` */
     ASTERIX_REPEATED_FX, /* times `bytes`, the last of which has its last bit clear */
     ASTERIX_EXPLICIT,    /* its own length in the first byte */
+    ASTERIX_ANY,         /* a count, then so many times a place of the profile and its item */
     ASTERIX_COMPOUND     /* as a record: which parts are there, then these */
 };
 
@@ -32,10 +34,12 @@ struct asterix_category {
     const struct asterix_item *items;
 };
 
-/* NULL where the category is not known. */
-const struct asterix_category *asterix_category_find(uint8_t category);
+/* NULL where the category is not known. CAT001 has two profiles. */
+const struct asterix_category *asterix_category_find(uint8_t category, bool is_track);
 
 /* Places in the profiles. */
+enum { I001_020 = 1, I001_ITEMS = 21, I001_TRACK_ITEMS = 22 };
+enum { I002_010 = 0, I002_000, I002_020, I002_030, I002_041, I002_ITEMS = 14 };
 enum { I034_010 = 0, I034_000, I034_030, I034_020, I034_041, I034_120 = 10, I034_ITEMS = 14 };
 enum {
     I048_010 = 0,

@@ -171,7 +171,7 @@ struct asterix_records {
     uint64_t order, late;
     uint32_t line;     /* of the next one in the CSV file that says the same */
     int64_t given_128; /* the newest row's that was given out */
-    bool has_given, is_over;
+    bool has_given, is_over, is_hushed;
     bool has_interval; /* plots of radars without crossings become scans here */
     int32_t placeless[ASTERIX_MAX_SENSORS]; /* radars whose place nobody says, beside others */
     size_t num_placeless;
@@ -251,7 +251,7 @@ static bool note_contents(struct asterix_records *records, const struct asterix_
     struct asterix_plot plot;
 
     asterix_scans_look(records->scans, record);
-    if (record->category == ASTERIX_PLOTS) {
+    if (asterix_category_is_plots(record->category)) {
         asterix_plot_read(record, &plot);
         return plot.has_position;
     }
@@ -276,7 +276,8 @@ static void look_through(struct asterix_records *records, bool keep_going)
     }
     if (!has_any) {
         fail(EXIT_USAGE,
-             "%s: not one plot (CAT048), north marker or sector crossing (CAT034) in it",
+             "%s: not one plot (CAT048, CAT001), north marker or sector crossing (CAT034, CAT002) "
+             "in it",
              records->path);
     }
     asterix_file_close(file);
@@ -322,6 +323,11 @@ struct asterix_records *asterix_records_open(const char *path, const struct para
     }
     records->file = asterix_file_open(path, keep_going);
     return records;
+}
+
+void asterix_records_hush(struct asterix_records *records)
+{
+    records->is_hushed = true;
 }
 
 /* ---- Rows ---- */
@@ -399,8 +405,8 @@ static void report(const struct asterix_records *records)
     }
     if (!records->columns.has_scan) {
         fprintf(stderr,
-                "rhotrack: %s: no north markers or sector crossings in it: plots of one time are a "
-                "scan, but for scan_interval_s\n",
+                "rhotrack: %s: no north markers or sector crossings in it: scans follow from the "
+                "plots' times, or from scan_interval_s\n",
                 records->path);
     }
 }
@@ -417,7 +423,7 @@ static void take_record(struct asterix_records *records)
         records->is_over = true;
     }
     add_scans(records);
-    if (records->is_over) {
+    if (records->is_over && !records->is_hushed) {
         report(records);
     }
 }

@@ -28,6 +28,9 @@ struct asterix_records;
 struct asterix_records *asterix_records_open(const char *path, const struct parameters *parameters,
                                              bool keep_going);
 
+/* Nothing is said at the end. */
+void asterix_records_hush(struct asterix_records *records);
+
 /* The refusal of tracks that are given as input. */
 extern const char asterix_records_no_tracks[];
 

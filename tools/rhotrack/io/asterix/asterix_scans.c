@@ -18,7 +18,9 @@ struct asterix_scans {
     struct asterix_sensor *sensors; /* ASTERIX_MAX_SENSORS of them */
     size_t num_sensors;
     bool has_start, has_clock, is_over;
-    int64_t start_128;          /* near the first time */
+    int64_t start_128; /* near the first time */
+    bool has_hint;
+    int64_t hint_128;           /* a time of day that is near to truncated ones */
     int64_t clock_128;          /* the latest of all */
     struct asterix_scan *ready; /* with marks of their own */
     size_t num_ready, ready_capacity, next_ready;
@@ -247,6 +249,21 @@ static bool take_time(struct asterix_scans *scans, struct asterix_sensor *sensor
     return true;
 }
 
+/* The time of day that is nearest to what is known, of one that lacks multiples of 512 s. */
+static uint32_t complete_time(const struct asterix_scans *scans,
+                              const struct asterix_sensor *sensor, uint32_t truncated_128)
+{
+    const int64_t near_128 = sensor->has_clock  ? sensor->clock_128
+                             : scans->has_clock ? scans->clock_128
+                             : scans->has_hint  ? scans->hint_128
+                             : scans->has_start ? scans->start_128
+                                                : (int64_t)truncated_128;
+    const int64_t later_128 = (int16_t)(uint16_t)((uint64_t)truncated_128 - (uint64_t)near_128);
+    const int64_t of_day_128 = (near_128 + later_128) % ASTERIX_DAY;
+
+    return (uint32_t)(of_day_128 < 0 ? of_day_128 + ASTERIX_DAY : of_day_128);
+}
+
 /* A radar without crossings is waited for so long, but where that is known. */
 static void end_waiting(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
@@ -325,6 +342,7 @@ static void take_plot(struct asterix_scans *scans, const struct asterix_plot *pl
 {
     uint64_t *count = why_not(&scans->counts, plot);
     struct asterix_sensor *sensor;
+    uint32_t of_day_128 = plot->time_128;
     int64_t time_128;
 
     scans->counts.plots++;
@@ -333,9 +351,12 @@ static void take_plot(struct asterix_scans *scans, const struct asterix_plot *pl
         return;
     }
     sensor = find_sensor(scans, &plot->source);
+    if (sensor && plot->is_time_truncated) {
+        of_day_128 = complete_time(scans, sensor, plot->time_128);
+    }
     if (!sensor) {
         scans->counts.no_room++;
-    } else if (!take_time(scans, sensor, plot->time_128, &time_128)) {
+    } else if (!take_time(scans, sensor, of_day_128, &time_128)) {
         scans->counts.bad_times++;
     } else {
         const struct asterix_mark mark = mark_of(plot, time_128, &scans->counts);
@@ -389,12 +410,12 @@ static void take_service(struct asterix_scans *scans, const struct asterix_servi
 
 void asterix_scans_take(struct asterix_scans *scans, const struct asterix_record *record)
 {
-    if (record->category == ASTERIX_PLOTS) {
+    if (asterix_category_is_plots(record->category)) {
         struct asterix_plot plot;
 
         asterix_plot_read(record, &plot);
         take_plot(scans, &plot);
-    } else if (record->category == ASTERIX_SERVICE) {
+    } else if (asterix_category_is_service(record->category)) {
         struct asterix_service service;
 
         asterix_service_read(record, &service);
@@ -406,12 +427,12 @@ void asterix_scans_look(struct asterix_scans *scans, const struct asterix_record
 {
     struct asterix_sensor *sensor = NULL;
 
-    if (record->category == ASTERIX_PLOTS) {
+    if (asterix_category_is_plots(record->category)) {
         struct asterix_plot plot;
 
         asterix_plot_read(record, &plot);
         sensor = plot.source.is_given ? find_sensor(scans, &plot.source) : NULL;
-    } else if (record->category == ASTERIX_SERVICE) {
+    } else if (asterix_category_is_service(record->category)) {
         struct asterix_service service;
 
         asterix_service_read(record, &service);
@@ -419,6 +440,10 @@ void asterix_scans_look(struct asterix_scans *scans, const struct asterix_record
         if (sensor) {
             learn(sensor, &service);
             sensor->has_crossings |= is_crossing(&service);
+            if (service.has_time && !scans->has_hint) {
+                scans->has_hint = true;
+                scans->hint_128 = service.time_128;
+            }
         }
     }
     if (sensor) {

@@ -2,7 +2,7 @@
 /*
  * asterix_scans: what radars say in ASTERIX, put together to scans.
  *
- * A radar that tells its antenna's crossings (CAT034: north markers, sector crossings) has a look
+ * A radar that tells its antenna's crossings (CAT034, CAT002: north markers, sectors) has a look
  * from each to the next: a sector, or a whole turn, with plots or without. A plot belongs to the
  * look that saw its azimuth nearest to its time, whatever order the messages come in; a look is
  * complete hold_s after its end. Plots before the first crossing have looks as wide as the first,
@@ -21,7 +21,8 @@
 
 struct asterix_mark {
     int64_t time_128; /* since the midnight before the first record */
-    uint16_t range, azimuth;
+    uint32_t range;
+    uint16_t azimuth;
     bool has_alt, has_doppler;
     int16_t alt; /* in ASTERIX_HEIGHT_M: of a 3-D radar, else the flight level */
     bool
@@ -45,7 +46,7 @@ struct asterix_scan {
 
 /* Counts of the records' fates; those of plots add up to `plots`. */
 struct asterix_counts {
-    uint64_t plots, services; /* records of CAT048 and CAT034 */
+    uint64_t plots, services; /* records of both kinds */
     uint64_t placed;          /* plots: in a scan */
     uint64_t not_real;        /* simulated, test targets, field monitors */
     uint64_t no_detection;    /* a radar's own track, predicted */
@@ -99,7 +100,7 @@ bool asterix_scans_sensor(const struct asterix_scans *scans, size_t index, int32
  */
 void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128);
 
-/* Takes a record of CAT034 or CAT048. */
+/* Takes a record of a radar's plots, or of its antenna. */
 void asterix_scans_take(struct asterix_scans *scans, const struct asterix_record *record);
 
 /* Nothing comes any more: what there is becomes scans. */

@@ -50,7 +50,8 @@ void asterix_datagram_take(struct asterix_scans *scans, const uint8_t *data, siz
             heard->bad++;
             return;
         }
-        if (block.category != ASTERIX_PLOTS && block.category != ASTERIX_SERVICE) {
+        if (!asterix_category_is_plots(block.category) &&
+            !asterix_category_is_service(block.category)) {
             heard->others++;
         } else if (!take_block(scans, &block)) {
             heard->bad++;

@@ -97,7 +97,7 @@ static void read_identity(const struct asterix_record *record, struct asterix_pl
     plot->track = track ? (uint16_t)(read_unsigned(track, 2) & 0xfff) : 0;
 }
 
-void asterix_plot_read(const struct asterix_record *record, struct asterix_plot *plot)
+static void read_plot(const struct asterix_record *record, struct asterix_plot *plot)
 {
     const uint8_t *time = record->items[I048_140], *position = record->items[I048_040];
 
@@ -121,7 +121,60 @@ void asterix_plot_read(const struct asterix_record *record, struct asterix_plot 
     read_identity(record, plot);
 }
 
-/* ---- CAT034 ---- */
+/* ---- CAT001 ---- */
+
+/* Items of both profiles, and where they are: of plots, of tracks. */
+enum { OLD_010, OLD_020, OLD_040, OLD_070, OLD_090, OLD_120, OLD_141, OLD_161, NUM_OLD };
+
+static const uint8_t *old_item(const struct asterix_record *record, int item)
+{
+    static const int places[2][NUM_OLD] = {{0, 1, 2, 3, 4, 8, 6, -1}, {0, 1, 3, 6, 7, 11, 8, 2}};
+    const int place = places[record->is_track][item];
+
+    return place < 0 ? NULL : record->items[place];
+}
+
+/* 020: its second byte is there where the first has its last bit set. Doppler speeds are raw. */
+static void read_old_plot(const struct asterix_record *record, struct asterix_plot *plot)
+{
+    const uint8_t *type = old_item(record, OLD_020), *position = old_item(record, OLD_040);
+    const uint8_t *time = old_item(record, OLD_141), *level = old_item(record, OLD_090);
+    const uint8_t *mode_a = old_item(record, OLD_070), *track = old_item(record, OLD_161);
+
+    *plot = (struct asterix_plot){.source = read_source(old_item(record, OLD_010)),
+                                  .has_time = time,
+                                  .is_time_truncated = time,
+                                  .has_type = type,
+                                  .has_position = position,
+                                  .has_level = level,
+                                  .has_raw_doppler = old_item(record, OLD_120),
+                                  .has_mode_a = mode_a,
+                                  .has_track = track};
+    plot->time_128 = time ? read_unsigned(time, 2) : 0;
+    if (type) {
+        plot->type = type[0] >> 4 & 3;
+        plot->is_simulated = type[0] >> 6 & 1;
+        plot->is_fixed = type[0] >> 1 & 1;
+        plot->is_test = (type[0] & 1) && type[1] >> 7;
+    }
+    plot->range = position ? 2 * read_unsigned(position, 2) : 0;
+    plot->azimuth = position ? (uint16_t)read_unsigned(position + 2, 2) : 0;
+    plot->is_level_bad = level && level[0] >> 6 != 0;
+    plot->level = level ? (int16_t)sign(read_unsigned(level, 2), 14) : 0;
+    plot->mode_a = mode_a ? (uint16_t)(read_unsigned(mode_a, 2) & 0xfff) : 0;
+    plot->track = track ? (uint16_t)read_unsigned(track, 2) : 0;
+}
+
+void asterix_plot_read(const struct asterix_record *record, struct asterix_plot *plot)
+{
+    if (record->category == ASTERIX_OLD_PLOTS) {
+        read_old_plot(record, plot);
+    } else {
+        read_plot(record, plot);
+    }
+}
+
+/* ---- CAT034, CAT002 ---- */
 
 #define QUARTER_TURN 4194304 /* 90 degrees */
 
@@ -145,8 +198,11 @@ static void read_place(const uint8_t *item, struct asterix_service *service)
 
 void asterix_service_read(const struct asterix_record *record, struct asterix_service *service)
 {
-    const uint8_t *type = record->items[I034_000], *time = record->items[I034_030];
-    const uint8_t *sector = record->items[I034_020], *period = record->items[I034_041];
+    const bool is_old = record->category == ASTERIX_OLD_SERVICE;
+    const uint8_t *type = record->items[is_old ? I002_000 : I034_000];
+    const uint8_t *time = record->items[is_old ? I002_030 : I034_030];
+    const uint8_t *sector = record->items[is_old ? I002_020 : I034_020];
+    const uint8_t *period = record->items[is_old ? I002_041 : I034_041];
 
     *service = (struct asterix_service){.source = read_source(record->items[I034_010])};
     service->has_type = type;
@@ -157,7 +213,7 @@ void asterix_service_read(const struct asterix_record *record, struct asterix_se
     service->sector = sector ? sector[0] : 0;
     service->has_period = period;
     service->period_128 = period ? (uint16_t)read_unsigned(period, 2) : 0;
-    if (record->items[I034_120]) {
+    if (!is_old && record->items[I034_120]) {
         read_place(record->items[I034_120], service);
     }
 }

@@ -384,7 +384,8 @@ static const char *name_binary(const uint8_t *start, size_t bytes, bool is_file)
     if (start[0] == ASTERIX_TRACKS) {
         return asterix_records_no_tracks;
     }
-    if (start[0] != ASTERIX_PLOTS && start[0] != ASTERIX_SERVICE) {
+    if (!asterix_category_is_plots((uint8_t)start[0]) &&
+        !asterix_category_is_service((uint8_t)start[0])) {
         return NULL;
     }
     return is_file ? "ASTERIX with a bad first block: named NAME.ast it is read, and says where"
@@ -657,6 +658,13 @@ enum table_stream_found table_stream_next(struct table_stream *stream)
         check_header(stream);
     }
     return found;
+}
+
+void table_stream_hush(struct table_stream *stream)
+{
+    if (stream->asterix) {
+        asterix_records_hush(stream->asterix);
+    }
 }
 
 const struct table *table_stream_table(const struct table_stream *stream)

@@ -33,6 +33,9 @@ struct table_stream *table_stream_open(const char *path, const struct parameters
  */
 enum table_stream_found table_stream_next(struct table_stream *stream);
 
+/* Nothing is said at the end of what was skipped: of a stream that only looks. */
+void table_stream_hush(struct table_stream *stream);
+
 /* The stream's own: names, once there is a header, and the newest row. */
 const struct table *table_stream_table(const struct table_stream *stream);
 

@@ -4,7 +4,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/common.h"
 #include "io/scans/turn_search.h"
@@ -14,6 +13,7 @@
 #define GAIN 0.2              /* by which a plot corrects where the antenna is */
 #define ASTRAY_RAD (M_PI / 3) /* a plot so far from where the antenna looks tells nothing */
 #define LOST_TURNS 2.0        /* without a plot: the antenna is wherever the next one says */
+#define SAID_MAX 64           /* files */
 #define TURN_RAD (2 * M_PI)
 
 struct antenna {
@@ -70,20 +70,25 @@ bool antenna_turns_look(struct antenna_turns *turns, int32_t sensor_id, int64_t 
     return ++turns->looked < LOOKED_MAX;
 }
 
-/* A file that is played again and again is named once. */
+/* A file that is played again and again is named once, known by a sum over its path. */
 static bool is_said(const char *path)
 {
-    static char *said[64];
-    size_t i = 0;
+    static uint64_t said[SAID_MAX];
+    static size_t num_said;
+    uint64_t sum = 14695981039346656037u;
 
-    while (i < sizeof said / sizeof *said && said[i] && strcmp(said[i], path) != 0) {
-        i++;
+    for (; *path; path++) {
+        sum = (sum ^ (uint8_t)*path) * 1099511628211u;
     }
-    if (i < sizeof said / sizeof *said && !said[i]) {
-        said[i] = must_copy(path);
-        return false;
+    for (size_t i = 0; i < num_said; i++) {
+        if (said[i] == sum) {
+            return true;
+        }
     }
-    return i < sizeof said / sizeof *said;
+    if (num_said < SAID_MAX) {
+        said[num_said++] = sum;
+    }
+    return false;
 }
 
 static void say(const struct antenna *antenna, const char *path)

@@ -392,21 +392,35 @@ static bool may_have_turns(const struct scan_source *source)
            S_ISREG(status.st_mode);
 }
 
-/* Looks at the first rows for turns of antennas. */
+static void open_stream(struct scan_source *source)
+{
+    source->stream = table_stream_open(source->path, source->parameters, source->options.keep_going,
+                                       source->options.follow);
+    find_columns(source, table_stream_table(source->stream));
+}
+
+static void close_stream(struct scan_source *source)
+{
+    record_columns_free(&source->columns);
+    table_stream_close(source->stream);
+    source->has_columns = false;
+}
+
+/* Looks at the first rows for turns of antennas. The source's own stream is not open. */
 static void find_turns(struct scan_source *source)
 {
-    struct table_stream *stream;
+    struct table_stream *stream =
+        table_stream_open(source->path, source->parameters, true, source->options.follow);
+    struct record_columns columns = record_columns_find(
+        table_stream_table(stream), source->parameters, source->options.kind, false);
     struct record row;
     char reason[ROW_REASON_BYTES];
     bool goes_on = true;
 
-    if (!may_have_turns(source)) {
-        return;
-    }
-    stream = table_stream_open(source->path, source->parameters, true, source->options.follow);
+    table_stream_hush(stream);
     source->turns = antenna_turns_start();
     while (goes_on && table_stream_next(stream) == TABLE_STREAM_ROW) {
-        if (record_read(table_stream_table(stream), &source->columns, 0, source->parameters, &row,
+        if (record_read(table_stream_table(stream), &columns, 0, source->parameters, &row,
                         reason) &&
             row.has_measurement) {
             goes_on = antenna_turns_look(source->turns, row.sensor_id, row.time_us,
@@ -414,11 +428,10 @@ static void find_turns(struct scan_source *source)
                                          (double)row.plot.y_m - (double)row.sensor.y_m);
         }
     }
+    record_columns_free(&columns);
     table_stream_close(stream);
-    if (antenna_turns_decide(source->turns, source->path,
-                             source->parameters->value[PARAMETER_V_MAX_MPS])) {
-        source->gather.begun_max = 1;
-    } else {
+    if (!antenna_turns_decide(source->turns, source->path,
+                              source->parameters->value[PARAMETER_V_MAX_MPS])) {
         antenna_turns_free(source->turns);
         source->turns = NULL;
     }
@@ -428,8 +441,6 @@ static void open_table(struct scan_source *source)
 {
     int32_t least_us;
 
-    source->stream = table_stream_open(source->path, source->parameters, source->options.keep_going,
-                                       source->options.follow);
     gather_start(&source->gather,
                  source->options.kind == RECORD_BEARINGS ? sizeof(struct rho_bearing)
                                                          : sizeof(struct rho_plot),
@@ -437,8 +448,13 @@ static void open_table(struct scan_source *source)
     parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);
     source->gather.begun_max = source->options.follow ? FOLLOW_BEGUN_MAX : 0;
     source->reorder.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
-    find_columns(source, table_stream_table(source->stream));
-    find_turns(source);
+    open_stream(source);
+    if (may_have_turns(source)) {
+        close_stream(source);
+        find_turns(source);
+        open_stream(source);
+        source->gather.begun_max = source->turns ? 1 : source->gather.begun_max;
+    }
 }
 
 /*
@@ -477,8 +493,7 @@ static void close_table(struct scan_source *source)
 {
     gather_free(&source->gather);
     antenna_turns_free(source->turns);
-    record_columns_free(&source->columns);
-    table_stream_close(source->stream);
+    close_stream(source);
 }
 
 void scan_source_rewind(struct scan_source *source)

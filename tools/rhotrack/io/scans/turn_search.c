@@ -201,9 +201,12 @@ static bool find_azimuths(const struct turn_plot *plots, size_t count, double v_
         return false;
     }
     rule->rate_rad_s = find_rate(&fitted);
+    if (fabs(rule->rate_rad_s) < TURN_RAD / TURN_MAX_S) {
+        return false;
+    }
     turn_s = TURN_RAD / fabs(rule->rate_rad_s);
-    if (!(turn_s <= TURN_MAX_S) || span_s < 2 * turn_s ||
-        (double)num * turn_s < PLOTS_A_TURN * span_s || may_be_target(plots, num, v_max_mps)) {
+    if (span_s < 2 * turn_s || (double)num * turn_s < PLOTS_A_TURN * span_s ||
+        may_be_target(plots, num, v_max_mps)) {
         return false;
     }
     rule->kind = TURN_AZIMUTHS;
