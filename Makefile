@@ -10,12 +10,13 @@
 #   FUZZ_SECONDS=60   how long `make fuzz` runs, all targets together; FUZZ_SECONDS_EACH= each of them
 #   RHO_CONFIG_FILE=  a header with capacities of your own for build/librhotrack.a (include/rhotrack/config.h)
 #   CROSS=riscv64-unknown-elf-  compilers of `make budget`, by their prefix (default arm-none-eabi-)
+#   PACKAGER='NAME <MAIL>', URL=  whose packages `make packages` and `make deb` write
 #   PREFIX=, DESTDIR= where `make install` puts things (default /usr/local); BINDIR=, LIBDIR=, INCLUDEDIR=, DOCDIR=,
 #                     UNITDIR= (systemd), SYSCONFDIR= single folders
 #   PROFILE=workstation  installs the library of that profile (default embedded)
 #   LAB='--runs 5'    options of all experiments of `make experiments` (tools/lab/README.md)
 
-VERSION := 0.1.0
+VERSION := $(shell awk '$$2 ~ /^RHO_VERSION_[MP]/ {v = v s $$3; s = "."} END {print v}' include/rhotrack/version.h)
 BUILD := build
 # One folder has one name: objects built as one path are found by it.
 override BUILD := $(patsubst $(CURDIR)/%,%,$(BUILD))
@@ -130,7 +131,7 @@ endif
 
 $(lab_objects): private program_flags += -Itools/lab/c
 $(BUILD)/program/%.o: %.c Makefile
-	$(call compile,$(program_flags) -DRHOTRACK_VERSION='"$(VERSION)"') -c -o $@ $<
+	$(call compile,$(program_flags)) -c -o $@ $<
 
 # The shipped scenes as texts in the program.
 $(BUILD)/program/scenes.c: $(scenes) Makefile
@@ -193,6 +194,24 @@ python-dist:
 	@tools/setup.sh
 	@tools/setup.sh python
 	@BUILD=$(BUILD) tools/python/dist.sh
+
+packages := $(BUILD)/packages
+.PHONY: packages deb
+## Packages for Arduino, PlatformIO, ESP-IDF, Zephyr, CMSIS, vcpkg, Conan, Meson (build/packages; PACKAGER='NAME <MAIL>', URL=)
+packages:
+	@tools/packaging/package.py $(if $(PACKAGER),--packager='$(PACKAGER)') $(if $(URL),--url='$(URL)') $(packages)
+	@ls -d $(packages)/*
+
+## Debian packages: the program with its service, and the library (build/packages/*.deb)
+deb: packages
+	@tools/setup.sh
+	@tools/setup.sh packages
+	@rm -rf $(packages)/deb/rhotrack $(packages)/*.deb && mkdir -p $(packages)/deb/rhotrack && \
+	    mv $(packages)/debian $(packages)/deb/rhotrack && cp CHANGELOG.md $(packages)/deb/rhotrack/NEWS.md && \
+	    cd $(packages)/deb/rhotrack && { env -u MAKEFLAGS -u MAKELEVEL DEB_BUILD_OPTIONS="noautodbgsym parallel=$$(nproc)" \
+	    dpkg-buildpackage -b -uc -us >../log 2>&1 || { tail -n 20 ../log; exit 1; }; } && \
+	    mv ../*.deb ../..
+	@ls $(packages)/*.deb
 
 .PHONY: docs
 ## Set up what is missing, and write the documentation as pages (build/docs/html/index.html)
@@ -311,6 +330,7 @@ test-rest:
 	@tools/setup.sh
 	@tools/setup.sh firmware
 	@tools/setup.sh python
+	@tools/setup.sh packages
 	@tools/setup.sh browser
 	@BUILD=$(BUILD) tools/python.sh
 	-@$(MAKE) --no-print-directory python # without it, tests of the lab's scripts say that they are skipped

@@ -4,8 +4,8 @@
 # when none is. `setup.sh firmware`: the compilers and emulators for other processors instead;
 # `setup.sh spy`: what the viewer for lcm-spy (make spy) needs; `setup.sh lab`: what the experiments
 # in Python (make experiments) import; `setup.sh docs`: what the documentation (make docs) is written
-# with; `setup.sh python`: what the package for Python is built with; `setup.sh browser`: what the
-# pages of `plot -o NAME.html` are tested in.
+# with; `setup.sh python`: what the package for Python is built with; `setup.sh packages`: what the
+# other packages are; `setup.sh browser`: what the pages of `plot -o NAME.html` are tested in.
 set -eu
 
 packages='
@@ -84,6 +84,15 @@ python3-dev         # headers of Debian Python
 browser_packages='
 chromium            # opens pages, driven over a pipe
 '
+packages_packages='
+dpkg-dev            # make deb
+debhelper
+help2man            # ... the manual page
+lintian             # tests of packages
+meson
+ninja-build
+libxml2-utils       # xmllint
+'
 case ${1:-} in
 '') ;;
 firmware) packages=$firmware_packages ;;
@@ -92,8 +101,9 @@ lab) packages=$lab_packages ;;
 docs) packages=$docs_packages ;;
 python) packages=$python_packages ;;
 browser) packages=$browser_packages ;;
+packages) packages=$packages_packages ;;
 *)
-    echo "setup: unknown: $1 (there is: firmware, spy, lab, docs, python, browser)" >&2
+    echo "setup: unknown: $1 (there is: firmware, spy, lab, docs, python, packages, browser)" >&2
     exit 2
     ;;
 esac

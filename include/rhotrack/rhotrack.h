@@ -15,6 +15,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/status.h"
 #include "rhotrack/types.h"
+#include "rhotrack/version.h"
 
 /* tracking */
 #include "rhotrack/excluded_areas.h"

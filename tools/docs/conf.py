@@ -6,8 +6,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 
 project = "rhotrack"
-version = release = re.search(r"^VERSION := (\S+)", (HERE.parents[1] / "Makefile").read_text(),
-                              re.MULTILINE)[1]
+header = (HERE.parents[1] / "include/rhotrack/version.h").read_text()
+version = release = ".".join(re.findall(r"^#define RHO_VERSION_\w+ (\d+)", header, re.MULTILINE))
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_gallery.gen_gallery"]
 source_suffix = {".rst": "restructuredtext", ".md": "markdown"}
 html_theme = "furo"

@@ -10,10 +10,7 @@
 #include "command_line.h"
 #include "commands.h"
 #include "io/csv/table_form.h"
-
-#ifndef RHOTRACK_VERSION
-#define RHOTRACK_VERSION "0.1.0"
-#endif
+#include "rhotrack/version.h"
 
 #define INPUT_FORMATS                                                                              \
     "Plots in CSV have t_s,sensor_id and x_m,y_m[,z_m] or range_m,azimuth_rad; for places also\n"  \
@@ -231,7 +228,8 @@ static void print_version(void)
 {
     struct output output = output_open(NULL);
 
-    fprintf(output.file, "rhotrack %s\n", RHOTRACK_VERSION);
+    fprintf(output.file, "rhotrack %d.%d.%d\n", RHO_VERSION_MAJOR, RHO_VERSION_MINOR,
+            RHO_VERSION_PATCH);
     output_close(&output);
 }
 
