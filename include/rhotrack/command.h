@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * command: an operator's messages, command_t on RHO_COMMANDS, and what a tracker answers to them,
- * command_answer_t on RHO_COMMAND_ANSWERS.
+ * command_answer_t on RHO_COMMAND_ANSWERS. And settings, setting_t on RHO_SETTINGS, with
+ * setting_answer_t on RHO_SETTING_ANSWERS.
  *
  *     if (rho_message_command_decode(data, size, &command) == RHO_OK &&
  *         rho_message_command_validate(&command, NULL) == RHO_OK) {
@@ -18,6 +19,7 @@
 #define RHOTRACK_COMMAND_H
 
 #include "rhotrack/message.h"
+#include "rhotrack/settings.h"
 #include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
 
@@ -35,6 +37,24 @@ RHO_MUST_CHECK enum rho_status rho_command_run(const struct rho_message_command 
                                                struct rho_tracker *tracker,
                                                struct rho_report *report,
                                                struct rho_message_command_answer *answer);
+
+/*
+ * Changes one of the settings that the caller keeps, and fills the answer but for utime, scan and
+ * epoch, which are 0. Where it is changed the caller applies the settings to tracker, initiators
+ * and descriptions of sensors (settings.h); the answer says when that takes effect.
+ * Errors: NULL, VALUE (no such field, no number, or a fraction where a whole number is wanted), CONFIG (this
+ * or another field would be outside its range: the answer's fault_field, value, min and max), which
+ * are the answer's status, too; the settings are unchanged. Constant cost. Stack: 440 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_command_set(const struct rho_message_setting *setting,
+                                               struct rho_settings *settings,
+                                               struct rho_message_setting_answer *answer);
+
+/*
+ * The name of a message's field, as in struct rho_settings; NULL: there is none. Constant cost.
+ * Stack: 8 bytes.
+ */
+const char *rho_command_setting_name(int field);
 
 #ifdef __cplusplus
 }

@@ -60,6 +60,8 @@ enum rho_message_type {
     RHO_MESSAGE_TYPE_PLOT,
     RHO_MESSAGE_TYPE_POLAR_PLOT,
     RHO_MESSAGE_TYPE_SENSOR,
+    RHO_MESSAGE_TYPE_SETTING_ANSWER,
+    RHO_MESSAGE_TYPE_SETTING,
     RHO_MESSAGE_TYPE_STATUS,
     RHO_MESSAGE_TYPE_TRACK,
     RHO_MESSAGE_TYPE_TRUTH,
@@ -509,6 +511,86 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_decode(
 RHO_MUST_CHECK enum rho_status rho_message_sensor_validate(
     const struct rho_message_sensor *message, struct rho_message_place *place);
 const char *rho_message_sensor_field(const struct rho_message_place *place);
+
+/* ---- setting_answer_t ---- */
+
+/* What has become of a setting_t. Channel RHO_SETTING_ANSWERS. */
+
+#define RHO_MESSAGE_SETTING_ANSWER_CHANNEL "RHO_SETTING_ANSWERS"
+#define RHO_MESSAGE_SETTING_ANSWER_FINGERPRINT UINT64_C(0x9badd0eed11621c3)
+#define RHO_MESSAGE_SETTING_ANSWER_MAX_SIZE 46u
+#define RHO_MESSAGE_SETTING_ANSWER_NEVER 0
+#define RHO_MESSAGE_SETTING_ANSWER_STEP 1
+#define RHO_MESSAGE_SETTING_ANSWER_WINDOW 2
+#define RHO_MESSAGE_SETTING_ANSWER_SENSOR 3
+#define RHO_MESSAGE_SETTING_ANSWER_PLOT 4
+
+struct rho_message_setting_answer {
+    /*
+     * of the step after which it was changed or refused, us; -4000000000000000000 ..
+     * 4000000000000000000
+     */
+    int64_t utime;
+    int32_t scan; /* number of this step, as in RHO_TRACKS */
+    int32_t epoch; /* the tracker's boot number: another one after each restart */
+    int32_t number; /* of the setting_t */
+    int16_t field; /* of the setting_t; 0 .. 32767 */
+    int8_t status; /* 0: changed; else refused, by enum rho_status of rhotrack/status.h; 0 .. 127 */
+    int8_t applies; /* when; one of NEVER, STEP, WINDOW, SENSOR, PLOT */
+    int16_t fault_field; /* that would be outside its range, this one or another; 0 .. 32767 */
+    float value; /* that the field has; of a fault the value that it would have */
+    float min; /* of a fault: the range that is allowed */
+    float max;
+};
+RHO_MUST_CHECK enum rho_status rho_message_setting_answer_encode(
+    const struct rho_message_setting_answer *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_setting_answer_decode(
+    const uint8_t *data, size_t size, struct rho_message_setting_answer *message);
+RHO_MUST_CHECK enum rho_status rho_message_setting_answer_validate(
+    const struct rho_message_setting_answer *message, struct rho_message_place *place);
+const char *rho_message_setting_answer_field(const struct rho_message_place *place);
+
+/* ---- setting_t ---- */
+
+/*
+ * One setting of a tracker that an operator wants another way (struct rho_settings): after the next
+ */
+/* step it is changed, and answered by setting_answer_t. Channel RHO_SETTINGS. */
+
+#define RHO_MESSAGE_SETTING_CHANNEL "RHO_SETTINGS"
+#define RHO_MESSAGE_SETTING_FINGERPRINT UINT64_C(0x54c7e8e8af12efbd)
+#define RHO_MESSAGE_SETTING_MAX_SIZE 26u
+#define RHO_MESSAGE_SETTING_V_MIN_MPS 1
+#define RHO_MESSAGE_SETTING_V_MAX_MPS 2
+#define RHO_MESSAGE_SETTING_ACCEL_MAX_MPS2 3
+#define RHO_MESSAGE_SETTING_PD 4
+#define RHO_MESSAGE_SETTING_SCAN_INTERVAL_S 5
+#define RHO_MESSAGE_SETTING_SIGMA_RANGE_M 6
+#define RHO_MESSAGE_SETTING_SIGMA_AZIMUTH_RAD 7
+#define RHO_MESSAGE_SETTING_SIGMA_ELEVATION_RAD 8
+#define RHO_MESSAGE_SETTING_SIGMA_RANGE_RATE_MPS 9
+#define RHO_MESSAGE_SETTING_SIGMA_RAD 10
+#define RHO_MESSAGE_SETTING_RANGE_MIN_M 11
+#define RHO_MESSAGE_SETTING_RANGE_MAX_M 12
+#define RHO_MESSAGE_SETTING_SCANS 13
+#define RHO_MESSAGE_SETTING_MIN_SCANS 14
+#define RHO_MESSAGE_SETTING_COAST_SCANS_MAX 15
+#define RHO_MESSAGE_SETTING_FALSE_TRACKS_PER_HOUR 16
+#define RHO_MESSAGE_SETTING_WORK_MAX 17
+
+struct rho_message_setting {
+    int64_t utime; /* when it was sent, us; -4000000000000000000 .. 4000000000000000000 */
+    int32_t number; /* the sender's: the answer repeats it */
+    int16_t field; /* which setting; 1 .. 17 */
+    float value; /* that it is to have */
+};
+RHO_MUST_CHECK enum rho_status rho_message_setting_encode(
+    const struct rho_message_setting *message, uint8_t *buffer, size_t capacity, size_t *size);
+RHO_MUST_CHECK enum rho_status rho_message_setting_decode(
+    const uint8_t *data, size_t size, struct rho_message_setting *message);
+RHO_MUST_CHECK enum rho_status rho_message_setting_validate(
+    const struct rho_message_setting *message, struct rho_message_place *place);
+const char *rho_message_setting_field(const struct rho_message_place *place);
 
 /* ---- status_t ---- */
 

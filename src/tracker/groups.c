@@ -525,7 +525,7 @@ void rho_tracker_ungroup(struct step *step, const struct rho_scan *scan)
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->plot > 0) { /* the first group's first plot is the first one */
+        if (RHO_BODIES && track->plot > 0) { /* the first group's first plot is the first one */
             track->plot = (int16_t)groups->first[track->plot];
         }
     }

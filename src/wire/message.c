@@ -281,6 +281,53 @@ static const struct message_rules sensor_rules = {
     &sensor_format,
     {sensor_ints, sensor_floats, 6, 2}, {0, 0, 0, 0}};
 
+static const struct message_run setting_answer_runs[] = {
+    {offsetof(struct rho_message_setting_answer, utime), 8, 1},
+    {offsetof(struct rho_message_setting_answer, scan), 4, 3},
+    {offsetof(struct rho_message_setting_answer, field), 2, 1},
+    {offsetof(struct rho_message_setting_answer, status), 1, 2},
+    {offsetof(struct rho_message_setting_answer, fault_field), 2, 1},
+    {offsetof(struct rho_message_setting_answer, value), 4, 3},
+};
+static const struct message_int_rule setting_answer_ints[] = {
+    {offsetof(struct rho_message_setting_answer, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_setting_answer, field), 2, 1, MESSAGE_RANGE, 0, 32767},
+    {offsetof(struct rho_message_setting_answer, status), 1, 1, MESSAGE_RANGE, 0, 127},
+    {offsetof(struct rho_message_setting_answer, applies), 1, 1, MESSAGE_ONE_OF, 0, 1 << 0 | 1 << 1 | 1 << 2 | 1 << 3 | 1 << 4},
+    {offsetof(struct rho_message_setting_answer, fault_field), 2, 1, MESSAGE_RANGE, 0, 32767},
+};
+static const struct message_float_rule setting_answer_floats[] = {
+    {offsetof(struct rho_message_setting_answer, value), 3, -FLT_MAX, FLT_MAX},
+};
+static const struct message_format setting_answer_format = {
+    RHO_MESSAGE_SETTING_ANSWER_FINGERPRINT,
+    {setting_answer_runs, 6, 38}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules setting_answer_rules = {
+    &setting_answer_format,
+    {setting_answer_ints, setting_answer_floats, 5, 1}, {0, 0, 0, 0}};
+
+static const struct message_run setting_runs[] = {
+    {offsetof(struct rho_message_setting, utime), 8, 1},
+    {offsetof(struct rho_message_setting, number), 4, 1},
+    {offsetof(struct rho_message_setting, field), 2, 1},
+    {offsetof(struct rho_message_setting, value), 4, 1},
+};
+static const struct message_int_rule setting_ints[] = {
+    {offsetof(struct rho_message_setting, utime), 8, 1, MESSAGE_TIME, 0, 0},
+    {offsetof(struct rho_message_setting, field), 2, 1, MESSAGE_RANGE, 1, 17},
+};
+static const struct message_float_rule setting_floats[] = {
+    {offsetof(struct rho_message_setting, value), 1, -FLT_MAX, FLT_MAX},
+};
+static const struct message_format setting_format = {
+    RHO_MESSAGE_SETTING_FINGERPRINT,
+    {setting_runs, 4, 18}, {0, 0, 0},
+    0, 0, 0, 0};
+static const struct message_rules setting_rules = {
+    &setting_format,
+    {setting_ints, setting_floats, 2, 1}, {0, 0, 0, 0}};
+
 static const struct message_run status_runs[] = {
     {offsetof(struct rho_message_status, utime), 8, 1},
     {offsetof(struct rho_message_status, scan), 4, 25},
@@ -826,6 +873,8 @@ uint64_t rho_message_fingerprint(enum rho_message_type type)
         RHO_MESSAGE_PLOT_FINGERPRINT,
         RHO_MESSAGE_POLAR_PLOT_FINGERPRINT,
         RHO_MESSAGE_SENSOR_FINGERPRINT,
+        RHO_MESSAGE_SETTING_ANSWER_FINGERPRINT,
+        RHO_MESSAGE_SETTING_FINGERPRINT,
         RHO_MESSAGE_STATUS_FINGERPRINT,
         RHO_MESSAGE_TRACK_FINGERPRINT,
         RHO_MESSAGE_TRUTH_FINGERPRINT,
@@ -1102,6 +1151,42 @@ enum rho_status rho_message_sensor_validate(
     const struct rho_message_sensor *message, struct rho_message_place *place)
 {
     return rho_message_validate(&sensor_rules, message, place);
+}
+
+enum rho_status rho_message_setting_answer_encode(
+    const struct rho_message_setting_answer *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&setting_answer_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_setting_answer_decode(
+    const uint8_t *data, size_t size, struct rho_message_setting_answer *message)
+{
+    return rho_message_decode(&setting_answer_format, data, size, message);
+}
+
+enum rho_status rho_message_setting_answer_validate(
+    const struct rho_message_setting_answer *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&setting_answer_rules, message, place);
+}
+
+enum rho_status rho_message_setting_encode(
+    const struct rho_message_setting *message, uint8_t *buffer, size_t capacity, size_t *size)
+{
+    return rho_message_encode(&setting_format, message, buffer, capacity, size);
+}
+
+enum rho_status rho_message_setting_decode(
+    const uint8_t *data, size_t size, struct rho_message_setting *message)
+{
+    return rho_message_decode(&setting_format, data, size, message);
+}
+
+enum rho_status rho_message_setting_validate(
+    const struct rho_message_setting *message, struct rho_message_place *place)
+{
+    return rho_message_validate(&setting_rules, message, place);
 }
 
 enum rho_status rho_message_status_encode(

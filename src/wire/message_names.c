@@ -170,6 +170,27 @@ static const struct name sensor_names[] = {
     {offsetof(struct rho_message_sensor, innovation_factor), "innovation_factor"},
 };
 
+static const struct name setting_answer_names[] = {
+    {offsetof(struct rho_message_setting_answer, utime), "utime"},
+    {offsetof(struct rho_message_setting_answer, scan), "scan"},
+    {offsetof(struct rho_message_setting_answer, epoch), "epoch"},
+    {offsetof(struct rho_message_setting_answer, number), "number"},
+    {offsetof(struct rho_message_setting_answer, field), "field"},
+    {offsetof(struct rho_message_setting_answer, status), "status"},
+    {offsetof(struct rho_message_setting_answer, applies), "applies"},
+    {offsetof(struct rho_message_setting_answer, fault_field), "fault_field"},
+    {offsetof(struct rho_message_setting_answer, value), "value"},
+    {offsetof(struct rho_message_setting_answer, min), "min"},
+    {offsetof(struct rho_message_setting_answer, max), "max"},
+};
+
+static const struct name setting_names[] = {
+    {offsetof(struct rho_message_setting, utime), "utime"},
+    {offsetof(struct rho_message_setting, number), "number"},
+    {offsetof(struct rho_message_setting, field), "field"},
+    {offsetof(struct rho_message_setting, value), "value"},
+};
+
 static const struct name status_names[] = {
     {offsetof(struct rho_message_status, utime), "utime"},
     {offsetof(struct rho_message_status, scan), "scan"},
@@ -496,6 +517,8 @@ const char *rho_message_type_name(enum rho_message_type type)
         "plot_t",
         "polar_plot_t",
         "sensor_t",
+        "setting_answer_t",
+        "setting_t",
         "status_t",
         "track_t",
         "truth_t",
@@ -585,6 +608,16 @@ const char *rho_message_polar_plot_field(const struct rho_message_place *place)
 const char *rho_message_sensor_field(const struct rho_message_place *place)
 {
     return place ? find(sensor_names, 13, place->offset) : "unknown";
+}
+
+const char *rho_message_setting_answer_field(const struct rho_message_place *place)
+{
+    return place ? find(setting_answer_names, 11, place->offset) : "unknown";
+}
+
+const char *rho_message_setting_field(const struct rho_message_place *place)
+{
+    return place ? find(setting_names, 4, place->offset) : "unknown";
 }
 
 const char *rho_message_status_field(const struct rho_message_place *place)

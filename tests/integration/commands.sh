@@ -46,7 +46,7 @@ has_status() { [ "$(newest "$1" + 3)" = "$2" ]; } # of the northern track
 rows_of() { tail -n 8 "$1" | awk -F, -v id="$2" '$2 == id' | wc -l; }
 
 # ---- a node that takes commands ----
-start open --commands
+start open --commands --set sensor.9.range_min_m=200 --snapshot kept
 north=$(newest open.csv + 2)
 south=$(newest open.csv - 2)
 check 'there are two tracks' test "$north" != "$south"
@@ -87,6 +87,38 @@ check 'start is done' matches "$(cat stdout)" 'done: track ??'
 hand=$(sed 's/.* //' stdout)
 check 'the track is there' test "$(grep -c ",$hand,confirmed" open.csv)" -ge 1
 
+# ---- settings ----
+run command set v_max_mps 250
+check 'a setting is changed' matches "$(cat stdout)" 'done: v_max_mps 250, from the next step on'
+run command set scans 6
+check 'which may begin the window anew' matches "$(cat stdout)" 'done: scans 6, *window begins anew'
+run command set v_min_mps 150
+check 'targets of 100 m/s are too slow now' exits 0
+has_none() { [ "$(tail -n 1 open.csv)" = "$last" ]; }
+sleep 1
+last=$(tail -n 1 open.csv)
+sleep 0.5
+check 'and their tracks end' has_none
+run command set v_min_mps 10
+wait_until 5 has_both open.csv
+check 'and come again when they are not' has_both open.csv
+run command set pd 1.5
+check 'a value outside its range is refused' exits 1
+check 'with field and range' matches "$(cat stderr)" \
+    'rhotrack: refused: pd 1.5 is not within 0.01 .. 0.999'
+run command set v_max_mps 8
+check 'and one that does not go with another' matches "$(cat stderr)" \
+    'rhotrack: refused: v_min_mps 10 is not within 0 .. 8'
+run command set min_scans 4.5
+check 'and half a scan' matches "$(cat stderr)" 'rhotrack: refused: min_scans is a whole number'
+run command set range_max_m 150
+check 'and what a sensor forbids' matches "$(cat stderr)" \
+    'rhotrack: refused: a sensor*own range_min_m or range_max_m forbids it'
+run command set sigma_range_m 20
+check 'noise is of plots to come' matches "$(cat stdout)" 'done: sigma_range_m 20, with the next plots*'
+run command set pd 0.8
+check 'pd of sensors' matches "$(cat stdout)" 'done: pd 0.8, with the next scan of each sensor*'
+
 run command drop 999
 check 'a command of no track is refused' exits 1
 check 'and the reason is said' matches "$(cat stderr)" 'rhotrack: refused: no such track*'
@@ -94,9 +126,22 @@ run command renumber 40 40
 check 'an identity that is taken is refused' exits 1
 stop
 check 'the node ends with 0' exits 0
-check 'it says what it has done' grep -q 'Z rhotrack: commands done: 7$' open.err
-check 'and refused' grep -q 'Z rhotrack: commands refused: 2' open.err
+check 'it says what it has done' grep -q 'Z rhotrack: commands done: 13$' open.err
+check 'and refused' grep -q 'Z rhotrack: commands refused: 6' open.err
 check 'all are in its log' test "$(grep -ac RHO_COMMAND_ANSWERS open.lcm)" -ge 1
+
+# ---- a snapshot keeps settings, where the node is told the same as before ----
+start kept --commands --set sensor.9.range_min_m=200 --snapshot kept
+run command set v_min_mps 260
+check 'a setting outlives a restart' matches "$(cat stderr)" \
+    'rhotrack: refused: v_min_mps 260 is not within 0 .. 250'
+stop
+start other --commands --set sensor.9.range_min_m=200 --set accel_max_mps2=20 --snapshot kept
+check 'a node that is told otherwise begins anew' grep -q \
+    'kept: a snapshot with other parameters; tracks begin anew' other.err
+run command set v_min_mps 260
+check 'with its own settings' exits 0
+stop
 
 # ---- a node that takes none ----
 start shut
@@ -104,9 +149,11 @@ north=$(newest shut.csv + 2)
 run command drop "$north" --for 1
 check 'without --commands there is no answer' exits 1
 check 'which is said' matches "$(cat stderr)" 'rhotrack: no answer in 1 s: no node with --commands*'
+run command set pd 0.8 --for 1
+check 'nor to a setting' exits 1
 check 'the track goes on' test "$(newest shut.csv + 2)" = "$north"
 stop
-check 'the node counts it' grep -q 'commands not taken: the node runs without --commands: 1' shut.err
+check 'the node counts it' grep -q 'commands not taken: the node runs without --commands: 2' shut.err
 
 # ---- bad usage ----
 refuse() { # what it says, arguments
@@ -125,5 +172,9 @@ refuse "drop takes no 'x_m=1'*" drop 3 x_m=1
 refuse "start needs y_m=VALUE" start x_m=1
 refuse "'y_m=b' is not a number" start x_m=1 y_m=b
 refuse "x_m is outside its range" start x_m=3e6 y_m=0
+refuse "set needs a setting's name and a value" set pd
+refuse "no setting 'v_mx_mps', did you mean 'v_max_mps'?" set v_mx_mps 3
+refuse "'fast' is not a number" set v_max_mps fast
+refuse "'inf' is not a number" set v_max_mps inf
 refuse "include takes no 'sigma_m=1'*" include x_m=1 y_m=1 sigma_m=1
 finish

@@ -7,7 +7,7 @@
  */
 #ifndef RHOTRACK_TEST_MESSAGE_TABLE
 #define RHOTRACK_TEST_MESSAGE_TABLE
-#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(body, BODY) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
+#define MESSAGES_WITHOUT_LIST(X) X(accumulator_cell, ACCUMULATOR_CELL) X(body, BODY) X(command_answer, COMMAND_ANSWER) X(command, COMMAND) X(echo, ECHO) X(ghost, GHOST) X(hypothesis, HYPOTHESIS) X(learned, LEARNED) X(peak, PEAK) X(plane_row, PLANE_ROW) X(plot, PLOT) X(polar_plot, POLAR_PLOT) X(sensor, SENSOR) X(setting_answer, SETTING_ANSWER) X(setting, SETTING) X(status, STATUS) X(track, TRACK) X(truth, TRUTH) X(work, WORK) X(zone_event, ZONE_EVENT) X(zone, ZONE)
 #define MESSAGES_WITH_LIST(X) X(accumulator, ACCUMULATOR, "RHO_ACCUMULATOR") X(bearing_scan, BEARING_SCAN, "RHO_BEARINGS_") X(body_list, BODY_LIST, "RHO_BODIES") X(clutter_map, CLUTTER_MAP, "RHO_CLUTTER") X(ghost_matrix, GHOST_MATRIX, "RHO_GHOSTS") X(hypotheses, HYPOTHESES, "RHO_HYPOTHESES") X(peak_list, PEAK_LIST, "RHO_PEAKS") X(plane, PLANE, "RHO_PLANE") X(plot_scan, PLOT_SCAN, "RHO_PLOTS_") X(polar_scan, POLAR_SCAN, "RHO_POLAR_") X(sensor_list, SENSOR_LIST, "RHO_SENSORS") X(track_list, TRACK_LIST, "RHO_TRACKS") X(truth_list, TRUTH_LIST, "RHO_TRUTH") X(zone_event_list, ZONE_EVENT_LIST, "RHO_ZONE_EVENTS") X(zone_list, ZONE_LIST, "RHO_ZONES")
 #endif
 
@@ -158,6 +158,27 @@ static const struct message_member MESSAGE_TABLE(sensor)[] = {
     {"watched_hits", offsetof(MESSAGE_STRUCT(sensor), watched_hits), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
     {"seen_share", offsetof(MESSAGE_STRUCT(sensor), seen_share), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1)},
     {"innovation_factor", offsetof(MESSAGE_STRUCT(sensor), innovation_factor), 0, 4, 1, .is_float = true, .low = (float)(0), .high = (float)(1e12)},
+};
+
+static const struct message_member MESSAGE_TABLE(setting_answer)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(setting_answer), utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"scan", offsetof(MESSAGE_STRUCT(setting_answer), scan), 0, 4, 1, .rule = MEMBER_ANY},
+    {"epoch", offsetof(MESSAGE_STRUCT(setting_answer), epoch), 0, 4, 1, .rule = MEMBER_ANY},
+    {"number", offsetof(MESSAGE_STRUCT(setting_answer), number), 0, 4, 1, .rule = MEMBER_ANY},
+    {"field", offsetof(MESSAGE_STRUCT(setting_answer), field), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"status", offsetof(MESSAGE_STRUCT(setting_answer), status), 0, 1, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(127)},
+    {"applies", offsetof(MESSAGE_STRUCT(setting_answer), applies), 0, 1, 1, .rule = MEMBER_ONE_OF, .choices = {0, 1, 2, 3, 4}, .num_choices = 5},
+    {"fault_field", offsetof(MESSAGE_STRUCT(setting_answer), fault_field), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(0), .max = INT64_C(32767)},
+    {"value", offsetof(MESSAGE_STRUCT(setting_answer), value), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"min", offsetof(MESSAGE_STRUCT(setting_answer), min), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+    {"max", offsetof(MESSAGE_STRUCT(setting_answer), max), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
+};
+
+static const struct message_member MESSAGE_TABLE(setting)[] = {
+    {"utime", offsetof(MESSAGE_STRUCT(setting), utime), 0, 8, 1, .rule = MEMBER_RANGE, .min = INT64_C(-4000000000000000000), .max = INT64_C(4000000000000000000)},
+    {"number", offsetof(MESSAGE_STRUCT(setting), number), 0, 4, 1, .rule = MEMBER_ANY},
+    {"field", offsetof(MESSAGE_STRUCT(setting), field), 0, 2, 1, .rule = MEMBER_RANGE, .min = INT64_C(1), .max = INT64_C(17)},
+    {"value", offsetof(MESSAGE_STRUCT(setting), value), 0, 4, 1, .is_float = true, .low = (float)(-FLT_MAX), .high = (float)(FLT_MAX)},
 };
 
 static const struct message_member MESSAGE_TABLE(status)[] = {
@@ -457,6 +478,8 @@ static const struct message_shape MESSAGE_TABLE(shapes)[] = {
     {"plot_t", MESSAGE_TABLE(plot), 10, sizeof(MESSAGE_STRUCT(plot)), .element_members = NULL},
     {"polar_plot_t", MESSAGE_TABLE(polar_plot), 6, sizeof(MESSAGE_STRUCT(polar_plot)), .element_members = NULL},
     {"sensor_t", MESSAGE_TABLE(sensor), 13, sizeof(MESSAGE_STRUCT(sensor)), .element_members = NULL},
+    {"setting_answer_t", MESSAGE_TABLE(setting_answer), 11, sizeof(MESSAGE_STRUCT(setting_answer)), .element_members = NULL},
+    {"setting_t", MESSAGE_TABLE(setting), 4, sizeof(MESSAGE_STRUCT(setting)), .element_members = NULL},
     {"status_t", MESSAGE_TABLE(status), 35, sizeof(MESSAGE_STRUCT(status)), .element_members = NULL},
     {"track_t", MESSAGE_TABLE(track), 19, sizeof(MESSAGE_STRUCT(track)), .element_members = NULL},
     {"truth_t", MESSAGE_TABLE(truth), 7, sizeof(MESSAGE_STRUCT(truth)), .element_members = NULL},

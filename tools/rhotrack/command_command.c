@@ -10,6 +10,7 @@
 #include "base/hint.h"
 #include "commands.h"
 #include "live/transport.h"
+#include "rhotrack/command.h"
 #include "rhotrack/message.h"
 
 #define SIGMA_M 100.0f /* of a place that a person points at */
@@ -37,7 +38,7 @@ enum { NUM_ACTIONS = sizeof actions / sizeof *actions };
 
 static const char *action_name(size_t index)
 {
-    return index < NUM_ACTIONS ? actions[index].name : NULL;
+    return index < NUM_ACTIONS ? actions[index].name : index == NUM_ACTIONS ? "set" : NULL;
 }
 
 static const struct action *find_action(const char *name)
@@ -177,18 +178,97 @@ static struct rho_message_command read_command(char **arguments, int num_argumen
     return command;
 }
 
+/* ---- Settings ---- */
+
+static const char *setting_name(size_t index)
+{
+    return rho_command_setting_name((int)index + 1);
+}
+
+static struct rho_message_setting read_setting(char **arguments, int num_arguments)
+{
+    struct rho_message_setting setting = {0};
+    const char *name, *hint;
+    char *end;
+
+    if (num_arguments != 3) {
+        fail(EXIT_USAGE, "command: set needs a setting's name and a value");
+    }
+    for (int16_t i = 1; setting.field == 0 && (name = rho_command_setting_name(i)); i++) {
+        setting.field = strcmp(name, arguments[1]) == 0 ? i : 0;
+    }
+    if (setting.field == 0) {
+        hint = hint_nearest(arguments[1], setting_name);
+        if (hint) {
+            fail(EXIT_USAGE, "command: no setting '%s', did you mean '%s'?", arguments[1], hint);
+        }
+        fail(EXIT_USAGE, "command: no setting '%s'; see rhotrack command --help", arguments[1]);
+    }
+    setting.value = strtof(arguments[2], &end);
+    if (end == arguments[2] || *end ||
+        rho_message_setting_validate(&setting, &(struct rho_message_place){0}) != RHO_OK) {
+        fail(EXIT_USAGE, "command: '%s' is not a number", arguments[2]);
+    }
+    return setting;
+}
+
+static void print_setting(const struct rho_message_setting_answer *answer)
+{
+    static const char *const when[] = {"", "from the next step on",
+                                       "from the next step on; the initiation window begins anew",
+                                       "with the next scan of each sensor that has no own value",
+                                       "with the next plots that say no noise of their own"};
+    const char *name = rho_command_setting_name(answer->field),
+               *fault = rho_command_setting_name(answer->fault_field);
+
+    if (answer->status == RHO_OK) {
+        printf("done: %s %g, %s\n", name, (double)answer->value, when[answer->applies]);
+        return;
+    }
+    if (fault) {
+        fail(EXIT_RUNTIME, "refused: %s %g is not within %g .. %g", fault, (double)answer->value,
+             (double)answer->min, (double)answer->max);
+    }
+    switch (answer->status) {
+    case RHO_ERROR_VALUE:
+        fail(EXIT_RUNTIME, "refused: %s is a whole number", name);
+    case RHO_ERROR_CONFIG:
+        fail(EXIT_RUNTIME, "refused: a sensor's own range_min_m or range_max_m forbids it");
+    case RHO_ERROR_STATE:
+        fail(EXIT_RUNTIME, "refused: the node has made no step");
+    default:
+        fail(EXIT_RUNTIME, "refused: %s", rho_status_name((enum rho_status)answer->status));
+    }
+}
+
 /* ---- The answer ---- */
 
+/* One of both answers. */
+struct answer {
+    bool is_setting;
+    struct rho_message_command_answer command;
+    struct rho_message_setting_answer setting;
+};
+
 static bool is_answer(const struct transport_message *message, int32_t number,
-                      struct rho_message_command_answer *answer)
+                      struct answer *answer)
 {
+    if (answer->is_setting) {
+        return strcmp(message->channel, RHO_MESSAGE_SETTING_ANSWER_CHANNEL) == 0 &&
+               rho_message_setting_answer_decode(message->data, message->size, &answer->setting) ==
+                   RHO_OK &&
+               rho_message_setting_answer_validate(&answer->setting, NULL) == RHO_OK &&
+               answer->setting.number == number;
+    }
     return strcmp(message->channel, RHO_MESSAGE_COMMAND_ANSWER_CHANNEL) == 0 &&
-           rho_message_command_answer_decode(message->data, message->size, answer) == RHO_OK &&
-           rho_message_command_answer_validate(answer, NULL) == RHO_OK && answer->number == number;
+           rho_message_command_answer_decode(message->data, message->size, &answer->command) ==
+               RHO_OK &&
+           rho_message_command_answer_validate(&answer->command, NULL) == RHO_OK &&
+           answer->command.number == number;
 }
 
 static bool await_answer(struct transport *transport, int32_t number, int64_t end_us,
-                         struct rho_message_command_answer *answer)
+                         struct answer *answer)
 {
     struct pollfd here = {.fd = transport_descriptor(transport), .events = POLLIN};
     struct transport_message message;
@@ -224,32 +304,59 @@ static const char *reason_of(int8_t status)
     }
 }
 
-int command_command(struct command_line *line)
+/* Sends a message, and waits for its answer. */
+static void ask(struct transport *transport, const char *channel, const uint8_t *data, size_t size,
+                int32_t number, double wait_s, struct answer *answer)
 {
-    struct rho_message_command command = read_command(line->arguments, line->num_arguments);
-    const double wait_s = line->seconds > 0 ? line->seconds : WAIT_S;
-    struct rho_message_command_answer answer;
-    struct transport *transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
-    uint8_t buffer[RHO_MESSAGE_COMMAND_MAX_SIZE];
-    size_t size;
-
-    command.utime = transport_now_us(transport);
-    command.number = (int32_t)(command.utime & INT32_MAX);
-    must_succeed(rho_message_command_encode(&command, buffer, sizeof buffer, &size), "command");
-    if (!transport_send(transport, RHO_MESSAGE_COMMAND_CHANNEL, buffer, size)) {
+    if (!transport_send(transport, channel, data, size)) {
         fail(EXIT_RUNTIME, "%s: the command is not sent: %s", transport_url(transport),
              strerror(errno));
     }
-    if (!await_answer(transport, command.number, clock_us() + (int64_t)(wait_s * 1e6), &answer)) {
+    if (!await_answer(transport, number, clock_us() + (int64_t)(wait_s * 1e6), answer)) {
         fail(EXIT_RUNTIME, "no answer in %g s: no node with --commands has made a step", wait_s);
     }
-    if (answer.status != RHO_OK) {
-        fail(EXIT_RUNTIME, "refused: %s", reason_of(answer.status));
+}
+
+static void print_command(const struct rho_message_command_answer *answer)
+{
+    if (answer->status != RHO_OK) {
+        fail(EXIT_RUNTIME, "refused: %s", reason_of(answer->status));
     }
-    if (answer.track_id > 0) {
-        printf("done: track %" PRId32 "\n", answer.track_id);
+    if (answer->track_id > 0) {
+        printf("done: track %" PRId32 "\n", answer->track_id);
     } else {
         puts("done");
+    }
+}
+
+int command_command(struct command_line *line)
+{
+    struct answer answer = {.is_setting = strcmp(line->arguments[0], "set") == 0};
+    struct rho_message_command command = {0};
+    struct rho_message_setting setting = {0};
+    const double wait_s = line->seconds > 0 ? line->seconds : WAIT_S;
+    uint8_t buffer[RHO_MESSAGE_COMMAND_MAX_SIZE];
+    struct transport *transport;
+    size_t size;
+
+    if (answer.is_setting) {
+        setting = read_setting(line->arguments, line->num_arguments);
+    } else {
+        command = read_command(line->arguments, line->num_arguments);
+    }
+    transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
+    command.utime = setting.utime = transport_now_us(transport);
+    command.number = setting.number = (int32_t)(command.utime & INT32_MAX);
+    must_succeed(answer.is_setting
+                     ? rho_message_setting_encode(&setting, buffer, sizeof buffer, &size)
+                     : rho_message_command_encode(&command, buffer, sizeof buffer, &size),
+                 "command");
+    ask(transport, answer.is_setting ? RHO_MESSAGE_SETTING_CHANNEL : RHO_MESSAGE_COMMAND_CHANNEL,
+        buffer, size, command.number, wait_s, &answer);
+    if (answer.is_setting) {
+        print_setting(&answer.setting);
+    } else {
+        print_command(&answer.command);
     }
     transport_close(transport);
     return 0;

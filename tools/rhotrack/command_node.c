@@ -530,6 +530,8 @@ static bool is_output(const char *channel)
            strcmp(channel, RHO_MESSAGE_HYPOTHESES_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_ZONE_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_ZONE_EVENT_LIST_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_BODY_LIST_CHANNEL) == 0 ||
+           strcmp(channel, RHO_MESSAGE_SETTING_ANSWER_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_COMMAND_ANSWER_CHANNEL) == 0;
 }
 

@@ -170,6 +170,11 @@ static const struct command commands[] = {
      "  exclude x_m=X y_m=Y x_max_m=X y_max_m=Y\n"
      "                             no tracks start in this area; tracks pass through\n"
      "  include x_m=X y_m=Y        areas that hold this place are excluded no more\n"
+     "  set NAME VALUE             a setting while tracking; the answer says when it applies:\n"
+     "                             v_min_mps v_max_mps accel_max_mps2 pd scan_interval_s\n"
+     "                             sigma_range_m sigma_azimuth_rad sigma_elevation_rad\n"
+     "                             sigma_range_rate_mps sigma_rad range_min_m range_max_m scans\n"
+     "                             min_scans coast_scans_max false_tracks_per_hour work_max\n"
      "\n"
      "Nothing proves who sent a command: sources_allowed of --lcm limits the addresses.\n"},
     {"config", command_config, "[--method METHOD]", 0, 0, "mjsC",

@@ -32,8 +32,16 @@ struct places {
     struct rho_scan_assembler_place of[RHO_MAX_SENSORS];
 };
 
+/* An operator's message, until the end of a step. */
+struct waiting_command {
+    int64_t came_us; /* of the node's clock */
+    bool is_setting;
+    struct rho_message_command command;
+    struct rho_message_setting setting;
+};
+
 struct node_core {
-    const struct parameters *parameters;
+    struct parameters *parameters; /* its own copy: an operator may change settings */
     struct node_core_events events;
     struct pipeline pipeline;
     struct pipeline_show *show; /* NULL: nothing is */
@@ -47,8 +55,7 @@ struct node_core {
     struct rho_node_waiting waiting[WAITING_MAX];
     bool takes_commands;
     unsigned num_commands;
-    struct rho_message_command commands[COMMANDS_MAX];
-    int64_t command_times_us[COMMANDS_MAX]; /* of the node's clock, when each came */
+    struct waiting_command commands[COMMANDS_MAX];
     struct node_core_commands counters;
 };
 
@@ -96,7 +103,8 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
 {
     struct node_core *core = must_calloc(1, sizeof *core);
 
-    core->parameters = parameters;
+    core->parameters = must_alloc(sizeof *core->parameters);
+    *core->parameters = *parameters;
     core->events = *events;
     core->pipeline = pipeline_start();
     core->pipeline.is_live = true;
@@ -127,12 +135,13 @@ enum pipeline_restored node_core_restore(struct node_core *core, const char *pat
 {
     enum pipeline_restored restored = pipeline_restore(&core->pipeline, core->parameters, path);
 
+    parameters_describe_again(core->parameters, &core->assembler);
     open_node(core, core->node.epoch); /* the pipeline has other objects */
     core->node.is_restored = restored == PIPELINE_RESTORED;
     return restored;
 }
 
-bool node_core_save(const struct node_core *core, const char *path)
+bool node_core_save(struct node_core *core, const char *path)
 {
     return pipeline_save(&core->pipeline, path);
 }
@@ -222,17 +231,53 @@ static void start_tracks(struct node_core *core, enum rho_node_due due)
 
 /* ---- Commands ---- */
 
+static void count_answer(struct node_core *core, int8_t status)
+{
+    *(status == RHO_OK ? &core->counters.done : &core->counters.refused) += 1;
+}
+
 static void answer_command(struct node_core *core, struct rho_message_command_answer *answer)
 {
     uint8_t buffer[RHO_MESSAGE_COMMAND_ANSWER_MAX_SIZE];
     size_t size;
 
-    *(answer->status == RHO_OK ? &core->counters.done : &core->counters.refused) += 1;
+    count_answer(core, answer->status);
     answer->scan = core->node.step;
     answer->epoch = core->node.epoch;
     if (rho_message_command_answer_encode(answer, buffer, sizeof buffer, &size) == RHO_OK) {
         core->events.send(core->events.context, RHO_MESSAGE_COMMAND_ANSWER_CHANNEL, buffer, size);
     }
+}
+
+static void answer_setting(struct node_core *core, struct rho_message_setting_answer *answer)
+{
+    uint8_t buffer[RHO_MESSAGE_SETTING_ANSWER_MAX_SIZE];
+    size_t size;
+
+    count_answer(core, answer->status);
+    answer->utime = core->pipeline.report->time_us;
+    answer->scan = core->node.step;
+    answer->epoch = core->node.epoch;
+    if (rho_message_setting_answer_encode(answer, buffer, sizeof buffer, &size) == RHO_OK) {
+        core->events.send(core->events.context, RHO_MESSAGE_SETTING_ANSWER_CHANNEL, buffer, size);
+    }
+}
+
+/* The parameters are those of a node that was started with the setting; what runs follows them. */
+static void change_setting(struct node_core *core, const struct rho_message_setting *setting)
+{
+    struct rho_settings settings = parameters_settings(core->parameters);
+    struct rho_message_setting_answer answer;
+
+    if (rho_command_set(setting, &settings, &answer) == RHO_OK) {
+        if (parameters_take_settings(core->parameters, &settings)) {
+            pipeline_reconfigure(&core->pipeline, core->parameters);
+            parameters_describe_again(core->parameters, &core->assembler);
+        } else {
+            answer.status = RHO_ERROR_CONFIG; /* a sensor's own ranges do not go with it */
+        }
+    }
+    answer_setting(core, &answer);
 }
 
 /* After a step, whose report then shows what they have changed. */
@@ -241,20 +286,30 @@ static void run_commands(struct node_core *core)
     struct rho_message_command_answer answer;
 
     for (unsigned i = 0; i < core->num_commands; i++) {
-        (void)!rho_command_run(&core->commands[i], core->pipeline.tracker, core->pipeline.report,
-                               &answer); /* the answer says it */
-        answer_command(core, &answer);
+        if (core->commands[i].is_setting) {
+            change_setting(core, &core->commands[i].setting);
+        } else {
+            (void)!rho_command_run(&core->commands[i].command, core->pipeline.tracker,
+                                   core->pipeline.report, &answer); /* the answer says it */
+            answer_command(core, &answer);
+        }
     }
     core->num_commands = 0;
 }
 
-static void refuse_command(struct node_core *core, const struct rho_message_command *command,
+static void refuse_command(struct node_core *core, const struct waiting_command *waiting,
                            enum rho_status status)
 {
+    if (waiting->is_setting) {
+        answer_setting(core, &(struct rho_message_setting_answer){.number = waiting->setting.number,
+                                                                  .field = waiting->setting.field,
+                                                                  .status = (int8_t)status});
+        return;
+    }
     answer_command(core,
                    &(struct rho_message_command_answer){.utime = core->pipeline.report->time_us,
-                                                        .number = command->number,
-                                                        .action = command->action,
+                                                        .number = waiting->command.number,
+                                                        .action = waiting->command.action,
                                                         .status = (int8_t)status});
 }
 
@@ -264,31 +319,44 @@ static void refuse_commands(struct node_core *core, int64_t before_us)
     unsigned kept = 0;
 
     for (unsigned i = 0; i < core->num_commands; i++) {
-        if (core->command_times_us[i] < before_us) {
+        if (core->commands[i].came_us < before_us) {
             refuse_command(core, &core->commands[i], COMMAND_IS_LATE);
         } else {
-            core->command_times_us[kept] = core->command_times_us[i];
             core->commands[kept++] = core->commands[i];
         }
     }
     core->num_commands = kept;
 }
 
-static void take_command(struct node_core *core, const uint8_t *data, size_t size, int64_t now_us)
+static bool read_command(struct waiting_command *waiting, const uint8_t *data, size_t size)
 {
-    struct rho_message_command command;
+    return waiting->is_setting
+               ? rho_message_setting_decode(data, size, &waiting->setting) == RHO_OK &&
+                     rho_message_setting_validate(&waiting->setting, NULL) == RHO_OK
+               : rho_message_command_decode(data, size, &waiting->command) == RHO_OK &&
+                     rho_message_command_validate(&waiting->command, NULL) == RHO_OK;
+}
 
+/* False: the channel is not an operator's. */
+static bool take_command(struct node_core *core, const char *channel, const uint8_t *data,
+                         size_t size, int64_t now_us)
+{
+    struct waiting_command waiting = {
+        .came_us = now_us, .is_setting = strcmp(channel, RHO_MESSAGE_SETTING_CHANNEL) == 0};
+
+    if (!waiting.is_setting && strcmp(channel, RHO_MESSAGE_COMMAND_CHANNEL) != 0) {
+        return false;
+    }
     if (!core->takes_commands) {
         core->counters.not_allowed++;
-    } else if (rho_message_command_decode(data, size, &command) != RHO_OK ||
-               rho_message_command_validate(&command, NULL) != RHO_OK) {
+    } else if (!read_command(&waiting, data, size)) {
         core->counters.bad++;
     } else if (core->num_commands < COMMANDS_MAX) {
-        core->command_times_us[core->num_commands] = now_us;
-        core->commands[core->num_commands++] = command;
+        core->commands[core->num_commands++] = waiting;
     } else {
-        refuse_command(core, &command, RHO_ERROR_CAPACITY);
+        refuse_command(core, &waiting, RHO_ERROR_CAPACITY);
     }
+    return true;
 }
 
 /* ---- The loop ---- */
@@ -410,12 +478,9 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
                     int64_t now_us)
 {
     struct rho_scan_assembler_counters before;
-    bool has_room = strcmp(channel, RHO_MESSAGE_COMMAND_CHANNEL) == 0;
+    bool has_room = take_command(core, channel, data, size, now_us);
     struct places places;
 
-    if (has_room) {
-        take_command(core, data, size, now_us);
-    }
     while (!has_room) {
         before = core->assembler.counters;
         for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -673,6 +738,7 @@ void node_core_close(struct node_core *core)
 {
     pipeline_show_close(core->show);
     pipeline_free(&core->pipeline);
+    free(core->parameters);
     free(core);
 }
 

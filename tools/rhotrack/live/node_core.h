@@ -45,7 +45,7 @@ struct node_core_events {
 };
 
 /*
- * The parameters' address is kept. Values that the library does not take: exit 2.
+ * The parameters are copied. Values that the library does not take: exit 2.
  *   epoch  boot number; goes up with every restart of the tracker
  */
 struct node_core *node_core_open(const struct parameters *parameters, int32_t epoch,
@@ -54,7 +54,7 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
 /* Each step is shown from now on; the core closes it at its end. NULL: nothing is. */
 void node_core_show(struct node_core *core, struct pipeline_show *show);
 
-/* Takes an operator's messages on RHO_COMMANDS from now on. */
+/* Takes an operator's messages on RHO_COMMANDS and RHO_SETTINGS from now on. */
 void node_core_allow_commands(struct node_core *core);
 
 /* What has become of them so far. */
@@ -76,7 +76,7 @@ uint64_t node_core_not_shown(const struct node_core *core);
 enum pipeline_restored node_core_restore(struct node_core *core, const char *path);
 
 /* False: it failed, with errno. */
-bool node_core_save(const struct node_core *core, const char *path);
+bool node_core_save(struct node_core *core, const char *path);
 
 /* A message that came at now_us of the reception clock; steps what is due then. */
 void node_core_take(struct node_core *core, const char *channel, const uint8_t *data, size_t size,

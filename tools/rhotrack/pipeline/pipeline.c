@@ -207,9 +207,20 @@ static void open_learning(struct pipeline *pipeline, const struct parameters *pa
     }
 }
 
+static void note_settings(struct pipeline *pipeline, const struct parameters *parameters)
+{
+    pipeline->settings = parameters_settings(parameters);
+    if (!pipeline->is_told) {
+        pipeline->is_told = true;
+        pipeline->told = pipeline->settings;
+    }
+}
+
 void pipeline_open(struct pipeline *pipeline, const struct parameters *parameters)
 {
     struct rho_tracker_config maintain;
+
+    note_settings(pipeline, parameters);
     parameters_to_initiator(parameters, &pipeline->start);
     parameters_to_tracker(parameters, &maintain);
     pipeline->has_pairs = parameters->value[PARAMETER_INITIATORS] == INITIATORS_PAIRS;
@@ -232,6 +243,20 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
     open_starts(pipeline, parameters);
     open_zones(pipeline, parameters);
     open_learning(pipeline, parameters);
+}
+
+void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *parameters)
+{
+    struct rho_tracker_config maintain;
+
+    note_settings(pipeline, parameters);
+    parameters_to_initiator(parameters, &pipeline->start);
+    parameters_to_tracker(parameters, &maintain);
+    must_succeed(rho_tracker_reconfigure(pipeline->tracker, &maintain), "tracker");
+    for (size_t i = 0; i < pipeline->num_initiators; i++) {
+        must_succeed(rho_initiator_reconfigure(pipeline->initiators[i].initiator, &pipeline->start),
+                     "initiator");
+    }
 }
 
 static void open_paper(struct pipeline *pipeline, const struct parameters *parameters)

@@ -30,7 +30,9 @@ struct pipeline {
     int32_t named[RHO_MAX_SENSORS]; /* sensors of which the parameters say something */
     size_t num_named;
     struct rho_initiator_config start;
-    struct rho_passive *passive; /* NULL before pipeline_open_passive */
+    bool is_told;
+    struct rho_settings told, settings; /* at the first pipeline_open; now */
+    struct rho_passive *passive;        /* NULL before pipeline_open_passive */
     /* the papers' methods where the parameters ask for them; else NULL */
     struct rho_paper_starts *starts;
     struct rho_passive_paper *paper;
@@ -83,6 +85,12 @@ void pipeline_reopen_paper(struct pipeline *pipeline);
  */
 void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
                            const struct rho_frame *frame);
+
+/*
+ * Other parameters from the next step on: tracks, and all that was learned, go on. The search by
+ * bearings, and the papers' methods, keep those that they were opened with.
+ */
+void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *parameters);
 
 /* After a step of plots and its starts: walls are learned. */
 void pipeline_learn_walls(struct pipeline *pipeline, const struct rho_scan *scan);

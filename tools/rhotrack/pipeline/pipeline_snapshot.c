@@ -16,6 +16,12 @@
 /* The tracker's id: whose the initiators are. */
 enum { OF_NOBODY, OF_SENSORS, OF_ALL, OF_PAIRS };
 
+/* Parts that are no initiators; a part of learned walls may follow. */
+enum { OTHERS = 4 };
+
+/* The settings' id. */
+enum { SETTINGS_TOLD, SETTINGS_NOW };
+
 static int32_t initiators_of(const struct pipeline *pipeline)
 {
     return pipeline->has_one_initiator ? OF_ALL
@@ -24,10 +30,11 @@ static int32_t initiators_of(const struct pipeline *pipeline)
                                        : OF_SENSORS;
 }
 
-/* Tracker, initiators, passive, learned walls; in new memory. */
-static struct rho_snapshot_part *list_parts(const struct pipeline *pipeline, unsigned *num_parts)
+/* Tracker, initiators, passive, settings as told and as they are, learned walls; in new memory. */
+static struct rho_snapshot_part *list_parts(struct pipeline *pipeline, unsigned *num_parts)
 {
-    struct rho_snapshot_part *parts = must_calloc(pipeline->num_initiators + 3, sizeof *parts);
+    struct rho_snapshot_part *parts =
+        must_calloc(pipeline->num_initiators + OTHERS + 1, sizeof *parts);
     unsigned count = 0;
 
     parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, initiators_of(pipeline),
@@ -40,6 +47,10 @@ static struct rho_snapshot_part *list_parts(const struct pipeline *pipeline, uns
     }
     parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_PASSIVE, 0, pipeline->passive,
                                                 sizeof *pipeline->passive};
+    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_SETTINGS, SETTINGS_TOLD,
+                                                &pipeline->told, sizeof pipeline->told};
+    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_SETTINGS, SETTINGS_NOW,
+                                                &pipeline->settings, sizeof pipeline->settings};
     if (pipeline->learning) {
         parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_REFLECTORS, 0, pipeline->learning,
                                                     sizeof *pipeline->learning};
@@ -82,7 +93,7 @@ static bool write_image(int file, const struct rho_snapshot_part *parts, unsigne
     return fsync(file) == 0;
 }
 
-bool pipeline_save(const struct pipeline *pipeline, const char *path)
+bool pipeline_save(struct pipeline *pipeline, const char *path)
 {
     unsigned num_parts;
     struct rho_snapshot_part *parts = list_parts(pipeline, &num_parts);
@@ -161,7 +172,7 @@ static const char *reason_of(enum rho_status status)
 static bool add_initiators(struct pipeline *pipeline, const struct rho_snapshot_part *parts,
                            unsigned num_parts)
 {
-    const unsigned others = pipeline->learning ? 3 : 2; /* than initiators */
+    const unsigned others = OTHERS + (pipeline->learning ? 1 : 0);
     const bool has_sensors = parts[0].id == OF_SENSORS || parts[0].id == OF_PAIRS;
 
     for (unsigned i = 1; i + others <= num_parts && has_sensors && !pipeline->has_one_initiator;
@@ -176,31 +187,41 @@ static bool is_same(const void *one, const void *other, size_t size)
     return memcmp(one, other, size) == 0;
 }
 
-/* Into a pipeline that was opened: its parameters are those to be. */
-static enum rho_status load(struct pipeline *pipeline, const uint8_t *image, size_t size,
-                            bool *is_other)
+/*
+ * Into a pipeline that was opened: its parameters are those to be, with the settings that an
+ * operator has changed since.
+ */
+static enum rho_status load(struct pipeline *pipeline, struct parameters *parameters,
+                            const uint8_t *image, size_t size, bool *is_other)
 {
-    const struct rho_tracker_config maintain = pipeline->tracker->config;
     const struct rho_passive_config search = pipeline->passive->config;
+    const struct rho_settings told = pipeline->told;
+    struct rho_tracker_config maintain;
     unsigned num_parts;
     struct rho_snapshot_part *parts = list_parts(pipeline, &num_parts);
     enum rho_status status = rho_snapshot_load(parts, num_parts, image, size);
 
     free(parts);
-    *is_other =
-        status == RHO_OK && (!is_same(&pipeline->tracker->config, &maintain, sizeof maintain) ||
-                             !is_same(&pipeline->passive->config, &search, sizeof search));
-    for (size_t i = 0; status == RHO_OK && i < pipeline->num_initiators; i++) {
+    if (status != RHO_OK) {
+        return status;
+    }
+    *is_other = !is_same(&pipeline->told, &told, sizeof told) ||
+                !parameters_take_settings(parameters, &pipeline->settings);
+    parameters_to_tracker(parameters, &maintain);
+    parameters_to_initiator(parameters, &pipeline->start);
+    *is_other |= !is_same(&pipeline->tracker->config, &maintain, sizeof maintain) ||
+                 !is_same(&pipeline->passive->config, &search, sizeof search);
+    for (size_t i = 0; i < pipeline->num_initiators; i++) {
         *is_other |= !is_same(&pipeline->initiators[i].initiator->config, &pipeline->start,
                               sizeof pipeline->start);
     }
     return status;
 }
 
-static enum pipeline_restored take_over(struct pipeline *pipeline,
-                                        const struct parameters *parameters, const char *path,
-                                        const uint8_t *image, size_t size)
+static enum pipeline_restored take_over(struct pipeline *pipeline, struct parameters *parameters,
+                                        const char *path, const uint8_t *image, size_t size)
 {
+    struct parameters changed = *parameters;
     unsigned num_parts = 0;
     enum rho_status status = rho_snapshot_list(image, size, NULL, 0, &num_parts);
     struct pipeline fresh;
@@ -216,8 +237,8 @@ static enum pipeline_restored take_over(struct pipeline *pipeline,
     memset(fresh.report, 0, sizeof *fresh.report);
     pipeline_open(&fresh, parameters);
     pipeline_open_passive(&fresh, parameters);
-    is_other = num_parts < 3 || !add_initiators(&fresh, parts, num_parts);
-    status = is_other ? RHO_OK : load(&fresh, image, size, &is_other);
+    is_other = num_parts < OTHERS + 1 || !add_initiators(&fresh, parts, num_parts);
+    status = is_other ? RHO_OK : load(&fresh, &changed, image, size, &is_other);
     free(parts);
     if (is_other || status != RHO_OK) {
         pipeline_free(&fresh);
@@ -226,11 +247,12 @@ static enum pipeline_restored take_over(struct pipeline *pipeline,
     fresh.initiator = fresh.initiators[0].initiator;
     pipeline_free(pipeline);
     *pipeline = fresh;
+    *parameters = changed;
     return PIPELINE_RESTORED;
 }
 
-enum pipeline_restored pipeline_restore(struct pipeline *pipeline,
-                                        const struct parameters *parameters, const char *path)
+enum pipeline_restored pipeline_restore(struct pipeline *pipeline, struct parameters *parameters,
+                                        const char *path)
 {
     static const char magic[] = "rhosnap\n";
     enum pipeline_restored restored = PIPELINE_NO_FILE;

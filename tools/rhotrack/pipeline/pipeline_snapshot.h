@@ -9,7 +9,7 @@
  * Writes the pipeline beside the file, to the disk, and renames. False: it failed, with errno; the
  * file is as it was.
  */
-bool pipeline_save(const struct pipeline *pipeline, const char *path);
+bool pipeline_save(struct pipeline *pipeline, const char *path);
 
 enum pipeline_restored {
     PIPELINE_RESTORED,
@@ -20,10 +20,10 @@ enum pipeline_restored {
 
 /*
  * Takes a pipeline with bearings over from the file; it was opened with these parameters, and is
- * left alone where it is not PIPELINE_RESTORED. A file that is no snapshot at all: exit 2, so that
- * it is not written over.
+ * left alone where it is not PIPELINE_RESTORED. Settings that an operator had changed become those
+ * of the parameters. A file that is no snapshot at all: exit 2, so that it is not written over.
  */
-enum pipeline_restored pipeline_restore(struct pipeline *pipeline,
-                                        const struct parameters *parameters, const char *path);
+enum pipeline_restored pipeline_restore(struct pipeline *pipeline, struct parameters *parameters,
+                                        const char *path);
 
 #endif

@@ -421,6 +421,12 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
  */
 struct rho_settings parameters_settings(const struct parameters *parameters);
 
+/*
+ * The settings that are other ones become the parameters' values, as --set sets them. False, and
+ * nothing is changed: a sensor's own ranges do not go with them.
+ */
+bool parameters_take_settings(struct parameters *parameters, const struct rho_settings *settings);
+
 void parameters_to_initiator(const struct parameters *parameters,
                              struct rho_initiator_config *config);
 void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config);
@@ -431,6 +437,10 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
  */
 void parameters_to_assembler(const struct parameters *parameters,
                              struct rho_scan_assembler *assembler);
+
+/* The same descriptions of sensors anew, while messages come. */
+void parameters_describe_again(const struct parameters *parameters,
+                               struct rho_scan_assembler *assembler);
 
 /* key: "N.name", of a zone. false: *reason says why. */
 bool parameters_assign_zone(struct parameters *parameters, const char *key, const char *value,

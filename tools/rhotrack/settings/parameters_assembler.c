@@ -35,6 +35,30 @@ static struct rho_scan_assembler_sensor describe(const struct parameters *parame
 /* A sensor that nobody described: one beyond those that can have messages. */
 #define NO_SENSOR INT32_MAX
 
+static enum rho_status set_sensors(const struct parameters *parameters,
+                                   struct rho_scan_assembler *assembler)
+{
+    enum rho_status status = RHO_OK;
+
+    for (size_t i = 0; i < parameters->num_sensors && status == RHO_OK; i++) {
+        struct rho_scan_assembler_sensor known =
+            describe(parameters, parameters->sensors[i].sensor_id);
+
+        status = rho_scan_assembler_set_sensor(assembler, &known);
+    }
+    return status;
+}
+
+void parameters_describe_again(const struct parameters *parameters,
+                               struct rho_scan_assembler *assembler)
+{
+    struct rho_sensor any;
+
+    assembler->config.gives_other = parameters_to_sensor(parameters, NO_SENSOR, &any);
+    assembler->config.other = describe(parameters, NO_SENSOR);
+    must_succeed(set_sensors(parameters, assembler), "assembler");
+}
+
 void parameters_to_assembler(const struct parameters *parameters,
                              struct rho_scan_assembler *assembler)
 {
@@ -55,12 +79,5 @@ void parameters_to_assembler(const struct parameters *parameters,
 
     memcpy(config.allowed, parameters->allowed, sizeof config.allowed);
     status = rho_scan_assembler_init(assembler, sizeof *assembler, &config);
-
-    for (size_t i = 0; i < parameters->num_sensors && status == RHO_OK; i++) {
-        struct rho_scan_assembler_sensor known =
-            describe(parameters, parameters->sensors[i].sensor_id);
-
-        status = rho_scan_assembler_set_sensor(assembler, &known);
-    }
-    must_succeed(status, "assembler");
+    must_succeed(status == RHO_OK ? set_sensors(parameters, assembler) : status, "assembler");
 }

@@ -10,6 +10,11 @@
 #define UNSTATED_MIN 0.1f
 #define UNSTATED_MAX 10.0f
 
+/* late_max_s is so many scan intervals of struct rho_settings, and no more than a tracker takes. */
+#define LATE_SCANS 2.0
+#define LATE_LIMIT_S 60.0
+#define INTERVAL_MIN_S 1e-3
+
 struct rho_settings parameters_settings(const struct parameters *parameters)
 {
     const double *value = parameters->value;
@@ -21,6 +26,14 @@ struct rho_settings parameters_settings(const struct parameters *parameters)
     settings.v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
     settings.accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
     settings.pd = (float)value[PARAMETER_PD];
+    settings.scan_interval_s =
+        (float)fmax(value[PARAMETER_LATE_MAX_S] / LATE_SCANS, INTERVAL_MIN_S);
+    settings.sigma_range_m = (float)value[PARAMETER_SIGMA_RANGE_M];
+    settings.sigma_azimuth_rad = (float)value[PARAMETER_SIGMA_AZIMUTH_RAD];
+    settings.sigma_elevation_rad = (float)value[PARAMETER_SIGMA_ELEVATION_RAD];
+    settings.sigma_range_rate_mps = (float)value[PARAMETER_SIGMA_RANGE_RATE_MPS];
+    settings.sigma_rad = (float)value[PARAMETER_SIGMA_RAD];
+    settings.range_min_m = (float)value[PARAMETER_RANGE_MIN_M];
     settings.range_max_m = (float)value[PARAMETER_RANGE_MAX_M];
     settings.area_is_fixed = parameters_is_set(parameters, PARAMETER_AREA_X_MIN_M);
     settings.area.x_min_m = (float)value[PARAMETER_AREA_X_MIN_M];
@@ -33,6 +46,64 @@ struct rho_settings parameters_settings(const struct parameters *parameters)
     settings.coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
     settings.work_max = (uint32_t)value[PARAMETER_WORK_MAX];
     return settings;
+}
+
+/* Sensors that have ranges of their own have them above the others' least, too. */
+static bool go_with_sensors(const struct parameters *parameters,
+                            const struct rho_settings *settings)
+{
+    for (size_t i = 0; i < parameters->num_sensors; i++) {
+        const int32_t id = parameters->sensors[i].sensor_id;
+
+        if (parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M,
+                                 (double)settings->range_min_m) >=
+            parameters_of_sensor(parameters, id, SENSOR_RANGE_MAX_M,
+                                 (double)settings->range_max_m)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool parameters_take_settings(struct parameters *parameters, const struct rho_settings *settings)
+{
+    const struct rho_settings before = parameters_settings(parameters);
+    const struct {
+        enum parameter_id id;
+        double before, value;
+    } fields[] = {
+#define FIELD(id, name) {PARAMETER_##id, (double)before.name, (double)settings->name}
+        FIELD(V_MIN_MPS, v_min_mps),
+        FIELD(V_MAX_MPS, v_max_mps),
+        FIELD(ACCEL_MAX_MPS2, accel_max_mps2),
+        FIELD(PD, pd),
+        FIELD(SIGMA_RANGE_M, sigma_range_m),
+        FIELD(SIGMA_AZIMUTH_RAD, sigma_azimuth_rad),
+        FIELD(SIGMA_ELEVATION_RAD, sigma_elevation_rad),
+        FIELD(SIGMA_RANGE_RATE_MPS, sigma_range_rate_mps),
+        FIELD(SIGMA_RAD, sigma_rad),
+        FIELD(RANGE_MIN_M, range_min_m),
+        FIELD(RANGE_MAX_M, range_max_m),
+        FIELD(SCANS, scans),
+        FIELD(MIN_SCANS, min_scans),
+        FIELD(COAST_SCANS_MAX, coast_scans_max),
+        FIELD(FALSE_TRACKS_PER_HOUR, false_tracks_per_hour),
+        FIELD(WORK_MAX, work_max),
+#undef FIELD
+        {PARAMETER_LATE_MAX_S, LATE_SCANS * (double)before.scan_interval_s,
+         fmin(LATE_SCANS * (double)settings->scan_interval_s, LATE_LIMIT_S)},
+    };
+
+    if (!go_with_sensors(parameters, settings)) {
+        return false;
+    }
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+        if (fields[i].value < fields[i].before || fields[i].value > fields[i].before) {
+            parameters->value[fields[i].id] = fields[i].value;
+            parameters->source[fields[i].id] = SOURCE_SET;
+        }
+    }
+    return true;
 }
 
 void parameters_to_initiator(const struct parameters *parameters,
