@@ -37,13 +37,21 @@ struct rho_tracker;
 
 #define RHO_LIMIT_BODY_M 5000.0f /* the longest body that a tracker can be told */
 
+/* One axis of a body, as its plots tell it. */
+struct rho_body_side {
+    float mean_m2;     /* of squares, less noise; it may be 0 or less */
+    float weight;      /* of what it comes from: plots without noise */
+    float variance_m4; /* of the mean */
+    float prior_share; /* of the mean that is still the prior's */
+};
+
 /* The extent of a track, within the tracker. */
 struct rho_body_filter {
     uint32_t track_id;
-    float along_m2, across_m2;         /* variances of a place on the body */
-    float prior_m2;                    /* of one of which nothing is known */
-    float across_mean_m2;              /* what the latter is of, and may be 0 or less */
-    float along_weight, across_weight; /* what these means come from: plots without noise */
+    float along_m2, across_m2; /* variances of a place on the body */
+    float prior_m2;            /* of one of which nothing is known */
+    struct rho_body_side along, across;
+    float slope, slope_weight; /* how far its scatterers seem turned, and 1 / variance */
     float cos_heading, sin_heading;
     float heading_sigma_rad;
     float plots;         /* that all this comes from */

@@ -300,7 +300,7 @@
 
 /*
  * 1: targets may give several plots a scan (rhotrack/body.h). 0: left out of the program. RAM: 70
- * bytes a plot, and 44 a track.
+ * bytes a plot, and 76 a track.
  */
 #ifndef RHO_BODIES
 #define RHO_BODIES RHO_CONFIG_PICK(0, 1)
@@ -630,7 +630,7 @@
      (144 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \
      RHO_RAM_STRIPS_BYTES + RHO_RAM_CLUTTER_MAP_BYTES + RHO_RAM_SECOND_PLOTS_BYTES +               \
      16 * (RHO_MAX_REFLECTORS + RHO_MAX_EXCLUDED_AREAS) + 76 * RHO_BODY_PLOTS +                    \
-     44 * RHO_BODY_TRACKS + 640)
+     76 * RHO_BODY_TRACKS + 640)
 #define RHO_RAM_SCAN_ASSEMBLER_BYTES                                                               \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      256 * RHO_MAX_SENSORS + 528)

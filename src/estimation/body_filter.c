@@ -4,25 +4,60 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
-/* Plots that are remembered. */
-#define PLOTS_REMEMBERED 500.0f
+/* Memory, in weights: 500 plots without noise. */
+#define WEIGHT_MOST 2500.0f
 /* A speed of so many standard deviations has a direction. */
 #define HEADING_SIGMAS 3.0f
 /* Velocities are so much better than filters that expect manoeuvres say: share of the variance. */
-#define TURNED_SHARE 0.7f
-/* Plots that tell the length for a gate. */
-#define FEW_PLOTS 4.0f
+#define TURNED_SHARE 0.3f
+/* An error of the heading is one for so many looks. */
+#define TURNED_LOOKS 10.0f
+/* Half the variance of a place's square, over the square of its variance: 0.4 if places are uniform
+ * on the body, and half of that as most scatterers are the same ones from look to look. */
+#define SQUARES_OF_BODY 0.2f
+/* Scatterers that are elsewhere on their parts of the body at each look. */
+#define ANEW_SHARE 0.5f
+/* The weight that tells the length for a gate: of 4 plots without noise. */
+#define FEW_WEIGHT 20.0f
 /* A body of which nothing but the heading is known is so many times as long as wide. */
 #define ASPECT_PRIOR 3.0f
-/* What the prior counts, and the least that any plots do. */
-#define PRIOR_PLOTS 0.3f
+/* What the prior counts: next to nothing; and a width is known to some 30 %. */
+#define PRIOR_WEIGHT 0.3f
+#define WIDTH_PRIOR_WEIGHT 6.0f
+/* The least that any plots count. */
 #define WEIGHT_LEAST 0.01f
 /* A body is usually so many times as long as wide, in the weight of its plots. */
-#define ASPECT_USUAL 6.0f
+#define ASPECT_USUAL 4.0f
 /* It is never longer than so many times its width. */
 #define ASPECT_MAX 16.0f
+/* Squares over what n plots have on average that a stray plot, or a wrong first heading, may add. */
+#define STRAY_SQUARES 12.0f
+/* A slope before any was seen, 1 / variance: 5 scatterers on a body 6 times as long as wide. */
+#define SLOPE_WEIGHT 144.0f
+/* Few scatterers: a body that looks short is further off, in its length. */
+#define FEW_PLACES 8.4f
+/* So much of a plot tells the width at least. */
+#define LEAST_PLOTS 0.1f
+/* Counted plots stop there; so many tell the slope. */
+#define PLOTS_MOST 500.0f
 /* The least variance of a place on a body: 0.1 m of length. */
 #define LEAST_M2 1e-3f
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+/* An axis that no plot has told yet. */
+static struct rho_body_side untold(float m2, float weight)
+{
+    return (struct rho_body_side){m2, weight, 2.0f * m2 * m2 / weight, 1.0f};
+}
 
 void rho_body_start(struct rho_body_filter *body, uint32_t track_id, float prior_m2)
 {
@@ -30,12 +65,12 @@ void rho_body_start(struct rho_body_filter *body, uint32_t track_id, float prior
         .track_id = track_id,
         .along_m2 = prior_m2,
         .across_m2 = prior_m2,
-        .across_mean_m2 = prior_m2,
         .prior_m2 = prior_m2,
-        .along_weight = PRIOR_PLOTS,
-        .across_weight = PRIOR_PLOTS,
+        .along = untold(prior_m2, PRIOR_WEIGHT),
+        .across = untold(prior_m2, WIDTH_PRIOR_WEIGHT),
         .cos_heading = 1.0f,
         .heading_sigma_rad = RHO_PI,
+        .slope_weight = SLOPE_WEIGHT,
         .plots = 1.0f,
     };
 }
@@ -55,7 +90,10 @@ void rho_body_turn(struct rho_body_filter *body, const float velocity_mps[2],
         return;
     }
     if (!body->has_heading) {
-        body->across_m2 = body->across_mean_m2 = body->prior_m2 / (ASPECT_PRIOR * ASPECT_PRIOR);
+        const float width_m2 = body->prior_m2 / (ASPECT_PRIOR * ASPECT_PRIOR);
+        body->across_m2 = width_m2;
+        body->across = (struct rho_body_side){
+            width_m2, WIDTH_PRIOR_WEIGHT, 2.0f * width_m2 * width_m2 / WIDTH_PRIOR_WEIGHT, 1.0f};
     }
     body->cos_heading = c;
     body->sin_heading = s;
@@ -74,7 +112,7 @@ void rho_body_to_axes(const struct rho_body_filter *body, const float xx_yx_yy[3
 
 float rho_body_most_along_m2(const struct rho_body_filter *body)
 {
-    return body->along_m2 + body->prior_m2 * (FEW_PLOTS / (FEW_PLOTS + body->along_weight));
+    return body->along_m2 + body->prior_m2 * (FEW_WEIGHT / (FEW_WEIGHT + body->along.weight));
 }
 
 void rho_body_spread(const struct rho_body_filter *body, float xx_yx_yy[3])
@@ -93,8 +131,7 @@ static float turned_of(const struct rho_body_filter *body)
 
 static float usual_along_m2(const struct rho_body_filter *body)
 {
-    const float least_m2 = body->prior_m2 / 16.0f;
-    return body->along_m2 > least_m2 ? body->along_m2 : least_m2;
+    return larger(body->along_m2, body->prior_m2 / 16.0f);
 }
 
 static float usual_across_m2(const struct rho_body_filter *body)
@@ -102,19 +139,69 @@ static float usual_across_m2(const struct rho_body_filter *body)
     return usual_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
 }
 
-/*
- * One axis: the mean of the squares of n plots, less what is not the body's. Its variance is
- * 2 (v + own)^2 / n: with v as a body of this length has it, whatever the mean is now, it counts as
- * n (v / (v + own))^2 plots without noise.
- */
-static void learn(float *mean_m2, float *weight, float kept, float usual_m2, float squares_m2,
-                  float own_m2, float n)
+float rho_body_missed_share(const struct rho_body_filter *body, unsigned n)
 {
-    const float share = usual_m2 / (usual_m2 + own_m2);
-    const float more = n * share * share;
-    *weight = kept * *weight + more;
-    *mean_m2 += more / *weight * (squares_m2 / n - own_m2 - *mean_m2);
-    *weight = *weight > WEIGHT_LEAST ? *weight : WEIGHT_LEAST;
+    const float most = (float)(n > body->most_plots ? n : body->most_plots);
+    if (n <= 1) {
+        return 1.0f;
+    }
+    return (most - (float)n) / (most - 1.0f) + ANEW_SHARE / (most * most);
+}
+
+/* 2 / n times this is the variance of a mean square in n plots, over v^2: own noise beside v. */
+static float squares_of(float v_m2, float own_m2)
+{
+    const float own = own_m2 / v_m2;
+    return (own + 2.0f) * own + SQUARES_OF_BODY;
+}
+
+/*
+ * One axis: a variance seen in n plots, without what is not the body's. It counts as what n plots
+ * tell of a body of the usual variance, whatever they say.
+ */
+static void learn(struct rho_body_side *side, float usual_m2, float seen_m2, float own_m2, float n)
+{
+    const float more = n / squares_of(usual_m2, own_m2);
+    const float v_m2 = larger(side->mean_m2, LEAST_M2);
+    side->weight *= more < WEIGHT_MOST ? 1.0f - more / WEIGHT_MOST : 0.0f;
+    side->weight += more;
+    const float gain = more / side->weight;
+    side->mean_m2 += gain * (seen_m2 - side->mean_m2);
+    side->prior_share *= 1.0f - gain;
+    side->variance_m4 = (1.0f - gain) * (1.0f - gain) * side->variance_m4 +
+                        gain * gain * 2.0f / n * v_m2 * v_m2 * squares_of(v_m2, own_m2);
+    side->weight = larger(side->weight, WEIGHT_LEAST);
+}
+
+/*
+ * Across: an error of the heading turns all plots of a look about the reference point. How far they
+ * seem turned is a slope, that of the scatterers' own places (learned, for it lasts) and the
+ * error, whose expected share is taken off.
+ */
+static void learn_across(struct rho_body_filter *body, const struct rho_body_look *look, float n)
+{
+    const float usual_m2 = usual_across_m2(body), noise_m2 = look->noise_across_m2 / n;
+    const float missed = rho_body_missed_share(body, look->num_plots);
+    const float along_m2 = larger(look->along_m2, n * LEAST_M2);
+    const float slope = look->cross_m2 / along_m2;
+    const float slope_variance = (noise_m2 + missed * usual_m2) / along_m2;
+    const float turned = turned_of(body);
+    const float k = turned / (turned + slope_variance);
+    const float off = slope - body->slope, left = (1.0f - k) * (1.0f - k) * turned;
+    const float gone = 2.0f * k - k * k; /* plots that tell the turn alone */
+    const float squares_m2 = look->across_m2 - 2.0f * k * off * look->cross_m2 +
+                             k * k * along_m2 * (off * off + 1.0f / body->slope_weight);
+    const float own_m2 = noise_m2 + left * body->along_m2;
+    const float most_m2 = (n + STRAY_SQUARES) * (larger(usual_m2, body->across_m2) + own_m2);
+    const float sum_m2 = smaller(squares_m2, most_m2) - (n - gone) * noise_m2;
+    if (n - gone > LEAST_PLOTS) {
+        learn(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2, own_m2,
+              n - gone);
+    }
+    const float more = 1.0f / (slope_variance + TURNED_LOOKS * turned);
+    body->slope_weight *= 1.0f - smaller(n / PLOTS_MOST, 1.0f);
+    body->slope_weight += more;
+    body->slope += more / body->slope_weight * off;
 }
 
 void rho_body_add(struct rho_body_filter *body, const struct rho_body_look *look)
@@ -126,35 +213,29 @@ void rho_body_add(struct rho_body_filter *body, const struct rho_body_look *look
     if (look->num_plots == 0 || !body->has_heading) {
         return;
     }
-    const float kept = n < PLOTS_REMEMBERED ? 1.0f - n / PLOTS_REMEMBERED : 0.0f;
-    const float turned = turned_of(body);
-    const float along_m2 = look->noise_along_m2 / n + turned * body->across_m2;
-    const float across_m2 = look->noise_across_m2 / n + turned * body->along_m2;
-    learn(&body->along_m2, &body->along_weight, kept, usual_along_m2(body), look->along_m2,
-          along_m2, n);
-    body->along_m2 = body->along_m2 > LEAST_M2 ? body->along_m2 : LEAST_M2;
-    learn(&body->across_mean_m2, &body->across_weight, kept, usual_across_m2(body), look->across_m2,
-          across_m2, n);
-    const float least_m2 = body->along_m2 / (ASPECT_MAX * ASPECT_MAX);
-    body->across_m2 = body->across_mean_m2 > least_m2 ? body->across_mean_m2 : least_m2;
-    body->plots = kept * body->plots + n;
+    const float along_m2 = look->noise_along_m2 / n + turned_of(body) * body->across_m2;
+    learn(&body->along, usual_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
+    body->along_m2 = larger(body->along.mean_m2, LEAST_M2);
+    learn_across(body, look, n);
+    body->across_m2 = larger(body->across.mean_m2, body->along_m2 / (ASPECT_MAX * ASPECT_MAX));
+    body->plots = smaller(body->plots + n, PLOTS_MOST);
 }
 
 /*
- * L = root(12 v): dL = 6 dv / L, and dv = root(2 / weight) v. Beside it: of scatterers that stay
- * where they are, each anywhere in its part of the body, N are seen, whose own variance is off by
- * a share of 2 / N^1.5, however many looks there are. And what headings add lasts: turned_m2.
+ * L = root(12 v): dL = 6 dv / L. Beside what plots leave of v: of scatterers that stay where they
+ * are, each anywhere in its part of the body, N are seen, whose own variance is off by a share of
+ * 2 / N^1.5, however many looks there are. And what headings add lasts: turned_m2.
  */
-static float side_m(const struct rho_body_filter *body, float spread_m2, float usual_m2,
-                    float turned_m2, float weight, float *sigma_m)
+static float side_m(const struct rho_body_filter *body, const struct rho_body_side *side,
+                    float spread_m2, float turned_m2, float *sigma_m)
 {
     const float length_m = rho_sqrt(12.0f * spread_m2);
     const float most = (float)body->most_plots;
-    const float stays_m = length_m / (most * rho_sqrt(most));
-    const float drawn_m =
-        6.0f * (spread_m2 > usual_m2 ? spread_m2 : usual_m2) * rho_sqrt(2.0f / weight) / length_m;
-    const float turned_m = 6.0f * turned_m2 / length_m;
-    *sigma_m = rho_sqrt(drawn_m * drawn_m + stays_m * stays_m + turned_m * turned_m);
+    const float told = 1.0f - side->prior_share;
+    const float stays_m = told * length_m / (most * rho_sqrt(most)) *
+                          (1.0f + told * told * FEW_PLACES / (most * most * most));
+    *sigma_m = rho_sqrt(stays_m * stays_m + 36.0f / (length_m * length_m) *
+                                                (side->variance_m4 + turned_m2 * turned_m2));
     return length_m;
 }
 
@@ -169,9 +250,11 @@ void rho_body_shape(const struct rho_body_filter *body, struct rho_body *shape)
         .sigma_across_m = rho_sqrt(body->across_m2 / (most * most * most)),
         .plots = body->plots,
     };
-    const float turned = turned_of(body);
-    shape->length_m = side_m(body, body->along_m2, usual_along_m2(body), turned * body->across_m2,
-                             body->along_weight, &shape->sigma_length_m);
-    shape->width_m = side_m(body, body->across_m2, usual_across_m2(body), turned * body->along_m2,
-                            body->across_weight, &shape->sigma_width_m);
+    /* a turn that slopes tell is off by as much as the slope is: (s + e)^2 - s^2 */
+    const float turned = smaller(turned_of(body), 1.0f / body->slope_weight);
+    const float off = rho_sqrt(turned * (turned + 4.0f * body->slope * body->slope));
+    shape->length_m = side_m(body, &body->along, body->along_m2, turned * body->across_m2,
+                             &shape->sigma_length_m);
+    shape->width_m =
+        side_m(body, &body->across, body->across_m2, off * body->along_m2, &shape->sigma_width_m);
 }

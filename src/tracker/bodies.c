@@ -79,6 +79,7 @@ static void look_at(const struct step *step, const struct rho_scan *scan,
         look->num_plots++;
         look->along_m2 += along_m * along_m;
         look->across_m2 += across_m * across_m;
+        look->cross_m2 += along_m * across_m;
         look->noise_along_m2 += axes[0];
         look->noise_across_m2 += axes[2];
     }
@@ -117,6 +118,13 @@ int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struc
     return 1;
 }
 
+static int is_sound(const struct rho_body_side *side)
+{
+    return rho_is_within(side->mean_m2, -1e12f, 1e12f) &&
+           rho_is_within(side->weight, 1e-3f, 1e6f) &&
+           rho_is_within(side->variance_m4, 0.0f, 1e30f);
+}
+
 int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
 {
     const struct rho_bodies *bodies = &tracker->bodies;
@@ -128,10 +136,9 @@ int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
         const struct rho_body_filter *body = &bodies->of[i];
         if (!rho_is_within(body->along_m2, 0.0f, 1e12f) ||
             !rho_is_within(body->across_m2, 0.0f, 1e12f) ||
-            !rho_is_within(body->prior_m2, 0.0f, 1e12f) ||
-            !rho_is_within(body->across_mean_m2, -1e12f, 1e12f) ||
-            !rho_is_within(body->along_weight, 1e-3f, 1e6f) ||
-            !rho_is_within(body->across_weight, 1e-3f, 1e6f) ||
+            !rho_is_within(body->prior_m2, 0.0f, 1e12f) || !is_sound(&body->along) ||
+            !is_sound(&body->across) || !rho_is_within(body->slope, -1e12f, 1e12f) ||
+            !rho_is_within(body->slope_weight, 1.0f, 1e30f) ||
             !rho_is_within(body->cos_heading, -1.001f, 1.001f) ||
             !rho_is_within(body->sin_heading, -1.001f, 1.001f) ||
             !rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) ||

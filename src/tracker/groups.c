@@ -421,7 +421,13 @@ static void body_spread(const struct step *step, unsigned group, const struct rh
     const struct rho_groups *groups = &bodies->groups;
     const unsigned owner = groups->owner[groups->first[group]];
     if (owner != NONE) {
+        const float share = bodies->of[owner].plots < NEW_PLOTS
+                                ? 1.0f
+                                : rho_body_missed_share(&bodies->of[owner], count);
         rho_body_spread(&bodies->of[owner], xx_yx_yy);
+        for (int i = 0; i < 3; i++) {
+            xx_yx_yy[i] *= share;
+        }
         return;
     }
     xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_body_prior_m2(step->tracker);

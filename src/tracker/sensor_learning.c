@@ -358,7 +358,8 @@ static int can_learn(const struct step *step)
 void rho_tracker_learn(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    const int has_noise = learns_noise(&tracker->config);
+    /* a group's noise is mostly that of places on a body */
+    const int has_noise = learns_noise(&tracker->config) && !rho_tracker_has_bodies(tracker);
     const int has_pd = tracker->config.learn_pd_min < 1.0f;
     if (!can_learn(step)) {
         return;

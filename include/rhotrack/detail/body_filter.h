@@ -8,9 +8,14 @@
  *     L^2 / 12 + R        along, and W^2 / 12 + R across,
  *
  * R its own noise, for scatterers that are spread over a rectangle of length L and width W. The
- * means of squares less R are smoothed over some 500 plots; they begin with a third of a plot's
- * worth of half of the longest body. They belong to a frame that turns with the body: a turn changes
- * nothing.
+ * means of squares less R are smoothed over some 500 plots without noise; the length begins with
+ * half of the longest body, which counts next to nothing, the width with a third of that, known to
+ * 30 %. They belong to a frame that turns with the body. Across, a look's plots lie along a line
+ * where the heading is off: its slope against the scatterers' own, which is learned, is taken off
+ * as far as the heading's sigma says, and with it what it takes off the width.
+ *
+ * Scatterers stay on the body: N of them, each anywhere in its part, tell L with a sigma of
+ * L / N^1.5 and the centre with L / (N^1.5 root 12), however long they are seen.
  *
  * Stack: 104 bytes at most.
  */
@@ -48,8 +53,15 @@ void rho_body_spread(const struct rho_body_filter *body, float xx_yx_yy[3]);
 struct rho_body_look {
     unsigned num_plots;
     float along_m2, across_m2;             /* sums of squared distances from the reference point */
+    float cross_m2;                        /* ... and of their products */
     float noise_along_m2, noise_across_m2; /* sums of the plots' own variances */
 };
+
+/*
+ * The mean of n plots, of the most that were ever seen at once, is off by this share of the
+ * variance that the mean of n places anywhere on the body has. Constant cost.
+ */
+float rho_body_missed_share(const struct rho_body_filter *body, unsigned n);
 
 /* After the reference point was updated with these plots. Constant cost. */
 void rho_body_add(struct rho_body_filter *body, const struct rho_body_look *look);

@@ -90,6 +90,8 @@ static void a_truck_is_one_track(void **state)
         assert_true(fabs((double)body.width_m - 2.5) < 0.5);
         assert_true(fabs((double)body.heading_rad) < 0.05);
         assert_true(body.sigma_length_m < 2.0f && body.sigma_heading_rad < 0.1f);
+        /* a group's noise is mostly that of places on the body: nothing is learned from it */
+        assert_true(tracker.learned[0].log_noise[0] == 0.0f);
         const double off_m =
             (double)report.tracks[0].state[0] - truck.x_m - truck.vx_mps * STEP_S * 149;
         assert_true(fabs(off_m) < 1.0);
@@ -243,7 +245,7 @@ static void unsound_bodies_are_found(void **state)
     tracker.bodies.of[0].along_m2 = NAN;
     assert_false(rho_tracker_is_sound(&tracker));
     tracker.bodies = good;
-    tracker.bodies.of[0].across_weight = 0.0f;
+    tracker.bodies.of[0].across.weight = 0.0f;
     assert_false(rho_tracker_is_sound(&tracker));
     tracker.bodies = good;
     assert_true(rho_tracker_is_sound(&tracker));
