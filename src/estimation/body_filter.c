@@ -24,8 +24,6 @@
 /* What the prior counts: next to nothing; and a width is known to some 30 %. */
 #define PRIOR_WEIGHT 0.3f
 #define WIDTH_PRIOR_WEIGHT 6.0f
-/* The least that any plots count. */
-#define WEIGHT_LEAST 0.01f
 /* A body is usually so many times as long as wide, in the weight of its plots. */
 #define ASPECT_USUAL 4.0f
 /* It is never longer than so many times its width. */
@@ -170,7 +168,6 @@ static void learn(struct rho_body_side *side, float usual_m2, float seen_m2, flo
     side->prior_share *= 1.0f - gain;
     side->variance_m4 = (1.0f - gain) * (1.0f - gain) * side->variance_m4 +
                         gain * gain * 2.0f / n * v_m2 * v_m2 * squares_of(v_m2, own_m2);
-    side->weight = larger(side->weight, WEIGHT_LEAST);
 }
 
 /*

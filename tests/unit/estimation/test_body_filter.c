@@ -254,91 +254,149 @@ static void a_heading_takes_a_speed_of_three_sigmas(void **state)
     assert_int_equal(body.has_heading, 1);
 }
 
-/* Before and after the first heading: four plots' worth of the prior more, and a third as wide. */
+/*
+ * Before and after the first heading: as long as it is thought plus what 20 weights leave open, and
+ * a third as wide.
+ */
 static void what_a_new_body_is_taken_for(void **state)
 {
     struct rho_body_filter body;
     float world[3];
     (void)state;
     rho_body_start(&body, 1, 9.0f);
-    expect_close((double)rho_body_most_along_m2(&body), 9.0 + 9.0 * 4.0 / 4.3);
+    expect_close((double)rho_body_most_along_m2(&body), 9.0 + 9.0 * 20.0 / 20.3);
     moves(&body, 10.0f, 0.0f, 0.0f);
     rho_body_spread(&body, world);
     expect_close((double)world[0], 9.0);
     expect_close((double)world[2], 9.0 / 9.0);
 }
 
-/* One axis by the head of body_filter.c, in double precision. */
+/* Both axes by the head of body_filter.c, in double precision. */
 struct axis {
-    double mean_m2, weight;
+    double mean_m2, weight, variance_m4, prior_share;
+};
+struct reference {
+    struct axis along, across;
+    double along_m2, across_m2, slope, slope_weight, plots, most;
 };
 
-static void learn(struct axis *axis, double kept, double usual_m2, double mean_m2, double own_m2,
-                  double n)
+static const double prior_m2 = 9.0, turned = 0.3 * 0.12 * 0.12; /* heading of .12 rad */
+
+static double squares_of(double v_m2, double own_m2)
 {
-    const double share = usual_m2 / (usual_m2 + own_m2);
-    axis->weight = kept * axis->weight + n * share * share;
-    axis->mean_m2 += n * share * share / axis->weight * (mean_m2 - own_m2 - axis->mean_m2);
-    axis->weight = fmax(axis->weight, 0.01);
+    return pow(own_m2 / v_m2 + 1.0, 2.0) - 1.0 + 0.2;
 }
 
-/* The sigma of a side, by what few plots, scatterers that stay and the heading leave of it. */
-static double sigma_of_side(double spread_m2, double usual_m2, double turned_m2, double weight,
+static void learn(struct axis *axis, double usual_m2, double seen_m2, double own_m2, double n)
+{
+    const double more = n / squares_of(usual_m2, own_m2), v_m2 = fmax(axis->mean_m2, 1e-3);
+    axis->weight = fmax(1.0 - more / 2500.0, 0.0) * axis->weight + more;
+    const double gain = more / axis->weight;
+    axis->mean_m2 += gain * (seen_m2 - axis->mean_m2);
+    axis->variance_m4 = pow(1.0 - gain, 2.0) * axis->variance_m4 +
+                        pow(gain * v_m2, 2.0) * 2.0 / n * squares_of(v_m2, own_m2);
+    axis->prior_share *= 1.0 - gain;
+}
+
+static double usual_along_m2(const struct reference *body)
+{
+    return fmax(body->along_m2, prior_m2 / 16.0);
+}
+
+static void learn_across(struct reference *body, const struct rho_body_look *look, double missed)
+{
+    const double n = look->num_plots, noise_m2 = (double)look->noise_across_m2 / n;
+    const double usual_m2 = usual_along_m2(body) / 16.0;
+    const double along_m2 = fmax((double)look->along_m2, n * 1e-3);
+    const double slope_variance = (noise_m2 + missed * usual_m2) / along_m2;
+    const double k = turned / (turned + slope_variance), gone = 1.0 - pow(1.0 - k, 2.0);
+    const double off = (double)look->cross_m2 / along_m2 - body->slope;
+    const double left_m2 = pow(1.0 - k, 2.0) * turned * body->along_m2, own_m2 = noise_m2 + left_m2;
+    const double squares_m2 = (double)look->across_m2 - 2.0 * k * off * (double)look->cross_m2 +
+                              k * k * along_m2 * (off * off + 1.0 / body->slope_weight);
+    const double most_m2 = (n + 12.0) * (fmax(usual_m2, body->across_m2) + own_m2);
+    if (n - gone > 0.1) {
+        learn(&body->across, usual_m2,
+              (fmin(squares_m2, most_m2) - (n - gone) * noise_m2) / (n - missed * gone) - left_m2,
+              own_m2, n - gone);
+    }
+    const double more = 1.0 / (slope_variance + 10.0 * turned);
+    body->slope_weight = fmax(1.0 - n / 500.0, 0.0) * body->slope_weight + more;
+    body->slope += more / body->slope_weight * off;
+}
+
+static void add(struct reference *body, const struct rho_body_look *look)
+{
+    const double n = look->num_plots;
+    body->most = fmax(body->most, n);
+    const double missed =
+        n > 1.0 ? (body->most - n) / (body->most - 1.0) + 0.5 / pow(body->most, 2.0) : 1.0;
+    const double own_m2 = (double)look->noise_along_m2 / n + turned * body->across_m2;
+    learn(&body->along, usual_along_m2(body), (double)look->along_m2 / n - own_m2, own_m2, n);
+    body->along_m2 = fmax(body->along.mean_m2, 1e-3);
+    learn_across(body, look, missed);
+    body->across_m2 = fmax(body->across.mean_m2, body->along_m2 / 256.0);
+    body->plots = fmin(body->plots + n, 500.0);
+}
+
+/* The sigma of a side, by what plots, scatterers that stay and the heading leave of it. */
+static double sigma_of_side(const struct axis *axis, double spread_m2, double turned_m2,
                             double most)
 {
-    const double length_m = sqrt(12.0 * spread_m2);
-    const double drawn_m = 6.0 * fmax(spread_m2, usual_m2) * sqrt(2.0 / weight) / length_m;
-    return sqrt(drawn_m * drawn_m + pow(length_m / pow(most, 1.5), 2.0) +
-                pow(6.0 * turned_m2 / length_m, 2.0));
+    const double length_m = sqrt(12.0 * spread_m2), told = 1.0 - axis->prior_share;
+    const double stays_m =
+        told * length_m / pow(most, 1.5) * (1.0 + told * told * 8.4 / pow(most, 3.0));
+    return sqrt(stays_m * stays_m +
+                pow(6.0 / length_m, 2.0) * (axis->variance_m4 + turned_m2 * turned_m2));
 }
 
-/* Looks of few plots and of many, of less spread than their noise, and of noise alone. */
+/*
+ * Looks of few plots and of many, seen from a body that is turned, with a stray plot, of less
+ * spread than their noise, and of noise alone.
+ */
 static void every_look_as_derived(void **state)
 {
     static const struct rho_body_look looks[] = {
-        {2, 30.0f, 3.0f, 0.5f, 0.4f},       {5, 80.0f, 2.0f, 1.0f, 0.8f},
-        {1, 4.0f, 0.02f, 0.3f, 0.2f},       {300, 3500.0f, 250.0f, 90.0f, 60.0f},
-        {400, 4000.0f, 300.0f, 1e3f, 1e3f}, {8, 1.0f, 0.1f, 900.0f, 90.0f},
-        {600, 1.0f, 1.0f, 600.0f, 600.0f},  {600, 1.0f, 1.0f, 6e7f, 6e7f},
+        {2, 30.0f, 3.0f, 4.0f, 0.5f, 0.4f},          {5, 80.0f, 2.0f, 3.0f, 1.0f, 0.8f},
+        {1, 4.0f, 0.02f, 0.1f, 0.3f, 0.2f},          {1, 9.0f, 0.5f, 2.0f, 1e-4f, 1e-6f},
+        {3, 50.0f, 150.0f, 60.0f, 0.5f, 0.4f},       {4, 50.0f, 3.0f, -9.0f, 0.9f, 0.7f},
+        {300, 3500.0f, 250.0f, 99.0f, 90.0f, 60.0f}, {400, 4000.0f, 300.0f, 0.0f, 1e3f, 1e3f},
+        {8, 1.0f, 0.1f, 0.1f, 900.0f, 90.0f},        {600, 1.0f, 1.0f, 0.2f, 600.0f, 600.0f},
+        {9000, 1.0f, 1.0f, 0.0f, 9e3f, 9e3f},        {600, 1.0f, 1.0f, 0.0f, 6e7f, 6e7f},
     };
-    const double prior_m2 = 9.0, heading_rad = 0.12, turned = 0.7 * heading_rad * heading_rad;
-    struct axis along = {prior_m2, 0.3}, across = {prior_m2 / 9.0, 0.3};
-    double width_m2 = across.mean_m2, plots = 1.0, most = 0.0;
+    const double width_m2 = prior_m2 / 9.0;
+    struct reference reference = {
+        .along = {prior_m2, 0.3, 2.0 * prior_m2 * prior_m2 / 0.3, 1.0},
+        .across = {width_m2, 6.0, 2.0 * width_m2 * width_m2 / 6.0, 1.0},
+        .along_m2 = prior_m2,
+        .across_m2 = width_m2,
+        .slope_weight = 144.0,
+        .plots = 1.0,
+    };
     struct rho_body_filter body;
     struct rho_body shape;
     (void)state;
     rho_body_start(&body, 1, (float)prior_m2);
     moves(&body, 10.0f, 0.0f, 1.44f);
     for (size_t i = 0; i < sizeof looks / sizeof looks[0]; i++) {
-        const struct rho_body_look *look = &looks[i];
-        const double n = look->num_plots, kept = fmax(1.0 - n / 500.0, 0.0);
-        const double usual_m2 = fmax(along.mean_m2, prior_m2 / 16.0);
-        const double before_m2 = along.mean_m2;
-        rho_body_add(&body, look);
-        learn(&along, kept, usual_m2, (double)look->along_m2 / n,
-              (double)look->noise_along_m2 / n + turned * width_m2, n);
-        along.mean_m2 = fmax(along.mean_m2, 1e-3);
-        learn(&across, kept, fmax(along.mean_m2, prior_m2 / 16.0) / 36.0,
-              (double)look->across_m2 / n, (double)look->noise_across_m2 / n + turned * before_m2,
-              n);
-        width_m2 = fmax(across.mean_m2, along.mean_m2 / 256.0);
-        plots = kept * plots + n;
-        most = fmax(most, n);
+        rho_body_add(&body, &looks[i]);
+        add(&reference, &looks[i]);
         rho_body_shape(&body, &shape);
-        expect_close((double)shape.length_m, sqrt(12.0 * along.mean_m2));
-        expect_close((double)shape.width_m, sqrt(12.0 * width_m2));
-        expect_close((double)shape.plots, plots);
+        const double off_m2 = fmin(turned, 1.0 / reference.slope_weight),
+                     off = sqrt(off_m2 * (off_m2 + 4.0 * pow(reference.slope, 2.0)));
+        expect_close((double)shape.length_m, sqrt(12.0 * reference.along_m2));
+        expect_close((double)shape.width_m, sqrt(12.0 * reference.across_m2));
+        expect_close((double)shape.plots, reference.plots);
         expect_close((double)rho_body_most_along_m2(&body),
-                     along.mean_m2 + prior_m2 * 4.0 / (4.0 + along.weight));
-        const double now_m2 = fmax(along.mean_m2, prior_m2 / 16.0);
+                     reference.along_m2 + prior_m2 * 20.0 / (20.0 + reference.along.weight));
         expect_close((double)shape.sigma_length_m,
-                     sigma_of_side(along.mean_m2, now_m2, turned * width_m2, along.weight, most));
-        expect_close(
-            (double)shape.sigma_width_m,
-            sigma_of_side(width_m2, now_m2 / 36.0, turned * along.mean_m2, across.weight, most));
+                     sigma_of_side(&reference.along, reference.along_m2,
+                                   off_m2 * reference.across_m2, reference.most));
+        expect_close((double)shape.sigma_width_m,
+                     sigma_of_side(&reference.across, reference.across_m2, off * reference.along_m2,
+                                   reference.most));
     }
-    expect_close(along.mean_m2, 1e-3);
-    expect_close(along.weight, 0.01);
+    expect_close(reference.along_m2, 1e-3);
 }
 
 int main(void)

@@ -71,7 +71,8 @@ static void group(void)
 
 static int owner_of(uint32_t plot)
 {
-    return tracker.bodies.groups.owner[plot] == UINT16_MAX ? -1 : tracker.bodies.groups.owner[plot];
+    const struct rho_groups *groups = &tracker.bodies.groups;
+    return plot >= RHO_BODY_PLOTS || groups->owner[plot] == UINT16_MAX ? -1 : groups->owner[plot];
 }
 
 /* ---- plots of no track ----------------------------------------------------------------------- */
