@@ -10,13 +10,13 @@ refused() { # pattern
     says 2 "rhotrack: $1" && matches "$(echo out*)" 'out.csv' && matches "$(cat out.csv)" before
 }
 
-refuse_file() { # name, pattern, path
+refuse_file() { # name, pattern, path, options...
     for command in track initiate; do
         echo before >out.csv
-        run "$command" "$3" -o out.csv
+        run "$command" "${@:3}" -o out.csv
         check "$command: $1" refused "$2"
         rm -f out*
-        run "$command" "$3" -o out.csv
+        run "$command" "${@:3}" -o out.csv
         check "$command: $1, no output left" matches "$(echo out*)" 'out\*'
     done
 }
@@ -139,11 +139,15 @@ run track bad.csv plots.csv -o out.csv
 check 'bearings: the first of two inputs' refused 'bad.csv:4: bearing_rad 4e6 is outside *'
 
 printf "${bearings}0,1,0,0,1\\n0,2,0,60000,1\\n" >apart.csv
-refuse_file 'bearings: sensors too far apart for the cells' \
+printf '[rhotrack]\nd_rho_m = 2000\n' >cells.ini
+refuse_file 'bearings: sensors too far apart for the cells as set' \
     'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 hold range_max_m 100000 and 56000 m' \
-    apart.csv
+    apart.csv --config cells.ini
+run track apart.csv -o apart.tracks.csv
+check 'bearings: cells that are not set hold sensors 60 km apart' exits 0
+rm apart.tracks.csv
 echo before >out.csv
-run track plots.csv apart.csv -o out.csv
+run track plots.csv apart.csv -o out.csv --config cells.ini
 check 'bearings: sensors too far apart, beside plots' refused \
     'sensors 1 and 2 are 60000 m apart; cells of d_rho_m 2000 *'
 printf "$two" >once.csv
