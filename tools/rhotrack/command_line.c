@@ -329,7 +329,7 @@ static void read_options(struct command_line *line, const struct command *comman
             fail(EXIT_USAGE, "%s takes no --%s; see rhotrack %s --help", command->name,
                  name_of(letter), command->name);
         }
-        if (letter == 's' && command->run == command_simulate) { /* changes the scene */
+        if (letter == 's' && strcmp(command->name, "simulate") == 0) { /* changes the scene */
             line->scene_sets =
                 must_grow(line->scene_sets, line->num_scene_sets, &room, sizeof *line->scene_sets);
             line->scene_sets[line->num_scene_sets++] = optarg;

@@ -206,17 +206,20 @@ static void a_status_says_the_origin(void **state)
     char reason[PARAMETER_REASON_BYTES];
     const struct rho_message_status *status = &live.heard.status;
     const struct node_core_losses losses = {.datagrams_refused = 0};
+    const struct node_core_events events = {.context = &live.heard, .send = on_send};
 
     (void)state;
     start(&live);
     node_core_status(live.core, &losses);
     assert_true(status->origin_lat_1e7deg == 0 && status->origin_lon_1e7deg == 0);
+    node_core_close(live.core);
     assert_true(parameters_assign(&live.parameters, "origin_lat_deg", "-33.9461234", SOURCE_CONFIG,
                                   reason));
     assert_true(parameters_assign(&live.parameters, "origin_lon_deg", "151.1771234", SOURCE_CONFIG,
                                   reason));
     assert_true(
         parameters_assign(&live.parameters, "origin_alt_m", "27.4321", SOURCE_CONFIG, reason));
+    live.core = node_core_open(&live.parameters, 1, &events);
     node_core_status(live.core, &losses);
     assert_int_equal(status->origin_lat_1e7deg, -339461234);
     assert_int_equal(status->origin_lon_1e7deg, 1511771234);
