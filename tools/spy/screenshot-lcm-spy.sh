@@ -45,8 +45,11 @@ xdotool windowsize "$spy" 1280 155 windowmove "$spy" 0 0
 sleep 7 # for the channels to be listed
 xdotool mousemove 80 92 click --repeat 2 --delay 80 1
 view=$(window 'rhotrack')
+if [ -n "$(xdotool search --onlyvisible --name '^RHO_')" ]; then
+    echo 'screenshot: a double-click has opened more than the one window' >&2
+    exit 1
+fi
 xdotool windowsize "$view" 1280 785 windowmove "$view" 0 155
-xdotool windowraise "$spy" windowraise "$view" # above lcm-spy's own, still empty one
 xdotool mousemove 1278 938
 sleep $((seconds > SECONDS - started ? seconds - (SECONDS - started) : 1))
 import -window root "$file"

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 package rhotrack.spy;
 
+import java.awt.Window;
 import java.awt.event.ActionEvent;
 import java.io.IOException;
+import java.util.Arrays;
+import java.util.Optional;
 import javax.swing.AbstractAction;
 import javax.swing.Action;
 import javax.swing.JDesktopPane;
+import javax.swing.JFrame;
 import javax.swing.JOptionPane;
+import javax.swing.SwingUtilities;
 import lcm.spy.ChannelData;
 import lcm.spy.SpyPlugin;
 
@@ -17,9 +22,11 @@ import rhotrack.spy.scene.Model;
 
 /**
  * The plug-in that lcm-spy finds on its class path: any channel of rhotrack opens the one window
- * that shows all.
+ * that shows all, beside lcm-spy's.
  */
 public final class SpyView implements SpyPlugin {
+    private static final String SPY_TITLE = "LCM Spy";
+
     private ViewerWindow window;
 
     @Override
@@ -33,9 +40,24 @@ public final class SpyView implements SpyPlugin {
         return new AbstractAction("rhotrack view") {
             @Override
             public void actionPerformed(ActionEvent event) {
+                closeEmpty(desktop, channel);
                 open();
             }
         };
+    }
+
+    /** lcm-spy makes a window for what a plug-in shows, which would stay empty. */
+    private static void closeEmpty(JDesktopPane desktop, ChannelData channel) {
+        if (SwingUtilities.getWindowAncestor(desktop) instanceof JFrame frame
+                && frame.getTitle().equals(channel.name) && desktop.getAllFrames().length == 0) {
+            frame.dispose();
+        }
+    }
+
+    private static Optional<Window> spyWindow() {
+        return Arrays.stream(Window.getWindows())
+                .filter(one -> one.isVisible() && one instanceof JFrame frame && SPY_TITLE.equals(frame.getTitle()))
+                .findFirst();
     }
 
     private void open() {
@@ -47,6 +69,7 @@ public final class SpyView implements SpyPlugin {
             Model model = new Model();
             Feed feed = new Feed(LcmUrl.ofThisProcess(), model);
             window = new ViewerWindow(model, feed, Viewer.WIDTH, Viewer.HEIGHT);
+            spyWindow().ifPresent(window::placeBeside);
             window.open();
         } catch (IOException e) {
             JOptionPane.showMessageDialog(null, e.getMessage(), "rhotrack", JOptionPane.ERROR_MESSAGE);

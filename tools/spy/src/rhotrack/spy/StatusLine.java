@@ -3,8 +3,12 @@ package rhotrack.spy;
 
 import java.awt.Color;
 import java.awt.Dimension;
+import java.awt.FontMetrics;
 import java.awt.Graphics;
 import java.awt.Graphics2D;
+import java.awt.event.ComponentAdapter;
+import java.awt.event.ComponentEvent;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
 import javax.swing.JComponent;
@@ -18,18 +22,68 @@ final class StatusLine extends JComponent {
     /** A tracker sends its status once a second. */
     private static final double STALE_S = 4;
     private static final int MAX_FAULTS = 6;
+    private static final int ROW = 19;
+    private static final int MARGIN = 14;
+    private static final int PIECE_GAP = 12;
+    private static final int GROUP_GAP = 14;
 
     private Scene scene;
     private boolean paused;
 
+    /** A text and the space behind it. */
+    record Piece(Color colour, String text, int space) {
+    }
+
+    private List<List<Piece>> rows = List.of();
+
     StatusLine() {
-        setPreferredSize(new Dimension(100, 28));
+        setPreferredSize(new Dimension(100, ROW + 9));
+        addComponentListener(new ComponentAdapter() {
+            @Override
+            public void componentResized(ComponentEvent event) {
+                arrange();
+            }
+        });
     }
 
     void show(Scene newScene, boolean isPaused) {
         scene = newScene;
         paused = isPaused;
+        arrange();
         repaint();
+    }
+
+    /** Its pieces in as many rows as they need. */
+    private void arrange() {
+        rows = rows(scene == null ? List.of() : groups(scene.health()), getWidth() - 2 * MARGIN,
+                getFontMetrics(Palette.PLAIN));
+        int height = rows.size() * ROW + 9;
+        if (height != getPreferredSize().height) {
+            setPreferredSize(new Dimension(100, height));
+            revalidate();
+        }
+    }
+
+    /** Groups stay together; one that does not fit begins the next row. At least one row. */
+    static List<List<Piece>> rows(List<List<Piece>> groups, int room, FontMetrics font) {
+        List<List<Piece>> rows = new ArrayList<>();
+        rows.add(new ArrayList<>());
+        int free = room;
+        for (List<Piece> group : groups) {
+            int width = widthOf(group, font);
+            if (width > free && free < room) {
+                rows.add(new ArrayList<>());
+                free = room;
+            }
+            rows.get(rows.size() - 1).addAll(group);
+            rows.get(rows.size() - 1).add(new Piece(Palette.MUTED, "", GROUP_GAP));
+            free -= width + GROUP_GAP;
+        }
+        return rows;
+    }
+
+    static int widthOf(List<Piece> pieces, FontMetrics font) {
+        return pieces.stream().mapToInt(piece -> font.stringWidth(piece.text) + piece.space).sum();
     }
 
     @Override
@@ -39,94 +93,89 @@ final class StatusLine extends JComponent {
         g.setColor(Palette.PANEL);
         g.fillRect(0, 0, getWidth(), getHeight());
         g.setFont(Palette.PLAIN);
-        if (scene != null) {
-            paintHealth(g, scene.health());
+        for (int row = 0; row < rows.size(); row++) {
+            int x = MARGIN;
+            for (Piece piece : rows.get(row)) {
+                g.setColor(piece.colour);
+                g.drawString(piece.text, x, 19 + row * ROW);
+                x += g.getFontMetrics().stringWidth(piece.text) + piece.space;
+            }
         }
         g.dispose();
     }
 
-    private void paintHealth(Graphics2D g, Scene.Health health) {
+    private List<List<Piece>> groups(Scene.Health health) {
+        List<List<Piece>> groups = new ArrayList<>();
         Scene.Status status = health.status();
-        float x = 14;
+        groups.add(List.of(freshness(health)));
         if (status == null) {
-            x = text(g, x, Palette.MUTED, health.received() == 0 ? "waiting for RHO_ channels" : "no RHO_STATUS");
-        } else {
-            x = text(g, x, Palette.MUTED, "scans");
-            x = text(g, x, Palette.TEXT, status.accepted() + " accepted");
-            x = text(g, x, fault(status.lost()), status.lost() + " lost");
-            x = text(g, x, fault(status.late()), status.late() + " late");
-            x = text(g, x, fault(status.bad()), status.bad() + " bad") + 14;
-            x = paintFaults(g, x, health.sensorFaults());
-            x = text(g, x, Palette.MUTED, "tracks");
-            x = text(g, x, Palette.of(TrackMark.Status.CONFIRMED), status.confirmed() + " confirmed");
-            x = text(g, x, Palette.of(TrackMark.Status.TENTATIVE), status.tentative() + " tentative");
-            x = text(g, x, Palette.of(TrackMark.Status.COASTING), status.coasting() + " coasting") + 14;
-            x = text(g, x, Palette.MUTED, "step");
-            x = text(g, x, Palette.TEXT, String.format(Locale.ROOT, "%.0f \u00b5s, at most %.0f", status.stepUs(),
-                    status.stepMaxUs())) + 14;
-            x = paintWork(g, x, health.work());
-            x = text(g, x, Palette.MUTED, "clutter");
-            x = text(g, x, Palette.TEXT, String.format(Locale.ROOT, "%.3g /km\u00b2", status.clutterPerKm2()));
+            groups.add(List.of(piece(Palette.MUTED,
+                    health.received() == 0 ? "waiting for RHO_ channels" : "no RHO_STATUS")));
+            return groups;
         }
-        paintFreshness(g, health, x);
+        groups.add(List.of(piece(Palette.MUTED, "scans"), piece(Palette.TEXT, status.accepted() + " accepted"),
+                piece(fault(status.lost()), status.lost() + " lost"),
+                piece(status.late() > 0 ? Palette.TEXT : Palette.MUTED, status.late() + " late"),
+                piece(fault(status.bad()), status.bad() + " bad")));
+        addFaults(groups, health.sensorFaults());
+        groups.add(List.of(piece(Palette.MUTED, "tracks"),
+                piece(Palette.of(TrackMark.Status.CONFIRMED), status.confirmed() + " confirmed"),
+                piece(Palette.of(TrackMark.Status.TENTATIVE), status.tentative() + " tentative"),
+                piece(Palette.of(TrackMark.Status.COASTING), status.coasting() + " coasting")));
+        groups.add(List.of(piece(Palette.MUTED, "step"), piece(Palette.TEXT,
+                String.format(Locale.ROOT, "%.0f \u00b5s, at most %.0f", status.stepUs(), status.stepMaxUs()))));
+        addWork(groups, health.work());
+        groups.add(List.of(piece(Palette.MUTED, "clutter"),
+                piece(Palette.TEXT, String.format(Locale.ROOT, "%.3g /km\u00b2", status.clutterPerKm2()))));
+        return groups;
     }
 
     /** Without a limit there is no share of it; what was not left out is not said. */
-    private float paintWork(Graphics2D g, float from, Scene.Work work) {
-        float x = from;
+    private static void addWork(List<List<Piece>> groups, Scene.Work work) {
+        List<Piece> group = new ArrayList<>();
         if (work != null && work.share() >= 0) {
-            x = text(g, x, Palette.MUTED, "work");
-            x = text(g, x, Palette.TEXT, String.format(Locale.ROOT, "%.0f %%", 100 * work.share()));
+            group.add(piece(Palette.MUTED, "work"));
+            group.add(piece(Palette.TEXT, String.format(Locale.ROOT, "%.0f %%", 100 * work.share())));
         }
         if (work != null && work.partialSteps() > 0) {
-            x = text(g, x, Palette.WARNING, work.partialSteps() + " partial");
+            group.add(piece(Palette.WARNING, work.partialSteps() + " partial"));
         }
         if (work != null && work.notPrinted() > 0) {
-            x = text(g, x, Palette.WARNING, work.notPrinted() + " not printed");
+            group.add(piece(Palette.WARNING, work.notPrinted() + " not printed"));
         }
         if (work != null && work.notLogged() > 0) {
-            x = text(g, x, Palette.WARNING, work.notLogged() + " not logged");
+            group.add(piece(Palette.WARNING, work.notLogged() + " not logged"));
         }
-        return x + 14;
+        if (!group.isEmpty()) {
+            groups.add(group);
+        }
     }
 
-    private float paintFaults(Graphics2D g, float from, List<String> faults) {
-        float x = from;
+    private static void addFaults(List<List<Piece>> groups, List<String> faults) {
         for (String fault : faults.subList(0, Math.min(faults.size(), MAX_FAULTS))) {
-            x = text(g, x, Palette.WARNING, fault) + 14;
+            groups.add(List.of(piece(Palette.WARNING, fault)));
         }
         if (faults.size() > MAX_FAULTS) {
-            x = text(g, x, Palette.WARNING, (faults.size() - MAX_FAULTS) + " more") + 14;
+            groups.add(List.of(piece(Palette.WARNING, (faults.size() - MAX_FAULTS) + " more")));
         }
-        return x;
     }
 
-    private void paintFreshness(Graphics2D g, Scene.Health health, float free) {
-        String text = health.received() + " messages";
-        Color colour = Palette.MUTED;
-        if (health.ignored() > 0) {
-            text += ", " + health.ignored() + " not understood";
+    private Piece freshness(Scene.Health health) {
+        if (paused) {
+            return piece(Palette.WARNING, "PAUSED");
         }
         if (health.statusAge() > STALE_S) {
-            text = String.format(Locale.ROOT, "status %.0f s old", health.statusAge());
-            colour = Palette.WARNING;
+            return piece(Palette.WARNING, String.format(Locale.ROOT, "status %.0f s old", health.statusAge()));
         }
-        if (paused) {
-            text = "PAUSED";
-            colour = Palette.WARNING;
-        }
-        float x = Math.max(free, getWidth() - 14 - g.getFontMetrics().stringWidth(text));
-        text(g, x, colour, text);
+        return piece(Palette.MUTED, health.received() + " messages"
+                + (health.ignored() > 0 ? ", " + health.ignored() + " not understood" : ""));
     }
 
     private static Color fault(int count) {
         return count > 0 ? Palette.WARNING : Palette.MUTED;
     }
 
-    /** Returns where the next text begins. */
-    private float text(Graphics2D g, float x, Color colour, String text) {
-        g.setColor(colour);
-        g.drawString(text, x, 19);
-        return x + g.getFontMetrics().stringWidth(text) + 12;
+    private static Piece piece(Color colour, String text) {
+        return new Piece(colour, text, PIECE_GAP);
     }
 }

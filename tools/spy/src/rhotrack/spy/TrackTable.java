@@ -18,8 +18,8 @@ final class TrackTable extends JComponent {
     private static final int ROW = 20;
     private static final String[] TITLES = {"track", "speed", "course", "height", "hits", "score"};
 
-    /** Cells are right-aligned, here, as shares of the width. */
-    private static final double[] RIGHT_EDGES = {0.17, 0.39, 0.55, 0.74, 0.86, 1};
+    private static final int LEFT = 26; // of the first column: behind the symbols
+    private static final int RIGHT = 16;
 
     private Scene scene;
     private int selected;
@@ -51,42 +51,56 @@ final class TrackTable extends JComponent {
             g.dispose();
             return;
         }
-        g.setFont(Palette.SMALL);
-        g.setColor(Palette.MUTED);
-        row(g, 18, TITLES);
-        g.setColor(Palette.EDGE);
-        g.drawLine(14, 26, getWidth() - 16, 26);
-        if (scene != null) {
-            paintRows(g);
-        }
+        paintTable(g, scene == null ? List.of() : TrackMark.byImportance(scene.tracks()));
         g.dispose();
     }
 
-    private void paintRows(Graphics2D g) {
-        List<TrackMark> tracks = TrackMark.byImportance(scene.tracks());
+    private void paintTable(Graphics2D g, List<TrackMark> tracks) {
         int room = Math.max(1, (getHeight() - 32) / ROW);
-        int shown = tracks.size() <= room ? tracks.size() : room - 1;
+        List<TrackMark> shown = tracks.subList(0, tracks.size() <= room ? tracks.size() : room - 1);
+        List<String[]> cells = shown.stream().map(TrackTable::cellsOf).toList();
+        double[] edges = Columns.rightEdges(widths(g, cells), getWidth() - LEFT - RIGHT);
+        g.setFont(Palette.SMALL);
+        g.setColor(Palette.MUTED);
+        row(g, 18, edges, TITLES);
+        g.setColor(Palette.EDGE);
+        g.drawLine(14, 26, getWidth() - RIGHT, 26);
         int y = 44;
-        for (TrackMark track : tracks.subList(0, shown)) {
-            Symbols.track(g, track.status(), 20, y - 4);
+        for (int i = 0; i < shown.size(); i++) {
+            Symbols.track(g, shown.get(i).status(), 20, y - 4);
             g.setColor(Palette.TEXT);
             g.setFont(Palette.PLAIN);
-            row(g, y, Integer.toString(track.id()), String.format(Locale.ROOT, "%.0f m/s", track.speed()),
-                    String.format(Locale.ROOT, "%03.0f\u00b0", Geometry.compassDegrees(track.vx(), track.vy())),
-                    track.height() == 0 ? "\u2013" : String.format(Locale.ROOT, "%.0f m", track.height()),
-                    Integer.toString(track.hits()), String.format(Locale.ROOT, "%.1f", track.score()));
+            row(g, y, edges, cells.get(i));
             y += ROW;
         }
-        if (shown < tracks.size()) {
+        if (shown.size() < tracks.size()) {
             g.setColor(Palette.MUTED);
-            g.drawString("and " + (tracks.size() - shown) + " more", 34, y);
+            g.drawString("and " + (tracks.size() - shown.size()) + " more", 34, y);
         }
     }
 
-    private void row(Graphics2D g, int y, String... cells) {
-        for (int i = 0; i < cells.length; i++) {
-            double right = 14 + RIGHT_EDGES[i] * (getWidth() - 30);
-            g.drawString(cells[i], (float) (right - g.getFontMetrics().stringWidth(cells[i])), y);
+    static String[] cellsOf(TrackMark track) {
+        return new String[] {Integer.toString(track.id()), String.format(Locale.ROOT, "%.0f m/s", track.speed()),
+            String.format(Locale.ROOT, "%03.0f\u00b0", Geometry.compassDegrees(track.vx(), track.vy())),
+            track.height() == 0 ? "\u2013" : String.format(Locale.ROOT, "%.0f m", track.height()),
+            Integer.toString(track.hits()), String.format(Locale.ROOT, "%.1f", track.score())};
+    }
+
+    static double[] widths(Graphics2D g, List<String[]> rows) {
+        double[] widths = new double[TITLES.length];
+        for (int i = 0; i < TITLES.length; i++) {
+            widths[i] = g.getFontMetrics(Palette.SMALL).stringWidth(TITLES[i]);
+            for (String[] row : rows) {
+                widths[i] = Math.max(widths[i], g.getFontMetrics(Palette.PLAIN).stringWidth(row[i]));
+            }
+        }
+        return widths;
+    }
+
+    /** Cells are right-aligned. */
+    private static void row(Graphics2D g, int y, double[] edges, String... cells) {
+        for (int i = 0; i < edges.length; i++) {
+            g.drawString(cells[i], (float) (LEFT + edges[i] - g.getFontMetrics().stringWidth(cells[i])), y);
         }
     }
 }

@@ -134,6 +134,7 @@ final class ViewerPanel extends JPanel {
         setSize(width, height);
         layOut(this);
         refresh();
+        layOut(this); // the status line may need more rows
         BufferedImage image = new BufferedImage(width, height, BufferedImage.TYPE_INT_RGB);
         Graphics2D g = image.createGraphics();
         g.setColor(Color.BLACK);

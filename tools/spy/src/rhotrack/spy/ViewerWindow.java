@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 package rhotrack.spy;
 
+import java.awt.GraphicsConfiguration;
+import java.awt.Insets;
+import java.awt.Rectangle;
+import java.awt.Toolkit;
+import java.awt.Window;
 import java.awt.event.WindowAdapter;
 import java.awt.event.WindowEvent;
 import javax.swing.JFrame;
@@ -27,6 +32,28 @@ final class ViewerWindow {
                 feed.close();
             }
         });
+    }
+
+    /** The other one goes to the edge where the screen has room for both only so. */
+    void placeBeside(Window other) {
+        GraphicsConfiguration where = other.getGraphicsConfiguration();
+        Insets edges = Toolkit.getDefaultToolkit().getScreenInsets(where); // of the desktop's bars
+        Rectangle screen = where.getBounds();
+        screen.x += edges.left;
+        screen.y += edges.top;
+        screen.width -= edges.left + edges.right;
+        screen.height -= edges.top + edges.bottom;
+        Rectangle moved = new Rectangle(other.getLocationOnScreen(), other.getSize());
+        Rectangle place = Placement.beside(screen, moved, frame.getSize());
+        if (place == null) {
+            moved.x = screen.x;
+            place = Placement.beside(screen, moved, frame.getSize());
+        }
+        if (place != null) { // else where the desktop puts it
+            other.setBounds(moved);
+            frame.setLocationByPlatform(false);
+            frame.setBounds(place);
+        }
     }
 
     void open() {

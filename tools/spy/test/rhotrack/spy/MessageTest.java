@@ -417,6 +417,14 @@ final class MessageTest {
         check.equal("bearings", List.of(1.0, -2.0), scene.bearings().get(0).content().angles());
         check.near("peaks", -300, scene.peaks().get(0).content().peaks().get(0).rho());
         check.equal("counters stay at their limit", Integer.MAX_VALUE, scene.health().status().bad());
+        status.scans_lost = 12;
+        status.scans_late = 9;
+        decoder.decode("RHO_STATUS", bytes(status));
+        check.equal("skipped numbers that came after all are late", 9, model.scene().health().status().late());
+        check.equal("and not lost", 3, model.scene().health().status().lost());
+        status.scans_late = 20;
+        decoder.decode("RHO_STATUS", bytes(status));
+        check.equal("more late ones are none the less lost", 0, model.scene().health().status().lost());
         decoder.decode("RHO_WORK", bytes(work(250, 1000, 3)));
         check.equal("work", new Scene.Work(0.25, 3, 0, 9), model.scene().health().work());
         decoder.decode("RHO_WORK", bytes(work(250, 0, 0)));

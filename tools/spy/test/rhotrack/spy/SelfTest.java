@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 package rhotrack.spy;
 
+import java.awt.Dimension;
+import java.awt.FontMetrics;
+import java.awt.Graphics2D;
+import java.awt.Rectangle;
 import java.awt.geom.Rectangle2D;
 import java.awt.image.BufferedImage;
 import java.util.ArrayList;
@@ -35,6 +39,9 @@ public final class SelfTest {
         CHECK.group("tracks", SelfTest::tracks);
         CHECK.group("labels", SelfTest::labels);
         CHECK.group("url", SelfTest::url);
+        CHECK.group("windows", SelfTest::windows);
+        CHECK.group("columns", SelfTest::columns);
+        CHECK.group("status line", SelfTest::statusLine);
         MessageTest.run(CHECK);
         System.exit(CHECK.report() ? 0 : 1);
     }
@@ -226,5 +233,66 @@ public final class SelfTest {
         CHECK.equal("--lcm-url", "udpm://b", LcmUrl.from("--lcm-url", "udpm://b"));
         CHECK.equal("--lcm-url=", "udpm://c", LcmUrl.from("--lcm-url=udpm://c"));
         CHECK.equal("-l without one", null, LcmUrl.from("-l"));
+    }
+
+    private static void windows() {
+        Dimension wanted = new Dimension(1280, 800);
+        Rectangle screen = new Rectangle(0, 30, 1920, 1050);
+        Rectangle[] others = {new Rectangle(100, 100, 600, 500), new Rectangle(1300, 200, 600, 500),
+            new Rectangle(50, 40, 1800, 300), new Rectangle(50, 780, 1800, 300), new Rectangle(0, 30, 1920, 155)};
+        for (Rectangle other : others) {
+            Rectangle place = Placement.beside(screen, other, wanted);
+            CHECK.isTrue("beside " + other + ": " + place, place != null && !place.intersects(other)
+                    && screen.contains(place));
+        }
+        CHECK.equal("as large as wanted where there is room", wanted,
+                Placement.beside(new Rectangle(0, 0, 3840, 2160), others[0], wanted).getSize());
+        CHECK.equal("smaller where there is less", new Rectangle(700, 100, 1220, 800),
+                Placement.beside(screen, others[0], wanted));
+        CHECK.equal("nowhere", null, Placement.beside(screen, new Rectangle(200, 200, 1500, 800), wanted));
+        Rectangle second = new Rectangle(1920, 0, 1920, 1080);
+        CHECK.isTrue("on a second screen", second.contains(
+                Placement.beside(second, new Rectangle(2000, 100, 600, 500), wanted)));
+    }
+
+    private static void columns() {
+        Graphics2D g = new BufferedImage(10, 10, BufferedImage.TYPE_INT_RGB).createGraphics();
+        TrackMark far = new TrackMark(65535, TrackMark.Status.CONFIRMED, new Place(0, 0), 123456, 19000, 0, 99999, 0,
+                123456.7, null);
+        double[] widths = TrackTable.widths(g, List.<String[]>of(TrackTable.cellsOf(far)));
+        for (int room = 60; room < 900; room += 7) {
+            double[] edges = Columns.rightEdges(widths, room);
+            double before = 0;
+            for (int i = 0; i < edges.length; i++) {
+                CHECK.isTrue("cells do not touch in " + room, edges[i] - widths[i] >= before
+                        + (edges.length > 1 ? Columns.LEAST_GAP : 0));
+                before = edges[i];
+            }
+            CHECK.isTrue("nor leave the table", before <= room + 1e-9);
+        }
+        CHECK.equal("all of them where there is room", 6, Columns.rightEdges(widths, 900).length);
+        CHECK.isTrue("the last ones go first", Columns.rightEdges(widths, 200).length < 6);
+        CHECK.near("up to the edge", 900, Columns.rightEdges(widths, 900)[5]);
+    }
+
+    private static void statusLine() {
+        FontMetrics font = new BufferedImage(10, 10, BufferedImage.TYPE_INT_RGB).createGraphics()
+                .getFontMetrics(Palette.PLAIN);
+        List<List<StatusLine.Piece>> groups = new ArrayList<>();
+        for (int i = 0; i < 12; i++) {
+            groups.add(List.of(new StatusLine.Piece(Palette.TEXT, "group " + i, 12),
+                    new StatusLine.Piece(Palette.TEXT, "of two", 12)));
+        }
+        CHECK.equal("one row where there is room", 1, StatusLine.rows(groups, 5000, font).size());
+        CHECK.equal("one row of nothing", 1, StatusLine.rows(List.of(), 100, font).size());
+        for (int room = 200; room < 2000; room += 50) {
+            List<List<StatusLine.Piece>> rows = StatusLine.rows(groups, room, font);
+            for (List<StatusLine.Piece> row : rows) {
+                CHECK.isTrue("a row fits in " + room, StatusLine.widthOf(row, font) <= room + 26);
+                CHECK.isTrue("groups stay together", row.get(0).text().startsWith("group"));
+            }
+            CHECK.equal("nothing is missing", 36, rows.stream().mapToInt(List::size).sum());
+        }
+        CHECK.isTrue("a narrow window has more rows", StatusLine.rows(groups, 300, font).size() > 3);
     }
 }

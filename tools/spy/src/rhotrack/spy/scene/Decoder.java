@@ -349,7 +349,9 @@ public final class Decoder {
         if (in.available() > 0 || !isFinite(status.step_us, status.step_max_us, status.clutter_per_km2)) {
             return false;
         }
-        model.setStatus(new Scene.Status(status.scans_accepted, status.scans_lost, status.scans_late,
+        // a number that was skipped counts as lost on the wire, also where its scan came late
+        int lost = Math.max(0, status.scans_lost - status.scans_late);
+        model.setStatus(new Scene.Status(status.scans_accepted, lost, status.scans_late,
                 saturatedSum(status.scans_bad, status.messages_bad), status.tracks_tentative, status.tracks_confirmed,
                 status.tracks_coasting, status.step_us, status.step_max_us, status.clutter_per_km2));
         return true;

@@ -75,7 +75,10 @@ public record Scene(List<LookHistory.Faded<Plots>> plots, List<LookHistory.Faded
     public record Hypothesis(double share, Place place, double vx, double vy, List<Integer> plots) {
     }
 
-    /** RHO_STATUS, the few figures that a status line has room for. */
+    /**
+     * RHO_STATUS, the few figures that a status line has room for. Late scans came behind newer ones of
+     * their sensor; lost ones have not come at all.
+     */
     public record Status(int accepted, int lost, int late, int bad, int tentative, int confirmed, int coasting, double stepUs,
             double stepMaxUs, double clutterPerKm2) {
     }
