@@ -186,16 +186,17 @@ def open_files():
     return len(os.listdir(f"/proc/{PROCESS}/fd"))
 
 
-def memory_kb():
+def of_status(name):
+    """Of the node's process, in kB."""
     text = pathlib.Path(f"/proc/{PROCESS}/status").read_text()
-    return int(re.search(r"VmRSS:\s+(\d+)", text)[1])
+    return int(re.search(name + r":\s+(\d+)", text)[1])
 
 
 def check_leaks():
     for _ in range(50):
         page()
     time.sleep(0.3)
-    files, memory = open_files(), memory_kb()
+    files, memory = open_files(), of_status("VmRSS")
     for i in range(1000):
         here = connect()
         if i % 4 == 0:
@@ -209,10 +210,13 @@ def check_leaks():
     time.sleep(2.5)
     page()
     time.sleep(0.2)
-    grown = memory_kb() - memory
+    grown = of_status("VmRSS") - memory
     check(f"after 1000 connections: {open_files()} files open, as before", open_files() == files,
           files)
-    check(f"and no more memory ({grown} kB)", grown < 300, grown)
+    if of_status("VmSize") > 1 << 32:
+        print("skipped: a sanitizer keeps what is freed")
+    else:
+        check(f"and no more memory ({grown} kB)", grown < 300, grown)
 
 
 def attack(seconds):
