@@ -106,6 +106,18 @@ wait "$first" "$second"
 stop
 check 'once' test "$(grep -c 'has two senders' two.err)" = 1
 
+# ---- of a radar that turns slowly: the first one is heard again much later ----
+start slow --config radar/scenario.ini
+"$program" publish radar/plots.csv 2>/dev/null &
+first=$!
+sleep 1
+"$program" publish radar/plots.csv --set sigma_m=11 2>/dev/null &
+second=$!
+told() { grep -q 'Z rhotrack: sensor 1 has another sender, .*: a restart, or two at once$' slow.err; }
+check 'another sender of a slow radar is told within 2 s' wait_until 2 told
+kill "$first" "$second"
+stop
+
 # ---- a second node ----
 start one
 one=$node

@@ -41,12 +41,15 @@ static void two_senders_are_named_once(void **state)
 {
     (void)state;
     begin();
-    for (int i = 0; i < 100; i++) {
+    for (int i = 1; i < 100; i++) {
         hear("RHO_PLOTS_7", i % 3 ? 5001 : 5002, false, i);
         hear("RHO_POLAR_8", 5001, false, i); /* by one of them alone */
     }
-    said("rhotrack: sensor 7 has two senders: 10.9.0.1:5002 and 10.9.0.1:5001; each needs a number "
-         "of its own\n");
+    said(
+        "rhotrack: sensor 7 has another sender, 10.9.0.1:5002, until now 10.9.0.1:5001: a restart, "
+        "or two at once\n"
+        "rhotrack: sensor 7 has two senders: 10.9.0.1:5001 and 10.9.0.1:5002; each needs a number "
+        "of its own\n");
 }
 
 /* Names that are no sensor's are neither printed nor kept: the table has room for sensors alone. */
@@ -69,12 +72,35 @@ static void one_that_is_started_anew_is_not(void **state)
 {
     (void)state;
     begin();
-    for (int i = 0; i < 100; i++) {
-        hear("RHO_BEARINGS_7", (uint16_t)(5000 + i / 10), false, i);
-        hear("SOMETHING_7", i % 2 ? 1 : 2, false, i);
-        hear("RHO_PLOTS_1", 0, false, i); /* a provider that does not tell */
+    for (int i = 1; i < 100; i++) { /* 1 s apart, and 13 s where it is started anew */
+        const int64_t now_us = 1000000 * (i + 12 * (int64_t)(i / 10));
+
+        hear("RHO_BEARINGS_7", (uint16_t)(5000 + i / 10), false, now_us);
+        hear("SOMETHING_7", i % 2 ? 1 : 2, false, now_us);
+        hear("RHO_PLOTS_1", 0, false, now_us); /* a provider that does not tell */
     }
     said("");
+}
+
+/* A radar that turns in 10 s: the first sender is heard again 8 s later. */
+static void another_one_is_told_before_it_is_certain(void **state)
+{
+    static const char line[] = "rhotrack: sensor 3 has another sender, 10.9.0.1:5002, until now "
+                               "10.9.0.1:5001: a restart, or two at once\n";
+
+    (void)state;
+    begin();
+    hear("RHO_POLAR_3", 5001, false, 1000000);
+    hear("RHO_POLAR_3", 5002, false, 3000000);
+    said(line);
+    begin();
+    for (int i = 0; i < 3; i++) {
+        hear("RHO_POLAR_3", 5001, false, 1000000 + 10000000 * i);
+    }
+    for (int i = 0; i < 50; i++) { /* a port a message */
+        hear("RHO_POLAR_3", (uint16_t)(5002 + i), false, 23000000 + 1000000 * i);
+    }
+    said(line);
 }
 
 static void another_node_is_named_once(void **state)
@@ -112,6 +138,7 @@ int main(void)
         cmocka_unit_test(two_senders_are_named_once),
         cmocka_unit_test(other_names_are_not_sensors),
         cmocka_unit_test(one_that_is_started_anew_is_not),
+        cmocka_unit_test(another_one_is_told_before_it_is_certain),
         cmocka_unit_test(another_node_is_named_once),
         cmocka_unit_test(lines_are_few),
     };

@@ -8,6 +8,8 @@
 #include "rhotrack/message.h"
 
 #define SECOND_US 1000000
+#define TOLD_US (60 * SECOND_US) /* from one doubt about a sensor's sender to the next */
+#define TURN_US (12 * SECOND_US) /* of the antenna of a slow radar */
 
 static bool is_same(const struct transport_sender *one, const struct transport_sender *other)
 {
@@ -70,26 +72,50 @@ static struct sender_channel *find_channel(struct senders *senders,
     return channel;
 }
 
-static void note_sensor(struct senders *senders, const struct transport_message *message, FILE *to)
+static void print_both(struct senders *senders, const struct sender_channel *channel,
+                       const char *what, const struct transport_sender *one, const char *between,
+                       const struct transport_sender *other, const char *end, FILE *to)
 {
-    struct sender_channel *channel = find_channel(senders, message);
-    bool is_back;
+    senders->lines++;
+    fprintf(to, "rhotrack: sensor %s has %s", strrchr(channel->name, '_') + 1, what);
+    print_sender(one, to);
+    fputs(between, to);
+    print_sender(other, to);
+    fputs(end, to);
+}
 
-    if (!channel || is_same(&channel->last, &message->sender)) {
-        return;
-    }
-    is_back = is_same(&channel->before, &message->sender);
+static void note_other(struct senders *senders, struct sender_channel *channel,
+                       const struct transport_sender *sender, int64_t now_us, FILE *to)
+{
+    const bool is_back = is_same(&channel->before, sender);
+    const bool is_told = channel->told_us > 0 && now_us < channel->told_us + TOLD_US;
+    const bool is_live = channel->heard_us > 0 && now_us < channel->heard_us + TURN_US;
+
     if (is_back && !channel->is_named && to) {
-        senders->lines++;
-        fprintf(to, "rhotrack: sensor %s has two senders: ", strrchr(channel->name, '_') + 1);
-        print_sender(&channel->before, to);
-        fputs(" and ", to);
-        print_sender(&channel->last, to);
-        fputs("; each needs a number of its own\n", to);
+        print_both(senders, channel, "two senders: ", &channel->before, " and ", &channel->last,
+                   "; each needs a number of its own\n", to);
+    } else if (!is_back && !is_told && is_live && to) {
+        channel->told_us = now_us;
+        print_both(senders, channel, "another sender, ", sender, ", until now ", &channel->last,
+                   ": a restart, or two at once\n", to);
     }
     channel->is_named = is_back;
     channel->before = channel->last;
-    channel->last = message->sender;
+    channel->last = *sender;
+}
+
+static void note_sensor(struct senders *senders, const struct transport_message *message,
+                        int64_t now_us, FILE *to)
+{
+    struct sender_channel *channel = find_channel(senders, message);
+
+    if (!channel) {
+        return;
+    }
+    if (!is_same(&channel->last, &message->sender)) {
+        note_other(senders, channel, &message->sender, now_us, to);
+    }
+    channel->heard_us = now_us;
 }
 
 /* ---- Nodes ---- */
@@ -124,7 +150,7 @@ void senders_note(struct senders *senders, const struct transport_message *messa
     }
     to = senders->lines < SENDERS_LINES ? to : NULL;
     if (senders_read_sensor(message->channel, &sensor_id)) {
-        note_sensor(senders, message, to);
+        note_sensor(senders, message, now_us, to);
     } else if (!message->sender.is_own &&
                strcmp(message->channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
         note_node(senders, &message->sender, to);

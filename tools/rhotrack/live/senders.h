@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * senders: who sends a sensor's messages. A sensor that is sent from two places at once is named:
- * its scans are mixed, and each sender's look like the other's restart. A sender that is started
- * anew has another port, and the one before is not heard again: that is none.
+ * its scans are mixed, and each sender's look like the other's restart. That is certain once the
+ * first one is heard again, which may take a turn of the radar; so another sender is told at once
+ * where the first one has been silent for no longer than such a turn. A sender that is started anew
+ * has another port, and the one before is not heard again: that is none.
  */
 #ifndef RHOTRACK_TOOL_SENDERS_H
 #define RHOTRACK_TOOL_SENDERS_H
@@ -19,6 +21,8 @@ struct sender_channel {
     char name[64];
     struct transport_sender last, before; /* of its messages: of other addresses or ports */
     bool is_named;                        /* this pair */
+    int64_t heard_us, longest_us;         /* the last one, and its longest pause; 0: not known */
+    int64_t told_us;                      /* of another sender; 0: never */
 };
 
 /* All zero at the start. Channels beyond SENDERS_CHANNELS are not watched. */
@@ -36,8 +40,8 @@ bool senders_read_sensor(const char *channel, int16_t *sensor_id);
 /*
  * A message has come. One line where a second sender of a sensor is certain, as the first one is
  * heard again, or another node publishes: once a pair, once a node, and SENDERS_LINES a second at
- * most.
- *   now_us  clock_us
+ * most. One line a minute of a sensor where it may be.
+ *   now_us  clock_us; above 0
  *   to      NULL: nothing is written
  */
 void senders_note(struct senders *senders, const struct transport_message *message, int64_t now_us,
