@@ -75,18 +75,25 @@ int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker)
     return i == num;
 }
 
+int rho_tracker_lies_excluded(const struct step *step, uint32_t plot)
+{
+    const struct rho_tracker *tracker = step->tracker;
+    const struct rho_plot *at = &step->scan->plots[plot];
+    unsigned k = 0;
+    while (k < tracker->num_excluded && !holds(&tracker->excluded[k], at->x_m, at->y_m)) {
+        k++;
+    }
+    return k < tracker->num_excluded;
+}
+
 void rho_tracker_mark_excluded(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     rho_tracker_spend(step, step->num_gated * tracker->num_excluded / COMPARED_A_UNIT);
     for (uint32_t i = 0; i < step->num_gated; i++) {
-        const struct rho_plot *plot = &step->scan->plots[i];
-        for (unsigned k = 0; k < tracker->num_excluded && step->report->fates[i] == RHO_FATE_HELD;
-             k++) {
-            if (holds(&tracker->excluded[k], plot->x_m, plot->y_m)) {
-                step->report->fates[i] = RHO_FATE_GHOST;
-                tracker->counters.plots_excluded = rho_count(tracker->counters.plots_excluded, 1);
-            }
+        if (step->report->fates[i] == RHO_FATE_HELD && rho_tracker_lies_excluded(step, i)) {
+            step->report->fates[i] = RHO_FATE_GHOST;
+            tracker->counters.plots_excluded = rho_count(tracker->counters.plots_excluded, 1);
         }
     }
 }

@@ -98,12 +98,20 @@ static struct outline outline_of(const struct step *step, unsigned row)
     return outline;
 }
 
+/* How far a track goes until the plot that is farthest off the scan's time. */
+static float moved_m(const struct step *step, const struct outline *outline)
+{
+    const float vx_mps = outline->track->kalman.state[3], vy_mps = outline->track->kalman.state[4];
+    return step->offset_max_s * rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
+}
+
 /* Half the side of the box in which plots may be the track's: both axes at once. */
 static float half_box_m(const struct step *step, const struct outline *outline)
 {
     const float noise_m2 = step->sigma_max_m * step->sigma_max_m;
     return 1.5f * GATE_SIGMAS *
-           rho_sqrt(larger(outline->place_m2[0], outline->place_m2[2]) + noise_m2);
+               rho_sqrt(larger(outline->place_m2[0], outline->place_m2[2]) + noise_m2) +
+           moved_m(step, outline);
 }
 
 /* The range rate that agrees with the track's velocity, where both are known. */
@@ -160,6 +168,12 @@ static struct plots_near plots_about(const struct step *step, const struct outli
                                   state[1] + half_m);
 }
 
+/* Those that the track and plots of its body may have. */
+static struct plots_near plots_of_body(const struct step *step, const struct outline *outline)
+{
+    return plots_about(step, outline, 2.0f * longest_m(step) + moved_m(step, outline));
+}
+
 static int fits_owned(struct step *step, unsigned row, struct plots_near near, uint32_t plot)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
@@ -181,7 +195,7 @@ static void adopt(struct step *step, unsigned row)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct outline outline = outline_of(step, row);
-    const struct plots_near about = plots_about(step, &outline, 2.0f * longest_m(step));
+    const struct plots_near about = plots_of_body(step, &outline);
     struct plots_near near = about;
     for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
         rho_tracker_spend(step, PASS_UNITS);
@@ -204,13 +218,13 @@ static int are_one(struct step *step, unsigned row, unsigned other)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct outline outline = outline_of(step, other);
-    struct plots_near near = plots_about(step, &outline, 2.0f * longest_m(step));
+    struct plots_near near = plots_of_body(step, &outline);
     const struct outline about = outline_of(step, row);
     unsigned owned = 0;
     for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
         rho_tracker_spend(step, PASS_UNITS);
         if (groups->owner[i] == other) {
-            if (!fits_owned(step, row, plots_about(step, &about, 2.0f * longest_m(step)), i)) {
+            if (!fits_owned(step, row, plots_of_body(step, &about), i)) {
                 return 0;
             }
             owned++;
@@ -319,7 +333,8 @@ static int fits_all(struct step *step, unsigned group, uint32_t plot)
     return 1;
 }
 
-/* Plots of no track that fit the group's first, and each other. */
+/* Plots of no track that fit the group's first, and each other; those in excluded areas stay alone,
+ * for they start nothing. */
 static void gather_near(struct step *step, unsigned group)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
@@ -330,7 +345,8 @@ static void gather_near(struct step *step, unsigned group)
     for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
         rho_tracker_spend(step, PASS_UNITS);
         if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == NONE &&
-            groups->owner[i] == NONE && fits_all(step, group, i)) {
+            groups->owner[i] == NONE && !rho_tracker_is_excluded(step, i) &&
+            fits_all(step, group, i)) {
             join(groups, group, i);
         }
     }
@@ -356,7 +372,7 @@ static void form_groups(struct step *step)
         begin_group(groups, i);
         if (owner != NONE) {
             of_track[owner] = groups->of[i];
-        } else if (step->report->fates[i] == RHO_FATE_HELD) {
+        } else if (step->report->fates[i] == RHO_FATE_HELD && !rho_tracker_is_excluded(step, i)) {
             gather_near(step, groups->of[i]);
         }
     }
@@ -485,14 +501,16 @@ static void open_groups(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     groups->count = 0;
-    step->sigma_max_m = 0.0f;
+    step->sigma_max_m = step->offset_max_s = 0.0f;
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const struct rho_plot *plot = &step->scan->plots[i];
+        const float offset_s = (float)plot->offset_us * 1e-6f;
         const int is_valid = rho_measurement_is_valid(plot, step->scan->measures);
         groups->of[i] = groups->next[i] = groups->owner[i] = NONE;
         step->report->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (is_valid) {
             step->sigma_max_m = larger(step->sigma_max_m, rho_plot_sigma_m(plot));
+            step->offset_max_s = larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
         }
     }
 }
@@ -515,7 +533,7 @@ void rho_tracker_group(struct step *step, struct rho_scan *grouped)
     grouped->num_plots = groups->count;
     step->scan = grouped;
     step->num_inputs = step->num_gated = groups->count;
-    step->sigma_max_m = 0.0f;
+    step->sigma_max_m = step->offset_max_s = 0.0f;
 }
 
 void rho_tracker_ungroup(struct step *step, const struct rho_scan *scan)

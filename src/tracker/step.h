@@ -262,6 +262,11 @@ int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker);
 
 /* excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): unclaimed plots in them are ghosts, before starts */
 void rho_tracker_mark_excluded(struct step *step);
+int rho_tracker_lies_excluded(const struct step *step, uint32_t plot);
+static inline int rho_tracker_is_excluded(const struct step *step, uint32_t plot)
+{
+    return RHO_MAX_EXCLUDED_AREAS > 0 && rho_tracker_lies_excluded(step, plot);
+}
 int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker);
 /* A frozen track is in no scan's view, and does not age. */
 static inline int rho_tracker_is_frozen(const struct rho_track *track)

@@ -3,6 +3,7 @@
  * Targets that give several plots a scan: one track each, with its extent; near each other they
  * stay two; and what a tracker may be told of them.
  */
+#include "rhotrack/excluded_areas.h"
 #include "tracker_setup.h"
 
 #define SENSOR 1
@@ -13,10 +14,14 @@ struct vehicle {
     int scatterers;
 };
 
+/* Plots have this time after their scan's. */
+static double own_s;
+
 static void prepare(float longest_m)
 {
     const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 1e3f};
     draw(11);
+    own_s = 0.0;
     config.v_max_mps = initiation.v_max_mps = 60.0f;
     begin();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
@@ -30,8 +35,10 @@ static void see(const struct vehicle *vehicle, int k)
         const double part = (i + uniform(0.0, 1.0)) / vehicle->scatterers - 0.5;
         const double side = uniform(-0.5, 0.5);
         if (uniform(0.0, 1.0) < 0.7) {
-            add_noisy(vehicle->x_m + vehicle->vx_mps * STEP_S * k + part * vehicle->length_m,
+            add_noisy(vehicle->x_m + vehicle->vx_mps * (STEP_S * k + own_s) +
+                          part * vehicle->length_m,
                       vehicle->y_m + side * vehicle->width_m, 0.2);
+            plots[num_plots - 1].offset_us = (int32_t)lround(1e6 * own_s);
         }
     }
 }
@@ -133,6 +140,61 @@ static void neighbours_stay_two(void **state)
             }
             assert_true(k < 20 || report.num_tracks == 2);
         }
+    }
+}
+
+/* A car overtakes a truck a lane off. Where plots are, tracks are not at the scan's time. */
+static void plots_far_off_the_scans_time_are_owned(void **state)
+{
+    const struct vehicle pair[2] = {{-250.0, 60.0, 20.0, 12.0, 2.5, 8},
+                                    {-275.0, 63.5, 22.0, 4.5, 1.8, 4}};
+    uint32_t ids[2] = {0, 0};
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    prepare(15.0f);
+    own_s = 1.5;
+    for (int k = 0; k < 220; k++) {
+        see(&pair[0], k);
+        see(&pair[1], k);
+        look(k);
+        for (int n = 0; n < 2 && k >= 20; n++) {
+            const int place = place_of(&pair[n], k);
+            assert_true(place >= 0);
+            ids[n] = ids[n] ? ids[n] : report.tracks[place].track_id;
+            assert_int_equal(report.tracks[place].track_id, ids[n]);
+        }
+    }
+}
+
+/* A truck half in an excluded area: its plots in there start nothing, and are told one by one. */
+static void excluded_plots_are_in_no_group(void **state)
+{
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    for (int most = 0; most < 2; most++) {
+        const struct rho_extent area = {-100.0f, most ? 100.0f : 0.0f, 50.0f, 70.0f};
+        const struct vehicle parked = {1.0, 60.0, 0.0, 12.0, 2.5, 8};
+        uint32_t inside = 0;
+        prepare(15.0f);
+        assert_int_equal(rho_tracker_exclude_area(&tracker, &area), RHO_OK);
+        for (int k = 0; k < 20; k++) {
+            see(&parked, k);
+            for (uint32_t i = 0; i < num_plots; i++) {
+                inside += plots[i].x_m <= area.x_max_m;
+            }
+            look(k);
+            if (most) {
+                assert_int_equal(report.fates_total[RHO_FATE_GHOST], report.num_plots);
+            }
+        }
+        assert_int_equal(report.num_tracks, most ? 0 : 1);
+        assert_true(tracker.counters.plots_excluded > 0);
+        assert_true(most ? tracker.counters.plots_excluded == inside
+                         : tracker.counters.plots_excluded <= inside);
     }
 }
 
@@ -256,6 +318,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_truck_is_one_track),
         cmocka_unit_test(neighbours_stay_two),
+        cmocka_unit_test(plots_far_off_the_scans_time_are_owned),
+        cmocka_unit_test(excluded_plots_are_in_no_group),
         cmocka_unit_test(those_that_only_pass_stay_two),
         cmocka_unit_test(bad_plots_and_full_scans),
         cmocka_unit_test(work_is_bounded),
