@@ -10,6 +10,7 @@
 #include "evaluation/evaluation_report.h"
 #include "io/csv/table.h"
 #include "io/log/log_table.h"
+#include "next_command.h"
 
 static void check_output(const char *path)
 {
@@ -36,10 +37,10 @@ static struct evaluation *evaluate_files(const struct command_line *line)
 /* A page of the truth, the tracks, and the plots where they stand beside the truth. */
 static void say_next(const struct command_line *line)
 {
-    char *files[2] = {line->arguments[0], command_line_beside(line->arguments[0], "plots.csv")};
+    char *files[2] = {line->arguments[0], next_command_beside(line->arguments[0], "plots.csv")};
 
     if (path_ends_with(line->arguments[1], ".csv")) {
-        command_line_say_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
+        next_command_say_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
     }
     free(files[1]);
 }

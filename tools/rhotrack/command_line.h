@@ -35,19 +35,6 @@ void command_line_locate(struct command_line *line);
 void command_line_help(const struct command *command, FILE *file);
 
 /*
- * On a terminal: the command that most users want next, as it may be typed; words after the
- * program's name, NULL at the end, and then the settings that this one was given.
- */
-void command_line_say_next(const struct command_line *line, const char *const *words);
-
-/* The same for a page of files and tracks (NAME.csv), which is written beside these. */
-void command_line_say_page(const struct command_line *line, char *const *files, int num_files,
-                           const char *tracks);
-
-/* A file of that name in the path's folder, in new memory; NULL where there is none. */
-char *command_line_beside(const char *path, const char *name);
-
-/*
  * Exit 2 where --output names one of the arguments: of commands that nobody wants to put their
  * output in an input's place.
  */

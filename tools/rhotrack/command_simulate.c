@@ -4,8 +4,8 @@
 
 #include "base/common.h"
 #include "base/hint.h"
-#include "command_line.h"
 #include "commands.h"
+#include "next_command.h"
 #include "scene/scene.h"
 
 static void write_runs(const struct command_line *line, const struct scene *scene)
@@ -65,13 +65,13 @@ static void say_next(const struct command_line *line)
 {
     static const char *const names[] = {"plots.csv", "bearings.csv"};
     char *folder = line->runs > 1 ? path_join(line->output, "run-0000") : must_copy(line->output);
-    char *within = path_join(folder, "."), *config = command_line_beside(within, "scenario.ini");
+    char *within = path_join(folder, "."), *config = next_command_beside(within, "scenario.ini");
     char *tracks = path_join(folder, "tracks.csv");
     const char *words[8] = {"track"};
     size_t count = 1;
 
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const char *file = command_line_beside(within, names[i]);
+        const char *file = next_command_beside(within, names[i]);
 
         if (file) {
             words[count++] = file;
@@ -82,7 +82,7 @@ static void say_next(const struct command_line *line)
         words[count++] = config;
         words[count++] = "-o";
         words[count++] = tracks;
-        command_line_say_next(line, words);
+        next_command_say(line, words);
     }
     free(folder);
     free(within);

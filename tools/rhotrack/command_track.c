@@ -18,6 +18,7 @@
 #include "io/scans/frame_reader.h"
 #include "io/scans/inputs.h"
 #include "io/scans/scan_reader.h"
+#include "next_command.h"
 #include "pipeline/bearings_batch.h"
 #include "pipeline/learned.h"
 #include "pipeline/no_tracks.h"
@@ -504,17 +505,17 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 static void say_next(const struct command_line *line)
 {
     const char *plots = line->arguments[0];
-    char *truth = command_line_beside(plots, "truth.csv");
-    char *config = command_line_beside(plots, "scenario.ini");
+    char *truth = next_command_beside(plots, "truth.csv");
+    char *config = next_command_beside(plots, "scenario.ini");
 
     if (config && line->num_settings == 0 && isatty(STDERR_FILENO)) {
         fprintf(stderr, "rhotrack: %s stands beside the plots and was not used (--config)\n",
                 config);
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth) {
-        command_line_say_next(line, (const char *[]){"evaluate", truth, line->output, NULL});
+        next_command_say(line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
-        command_line_say_page(line, line->arguments, line->num_arguments, line->output);
+        next_command_say_page(line, line->arguments, line->num_arguments, line->output);
     }
     free(truth);
     free(config);

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+#include "next_command.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/common.h"
+
+/* A word as a shell takes it. */
+static void print_word(const char *word, bool is_first)
+{
+    const bool is_plain =
+        *word && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                              "_-+=./,:@%") == strlen(word);
+
+    fputs(is_first ? "" : " ", stderr);
+    if (is_plain) {
+        fputs(word, stderr);
+        return;
+    }
+    fputc('\'', stderr);
+    for (; *word; word++) {
+        fputs(*word == '\'' ? "'\\''" : (char[2]){*word, '\0'}, stderr);
+    }
+    fputc('\'', stderr);
+}
+
+void next_command_say(const struct command_line *line, const char *const *words)
+{
+    if (!isatty(STDERR_FILENO)) {
+        return;
+    }
+    fputs("rhotrack: next: ", stderr);
+    print_word(program_invocation_name, true);
+    for (; *words; words++) {
+        print_word(*words, false);
+    }
+    for (size_t i = 0; i < line->num_settings; i++) {
+        print_word(line->settings[i], false);
+    }
+    fputc('\n', stderr);
+}
+
+void next_command_say_page(const struct command_line *line, char *const *files, int num_files,
+                           const char *tracks)
+{
+    const char **words = must_calloc((size_t)num_files + 6, sizeof *words);
+    const int stem = (int)strlen(tracks) - (int)strlen(".csv");
+    char *page = must_calloc((size_t)stem + sizeof ".html", 1);
+    size_t count = 0;
+
+    memcpy(page, tracks, (size_t)stem);
+    memcpy(page + stem, ".html", sizeof ".html");
+    words[count++] = "plot";
+    words[count++] = "tracks";
+    for (int i = 0; i < num_files; i++) {
+        words[count++] = files[i];
+    }
+    words[count++] = tracks;
+    words[count++] = "-o";
+    words[count++] = page;
+    next_command_say(line, words);
+    free(page);
+    free(words);
+}
+
+char *next_command_beside(const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash ? (size_t)(slash - path) + 1 : 0;
+    char *beside = must_calloc(length + strlen(name) + 1, 1);
+    struct stat status;
+
+    memcpy(beside, path, length);
+    memcpy(beside + length, name, strlen(name));
+    if (stat(beside, &status) == 0 && S_ISREG(status.st_mode)) {
+        return beside;
+    }
+    free(beside);
+    return NULL;
+}
