@@ -168,6 +168,8 @@ def write_asterix(folder):
         for i, record in enumerate(re.findall(r'"([0-9a-f]+)"', vectors)):
             data = block(int(category), bytes.fromhex(record))
             (folder / "fuzz_asterix" / f"{category}{kind}-{i}").write_bytes(bytes((i % 8,)) + data)
+            if category == "62":
+                (folder / "fuzz_tables" / f"tracks-{i}").write_bytes(bytes((i % 8,)) + data)
     for rules in range(8):
         radar = b"".join(old(turn, 8192 * i + 77) for turn in range(4) for i in range(8))
         (folder / "fuzz_asterix" / f"old-{rules}").write_bytes(bytes((rules,)) + radar)

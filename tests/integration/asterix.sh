@@ -270,18 +270,90 @@ for command in 'track turns.ast -o' 'convert covariance.csv'; do
         'rhotrack: covariance.ast: --covariance has no place in CAT062, which has standard deviations (I062/500) without it'
     check "$command: no file" test ! -e covariance.ast
 done
-no_tracks='tracks (CAT062), which are written and not read: give their CSV file or LCM log'
+no_tracks='tracks (CAT062), and plots are needed: evaluate, plot, convert and publish take tracks'
 cp tracks.ast nameless
-for command in track 'evaluate sim/truth.csv' initiate 'publish --lcm file://no.lcm?mode=w'; do
+for command in track initiate maintain calibrate; do
     run $command tracks.ast
-    check "$command: tracks are not read" says 2 "rhotrack: tracks.ast: $no_tracks"
+    check "$command: tracks are no plots" says 2 "rhotrack: tracks.ast: $no_tracks"
     run $command nameless
-    check "$command: by any name" says 2 "rhotrack: nameless:1: $no_tracks"
+    check "$command: by any name" says 2 "rhotrack: nameless: $no_tracks"
 done
-for output in csv lcm geojson; do
-    run convert tracks.ast "no.$output"
-    check "convert to $output neither" says 2 "rhotrack: tracks.ast: $no_tracks"
+
+# ---- Tracks from CAT062 ----
+run convert tracks.ast back.csv
+check 'tracks come back as they were, to the steps of CAT062' python3 - turns.tracks.csv back.csv <<'PYTHON'
+import csv, sys
+want, got = (list(csv.DictReader(open(path))) for path in sys.argv[1:])
+ends = [row for row in got if row["status"] == "deleted"]
+got = [row for row in got if row["status"] != "deleted"]
+assert len(got) == len(want) > 100, (len(got), len(want), len(ends))
+steps = {"t_s": 1 / 256 + 1e-6, "x_m": .2501, "y_m": .2501, "vx_mps": .1251, "vy_mps": .1251}
+for one, other in zip(want, got):
+    assert one["status"] == other["status"] and int(one["track_id"]) % 65536 == int(other["track_id"])
+    assert all(abs(float(one[name]) - float(other[name])) <= step for name, step in steps.items())
+PYTHON
+check 'and nothing is said' test ! -s stderr
+awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%.6f", $1 + 43200) } { print }' sim/truth.csv >noon.csv
+run evaluate noon.csv turns.tracks.csv --json --set time_tolerance_s=4
+mv stdout of_csv
+for name in tracks.ast nameless; do
+    run evaluate noon.csv $name --json --set time_tolerance_s=4
+    check "evaluate $name" python3 - of_csv stdout <<'PYTHON'
+import json, sys
+want, got = (json.load(open(path)) for path in sys.argv[1:])
+for name in ("targets_found", "switches", "pairs", "tracks"):
+    assert want[name] == got[name], (name, want[name], got[name])
+assert abs(want["gospa_m"] - got["gospa_m"]) < 1 and abs(want["rmse_m"] - got["rmse_m"]) < 1
+PYTHON
 done
+run convert tracks.ast tracks.lcm
+run convert tracks.lcm tracks.lcm.csv
+check 'tracks as messages' test "$(grep -c confirmed tracks.lcm.csv)" -eq "$(grep -c confirmed back.csv)"
+run plot tracks sim/plots.csv tracks.ast -o tracks.svg
+check 'a picture of them' grep -Eq '[1-9][0-9]* tracks' tracks.svg
+origin='--set origin_lat_deg=50 --set origin_lon_deg=8'
+# shellcheck disable=SC2086
+run convert tracks.ast tracks.geojson $origin
+check 'a map of them' json tracks.geojson 'len(o["features"]) > 10'
+cat turns.ast tracks.ast >mixed.ast
+run track mixed.ast --config sim/scenario.ini -o mixed.csv
+check 'plots and tracks in one recording: plots are tracked' cmp mixed.csv turns.tracks.csv
+check 'and the tracks are counted' grep -Eq \
+    '^rhotrack: mixed.ast: CAT062 left out: [0-9]+ records in [0-9]+ blocks; these are tracks$' stderr
+run evaluate noon.csv mixed.ast --json --set time_tolerance_s=4
+check 'its tracks are evaluated' json stdout 'o["targets_found"] > 15'
+check 'and the plots are counted, a line a category' test \
+    "$(grep -Ec '^rhotrack: mixed.ast: CAT0(34|48) left out: [0-9]+ records in [0-9]+ blocks$' stderr)" -eq 2
+
+# By hand, from EUROCONTROL-SPEC-0149-9: SAC 1, SIC 2, 23:59:59.5 and 00:00:00.5 of the next day,
+# track 7, confirmed and then the end of it; 105: 50.25 N 8.5 E; 185: 100, -50.25 m/s; 130: 3048 m.
+python3 - <<'PYTHON'
+import struct
+def record(time, status):
+    place = struct.pack(">ii", round(50.25 * 2 ** 25 / 180), round(8.5 * 2 ** 25 / 180))
+    return b"\x9b\x0d\x10" + bytes((1, 2)) + time.to_bytes(3, "big") + \
+        place + struct.pack(">hh", 400, -201) + b"\x00\x07" + status + struct.pack(">h", 1600)
+data = record(86399 * 128 + 64, b"\x00") + record(64, b"\x01\x40")
+open("hand.ast", "wb").write(b"\x3e" + struct.pack(">H", len(data) + 3) + data)
+PYTHON
+# shellcheck disable=SC2086
+run convert hand.ast hand.csv $origin
+check 'by hand: times, identities, status' test \
+    "$(tail -n +2 hand.csv | cut -d, -f1-3 | tr '\n' ' ')" = '86399.500000,7,confirmed 86400.500000,7,deleted '
+check 'by hand: place, velocity, source' python3 - <<'PYTHON'
+import csv
+row = next(csv.DictReader(open("hand.csv")))
+x, y, z = (float(row[name]) for name in ("x_m", "y_m", "z_m"))
+assert abs(x - 35620) < 80 and abs(y - 27900) < 150 and abs(z - (3048 - 160)) < 40, (x, y, z)
+assert float(row["vx_mps"]) == 100 and float(row["vy_mps"]) == -50.25 and row["sensor_id"] == "258"
+PYTHON
+run convert hand.ast hand.csv
+check 'by hand: without an origin' says 2 \
+    'rhotrack: hand.ast: tracks (CAT062) with places on the earth alone (I062/105): origin_lat_deg *'
+head -c 40 hand.ast >hand_cut.ast
+run evaluate sim/truth.csv hand_cut.ast
+check 'by hand: a cut one is refused with its byte' grep -q '^rhotrack: hand_cut.ast: byte ' stderr
+
 run convert sim/plots.csv polar.ast
 check 'plots are no tracks' says 2 'rhotrack: sim/plots.csv: not one list of tracks in it*'
 check 'and leave no file' test ! -e polar.ast

@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_track_table.h"
 #include "io/asterix/asterix_tracks.h"
 #include "io/csv/table.h"
 #include "io/log/lcm_log.h"
@@ -114,6 +115,20 @@ static void convert_from_asterix(const struct command_line *line)
     output_close(&output);
     table_free(table);
     asterix_records_close(records);
+}
+
+static void convert_tracks_from_asterix(const struct command_line *line)
+{
+    struct table *table =
+        asterix_track_table_read(line->arguments[0], &line->parameters, line->keep_going);
+    struct output output = output_open(line->arguments[1]);
+
+    table_write_header(output.file, table);
+    for (size_t row = 0; row < table->num_rows; row++) {
+        table_write_row(output.file, table, row);
+    }
+    output_close(&output);
+    table_free(table);
 }
 
 /* ---- Tracks to ASTERIX ---- */
@@ -332,7 +347,8 @@ void command_convert_refuse(const struct command_line *line)
     const char *input = line->arguments[0], *output = line->arguments[1];
     bool to_map = geojson_is_wanted(output);
 
-    if ((to_map || asterix_tracks_is_asterix(output)) && asterix_file_is_asterix(input)) {
+    if ((to_map || asterix_tracks_is_asterix(output)) && asterix_file_is_asterix(input) &&
+        !asterix_tracks_are_in(input)) {
         check_table(input);
         fail(EXIT_USAGE, "%s: a recording of radars, and no list of tracks; %s is made of tracks",
              input, to_map ? "GeoJSON" : "CAT062");
@@ -356,8 +372,14 @@ int command_convert(struct command_line *line)
             fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is in ASTERIX",
                  line->arguments[0]);
         }
-        convert_from_asterix(line);
-        return 0;
+        if (!asterix_tracks_are_in(line->arguments[0])) {
+            convert_from_asterix(line);
+            return 0;
+        }
+        if (!to_map) {
+            convert_tracks_from_asterix(line);
+            return 0;
+        }
     }
     check_output(line->arguments[0], line->arguments[1], from_log);
     if (to_map) {

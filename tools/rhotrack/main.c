@@ -112,8 +112,9 @@ static const struct command commands[] = {
      "Damaged\n"
      "places of a log are skipped and reported; bad messages are refused, or with --keep-going\n"
      "skipped and counted. Recordings in ASTERIX (NAME.ast; CAT048 and CAT034), also within those\n"
-     "of the network (NAME.pcap, NAME.pcapng), become either; tracks become CAT062 where OUT ends\n"
-     "with .ast.\n"},
+     "of the network (NAME.pcap, NAME.pcapng), become either; tracks come from CAT062, and become "
+     "it\n"
+     "where OUT ends with .ast.\n"},
     {"node", command_node,
      "[--lcm URL] [--print] [--log FILE] [--snapshot FILE] [--gate best|hough|nearest]", 0, 0,
      "lpLRTAEmPgWMsC", "the live tracker: LCM messages in, LCM messages out",

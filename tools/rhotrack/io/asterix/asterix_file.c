@@ -16,6 +16,7 @@ struct asterix_file {
     char *path;
     FILE *file;                          /* blocks one after the other ... */
     struct captured_datagrams *captured; /* ... or, instead, in a network recording's datagrams */
+    bool wants_tracks;                   /* and nothing of radars */
     bool keep_going, is_end;             /* end: nothing comes behind the bytes */
     uint8_t *bytes;                      /* CAPACITY of them; of a datagram, its own */
     size_t size, at;
@@ -30,9 +31,11 @@ struct asterix_file {
 
 /* ---- What sort of file ---- */
 
-static bool is_wanted(uint8_t category)
+static bool is_wanted(const struct asterix_file *file, uint8_t category)
 {
-    return asterix_category_is_plots(category) || asterix_category_is_service(category);
+    return file->wants_tracks
+               ? category == ASTERIX_TRACKS
+               : asterix_category_is_plots(category) || asterix_category_is_service(category);
 }
 
 bool asterix_block_is_good(const uint8_t *data, size_t size)
@@ -41,7 +44,7 @@ bool asterix_block_is_good(const uint8_t *data, size_t size)
     struct asterix_record record;
     struct asterix_error error;
 
-    if (size < ASTERIX_HEADER_BYTES || !is_wanted(data[0]) ||
+    if (size < ASTERIX_HEADER_BYTES || !asterix_category_is_known(data[0]) ||
         !asterix_block_read(data, size, &block, &error) || block.size == 0) {
         return false;
     }
@@ -172,6 +175,14 @@ struct asterix_file *asterix_file_open(const char *path, bool keep_going)
     return file;
 }
 
+struct asterix_file *asterix_file_open_tracks(const char *path, bool keep_going)
+{
+    struct asterix_file *file = asterix_file_open(path, keep_going);
+
+    file->wants_tracks = true;
+    return file;
+}
+
 /* ---- Bad places ---- */
 
 /* Up to the next good block, or the end. */
@@ -253,7 +264,7 @@ static bool next_block(struct asterix_file *file)
         }
         if (!asterix_block_read(file->bytes + file->at, file->size - file->at, &block, &error)) {
             skip_bad(file, &error);
-        } else if (is_wanted(block.category)) {
+        } else if (is_wanted(file, block.category)) {
             file->category = block.category;
             file->at += ASTERIX_HEADER_BYTES;
             file->block_end = file->at + block.size;

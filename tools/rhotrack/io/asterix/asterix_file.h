@@ -18,11 +18,11 @@
 
 /*
  * Whether a file is a recording: a name that ends with .ast or .asterix, or a plain file that
- * begins with a data block of such records that is good as a whole, or as a network recording.
+ * begins with a data block of such records, or of tracks (CAT062), that is good as a whole, or as a network recording.
  */
 bool asterix_file_is_asterix(const char *path);
 
-/* Whether such a data block begins there of which every record can be read. */
+/* Whether such a data block, or one of tracks, begins there of which every record can be read. */
 bool asterix_block_is_good(const uint8_t *data, size_t size);
 
 /*
@@ -35,6 +35,9 @@ struct asterix_file;
 
 /* A plain file. Errors: exit 2. Memory: four of the longest blocks. */
 struct asterix_file *asterix_file_open(const char *path, bool keep_going);
+
+/* The same, for the records of tracks (CAT062) in place of those of radars. */
+struct asterix_file *asterix_file_open_tracks(const char *path, bool keep_going);
 
 /* The next record, valid until the next call. Returns false after the last. */
 bool asterix_file_next(struct asterix_file *file, struct asterix_record *record);

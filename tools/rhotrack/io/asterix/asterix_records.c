@@ -178,7 +178,7 @@ struct asterix_records {
 };
 
 const char asterix_records_no_tracks[] =
-    "tracks (CAT062), which are written and not read: give their CSV file or LCM log";
+    "tracks (CAT062), and plots are needed: evaluate, plot, convert and publish take tracks";
 
 /* ---- Rules, origin ---- */
 

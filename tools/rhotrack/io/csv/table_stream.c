@@ -16,6 +16,7 @@
 #include "base/number_text.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_records.h"
+#include "io/asterix/asterix_track_table.h"
 #include "io/csv/table_form.h"
 
 #define FIRST_CAPACITY (1u << 16)
@@ -381,11 +382,7 @@ static const char *name_binary(const uint8_t *start, size_t bytes, bool is_file)
     if (bytes < 2 || start[1] > 8) {
         return NULL;
     }
-    if (start[0] == ASTERIX_TRACKS) {
-        return asterix_records_no_tracks;
-    }
-    if (!asterix_category_is_plots((uint8_t)start[0]) &&
-        !asterix_category_is_service((uint8_t)start[0])) {
+    if (!asterix_category_is_known((uint8_t)start[0])) {
         return NULL;
     }
     return is_file ? "ASTERIX with a bad first block: named NAME.ast it is read, and says where"
@@ -626,7 +623,12 @@ struct table *table_read(const char *path, bool keep_going)
 
 struct table *table_read_as(const char *path, const struct parameters *parameters, bool keep_going)
 {
-    struct table_stream *stream = open_stream(path, parameters, keep_going, false);
+    struct table_stream *stream;
+
+    if (strcmp(path, "-") != 0 && asterix_tracks_are_in(path)) {
+        return asterix_track_table_read(path, parameters, keep_going);
+    }
+    stream = open_stream(path, parameters, keep_going, false);
 
     stream->is_whole = true;
     while (!stream->asterix && !stream->is_end) {

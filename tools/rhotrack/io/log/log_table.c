@@ -5,6 +5,8 @@
 #include <stdio.h>
 
 #include "base/common.h"
+#include "io/asterix/asterix_file.h"
+#include "io/asterix/asterix_track_table.h"
 #include "io/log/lcm_log.h"
 #include "io/rows/rows_collect.h"
 #include "io/rows/rows_write.h"
@@ -49,7 +51,9 @@ struct table *log_table_or_csv(const char *path, const struct rows_kind *kind, b
     struct table *table;
 
     if (!lcm_log_is_log(path)) {
-        return table_read(path, keep_going);
+        return kind == &rows_kind_tracks && asterix_file_is_asterix(path)
+                   ? asterix_track_table_read(path, NULL, keep_going)
+                   : table_read(path, keep_going);
     }
     table = log_table_read(path, kind, keep_going, true);
     if (!table) {
