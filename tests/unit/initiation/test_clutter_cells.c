@@ -264,6 +264,90 @@ static void a_damaged_map_is_not_sound(void **state)
     assert_false(rho_clutter_map_is_sound(&map));
 }
 
+/* ---- limits ---------------------------------------------------------------------------------- */
+
+/* Where targets may stand: 0.003 in three looks of all regions, and those in two of one region. */
+static void returns_where_targets_may_stand(void **state)
+{
+    static const double looks[] = {0.0, 40.0}, returns[] = {0.0, 12.0};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        begin();
+        map.v_min_mps = i < 2 ? 0.0f : V_MIN_MPS;
+        struct rho_echo_returns *all = &map.tables[0][ALL_REGIONS], *here = &map.tables[0][0];
+        all->looks[3][0] = 2.0f * (float)looks[i % 2];
+        all->returns[3][0] = 3.0f * (float)returns[i % 2];
+        here->looks[3][0] = (float)looks[i % 2];
+        here->returns[3][0] = (float)returns[i % 2];
+        const double prior = i < 2 ? 0.003 : 0.2;
+        const double mean = (3.0 * returns[i % 2] + 3.0 * prior) / (2.0 * looks[i % 2] + 3.0);
+        assert_float_equal(rho_clutter_map_return_probability(&map, 0, 20, 1),
+                           (returns[i % 2] + 2.0 * mean) / (looks[i % 2] + 2.0), 1e-6);
+        here->looks[3][0] = here->returns[3][0] = all->looks[3][0] = all->returns[3][0] = 1e6f;
+        assert_float_equal(rho_clutter_map_return_probability(&map, 0, 20, 1), 0.98, 1e-6);
+    }
+}
+
+static void an_echo_moves_from_four_sigmas_on(void **state)
+{
+    struct rho_echo echo = {.along = {1.0f, 0.0f, 3.0f}, .across = {1.0f, 0.0f, 1.0f}};
+    (void)state;
+    echo.vx_mps = 7.9f;
+    assert_true(rho_clutter_map_stands(&echo));
+    echo.vx_mps = 8.1f;
+    assert_false(rho_clutter_map_stands(&echo));
+}
+
+static void a_milliard_of_looks_may_be_taught(void **state)
+{
+    (void)state;
+    begin();
+    assert_int_equal(rho_clutter_map_teach_returns(&map, 0, 1, 1, 1e9f, 0.0f), RHO_OK);
+    assert_int_equal(rho_clutter_map_teach_returns(&map, 0, 1, 1, 1.01e9f, 0.0f), RHO_ERROR_VALUE);
+}
+
+#if RHO_MAX_ECHOES > 2
+
+/* Of two echoes in a full map the one that gives way: first 0, or second 1. */
+static int gives_way(struct rho_echo first, struct rho_echo second)
+{
+    begin();
+    for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
+        map.echoes[i] = (struct rho_echo){.hits = 9, .was_looked_at = 1};
+    }
+    map.echoes[0] = first;
+    map.echoes[1] = second;
+    rho_clutter_map_make_room(&map, 1, 1000000000);
+    assert_int_equal(map.echoes[0].hits == 0, map.echoes[1].hits != 0);
+    return map.echoes[1].hits == 0;
+}
+
+/* Eighths of misses a hit, of which 16 count; a minute without a look is a miss. */
+static void echoes_that_miss_more_give_way(void **state)
+{
+    const struct rho_echo often = {.hits = 40, .unseen = 10, .was_looked_at = 1},
+                          less = {.hits = 16, .unseen = 8, .was_looked_at = 1},
+                          seldom = {.hits = 8, .unseen = 3, .was_looked_at = 1},
+                          more = {.hits = 16, .unseen = 5, .was_looked_at = 1},
+                          missed_6 = {.hits = 16, .unseen = 6, .was_looked_at = 1},
+                          missed_3 = {.hits = 16, .unseen = 3, .was_looked_at = 1},
+                          not_looked_at = {.hits = 16, .time_us = 1000000000 - 250000000};
+    (void)state;
+    assert_int_equal(gives_way(often, less), 0);
+    assert_int_equal(gives_way(seldom, more), 0);
+    assert_int_equal(gives_way(not_looked_at, missed_6), 1);
+    assert_int_equal(gives_way(not_looked_at, missed_3), 0);
+    /* from 64 on all are alike, and the later one gives way */
+    const struct rho_echo once_5 = {.hits = 1, .unseen = 5, .was_looked_at = 1},
+                          once_7 = {.hits = 1, .unseen = 7, .was_looked_at = 1},
+                          once_8 = {.hits = 1, .unseen = 8, .was_looked_at = 1},
+                          once_9 = {.hits = 1, .unseen = 9, .was_looked_at = 1};
+    assert_int_equal(gives_way(once_7, once_5), 0);
+    assert_int_equal(gives_way(once_9, once_8), 1);
+}
+
+#endif
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -276,6 +360,12 @@ int main(void)
         cmocka_unit_test(an_echo_is_lost_the_later_the_more_hits_it_had),
         cmocka_unit_test(room_is_made_of_the_most_missed),
         cmocka_unit_test(a_damaged_map_is_not_sound),
+        cmocka_unit_test(returns_where_targets_may_stand),
+        cmocka_unit_test(an_echo_moves_from_four_sigmas_on),
+        cmocka_unit_test(a_milliard_of_looks_may_be_taught),
+#if RHO_MAX_ECHOES > 2
+        cmocka_unit_test(echoes_that_miss_more_give_way),
+#endif
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

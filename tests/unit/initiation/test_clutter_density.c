@@ -282,6 +282,43 @@ static void beyond_a_radar_s_range_the_mean_scan_has_none_of_its_clutter(void **
 }
 #endif
 
+/* ---- sectors --------------------------------------------------------------------------------- */
+
+/* So many plots in all, at even azimuths of a sector about east, far and near by turns. */
+static const struct rho_density_map *sector_map(int count, double sector_rad)
+{
+    struct rho_initiator_config config = usual();
+    const struct rho_sensor radar = sensor_at(0.0, 0.0);
+    int added = 0;
+    start(&config);
+    for (int k = 0; k < SCANS; k++) {
+        for (; added < count * (k + 1) / SCANS; added++) {
+            const double azimuth_rad = sector_rad * ((double)added / (count - 1) - 0.5);
+            const double range_m = 500.0 + 7000.0 * (added * 7 % count) / (count - 1.0);
+            add(range_m * cos(azimuth_rad), range_m * sin(azimuth_rad), 10.0, 100.0);
+        }
+        push_scan((struct rho_scan){0}, SCAN_S * k, &radar);
+    }
+    search(RHO_SEARCH_BATCH);
+    return &initiator.density[0];
+}
+
+static void sixteen_plots_tell_a_sector(void **state)
+{
+    (void)state;
+    assert_int_equal(sector_map(15, 0.5)->is_polar, 0);
+    assert_int_equal(sector_map(16, 0.5)->is_polar, 1);
+}
+
+/* Wider by the share of the ends that the plots leave free; from 5 rad on it is the circle. */
+static void a_sector_of_almost_all_is_all_round(void **state)
+{
+    (void)state;
+    assert_float_equal(sector_map(61, 4.9 * 60.0 / 62.0)->height, 4.9, 1e-3);
+    assert_float_equal(sector_map(61, 5.1 * 60.0 / 62.0)->height, 2.0 * PI, 1e-5);
+    assert_float_equal(sector_map(61, 0.0)->height, 1e-3, 1e-9);
+}
+
 /* ---- not a radar's --------------------------------------------------------------------------- */
 
 /* Five plots a scan are one cell, of the same density all over, where the map is the ground's. */
@@ -350,6 +387,8 @@ int main(void)
         cmocka_unit_test(near_the_radar_density_rises_to_a_hundredth_of_its_range_and_no_further),
         cmocka_unit_test(windows_without_ranges_have_a_density_everywhere),
         cmocka_unit_test(a_hot_spot_in_range_and_azimuth_is_seen_where_it_is),
+        cmocka_unit_test(sixteen_plots_tell_a_sector),
+        cmocka_unit_test(a_sector_of_almost_all_is_all_round),
         cmocka_unit_test(
             isotropic_noise_several_radars_and_radars_outside_make_a_map_of_the_ground),
         cmocka_unit_test(a_radar_with_clutter_even_on_the_ground_has_a_map_of_the_ground),

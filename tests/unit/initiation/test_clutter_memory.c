@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The long memory of clutter (RHO_MAX_CLUTTER_CELLS): hot spots smaller than the window's map can
- * tell, how they are learned, where, and how they are forgotten.
+ * tell, how they are learned, where, and how they are forgotten. Limits are tried with a memory that
+ * is made by hand, which takes the private header.
  */
+#include "../../src/initiation/search.h"
 #include "initiator_setup.h"
 
 #if RHO_MAX_CLUTTER_CELLS > 0
@@ -373,6 +375,71 @@ static void sizes_follow_the_capacity(void **state)
     assert_true(sizeof initiator <= RHO_RAM_INITIATOR_BYTES);
 }
 
+/* ---- limits ---------------------------------------------------------------------------------- */
+
+/* Over 10 by 10 km, after so many scans. */
+static struct rho_clutter_memory *have_memory(unsigned scans)
+{
+    begin();
+    add(0.0, 0.0, 10.0, 10.0);
+    push_next();
+    initiator.memory = (struct rho_clutter_memory){
+        .x_min_m = -5000.0f,
+        .y_min_m = -5000.0f,
+        .columns_per_m = (float)RHO_MAX_CLUTTER_CELLS / 10000.0f,
+        .rows_per_m = (float)RHO_MAX_CLUTTER_CELLS / 10000.0f,
+        .num_scans = scans,
+    };
+    return &initiator.memory;
+}
+
+/* Three sigmas of four plots that are expected, one of them added: more than ten. */
+static void a_cell_counts_where_it_is_significant(void **state)
+{
+    const double side_m = 10000.0 / RHO_MAX_CLUTTER_CELLS;
+    const float density = (float)(3.001 / (100.0 * side_m * side_m));
+    (void)state;
+    struct rho_clutter_memory *memory = have_memory(100);
+    memory->count[0] = 9;
+    assert_true(rho_initiator_memory_density(&initiator, -4999.0f, -4999.0f, density) == density);
+    memory->count[0] = 10;
+    assert_float_equal(rho_initiator_memory_density(&initiator, -4999.0f, -4999.0f, density) /
+                           density,
+                       11.0 / 4.0, 1e-2);
+}
+
+static void counts_are_halved_after_128_scans(void **state)
+{
+    (void)state;
+    for (unsigned scans = 127; scans < 129; scans++) {
+        struct rho_clutter_memory *memory = have_memory(scans);
+        initiator.window.extent = (struct rho_extent){-4000.0f, 4000.0f, -4000.0f, 4000.0f};
+        memory->count[1] = 10;
+        rho_initiator_add_to_memory(&initiator);
+        assert_int_equal(memory->num_scans, scans == 127 ? 128 : 65);
+        assert_int_equal(memory->count[1], scans == 127 ? 10 : 5);
+    }
+}
+
+/* Four times as wide as the area it is laid anew, with a quarter of that more on each side. */
+static void a_map_that_is_too_wide_is_laid_anew(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const float wide_m = 2500.0f, narrow_m = i % 2 ? 1270.0f : 1230.0f;
+        struct rho_clutter_memory *memory = have_memory(50);
+        initiator.window.extent = i < 2 ? (struct rho_extent){-narrow_m, narrow_m, -wide_m, wide_m}
+                                        : (struct rho_extent){-wide_m, wide_m, -narrow_m, narrow_m};
+        rho_initiator_add_to_memory(&initiator);
+        assert_int_equal(memory->num_scans, i % 2 ? 51 : 1);
+        if (i == 0) {
+            assert_float_equal(memory->x_min_m, -1.5 * (double)narrow_m, 0.1);
+            assert_float_equal(memory->columns_per_m * 3.0f * narrow_m, RHO_MAX_CLUTTER_CELLS,
+                               0.001);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -388,6 +455,9 @@ int main(void)
         cmocka_unit_test(hot_spots_are_learned_anew_where_the_area_has_grown),
         cmocka_unit_test(scans_without_plots_harm_nothing),
         cmocka_unit_test(sizes_follow_the_capacity),
+        cmocka_unit_test(a_cell_counts_where_it_is_significant),
+        cmocka_unit_test(counts_are_halved_after_128_scans),
+        cmocka_unit_test(a_map_that_is_too_wide_is_laid_anew),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
