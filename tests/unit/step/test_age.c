@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Speeds that no target has end a track: a tenth beyond v_max, where the speed is known that well,
- * in three updates in a row.
+ * in three updates in a row. One that is surely too slow ends at once, which is tried with a track
+ * that is made by hand: that takes the private header.
  */
+#include "../../src/step/phases.h"
 #include "tracker_setup.h"
 
 #define V_MAX_MPS 100.0
@@ -37,10 +39,41 @@ static void a_tenth_beyond_the_fastest_is_no_target(void **state)
     assert_int_equal(scans_until_too_fast(1.25 * V_MAX_MPS, 80.0), 15);
 }
 
+/* Three sigmas of 1 m/s below 30 m/s. */
+static void what_is_surely_too_slow_is_no_target(void **state)
+{
+    const struct rho_track_limits limits = {.tentative_mnat = -100000,
+                                            .fall_mnat = 100000,
+                                            .doubt_mnat = 90000,
+                                            .misses_in_row_max = 9};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        draw(1);
+        config.v_min_mps = 30.0f;
+        begin();
+        struct rho_track *track = &tracker.tracks[0];
+        struct step at = {.tracker = &tracker, .report = &report};
+        *track = (struct rho_track){.track_id = 1,
+                                    .status = RHO_TRACK_CONFIRMED,
+                                    .hits = 20,
+                                    .plot = -1,
+                                    .was_confirmed = 1};
+        tracker.num_tracks = 1;
+        track->kalman.state[RHO_VX] = i ? 27.1f : 26.9f;
+        for (int axis = 0; axis < 2; axis++) {
+            track->kalman.covariance[RHO_AT(axis, axis)] = 100.0f;
+            track->kalman.covariance[RHO_AT(3 + axis, 3 + axis)] = 1.0f;
+        }
+        rho_tracker_age_track(&at, track, 0, &limits);
+        assert_int_equal(track->status, i ? RHO_TRACK_CONFIRMED : RHO_TRACK_FREE);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tenth_beyond_the_fastest_is_no_target),
+        cmocka_unit_test(what_is_surely_too_slow_is_no_target),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

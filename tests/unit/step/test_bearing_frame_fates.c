@@ -421,10 +421,36 @@ static void a_frame_without_scans_is_a_frame(void **state)
     assert_int_equal(count_held(), 0);
 }
 
+/* Bearings of 0.01 rad are covered up to four sigmas beyond the sector of a sensor. */
+static void bearings_beyond_the_sector_are_outside(void **state)
+{
+    static const float bearings_rad[] = {0.539f, 0.541f, -0.539f, -0.541f};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const struct rho_sensor sensor = {.sensor_id = 10,
+                                          .pd = 0.9f,
+                                          .range_max_m = 1e5f,
+                                          .sector_from_rad = -0.5f,
+                                          .sector_to_rad = 0.5f};
+        const struct rho_bearing bearing = {.bearing_rad = bearings_rad[i], .sigma_rad = 0.01f};
+        const struct rho_bearing_scan look_at = {
+            .time_us = 1000000, .sensor_id = 10, .num_bearings = 1, .bearings = &bearing};
+        const struct rho_frame frame = {.time_us = 1000000, .num_scans = 1, .scans = &look_at};
+        random_state = 9;
+        scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+        start_chain(5.0f);
+        assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
+        assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &frame, &report), RHO_OK);
+        assert_int_equal(tracker.counters.plots_outside, i % 2);
+        assert_int_equal(report.fates[0] == RHO_FATE_INVALID, i % 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_bearing_has_its_fate_in_its_place),
+        cmocka_unit_test(bearings_beyond_the_sector_are_outside),
         cmocka_unit_test(a_lonely_bearing_is_no_ghost),
         cmocka_unit_test(counters_add_up_over_a_long_run),
         cmocka_unit_test(bearings_beyond_the_capacities_find_no_room),
