@@ -3,12 +3,13 @@
 
 #include <string.h>
 
+#include "rhotrack/detail/approx.h"
+
 #define FRAMES_MAGIC 0x46524d53u /* "FRMS" */
 
 #define SECOND_US INT64_C(1000000)
 #define TOLERANCE_MAX_US (10 * SECOND_US)
 #define JUMP_MAX_US (3600 * SECOND_US)
-#define TURN_RAD 6.28318548f
 #define APART_MIN_M 1.0f /* below, bearings do not cross (crossing.h) */
 
 /* ---- setting up ------------------------------------------------------------------------------ */
@@ -103,8 +104,8 @@ static enum rho_status check_scan(const struct rho_frames *frames,
         return RHO_ERROR_NULL;
     }
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
-        !rho_is_within(scan->sector_from_rad, -TURN_RAD, TURN_RAD) ||
-        !rho_is_within(scan->sector_to_rad, -TURN_RAD, TURN_RAD) ||
+        !rho_is_within(scan->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
+        !rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
         !is_same_position(frames, scan)) {
         return RHO_ERROR_VALUE;
     }

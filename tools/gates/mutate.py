@@ -42,7 +42,8 @@ GUARD_MIN = 1e12
 ALIKE = {
     "src/association/hypotheses_validate.c": r"PASS_NODES$",
     "src/tracker/tracker_validate.c": r"PASS_SLOTS$",
-    "src/papers/accumulator_prune.c": r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|_KEPT$",
+    "src/papers/accumulator.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
+    "src/papers/accumulator_prune.c": r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",
 }
 NO_POLICY_FILES = {
     "src/base/approx.c", "src/base/angle.c", "src/wire/message.c", "src/wire/message_names.c"

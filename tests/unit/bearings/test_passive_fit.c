@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * How far a fit may move a state. Fits that diverge begin with crossings that no scene makes on
- * purpose, so the test includes a private header.
+ * How far a fit may move a state, what a search is prepared with, and which lines it takes. Fits
+ * that diverge begin with crossings that no scene makes on purpose, so the test includes a private
+ * header.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,6 +13,7 @@
 #include <math.h>
 
 #include "../../src/bearings/passive_search.h"
+#include "passive_scene.h"
 
 static struct rho_passive passive = {.config = {.range_max_m = 1000.0f}};
 static struct rho_passive_search search = {.passive = &passive, .half_s = 10.0f};
@@ -27,10 +29,66 @@ static void a_fit_stays_within_two_ranges_and_steps_a_tenth_of_one(void **state)
     assert_true(fabsf(state_m[2] - 400.0f) < 1e-3f && fabsf(state_m[3]) < 1e-3f);
 }
 
+/* Four bearings in eight looks of pi are fewer than 0.3 a radian; sigmas have a ratio of 200. */
+static void few_bearings_and_sharp_ones_have_a_floor(void **state)
+{
+    static struct rho_passive few = {.config = {.pd = 0.9f,
+                                                .field_of_view_rad = 3.14159265f,
+                                                .theta_cell_rad = 0.0872665f,
+                                                .rho_cell_m = 2000.0f}};
+    struct rho_passive_search prepared = {.passive = &few};
+    (void)state;
+    few.batch.num_scans = 4;
+    few.batch.num_sensors = 2;
+    for (unsigned k = 0; k < 4; k++) {
+        few.batch.time_us[k] = 10000000 * (int64_t)k;
+        few.batch.was_seen[k][0] = few.batch.was_seen[k][1] = 1;
+        few.batch.num_bearings[k][0] = 1;
+        few.batch.bearings[k][0][0].sigma_rad = k == 2 ? 0.02f : 1e-6f;
+        few.batch.bearings[k][0][0].cosine = 1.0f;
+    }
+    rho_passive_prepare(&prepared);
+    assert_true(fabs((double)prepared.hit_nat - log(0.9 / (0.3 * sqrt(2.0 * PI)))) < 1e-4);
+    assert_true(fabs((double)prepared.sigma_min_rad - 1e-4) < 1e-8);
+}
+
+/*
+ * Two scans have crossings: those of one target are on lines of two votes. Those too far from each
+ * other for a line are on none, in the second pass as well, though half of two is one.
+ */
+static void a_line_has_two_votes(void **state)
+{
+    static struct rho_passive searched;
+    static struct scene scene;
+    (void)state;
+    random_state = 5;
+    scene = scene_of(2, 1, 0.1, 1.0, 0.0);
+    draw_scene(&scene);
+    for (unsigned k = 1; k < 7; k++) {
+        scene.look[k][1].is_absent = 1;
+    }
+    assert_int_equal(search_scene(&searched, &scene), RHO_OK);
+    assert_int_equal(searched.work.crossings, 2);
+    assert_true(searched.work.peaks > 0);
+    scene = scene_of(2, 0, 0.1, 1.0, 0.0);
+    scene.scans = 4;
+    draw_scene(&scene);
+    for (unsigned k = 0; k < 4; k++) {
+        scene.look[k][1].is_absent = k % 2;
+        add_bearing(&scene.look[k][0], k < 2 ? 0.3 : -0.9, 1e-3, -1);
+        add_bearing(&scene.look[k][1], k < 2 ? -0.1 : -1.2, 1e-3, -1);
+    }
+    assert_int_equal(search_scene(&searched, &scene), RHO_OK);
+    assert_int_equal(searched.work.crossings, 2);
+    assert_int_equal(searched.work.peaks, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_fit_stays_within_two_ranges_and_steps_a_tenth_of_one),
+        cmocka_unit_test(few_bearings_and_sharp_ones_have_a_floor),
+        cmocka_unit_test(a_line_has_two_votes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
