@@ -18,8 +18,9 @@
  *
  * - four witnesses speak for it, four times as many as against it;
  * - two of them came after the first one had spoken: targets that keep in formation are not images;
- * - they passed at distances of which one is a quarter more than another: the two sides of a road
- *   mirror one another in its middle, at one distance each; and
+ * - the distances at which they passed spread three times as much as tracks' errors, and places
+ *   half way to the images, explain: two lanes mirror one another in their middle, at one distance
+ *   but for where in its lane each car is; and
  * - the line is known as well as a track's place.
  *
  * It is refined from then on, its ends move apart as images are seen farther along, and it is
@@ -53,6 +54,7 @@ struct rho_reflector_witness {
     uint32_t track_id;    /* 0: none */
     uint16_t looks;       /* that had a plot of it */
     uint16_t hits, other; /* of these: with a plot at its image; beside that */
+    float off_m;          /* sum of places half way to the image, across the line */
     uint32_t since;       /* steps of the learning when it came */
 };
 
@@ -64,8 +66,10 @@ struct rho_learned_reflector {
     float from_m, to_m;    /* along: where lines of sight to images cross it */
     float pairs;           /* of tracks that it mirrors */
     float sigma_m;         /* of its witnesses' places, smoothed */
-    float near_m, far_m;   /* distances at which witnesses that spoke for it passed */
-    uint32_t first;        /* steps of the learning when the first one had spoken */
+    float distance_m;      /* at which witnesses that spoke for it passed: mean */
+    float distance_m2;     /* ... and variance */
+    float off_m2;   /* of places half way to their images, a witness's mean: across the line */
+    uint32_t first; /* steps of the learning when the first one had spoken */
     uint16_t witnesses_for, witnesses_against;
     uint8_t late_ones; /* of those for it: came after the first one had spoken; saturates */
     uint8_t is_taken, is_used;

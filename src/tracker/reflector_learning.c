@@ -39,7 +39,7 @@
 #define WALL_WITNESSES 4
 #define WALL_RATIO 4
 #define WALL_LATE_ONES 2
-#define WALL_DISTANCES 1.25f
+#define WALL_SPREAD 3.0f /* of distances at which witnesses passed, over what errors explain */
 #define WALL_SIGMA 1.0f
 #define MEMORY_WITNESSES 16 /* both counts are halved there */
 
@@ -48,6 +48,8 @@
 
 /* A line that is not known better than so has no use for its neighbours: m, m and 1. */
 #define VARIANCE_MAX 1e12f
+/* What rounding may leave of a covariance over the root of its variances' product, squared. */
+#define VARIANCE_ROUNDING 1.01f
 
 enum rho_status rho_reflector_learning_init(struct rho_reflector_learning *learning, size_t size)
 {
@@ -91,11 +93,17 @@ static void place_at(const struct rho_learned_reflector *line, float along_m, fl
     *y_m = line->y_m + along_m * line->sin_along + across_m * line->cos_along;
 }
 
+/* How much farther a wall reaches than a short line, on either end. */
+static float more_m_of(const struct rho_learned_reflector *line)
+{
+    const float short_m = RHO_REFLECTOR_LEAST_M - (line->to_m - line->from_m);
+    return short_m > 0.0f ? short_m : 0.0f;
+}
+
 static struct rho_reflector wall_of(const struct rho_learned_reflector *line)
 {
     struct rho_reflector wall;
-    const float short_m = RHO_REFLECTOR_LEAST_M - (line->to_m - line->from_m);
-    const float more_m = short_m > 0.0f ? short_m : 0.0f;
+    const float more_m = more_m_of(line);
     place_at(line, line->from_m - more_m, &wall.from_x_m, &wall.from_y_m);
     place_at(line, line->to_m + more_m, &wall.to_x_m, &wall.to_y_m);
     return wall;
@@ -340,10 +348,10 @@ static void widen(const struct rho_learned_reflector *line, float along_m, struc
     image->covariance[RHO_AT(RHO_Y, RHO_Y)] += variance_m2 * c * c;
 }
 
-/* A target's image has a plot: the line is half way between both. */
-static void learn_place(struct rho_learned_reflector *line, const struct look *look,
-                        const struct rho_track_report *target, const struct rho_plot *plot,
-                        float crossing_m)
+/* A target's image has a plot: the line is half way between both. How far off it was. */
+static float learn_place(struct rho_learned_reflector *line, const struct look *look,
+                         const struct rho_track_report *target, const struct rho_plot *plot,
+                         float crossing_m)
 {
     struct rho_measurement seen;
     float noise[6], along_m, across_m;
@@ -356,9 +364,20 @@ static void learn_place(struct rho_learned_reflector *line, const struct look *l
     const float variance_m2 =
         0.25f * (variance_along(target->covariance, RHO_X, -line->sin_along, line->cos_along) +
                  variance_along(noise, RHO_X, -line->sin_along, line->cos_along));
+    const float off_m = across_m - across_at(line, along_m);
     refine(line, along_m, across_m, REPEATED * variance_m2);
     reach_to(line, crossing_m);
     line->sigma_m += 0.05f * (target->sigma_m - line->sigma_m);
+    return off_m;
+}
+
+/* One more witness, of those that the memory still counts: where it passed, how far off it was. */
+static void note_distance(struct rho_learned_reflector *line, float distance_m, float off_m)
+{
+    const float gain = 1.0f / (float)line->witnesses_for, more_m = distance_m - line->distance_m;
+    line->distance_m += gain * more_m;
+    line->distance_m2 = (1.0f - gain) * (line->distance_m2 + gain * more_m * more_m);
+    line->off_m2 += gain * (off_m * off_m - line->off_m2);
 }
 
 static void judge(struct rho_reflector_learning *learning, struct rho_learned_reflector *line,
@@ -373,14 +392,12 @@ static void judge(struct rho_reflector_learning *learning, struct rho_learned_re
         across_m -= across_at(line, along_m);
         across_m = across_m < 0.0f ? -across_m : across_m;
         if (line->witnesses_for == 0) {
-            line->near_m = line->far_m = across_m;
             line->first = learning->steps;
         } else if (witness->since > line->first && line->late_ones < UINT8_MAX) {
             line->late_ones++;
         }
-        line->near_m = across_m < line->near_m ? across_m : line->near_m;
-        line->far_m = across_m > line->far_m ? across_m : line->far_m;
         line->witnesses_for++;
+        note_distance(line, across_m, witness->off_m / (float)witness->hits);
     }
     if (line->witnesses_for + line->witnesses_against >= MEMORY_WITNESSES) {
         line->witnesses_for /= 2;
@@ -456,7 +473,7 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
         !looked_at(look, &image)) {
         return;
     }
-    crossing_m += line->from_m;
+    crossing_m += line->from_m - more_m_of(line);
     widen(line, crossing_m, &image);
     struct rho_reflector_witness *witness = witness_of(line, target->track_id);
     if (!witness || !is_apart(look, target, &image)) {
@@ -468,9 +485,9 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
     }
     look->images_left--;
     const int32_t nearest = nearest_plot(look, &image, target->plot);
-    if (nearest >= 0) {
-        learn_place(line, look, target, &look->scan->plots[nearest], crossing_m);
-    }
+    const float off_m =
+        nearest >= 0 ? learn_place(line, look, target, &look->scan->plots[nearest], crossing_m)
+                     : 0.0f;
     if (witness->looks >= JUDGED_LOOKS || crossing_m < line->from_m || crossing_m > line->to_m) {
         return;
     }
@@ -479,6 +496,7 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
     image.state[RHO_X] += beside_m * line->cos_along;
     image.state[RHO_Y] += beside_m * line->sin_along;
     witness->hits = (uint16_t)(witness->hits + (nearest >= 0));
+    witness->off_m += off_m;
     witness->other = (uint16_t)(witness->other + (nearest_plot(look, &image, target->plot) >= 0));
     witness->looks++;
     if (witness->looks == JUDGED_LOOKS) {
@@ -534,12 +552,18 @@ static int is_well_known(const struct rho_learned_reflector *line)
     return variance_at(line, line->from_m) <= limit_m2 && variance_at(line, line->to_m) <= limit_m2;
 }
 
+/* Lanes mirror one another at one distance, but for errors and for where in its lane each car is. */
+static int is_spread(const struct rho_learned_reflector *line)
+{
+    return line->distance_m2 >=
+           WALL_SPREAD * WALL_SPREAD * (line->off_m2 + line->sigma_m * line->sigma_m);
+}
+
 static int is_wall(const struct rho_learned_reflector *line)
 {
     return line->witnesses_for >= WALL_WITNESSES &&
            line->witnesses_for >= WALL_RATIO * line->witnesses_against &&
-           line->late_ones >= WALL_LATE_ONES && line->far_m >= WALL_DISTANCES * line->near_m &&
-           is_well_known(line);
+           line->late_ones >= WALL_LATE_ONES && is_spread(line) && is_well_known(line);
 }
 
 /* Walls that the tracker knows already are not learned. */
@@ -570,6 +594,25 @@ int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, u
     }
     *reflector = wall_of(&learning->lines[place]);
     return 1;
+}
+
+/* The tracker has the walls that set_walls gave it last. */
+static int are_set(const struct rho_reflector_learning *learning, const struct rho_tracker *tracker)
+{
+    const unsigned all = (unsigned)learning->num_told + learning->num_used;
+    unsigned count = learning->num_told;
+    struct rho_reflector wall;
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS && count < all; i++) {
+        if (!rho_reflector_learning_wall(learning, i, &wall)) {
+            continue;
+        }
+        if (count >= tracker->num_reflectors ||
+            memcmp(&wall, &tracker->reflectors[count], sizeof wall) != 0) {
+            return 0;
+        }
+        count++;
+    }
+    return count == all && tracker->num_reflectors == all;
 }
 
 /* Those that were told, and behind them those that are learned. */
@@ -606,7 +649,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     if (report->time_us != scan->time_us || report->num_tracks > RHO_MAX_TRACKS) {
         return RHO_ERROR_VALUE;
     }
-    if (tracker->num_reflectors != learning->num_told + learning->num_used) {
+    if (!are_set(learning, tracker)) {
         learning->num_told = tracker->num_reflectors; /* others were told */
         learning->num_used = 0;
     }
@@ -632,19 +675,44 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
 
 /* ---- objects of unknown origin --------------------------------------------------------------- */
 
+static int has_sound_variance(const struct rho_learned_reflector *line)
+{
+    const float *p = line->variance;
+    return rho_is_within(p[0], 0.0f, VARIANCE_MAX) && rho_is_within(p[2], 0.0f, VARIANCE_MAX) &&
+           p[1] * p[1] <= VARIANCE_ROUNDING * p[0] * p[2];
+}
+
+static int has_sound_witnesses(const struct rho_learned_reflector *line)
+{
+    unsigned i = 0;
+    while (i < RHO_REFLECTOR_WITNESSES && rho_is_within(line->witnesses[i].off_m, -1e9f, 1e9f)) {
+        i++;
+    }
+    return i == RHO_REFLECTOR_WITNESSES && rho_is_within(line->distance_m, 0.0f, 1e9f) &&
+           rho_is_within(line->distance_m2, 0.0f, 1e18f) &&
+           rho_is_within(line->off_m2, 0.0f, 1e18f);
+}
+
+/* Of a line that is taken: places on it can be walls of a tracker. */
+static int has_sound_places(const struct rho_learned_reflector *line)
+{
+    const float one = line->cos_along * line->cos_along + line->sin_along * line->sin_along;
+    if (!rho_is_within(one, 0.999f, 1.001f) || !(line->from_m <= line->to_m)) {
+        return 0;
+    }
+    const struct rho_reflector wall = wall_of(line);
+    return rho_is_coordinate(wall.from_x_m) && rho_is_coordinate(wall.from_y_m) &&
+           rho_is_coordinate(wall.to_x_m) && rho_is_coordinate(wall.to_y_m);
+}
+
 static int is_sound_line(const struct rho_learned_reflector *line)
 {
     return line->is_taken <= 1 && line->is_used <= line->is_taken && rho_is_coordinate(line->x_m) &&
-           rho_is_coordinate(line->y_m) && rho_is_within(line->cos_along, -1.001f, 1.001f) &&
-           rho_is_within(line->sin_along, -1.001f, 1.001f) && rho_is_coordinate(line->offset_m) &&
-           rho_is_within(line->slope, -10.0f, 10.0f) &&
-           rho_is_within(line->variance[0], -VARIANCE_MAX, VARIANCE_MAX) &&
-           rho_is_within(line->variance[1], -VARIANCE_MAX, VARIANCE_MAX) &&
-           rho_is_within(line->variance[2], -VARIANCE_MAX, VARIANCE_MAX) &&
+           rho_is_coordinate(line->y_m) && rho_is_coordinate(line->offset_m) &&
+           rho_is_within(line->slope, -10.0f, 10.0f) && has_sound_variance(line) &&
            rho_is_coordinate(line->from_m) && rho_is_coordinate(line->to_m) &&
-           line->from_m <= line->to_m && rho_is_within(line->pairs, -1.0f, 1e9f) &&
-           rho_is_within(line->sigma_m, 0.0f, 1e6f) && rho_is_within(line->near_m, 0.0f, 1e9f) &&
-           rho_is_within(line->far_m, 0.0f, 1e9f);
+           (!line->is_taken || has_sound_places(line)) && has_sound_witnesses(line) &&
+           rho_is_within(line->pairs, -1.0f, 1e9f) && rho_is_within(line->sigma_m, 0.0f, 1e6f);
 }
 
 int rho_reflector_learning_is_sound(const struct rho_reflector_learning *learning)

@@ -136,28 +136,74 @@ static void without_images_nothing_is_learned(void **state)
     }
 }
 
-/* Pairs side by side, one after the other: each mirrors the other in the middle of the road. */
+/*
+ * Pairs side by side, one after the other: each mirrors the other in the middle of the road. They
+ * speak for it for as long as they come, at distances that errors, and the cars' places in their
+ * lanes, make unequal.
+ */
 static void two_lanes_are_no_wall(void **state)
 {
-    struct rho_reflector wall;
-    unsigned most = 0;
+    static const double cases[][3] = {/* half of the lanes' distance, sigmas of plots, of lanes */
+                                      {4.0, 0.5, 0.0},
+                                      {1.75, 0.5, 0.0},
+                                      {2.0, 0.3, 0.0},
+                                      {2.0, 0.3, 0.3}};
     (void)state;
-    prepare(3);
-    for (int k = 0; k < 2000; k++) {
-        double x_m, y_m;
-        for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
-            if (i >= 0 && place_of(3 * i, 2 * EVERY * i + k, &x_m, &y_m)) {
-                add_noisy(x_m, 36.0, 0.5);
-                add_noisy(x_m, 44.0, 0.5);
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+        const double half_m = cases[c][0], sigma_m = cases[c][1];
+        double off_m[2 * 60];
+        struct rho_reflector wall;
+        unsigned most = 0;
+        prepare(3 + c);
+        for (int i = 0; i < 2 * 60; i++) {
+            off_m[i] = cases[c][2] * normal();
+        }
+        for (int k = 0; k < 3000; k++) {
+            double x_m, y_m;
+            for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
+                if (i >= 0 && place_of(3 * i, 2 * EVERY * i + k, &x_m, &y_m)) {
+                    add_noisy(x_m, 40.0 - half_m + off_m[2 * i], sigma_m);
+                    add_noisy(x_m, 40.0 + half_m + off_m[2 * i + 1], sigma_m);
+                }
             }
+            look(k);
+            for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+                const unsigned now = learning.lines[i].witnesses_for;
+                most = now > most ? now : most;
+            }
+            assert_int_equal(num_walls(&wall), 0);
         }
-        look(k);
-        for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
-            most = learning.lines[i].witnesses_for > most ? learning.lines[i].witnesses_for : most;
-        }
-        assert_int_equal(num_walls(&wall), 0);
+        assert_true(most >= 8);
     }
-    assert_true(most >= 4); /* all speak for it, at one distance */
+}
+
+/* A guard rail beside two lanes as near to each other as lanes are, and cars not in their middle. */
+static void a_rail_beside_two_lanes_is_learned(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        double off_m[40];
+        struct rho_reflector wall;
+        prepare(seed);
+        for (int i = 0; i < 40; i++) {
+            off_m[i] = 0.3 * normal();
+        }
+        for (int k = 0; k < 2000; k++) {
+            double x_m, y_m;
+            for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
+                if (i >= 0 && place_of(i, k, &x_m, &y_m)) {
+                    y_m = WALL_M - (i % 2 ? 5.0 : 8.5) + off_m[i];
+                    add_noisy(x_m, y_m, 0.5);
+                    if (uniform(0.0, 1.0) < 0.7) {
+                        add_noisy(x_m, 2.0 * WALL_M - y_m, 0.5);
+                    }
+                }
+            }
+            look(k);
+        }
+        assert_int_equal(num_walls(&wall), 1);
+        is_the_wall(&wall);
+    }
 }
 
 /* Eight abreast: four pairs that mirror one another in one line, at four distances, and nobody
@@ -222,6 +268,26 @@ static void told_walls_stay(void **state)
     }
 }
 
+/* As many as there were, told and learned together: they are told all the same. */
+static void as_many_told_walls_stay(void **state)
+{
+    static const struct rho_reflector told = {-300.0f, -40.0f, 300.0f, -40.0f};
+    struct rho_reflector wall;
+    (void)state;
+    prepare(7);
+    for (int k = 0; k < 1200; k++) {
+        traffic(k, 0.9);
+        look(k);
+    }
+    assert_int_equal(num_walls(&wall), 1);
+    assert_int_equal(tracker.num_reflectors, 1);
+    assert_int_equal(rho_tracker_set_reflectors(&tracker, &told, 1), RHO_OK);
+    look(1200);
+    assert_int_equal(tracker.num_reflectors, 2);
+    assert_memory_equal(&tracker.reflectors[0], &told, sizeof told);
+    assert_memory_equal(&tracker.reflectors[1], &wall, sizeof wall);
+}
+
 static void a_wall_that_is_gone_is_forgotten(void **state)
 {
     struct rho_reflector wall;
@@ -265,6 +331,46 @@ static void a_snapshot_keeps_walls(void **state)
     assert_int_equal(tracker.num_reflectors, 1);
     learning.lines[2].slope = NAN;
     assert_int_equal(rho_snapshot_save(&part, 1, 0, image, sizeof image, &size), RHO_ERROR_STATE);
+}
+
+/* A line of unknown origin is one that a step can work with. */
+static void unsound_lines_are_found(void **state)
+{
+    struct rho_reflector wall;
+    struct rho_learned_reflector *line = &learning.lines[0];
+    (void)state;
+    prepare(9);
+    for (int k = 0; k < 900; k++) {
+        traffic(k, 0.3);
+        look(k);
+    }
+    while (!line->is_used) {
+        line++;
+    }
+    assert_int_equal(num_walls(&wall), 1);
+    const struct rho_learned_reflector good = *line;
+#define IS_UNSOUND(change)                                                                         \
+    do {                                                                                           \
+        change;                                                                                    \
+        assert_false(rho_reflector_learning_is_sound(&learning));                                  \
+        *line = good;                                                                              \
+        assert_true(rho_reflector_learning_is_sound(&learning));                                   \
+    } while (0)
+    IS_UNSOUND(line->cos_along = line->sin_along = 0.0f); /* a wall of no length */
+    IS_UNSOUND(line->cos_along = line->sin_along = 1.0f);
+    IS_UNSOUND(line->variance[0] = -1.0f);
+    IS_UNSOUND(line->variance[2] = -1e-6f);
+    IS_UNSOUND(line->variance[1] = 1.0f);
+    IS_UNSOUND(line->variance[1] = NAN);
+    IS_UNSOUND(line->from_m = line->to_m + 1.0f);
+    IS_UNSOUND(line->offset_m = RHO_LIMIT_POSITION_M; line->x_m = RHO_LIMIT_POSITION_M;
+               line->y_m = RHO_LIMIT_POSITION_M);
+    IS_UNSOUND(line->distance_m2 = NAN);
+    IS_UNSOUND(line->off_m2 = -1.0f);
+    IS_UNSOUND(line->witnesses[1].off_m = NAN);
+    IS_UNSOUND(line->is_used = 2);
+    IS_UNSOUND(line->is_taken = 0);
+#undef IS_UNSOUND
 }
 
 static void an_old_scan_teaches_nothing(void **state)
@@ -323,11 +429,14 @@ int main(void)
         cmocka_unit_test(a_wall_is_learned_from_cars_that_pass),
         cmocka_unit_test(without_images_nothing_is_learned),
         cmocka_unit_test(two_lanes_are_no_wall),
+        cmocka_unit_test(a_rail_beside_two_lanes_is_learned),
         cmocka_unit_test(a_formation_is_no_wall),
         cmocka_unit_test(a_car_behind_a_learned_wall_is_found),
         cmocka_unit_test(told_walls_stay),
+        cmocka_unit_test(as_many_told_walls_stay),
         cmocka_unit_test(a_wall_that_is_gone_is_forgotten),
         cmocka_unit_test(a_snapshot_keeps_walls),
+        cmocka_unit_test(unsound_lines_are_found),
         cmocka_unit_test(an_old_scan_teaches_nothing),
         cmocka_unit_test(wrong_calls_change_nothing),
     };
