@@ -31,7 +31,7 @@ check 'images have tracks' test "$(after silent.csv)" -gt 100
 check 'and none once the rail is learned' test "$(after learned.csv)" -le 3
 run convert rail/plots.csv rail.lcm --config silent.ini
 run node --lcm "file://$PWD/rail.lcm?speed=0" --config silent.ini --snapshot rail.snapshot
-check 'a node says so when it is learned' grep -q '^rhotrack: a wall is learned: ' stderr
+check 'a node says so when it is learned' grep -q '^[0-9T:.-]*Z rhotrack: a wall is learned: ' stderr
 run node --lcm "file://$PWD/rail.lcm?speed=0" --config silent.ini --snapshot rail.snapshot
 check 'and knows it after a restart' grep -q 'a wall is learned: ' stderr
 run track rail/plots.csv --config silent.ini --set 'reflectors=0 14 200 14' --json -o option.csv
