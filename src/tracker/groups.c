@@ -547,9 +547,9 @@ void rho_tracker_ungroup(struct step *step, const struct rho_scan *scan)
     for (uint32_t i = step->num_gated; i-- > 0;) {
         step->report->fates[i] = step->report->fates[groups->of[i]];
     }
-    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+    for (unsigned row = 0; RHO_BODIES && row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (RHO_BODIES && track->plot > 0) { /* the first group's first plot is the first one */
+        if (track->plot > 0) { /* the first group's first plot is the first one */
             track->plot = (int16_t)groups->first[track->plot];
         }
     }
