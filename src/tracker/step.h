@@ -304,13 +304,13 @@ int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker);
  */
 #define RHO_WORK_OCTAVES 40u
 /* Shares of work_max, 1 / N: of echoes; of claims and of updates each; of second plots; of the
- * tracks that start. */
+ * tracks that start; of images; of groups. */
 #define RHO_WORK_ECHOES_SHARE 8u
 #define RHO_WORK_TRACKS_SHARE 4u
 #define RHO_WORK_SECOND_SHARE 16u
 #define RHO_WORK_STARTS_SHARE 16u
 #define RHO_WORK_IMAGES_SHARE 16u
-#define RHO_WORK_GROUPS_SHARE 8u
+#define RHO_WORK_GROUPS_SHARE 4u
 /* So many plots that a box passes over cost one unit. */
 #define RHO_WORK_PASSED_A_UNIT 4u
 struct plot_choice {

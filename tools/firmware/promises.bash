@@ -11,7 +11,7 @@ promise_of() {
     full) most=168000000 ;;
     en_route) most=420000000 ;;
     marine) most=105000000 ;;
-    traffic) core=m7 a=2400000 most=6000000 ;;
+    traffic) core=m7 a=3300000 most=6000000 ;;
     smallest) a=2200000 most=4000000 ;;
     *) return 1 ;;
     esac

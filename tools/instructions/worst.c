@@ -17,6 +17,7 @@
 #include "count.h"
 #include "draw.h"
 #include "node_settings.h"
+#include "rhotrack/body.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/tracker.h"
@@ -221,8 +222,10 @@ static int open_tracker(const struct sky *sky)
     struct rho_initiator_config start;
     node_settings(&config, &start);
     memset(before, 0, sizeof before);
-    int is_open = rho_tracker_init(&tracker, sizeof tracker, &config) == RHO_OK &&
-                  rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK;
+    int is_open =
+        rho_tracker_init(&tracker, sizeof tracker, &config) == RHO_OK &&
+        rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK &&
+        (NODE_BODY_MAX_M <= 0.0f || rho_tracker_set_body_max(&tracker, NODE_BODY_MAX_M) == RHO_OK);
     for (unsigned i = 0; i < count_of(sky, SENSORS) && i < RHO_MAX_SENSORS && is_open; i++) {
         struct rho_sensor sensor = {.sensor_id = (int32_t)i + 1,
                                     .pd = 0.9f,

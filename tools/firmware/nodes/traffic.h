@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * traffic: a 24 GHz radar above a road, 20 looks a second of 64 plots with range rates at most:
- * vehicles of up to 90 m/s.
+ * traffic: a 24 GHz radar above a road, 20 looks a second of 128 plots with range rates at most:
+ * 64 vehicles of up to 90 m/s and 15 m, with their extents. No map of echoes: flash.
  */
-#define RHO_WORK_MAX 40000
-#define RHO_MAX_SCANS 6
-#define RHO_MAX_PLOTS 64
-#define RHO_MAX_TRACKS 32
+#define RHO_WORK_MAX 30000
+#define RHO_MAX_SCANS 5
+#define RHO_MAX_PLOTS 128
+#define RHO_MAX_TRACKS 64
+#define RHO_BODIES 1
+#define RHO_MAX_ECHOES 0
+#define RHO_MAX_BINS 144
 #define RHO_MAX_SENSORS 2
 #include "radar_capacities.h"
 
@@ -17,3 +20,4 @@
 #define NODE_SIGMA_RANGE_RATE_MPS 0.1f
 #define NODE_V_MAX_MPS 90.0f
 #define NODE_ACCEL_MAX_MPS2 10.0f
+#define NODE_BODY_MAX_M 15.0f
