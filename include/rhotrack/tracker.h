@@ -225,6 +225,12 @@ struct rho_tracker_look {
 #define RHO_LEARN_RINGS 6
 
 /*
+ * Intervals of the range rate over ground, either way, from 0 on: the first one to 0.25 m/s, each
+ * next one 1.41 times as far, the last one without end (RHO_DOPPLER_NOTCH).
+ */
+#define RHO_LEARN_RATES (RHO_DOPPLER_NOTCH ? 16 : 1)
+
+/*
  * Noise and detection probability of a described sensor, as its tracks show them. Both begin at the
  * stated values, and are used where they surely differ: sigmas by more than an eighth, within the
  * bounds of the config; pd only where it is less. With the gate best alone: noise of tracks that
@@ -241,6 +247,13 @@ struct rho_tracker_learned {
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
     uint8_t is_lowered; /* bit i: in ring i pd is used as learned */
     uint8_t ring;       /* that is learned next, one a scan */
+    /*
+     * the same by the range rate, of a sensor of which no notch was stated. In the first
+     * blind_rates intervals it sees targets so much worse than above that it has a notch there,
+     * which is used as if it were stated (gate best); those looks are none of the rings'
+     */
+    uint8_t blind_rates, used_rates; /* as learned; as the sensor's notch_mps has it now */
+    uint8_t rate_looks[RHO_LEARN_RATES], rate_hits[RHO_LEARN_RATES]; /* halved at 250 */
 };
 
 /* How often a sensor looks at a place. */
@@ -393,7 +406,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
 /*
  * Forgets the description of a sensor: its scans use the defaults from then on, and there is room
  * for another one.
- * Errors: NULL, STATE (not initialised, or not described). Cost: RHO_MAX_SENSORS.
+ * Errors: NULL, STATE (not initialised, or not described). Cost: RHO_MAX_SENSORS. Stack: 112 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker,
                                                          int32_t sensor_id);
@@ -403,10 +416,12 @@ struct rho_tracker_known {
     float range_factor, cross_factor; /* that its plots' sigmas count */
     float pd[RHO_LEARN_RINGS];        /* by ring of range */
     uint32_t innovations, looks;      /* that was learned from */
+    /* learned of a sensor of which no notch was stated (RHO_DOPPLER_NOTCH); 0: none */
+    float notch_mps;
 };
 
 /* Errors: NULL, STATE (not initialised, or the sensor was not described). Constant cost.
- * Stack: 112 bytes. */
+ * Stack: 120 bytes. */
 RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker,
                                                     int32_t sensor_id,
                                                     struct rho_tracker_known *known);

@@ -50,6 +50,9 @@ static void open_scan(struct step *step)
         rho_tracker_note_pace(step->tracker, step->sensor ? step->sensor : &nowhere, step->time_us,
                               step->scan->sector_from_rad, step->scan->sector_to_rad);
     }
+    if (RHO_DOPPLER_NOTCH) {
+        rho_tracker_use_notch(step);
+    }
     rho_tracker_set_noise(step, RHO_SECTORS ? rho_tracker_find_suspect(step) : 1.0f);
     step->log_range_rates -=
         rho_measurement_log_aliases(step->sensor, step->tracker->config.v_max_mps);

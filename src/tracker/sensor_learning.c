@@ -62,6 +62,23 @@ enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 #define SURELY 2.5f
 #define CAUTION 1.0f
 
+/*
+ * Range rates at which a sensor is blind: seen less than the first share of what faster targets
+ * are, by so many standard deviations, of so many looks there and above; the fastest of them by the
+ * last share. Tracks that end in a notch teach little of it: once it is used, misses there are all
+ * known, and its fastest interval is held against the share in use, of so many looks.
+ */
+#define BLIND_SHARE 0.65f
+#define BLIND_LAST_SHARE 0.85f
+#define BLIND_USED_SHARE 0.6f
+#define BLIND_USED_LOOKS 40.0f
+#define BLIND_SURELY 4.0f
+#define BLIND_LOOKS 20.0f
+#define FASTER_LOOKS 60.0f
+#define RATE_MIN2 0.0625f /* square of the first interval's end */
+#define RATE_LOOKS_MAX 250
+#define RATES_LEAST 4u /* intervals: a narrower notch is not told from targets that stop */
+
 /* One Kalman filter takes manoeuvres for noise, and loses targets that are there. */
 static int learns(const struct rho_tracker_config *config)
 {
@@ -270,6 +287,126 @@ static float pd_at(const struct rho_tracker_config *config,
     return usable_pd(config, &seen, stated);
 }
 
+/* ---- pd by range rate ------------------------------------------------------------------------ */
+
+/* Where so many intervals end. */
+static float end_of_rates(unsigned num_rates)
+{
+    float end2 = RATE_MIN2;
+    for (unsigned i = 1; i < num_rates; i++) {
+        end2 *= 2.0f;
+    }
+    return rho_sqrt(end2);
+}
+
+/* The notch is none, or the one that was learned. */
+static int is_unstated(const struct rho_sensor *sensor, const struct rho_tracker_learned *learned)
+{
+    const float learned_mps = learned->used_rates > 0 ? end_of_rates(learned->used_rates) : 0.0f;
+    return !(sensor->notch_mps > 0.0f) ||
+           (sensor->notch_mps >= learned_mps && sensor->notch_mps <= learned_mps);
+}
+
+static int learns_rates(const struct step *step)
+{
+    return RHO_DOPPLER_NOTCH && step->tracker->config.learn_pd_min < 1.0f &&
+           is_unstated(step->sensor, step->learned);
+}
+
+void rho_tracker_use_notch(struct step *step)
+{
+    struct rho_tracker_learned *learned = step->learned;
+    if (learned && learns(&step->tracker->config) && learns_rates(step)) {
+        learned->used_rates = learned->blind_rates;
+        step->tracker->sensors[learned - step->tracker->learned].notch_mps =
+            learned->used_rates > 0 ? end_of_rates(learned->used_rates) : 0.0f;
+    }
+}
+
+/* The interval of the track's range rate; the last one where it has none. */
+static unsigned rate_of(const struct rho_sensor *sensor, const struct rho_track *track)
+{
+    float row[6], rate_mps, end2 = RATE_MIN2;
+    unsigned interval = 0;
+    if (!rho_measurement_range_rate(track->kalman.state, sensor,
+                                    track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
+                                    &rate_mps)) {
+        return RHO_LEARN_RATES - 1u;
+    }
+    while (interval + 1u < RHO_LEARN_RATES && rate_mps * rate_mps >= end2) {
+        end2 *= 2.0f;
+        interval++;
+    }
+    return interval;
+}
+
+/* The notch that is used: as it is, narrower, or none. */
+static unsigned check_notch(unsigned used, float here, float seen, float looks, float hits,
+                            float pd)
+{
+    if (hits > BLIND_SHARE * pd * looks) {
+        return 0;
+    }
+    return used > RATES_LEAST && here >= BLIND_USED_LOOKS && seen > BLIND_USED_SHARE * pd * here
+               ? used - 1u
+               : used;
+}
+
+/* As many intervals as are seen so much worse than those above, all together and the last one. */
+static unsigned find_blind_rates(const struct rho_tracker_learned *learned)
+{
+    const unsigned used = learned->blind_rates;
+    const float last = used > 0 ? BLIND_USED_SHARE : BLIND_LAST_SHARE;
+    float looks = 0.0f, hits = 0.0f, faster = 0.0f, faster_hits = 0.0f;
+    for (unsigned i = 0; i < RHO_LEARN_RATES; i++) {
+        looks += (float)learned->rate_looks[i];
+        hits += (float)learned->rate_hits[i];
+    }
+    for (unsigned i = RHO_LEARN_RATES; i >= RATES_LEAST; i--) {
+        const float pd = faster > 0.0f ? faster_hits / faster : 0.0f;
+        const float here = (float)learned->rate_looks[i - 1u],
+                    seen = (float)learned->rate_hits[i - 1u];
+        if (i == used) {
+            return check_notch(used, here, seen, looks, hits, pd);
+        }
+        if (faster >= FASTER_LOOKS && looks >= BLIND_LOOKS && seen < last * pd * here &&
+            hits < BLIND_SHARE * pd * looks &&
+            hits + BLIND_SURELY * rho_sqrt(pd * (1.0f - pd) * looks) < pd * looks) {
+            return i;
+        }
+        faster += here;
+        faster_hits += seen;
+        looks -= here;
+        hits -= seen;
+    }
+    return 0;
+}
+
+/* 1: the look is one of those that the rings learn from. */
+static int note_rate(struct step *step, const struct rho_track *track, unsigned is_seen)
+{
+    struct rho_tracker_learned *learned = step->learned;
+    const unsigned rate = rate_of(step->sensor, track);
+    learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
+    learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
+    if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
+        learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] / 2u);
+        learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] / 2u);
+    }
+    const unsigned found = find_blind_rates(learned);
+    if (found > learned->blind_rates) {
+        /* what the rings have learned so far was of slower targets as well */
+        learned->is_lowered = 0;
+        for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+            learned->looks[ring] = learned->hits[ring] = 0;
+        }
+    }
+    learned->blind_rates = (uint8_t)found;
+    return rate >= learned->blind_rates;
+}
+
+/* ---- pd of a look ---------------------------------------------------------------------------- */
+
 static int is_lowered(const struct step *step)
 {
     return learns(&step->tracker->config) && step->learned && step->learned->is_lowered;
@@ -303,6 +440,9 @@ static void note_look(struct step *step, const struct rho_track *track, unsigned
 {
     struct rho_tracker_learned *learned = step->learned;
     const unsigned ring = ring_of(step->sensor, track);
+    if (learns_rates(step) && !note_rate(step, track, is_seen)) {
+        return;
+    }
     learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
     learned->hits[ring] = (uint16_t)(learned->hits[ring] + is_seen);
     if (learned->looks[ring] >= LOOKS_MAX) {
@@ -316,6 +456,9 @@ static void learn_pd(struct step *step, struct rho_track *track, int is_seen)
 {
     const int is_own = track->sensor_id == step->scan->sensor_id;
     if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
+        if (is_own && learns_rates(step)) {
+            (void)note_rate(step, track, is_seen != 0);
+        }
         return;
     }
     if (is_seen && is_own) {
@@ -394,7 +537,14 @@ int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
             return 0;
         }
     }
-    return rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
+    for (unsigned i = 0; RHO_DOPPLER_NOTCH && i < RHO_LEARN_RATES; i++) {
+        if (learned->rate_hits[i] > learned->rate_looks[i] ||
+            learned->rate_looks[i] > RATE_LOOKS_MAX) {
+            return 0;
+        }
+    }
+    return learned->blind_rates <= RHO_LEARN_RATES && learned->used_rates <= RHO_LEARN_RATES &&
+           rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
            learned->ring < RHO_LEARN_RINGS;
@@ -412,7 +562,10 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         return RHO_ERROR_STATE;
     }
     const struct rho_tracker_learned *learned = &tracker->learned[sensor - tracker->sensors];
+    const int is_blind =
+        RHO_DOPPLER_NOTCH && learned->blind_rates > 0 && is_unstated(sensor, learned);
     *known = (struct rho_tracker_known){
+        .notch_mps = is_blind ? end_of_rates(learned->blind_rates) : 0.0f,
         .range_factor = factor_of(tracker, learned, 0),
         .cross_factor = factor_of(tracker, learned, 1),
         .innovations = learned->innovations,

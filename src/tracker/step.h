@@ -210,6 +210,8 @@ static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct step *
 void rho_tracker_set_noise(struct step *step, float suspicion);
 /* Writes the learned noise, times the factor, into a copy of the sensor. */
 void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_sensor *sensor);
+/* (RHO_DOPPLER_NOTCH) Writes the learned notch into a sensor of which none was stated. */
+void rho_tracker_use_notch(struct step *step);
 void rho_tracker_learn(struct step *step);
 int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
 /* Of the scan's sensor, for its initiator: over all ranges. */

@@ -30,6 +30,24 @@ run evaluate air/truth.csv air.csv --json
 check 'aircraft that pass tangentially are kept' json stdout \
     'o["switches"] == 0 and o["completeness"] > 0.97'
 
+# ---- nobody tells of the notch: it is learned, and not taken for a bad radar ----
+many=(--set targets.0.count=60 --set duration_s=1500 --set 'targets.0.range_m=[30000, 75000]')
+run simulate notch --seed 5 "${many[@]}" --set 'radars.0.told={"notch_mps": 0}' -o many
+run track many/plots.csv --config many/scenario.ini --json -o learned.csv
+check 'the notch is learned' json stdout '9 < o["learned"][0]["notch_mps"] < 13'
+check 'P_D is not' json stdout 'all(pd > 0.88 for pd in o["learned"][0]["pd"])'
+check 'the summary says it' grep -q ', sensor 1 is blind within 11.3 m/s of zero Doppler' stderr
+run track many/plots.csv --config many/scenario.ini --set learn_pd_min=1 --json -o stated.csv
+check 'nothing is learned where that is switched off' json stdout \
+    '"notch_mps" not in o["learned"][0]'
+run evaluate many/truth.csv learned.csv --json
+check 'aircraft are kept' json stdout 'o["completeness"] > 0.94 and o["switches"] < 30'
+run evaluate many/truth.csv stated.csv --json
+check 'and else lost' json stdout 'o["completeness"] < 0.92 and o["switches"] > 45'
+run simulate notch --seed 5 "${many[@]}" --set radars.0.notch_mps=0 -o none
+run track none/plots.csv --config none/scenario.ini --json -o none.csv
+check 'no notch is learned where there is none' json stdout '"notch_mps" not in o["learned"][0]'
+
 # ---- bad settings ----
 for bad in notch_mps=-1 sensor.1.notch_mps=x blind_speed_mps=1e9; do
     run track light/plots.csv --set $bad

@@ -403,6 +403,100 @@ static void bounds_are_checked(void **state)
     }
 }
 
+/*
+ * Aircraft of 75 m/s pass tangentially at 10 to 21 km, 20 minutes each, one after the other; a radar
+ * that is blind within 12 m/s of zero Doppler sees them not.
+ */
+static void pass(int k, double notch_mps)
+{
+    struct rho_scan scan = {.time_us = (int64_t)TURN_US * k, .sensor_id = SENSOR, .plots = plots};
+
+    num_plots = 0;
+    for (int i = 0; i < TARGETS; i++) {
+        const int phase = k + 25 * i, life = phase / 300;
+        const double along_m = 75.0 * (4.0 * (phase % 300) - 600.0), aside_m = 10e3 + 1e3 * i;
+        const double heading = 0.52 * i + 1.3 * life, range_m = hypot(along_m, aside_m);
+        const double x_noise = normal(), y_noise = normal();
+        const double seen = fabs(75.0 * along_m / range_m) < notch_mps ? 0.03 : 0.9;
+        if (uniform(0.0, 1.0) < seen) {
+            (void)add(along_m * cos(heading) - aside_m * sin(heading) + 30.0 * x_noise,
+                      along_m * sin(heading) + aside_m * cos(heading) + 30.0 * y_noise, 30.0);
+        }
+    }
+    scan.num_plots = num_plots;
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+}
+
+static float learned_notch(void)
+{
+    struct rho_tracker_known known;
+
+    assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
+    for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
+        assert_true(known.pd[ring] > 0.85f); /* of what is not in the notch, as stated */
+    }
+    return known.notch_mps;
+}
+
+static void begin_flights(void)
+{
+    draw(17);
+    config.v_max_mps = initiation.v_max_mps = 200.0f;
+    begin();
+    describe(&as_stated);
+}
+
+static void a_notch_that_nobody_told_is_learned(void **state)
+{
+    uint32_t before, after;
+    (void)state;
+    if (!RHO_DOPPLER_NOTCH) {
+        skip();
+    }
+    begin_flights();
+    for (int k = 0; k < 1500; k++) {
+        pass(k, 12.0);
+    }
+    assert_true(learned_notch() > 9.0f && learned_notch() < 13.0f);
+    assert_true(rho_tracker_is_sound(&tracker));
+    before = tracker.counters.tracks_started;
+    for (int k = 1500; k < 2100; k++) {
+        pass(k, 12.0);
+    }
+    after = tracker.counters.tracks_started;
+    print_message("%u tracks of 24 aircraft once it is learned\n", (unsigned)(after - before));
+    assert_true(after - before <= 32);
+    /* one that is stated goes before it */
+    const struct rho_sensor told = {
+        .sensor_id = SENSOR, .pd = 0.9f, .range_max_m = RANGE_MAX_M, .notch_mps = 5.0f};
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &told), RHO_OK);
+    pass(2100, 12.0);
+    assert_true(tracker.sensors[0].notch_mps == 5.0f && learned_notch() == 0.0f);
+}
+
+static void a_notch_that_is_none_is_not_learned_and_forgotten(void **state)
+{
+    (void)state;
+    if (!RHO_DOPPLER_NOTCH) {
+        skip();
+    }
+    begin_flights();
+    for (int k = 0; k < 1500; k++) {
+        pass(k, 0.0);
+        assert_true(learned_notch() == 0.0f);
+    }
+    begin_flights();
+    for (int k = 0; k < 1500; k++) {
+        pass(k, 12.0);
+    }
+    assert_true(learned_notch() > 9.0f);
+    for (int k = 1500; k < 4500; k++) {
+        pass(k, 0.0);
+    }
+    assert_true(learned_notch() == 0.0f);
+    assert_true(tracker.sensors[0].notch_mps == 0.0f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -420,6 +514,8 @@ int main(void)
         cmocka_unit_test(learned_noise_counts_beyond_chance),
         cmocka_unit_test(what_is_learned_has_limits),
         cmocka_unit_test(bounds_are_checked),
+        cmocka_unit_test(a_notch_that_nobody_told_is_learned),
+        cmocka_unit_test(a_notch_that_is_none_is_not_learned_and_forgotten),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

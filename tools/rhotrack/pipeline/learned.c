@@ -39,6 +39,10 @@ void learned_print(const struct rho_tracker *tracker, const struct rho_reflector
             fprintf(to, ", sensor %" PRId32 "'s pd is down to %.2f", sensor->sensor_id,
                     (double)least);
         }
+        if (known.notch_mps > 0) {
+            fprintf(to, ", sensor %" PRId32 " is blind within %.1f m/s of zero Doppler",
+                    sensor->sensor_id, (double)known.notch_mps);
+        }
     }
     print_walls(walls, to);
 }
@@ -63,6 +67,9 @@ struct cJSON *learned_json(const struct rho_tracker *tracker)
         }
         cJSON_AddItemToObject(object, "pd", rings);
         cJSON_AddNumberToObject(object, "looks", known.looks);
+        if (known.notch_mps > 0) {
+            cJSON_AddNumberToObject(object, "notch_mps", (double)known.notch_mps);
+        }
         cJSON_AddItemToArray(list, object);
     }
     return list;
