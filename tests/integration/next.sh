@@ -56,6 +56,8 @@ check "without a truth: a page, with the settings" next \
 terminal "$(cat next)"
 check 'typed, it works' test "$status" -eq 0 -a -s mine/tracks.html
 
+terminal "'$program' track popup/plots.csv -o popup/tracks.csv --set range_max_m=1000"
+check 'no command comes next without a track' test ! -s next
 run track popup/plots.csv -o popup/tracks.csv
 check 'nothing of it where standard error is no terminal' bash -c '! grep -q "next: \|not used" stderr'
 for args in "track popup/plots.csv" "track popup/plots.csv -o x.lcm" "simulate crossing"; do

@@ -126,7 +126,7 @@ import time
 master, terminal = pty.openpty()
 track = subprocess.Popen([sys.argv[1], "track", sys.argv[2], "-o", "tracks.csv"], stderr=terminal)
 os.close(terminal)
-time.sleep(0.1)
+time.sleep(0.2)
 track.send_signal(signal.SIGSTOP)
 time.sleep(2.2)
 track.send_signal(signal.SIGCONT)
@@ -142,7 +142,7 @@ import re
 shown = open("shown", newline="").read()
 lines = shown.split("\r\x1b[K")
 bars = [line for line in lines if line.startswith("[")]
-assert bars and all(re.fullmatch(r"\[[#.]{20}\] +\d+ %  \d+ scans, \d+ a second, \d+ s left", line) for line in bars), lines
+assert bars and all(re.fullmatch(r"\[[#.]{20}\] +\d+ %  \d+ scans, \d+ a second, \d+ (s|min) left", line) for line in bars), lines
 assert all(len(line) < 80 and "\n" not in line for line in bars)
 assert lines[0] == "" and re.fullmatch(r"rhotrack: \d+ scans, .*\r\nrhotrack: no track: .*\r\n", lines[-1]), lines
 PYTHON

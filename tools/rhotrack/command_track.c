@@ -527,7 +527,7 @@ int command_track(struct command_line *line)
     struct inputs *inputs;
     struct tracks_output *tracks;
     const char *why = NULL;
-    bool is_saved;
+    bool is_saved, has_tracks;
 
     pipeline_set_options(&line->parameters,
                          &(struct pipeline_options){line->gate, line->method, line->pipeline});
@@ -554,12 +554,15 @@ int command_track(struct command_line *line)
     zones_output_close(&tracking.zones);
     is_saved = clutter_file_save(&tracking.clutter, &tracking.pipeline.tracker->clutter_map);
     print_results(&tracking, inputs, line);
+    has_tracks = tracking.pipeline.tracker->counters.tracks_confirmed > 0;
     inputs_close(inputs);
     pipeline_show_close(tracking.show);
     pipeline_free(&tracking.pipeline);
     if (why) {
         fail(EXIT_RUNTIME, "%s %s: it is followed no longer", line->arguments[0], why);
     }
-    say_next(line);
+    if (has_tracks) {
+        say_next(line);
+    }
     return is_saved ? 0 : EXIT_RUNTIME;
 }

@@ -8,7 +8,7 @@
 #include "base/common.h"
 #include "io/scans/turn_search.h"
 
-#define LOOKED_MAX 20000      /* rows */
+#define LOOKED_MAX 6000       /* rows */
 #define SENSOR_MAX 3000       /* of one sensor */
 #define GAIN 0.2              /* by which a plot corrects where the antenna is */
 #define ASTRAY_RAD (M_PI / 3) /* a plot so far from where the antenna looks tells nothing */

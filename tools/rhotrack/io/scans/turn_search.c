@@ -286,25 +286,40 @@ static bool find_gaps(const struct turn_plot *plots, size_t count, const int64_t
 
 /* ---- The rule ---- */
 
-/* Plots that have their time in common with others. */
-static size_t count_together(const struct turn_plot *plots, size_t count)
+/* Plots that have their time in common with others; and how much these look in one direction. */
+struct together {
+    size_t count;
+    double concentration; /* mean length of the mean of unit vectors */
+};
+
+static struct together find_together(const struct turn_plot *plots, size_t count)
 {
-    size_t together = 0;
+    struct together together = {.count = 0};
 
     for (size_t first = 0, end; first < count; first = end) {
+        double x = 0, y = 0;
+
         end = end_of_time(plots, count, first);
-        together += end - first > 1 ? end - first : 0;
+        for (size_t i = first; end - first > 1 && i < end; i++) {
+            x += cos(azimuth_of(&plots[i]));
+            y += sin(azimuth_of(&plots[i]));
+        }
+        together.count += end - first > 1 ? end - first : 0;
+        together.concentration += hypot(x, y);
     }
+    together.concentration /= (double)(together.count > 0 ? together.count : 1);
     return together;
 }
 
 struct turn_rule turn_search(const struct turn_plot *plots, size_t count, double v_max_mps)
 {
+    const struct together together = find_together(plots, count);
+    const bool are_scans = together.count > count / 2;
     struct turn_rule rule = {.kind = TURN_NONE};
     int64_t *steps;
 
-    if (count < PLOTS_MIN || find_azimuths(plots, count, v_max_mps, &rule) ||
-        count_together(plots, count) > count / 2) {
+    if (count < PLOTS_MIN || (are_scans && together.concentration < CONCENTRATION) ||
+        find_azimuths(plots, count, v_max_mps, &rule) || are_scans) {
         return rule;
     }
     steps = sort_steps(plots, count);
