@@ -86,6 +86,11 @@ config '/* mine */' '#define RHO_MAX_SCANS 5' '#define RHO_MAX_PLOTS 20000 /* ma
 check 'a macro out of range' refused \
     "$folder/own.h:3: RHO_MAX_PLOTS is 20000: RHO_MAX_PLOTS must be 1 .. 16383" \
     RHO_CONFIG_FILE="$folder/own.h" CC=gcc
+check '... once' test "$(grep -c 'must be' stderr)" -eq 1
+config '/*' '#define RHO_OLD 4' '*/' $'#define RHO_MAX_SCANS 2 /* f\xfcnf */'
+check 'macros in a comment are none, whatever letters it has' refused \
+    "$folder/own.h:4: RHO_MAX_SCANS is 2: RHO_MAX_SCANS must be 3 .. 12" \
+    RHO_CONFIG_FILE="$folder/own.h" CC=gcc
 config '#define RHO_SHARES_PLOTS 2'
 check 'an option that is neither' refused \
     "$folder/own.h:1: RHO_SHARES_PLOTS is 2: RHO_SHARES_PLOTS must be 0 or 1" \

@@ -76,7 +76,7 @@ class Compiler(cross.Target):
 
     def run(self, arguments, **options):
         return subprocess.run([*self.command, *arguments], capture_output=True, text=True,
-                              check=False, **options)
+                              errors="replace", check=False, **options)
 
     def takes(self, flags):
         made = str(cross.top() / "taken.o")
@@ -99,9 +99,11 @@ def known_macros():
 
 
 def definitions(config):
-    """(line, name, value) of the file's macros."""
-    pattern = re.compile(r"\s*#\s*define\s+(\w+)\b\s*(.*?)\s*(/[/*].*)?$")
-    for number, line in enumerate(config.read_text(encoding="utf-8").splitlines(), 1):
+    """(line, name, value) of the file's macros, comments left out."""
+    pattern = re.compile(r"\s*#\s*define\s+(\w+)\b\s*(.*?)\s*(//.*)?$")
+    text = re.sub(r"/\*.*?\*/", lambda found: "\n" * found[0].count("\n") or " ",
+                  config.read_text(encoding="utf-8", errors="replace"), flags=re.S)
+    for number, line in enumerate(text.split("\n"), 1):
         found = pattern.match(line)
         if found:
             yield number, found[1], found[2]
@@ -123,7 +125,8 @@ def check_ranges(compiler, flags, config, said):
                         input='#include "rhotrack/config.h"\n')
     if done.returncode == 0:
         return done.stdout
-    wrong = re.findall(r'#error "?((RHO_\w+) must be [^"\n]*)', done.stderr)
+    # gcc says it, and shows the line
+    wrong = dict.fromkeys(re.findall(r'#error "?((RHO_\w+) must be [^"\n]*)', done.stderr))
     places = {name: f"{said}:{number}: {name} is {value}"
               for number, name, value in (definitions(config) if config else ())}
     for text, name in wrong:
