@@ -11,10 +11,15 @@
 
 /* Places on a body of unknown extent: it is half as long as the longest, in any direction. */
 #define PRIOR_SHARE 0.5f
+/* ... and at least 0.1 m long. */
+#define PRIOR_LEAST_M 0.1f
+/* Variances of places are below a thousandth of the least prior's for no body. */
+#define LEAST_M2 1e-7f
 
 float rho_tracker_body_prior_m2(const struct rho_tracker *tracker)
 {
-    const float length_m = PRIOR_SHARE * tracker->bodies.length_max_m;
+    const float half_m = PRIOR_SHARE * tracker->bodies.length_max_m;
+    const float length_m = half_m > PRIOR_LEAST_M ? half_m : PRIOR_LEAST_M;
     return length_m * length_m / 12.0f;
 }
 
@@ -122,7 +127,8 @@ static int is_sound(const struct rho_body_side *side)
 {
     return rho_is_within(side->mean_m2, -1e12f, 1e12f) &&
            rho_is_within(side->weight, 1e-3f, 1e6f) &&
-           rho_is_within(side->variance_m4, 0.0f, 1e30f);
+           rho_is_within(side->variance_m4, 0.0f, 1e30f) &&
+           rho_is_within(side->prior_share, 0.0f, 1.0f);
 }
 
 int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
@@ -134,11 +140,11 @@ int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
     }
     for (unsigned i = 0; i < bodies->count; i++) {
         const struct rho_body_filter *body = &bodies->of[i];
-        if (!rho_is_within(body->along_m2, 0.0f, 1e12f) ||
-            !rho_is_within(body->across_m2, 0.0f, 1e12f) ||
-            !rho_is_within(body->prior_m2, 0.0f, 1e12f) || !is_sound(&body->along) ||
+        if (!rho_is_within(body->along_m2, LEAST_M2, 1e12f) ||
+            !rho_is_within(body->across_m2, LEAST_M2, 1e12f) ||
+            !rho_is_within(body->prior_m2, LEAST_M2, 1e12f) || !is_sound(&body->along) ||
             !is_sound(&body->across) || !rho_is_within(body->slope, -1e12f, 1e12f) ||
-            !rho_is_within(body->slope_weight, 1.0f, 1e30f) ||
+            !rho_is_within(body->slope_weight, 1e-20f, 1e30f) ||
             !rho_is_within(body->cos_heading, -1.001f, 1.001f) ||
             !rho_is_within(body->sin_heading, -1.001f, 1.001f) ||
             !rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) ||

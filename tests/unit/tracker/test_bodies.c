@@ -285,6 +285,53 @@ static void telling(void **state)
     assert_int_equal(rho_tracker_set_body_max(&tracker, 0.0f), RHO_OK);
 }
 
+/* What is learned of a body is sound, too, where plots say next to nothing of how it is turned. */
+static void poor_azimuths_teach_sound_bodies(void **state)
+{
+    struct rho_body body;
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    prepare(15.0f);
+    for (int k = 0; k < 400; k++) {
+        for (int i = 0; i < 20; i++) {
+            const double along_m = uniform(-0.5, 0.5), off_m = normal();
+            add(100.0 + 20.0 * STEP_S * k + along_m, 30.0 * off_m, 0.3)->sigma_cross_m = 30.0f;
+        }
+        look(k);
+        assert_true(rho_tracker_is_sound(&tracker));
+    }
+    assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
+    assert_true(tracker.bodies.of[0].slope_weight < 1.0f);
+    assert_true(isfinite(body.sigma_width_m) && isfinite(body.sigma_length_m));
+}
+
+/* Told that bodies have next to no length, and of one that stands: its extent is never learned. */
+static void least_bodies_have_a_size(void **state)
+{
+    static const float longest_m[] = {1e-30f, 1e-3f, 0.1f};
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    for (size_t i = 0; i < sizeof longest_m / sizeof longest_m[0]; i++) {
+        struct rho_body body;
+        prepare(longest_m[i]);
+        for (int k = 0; k < 30; k++) {
+            (void)add(30.0, 50.0, 0.2);
+            (void)add(30.0, 50.0, 0.2);
+            look(k);
+            assert_true(rho_tracker_is_sound(&tracker));
+            if (rho_tracker_body_of(&tracker, 0, &body)) {
+                assert_true(body.length_m > 0.0f && body.length_m < 0.3f);
+                assert_true(isfinite(body.sigma_length_m) && isfinite(body.sigma_width_m));
+            }
+        }
+        assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
+    }
+}
+
 static void unsound_bodies_are_found(void **state)
 {
     (void)state;
@@ -310,6 +357,15 @@ static void unsound_bodies_are_found(void **state)
     tracker.bodies.of[0].across.weight = 0.0f;
     assert_false(rho_tracker_is_sound(&tracker));
     tracker.bodies = good;
+    tracker.bodies.of[0].along.prior_share = NAN;
+    assert_false(rho_tracker_is_sound(&tracker));
+    tracker.bodies = good;
+    tracker.bodies.of[0].slope_weight = 0.0f; /* its reciprocal is taken */
+    assert_false(rho_tracker_is_sound(&tracker));
+    tracker.bodies = good;
+    tracker.bodies.of[0].along_m2 = 0.0f; /* and that of the length */
+    assert_false(rho_tracker_is_sound(&tracker));
+    tracker.bodies = good;
     assert_true(rho_tracker_is_sound(&tracker));
 }
 
@@ -324,6 +380,8 @@ int main(void)
         cmocka_unit_test(bad_plots_and_full_scans),
         cmocka_unit_test(work_is_bounded),
         cmocka_unit_test(telling),
+        cmocka_unit_test(poor_azimuths_teach_sound_bodies),
+        cmocka_unit_test(least_bodies_have_a_size),
         cmocka_unit_test(unsound_bodies_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
