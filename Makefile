@@ -199,7 +199,7 @@ packages := $(BUILD)/packages
 .PHONY: packages deb
 ## Packages for Arduino, PlatformIO, ESP-IDF, Zephyr, CMSIS, vcpkg, Conan, Meson (build/packages; PACKAGER='NAME <MAIL>', URL=)
 packages:
-	@tools/packaging/package.py $(if $(PACKAGER),--packager='$(PACKAGER)') $(if $(URL),--url='$(URL)') $(packages)
+	@tools/packaging/package.py $(if $(PACKAGER),--packager='$(subst ','\'',$(PACKAGER))') $(if $(URL),--url='$(subst ','\'',$(URL))') $(packages)
 	@ls -d $(packages)/*
 
 ## Debian packages: the program with its service, and the library (build/packages/*.deb)

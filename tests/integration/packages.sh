@@ -64,11 +64,18 @@ check '... and says so' grep -qx "__version__ = \"$version\"" \
 
 check 'packages' go "$root/tools/packaging/package.py" "$packages"
 check '... of this version' all_state "$packages" "$version"
-check 'made again, they are the same' eval 'mv "$packages" first && go \
-    "$root/tools/packaging/package.py" "$packages" && cmp first/*.tar.gz "$packages"/*.tar.gz'
-refused() { ! go "$root/tools/packaging/package.py" --packager nobody none && [ ! -e none ] \
-    && grep -q 'NAME <MAIL>' stderr; }
-check 'a packager without an address is refused' refused
+check 'made again, they are the same' eval 'mv "$packages" first && sleep 2 && go \
+    "$root/tools/packaging/package.py" "$packages" && diff -r -x described first "$packages"'
+refused() { # words of the message, options
+    ! go "$root/tools/packaging/package.py" "${@:2}" none && [ ! -e none ] \
+        && grep -qF -e "$1" stderr
+}
+check 'a packager without an address is refused' refused 'NAME <MAIL>' --packager nobody
+check 'an address that files of packages would take apart' refused \
+    '--url https://x/?a=1&b: it is http' --url 'https://x/?a=1&b'
+SOURCE_DATE_EPOCH=noon check 'a time that is none' refused 'SOURCE_DATE_EPOCH=noon: it is seconds'
+! go make -s -C "$root" BUILD="$folder/made" packages PACKAGER="O'Neil"
+check "make passes on a packager's apostrophe" grep -q "packager O'Neil: it is NAME" stderr
 
 # ---- CMake, Meson ----
 cp -r "$root/tools/examples" .

@@ -77,7 +77,10 @@ def licences():
 
 def last_change():
     """Seconds: of the last commit, or SOURCE_DATE_EPOCH; 0 where there is neither."""
-    said = os.environ.get("SOURCE_DATE_EPOCH") or subprocess.run(
+    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if epoch and not re.fullmatch(r"[0-9]{1,10}", epoch):
+        sys.exit(f"package: SOURCE_DATE_EPOCH={epoch}: it is seconds")
+    said = epoch or subprocess.run(
         ["git", "-C", str(HOME), "log", "-1", "--format=%ct"], capture_output=True, text=True,
         check=False).stdout.strip()
     return int(said or 0)
@@ -155,16 +158,24 @@ def write_vcpkg(target, values):
     shutil.copy(target / f"rhotrack-{values['VERSION']}.tar.gz", port)
 
 
-def write_pack(target, tree, values):
+def write_zip(name, files, time_s):
+    """Of (path, name in it): the same bytes for the same files. It knows no year before 1980."""
+    with zipfile.ZipFile(name, "w", zipfile.ZIP_DEFLATED) as pack:
+        for path, place in files:
+            entry = zipfile.ZipInfo(str(place), max(time.gmtime(time_s)[:6], (1980, 1, 1, 0, 0, 0)))
+            entry.external_attr = 0o100644 << 16
+            pack.writestr(entry, path.read_bytes(), zipfile.ZIP_DEFLATED)
+
+
+def write_pack(target, tree, values, time_s):
     name = target / f"rhotrack.rhotrack.{values['VERSION']}.pack"
     described = target / "rhotrack.rhotrack.pdsc"
     fill_in(HERE / "cmsis/rhotrack.rhotrack.pdsc", described, values)
-    with zipfile.ZipFile(name, "w", zipfile.ZIP_DEFLATED) as pack:
-        pack.write(described, described.name)
-        pack.write(HERE / "cmsis/rhotrack_config.h", "config/rhotrack_config.h")
-        for part in ["include", "src", "LICENSE", "CHANGELOG.md"]:
-            for path in files_of(tree / part) or [tree / part]:
-                pack.write(path, path.relative_to(tree))
+    files = [path for part in ["include", "src", "LICENSE", "CHANGELOG.md"]
+             for path in files_of(tree / part) or [tree / part]]
+    write_zip(name, [(described, described.name),
+                     (HERE / "cmsis/rhotrack_config.h", "config/rhotrack_config.h"),
+                     *((path, path.relative_to(tree)) for path in files)], time_s)
     described.unlink()
 
 
@@ -175,8 +186,10 @@ def main():
     parser.add_argument("--url", default="https://rhotrack.invalid")
     parser.add_argument("folder", type=pathlib.Path)
     options = parser.parse_args()
-    if not re.fullmatch(r"[^<>]+ <[^<>@\s]+@[^<>\s]+>", options.packager):
+    if not re.fullmatch(r"[^<>\n]+ <[^<>@\s]+@[^<>\s]+>", options.packager):
         sys.exit(f"package: --packager {options.packager}: it is NAME <MAIL>")
+    if not re.fullmatch(r"https?://[^\s<>\"'&\\]+", options.url):
+        sys.exit(f"package: --url {options.url}: it is http(s)://PLACE, without quotes, &, < and \\")
     target, time_s = options.folder.absolute(), last_change()
     values = {
         "VERSION": version(), "DESCRIPTION": DESCRIPTION, "URL": options.url,
@@ -193,7 +206,7 @@ def main():
     tree = write_tree(target, values, time_s)
     write_arduino(target, values)
     write_vcpkg(target, values)
-    write_pack(target, tree, values)
+    write_pack(target, tree, values, time_s)
     fill_in_all("debian", target / "debian", values)
 
 
