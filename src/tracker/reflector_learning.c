@@ -526,10 +526,11 @@ static void look_at_images(struct rho_reflector_learning *learning, struct look 
 
 /* ---- walls ----------------------------------------------------------------------------------- */
 
+/* The line lies on the wall, or on what would make it longer; another one may follow behind a gap. */
 static int is_same(const struct rho_learned_reflector *line, const struct rho_reflector *wall)
 {
     const float limit_m = SAME_SIGMAS * line->sigma_m;
-    float x_m[2], y_m[2];
+    float x_m[2], y_m[2], along_m[2];
     place_at(line, line->from_m, &x_m[0], &y_m[0]);
     place_at(line, line->to_m, &x_m[1], &y_m[1]);
     const float along_x_m = wall->to_x_m - wall->from_x_m,
@@ -542,8 +543,12 @@ static int is_same(const struct rho_learned_reflector *line, const struct rho_re
         if (!(off_m <= limit_m && off_m >= -limit_m)) {
             return 0;
         }
+        along_m[i] =
+            ((x_m[i] - wall->from_x_m) * along_x_m + (y_m[i] - wall->from_y_m) * along_y_m) /
+            length_m;
     }
-    return 1;
+    return (along_m[0] >= -limit_m || along_m[1] >= -limit_m) &&
+           (along_m[0] <= length_m + limit_m || along_m[1] <= length_m + limit_m);
 }
 
 static int is_well_known(const struct rho_learned_reflector *line)

@@ -268,6 +268,25 @@ static void told_walls_stay(void **state)
     }
 }
 
+/* A wall in one line with one that is told, behind a gap, is another one. */
+static void a_wall_behind_a_gap_is_learned(void **state)
+{
+    static const struct rho_reflector told[] = {{200.0f, 40.0f, 400.0f, 40.0f},
+                                                {-200.0f, 40.0f, -400.0f, 40.0f},
+                                                {-200.0f, 40.0f, 0.0f, 40.0f}};
+    (void)state;
+    for (unsigned i = 0; i < 3; i++) {
+        struct rho_reflector wall;
+        prepare(7);
+        assert_int_equal(rho_tracker_set_reflectors(&tracker, &told[i], 1), RHO_OK);
+        for (int k = 0; k < 1200; k++) {
+            traffic(k, 0.9);
+            look(k);
+        }
+        assert_int_equal(num_walls(&wall), i < 2); /* the third one is its half */
+    }
+}
+
 /* As many as there were, told and learned together: they are told all the same. */
 static void as_many_told_walls_stay(void **state)
 {
@@ -433,6 +452,7 @@ int main(void)
         cmocka_unit_test(a_formation_is_no_wall),
         cmocka_unit_test(a_car_behind_a_learned_wall_is_found),
         cmocka_unit_test(told_walls_stay),
+        cmocka_unit_test(a_wall_behind_a_gap_is_learned),
         cmocka_unit_test(as_many_told_walls_stay),
         cmocka_unit_test(a_wall_that_is_gone_is_forgotten),
         cmocka_unit_test(a_snapshot_keeps_walls),
