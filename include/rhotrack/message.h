@@ -538,7 +538,7 @@ struct rho_message_setting_answer {
     int8_t status; /* 0: changed; else refused, by enum rho_status of rhotrack/status.h; 0 .. 127 */
     int8_t applies; /* when; one of NEVER, STEP, WINDOW, SENSOR, PLOT */
     int16_t fault_field; /* that would be outside its range, this one or another; 0 .. 32767 */
-    float value; /* that the field has; of a fault the value that it would have */
+    float value; /* that the field has; refused: that it would have, or that of the fault's field */
     float min; /* of a fault: the range that is allowed */
     float max;
 };
