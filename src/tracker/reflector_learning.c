@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * reflector_learning: lines between tracks and their images, observed until they are walls.
+ * reflector_learning: lines between tracks and their images are observed until they are walls.
  */
 #include "rhotrack/reflector_learning.h"
 
 #include <string.h>
 
 #include "images.h"
+#include "learned_line.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/gate.h"
@@ -15,25 +16,15 @@
 
 #define MAGIC 0x52464c4eu /* "RFLN" */
 
-/* Work of a step: pairs of tracks; plots that are compared with images, over all images. */
-#define PAIRS_MAX 256u
+/* Work of a step: images; plots that are compared with them, over all images. */
 #define IMAGES_MAX 16u
 #define PLOTS_MAX 65536u
-
-/* ---- pairs of tracks ---- */
-#define TARGET_HITS 8  /* of a track that may have an image */
-#define IMAGE_HITS 5   /* of one that may be an image */
-#define PAIR_CHI2 9.2f /* 99 % in two dimensions: beside each other, at one speed along the line */
-#define APART_SIGMAS 6.0f /* between a target and its image */
-#define SPEED_SIGMAS 5.0f /* along the line, which has its direction from it */
-#define LINE_SIGMAS 3.0f  /* off a line that is known, and off its direction */
 
 /* ---- witnesses ---- */
 #define OBSERVED_PAIRS 3.0f /* from which a line is observed */
 #define JUDGED_LOOKS 24
 #define FOR_HITS 4 /* of these, and of each plot beside the image so many more: */
 #define HITS_OF_OTHER 3
-#define REPEATED 8.0f /* a target's errors stay for about so many looks */
 
 /* ---- walls ---- */
 #define WALL_WITNESSES 4
@@ -64,26 +55,7 @@ enum rho_status rho_reflector_learning_init(struct rho_reflector_learning *learn
     return RHO_OK;
 }
 
-/* ---- lines ----------------------------------------------------------------------------------- */
-
-static void to_frame(const struct rho_learned_reflector *line, float x_m, float y_m, float *along_m,
-                     float *across_m)
-{
-    const float dx_m = x_m - line->x_m, dy_m = y_m - line->y_m;
-    *along_m = dx_m * line->cos_along + dy_m * line->sin_along;
-    *across_m = dy_m * line->cos_along - dx_m * line->sin_along;
-}
-
-static float across_at(const struct rho_learned_reflector *line, float along_m)
-{
-    return line->offset_m + line->slope * along_m;
-}
-
-static float variance_at(const struct rho_learned_reflector *line, float along_m)
-{
-    const float *p = line->variance;
-    return p[0] + along_m * (2.0f * p[1] + along_m * p[2]);
-}
+/* ---- places on a line ------------------------------------------------------------------------ */
 
 static void place_at(const struct rho_learned_reflector *line, float along_m, float *x_m,
                      float *y_m)
@@ -107,194 +79,6 @@ static struct rho_reflector wall_of(const struct rho_learned_reflector *line)
     place_at(line, line->from_m - more_m, &wall.from_x_m, &wall.from_y_m);
     place_at(line, line->to_m + more_m, &wall.to_x_m, &wall.to_y_m);
     return wall;
-}
-
-/* A place half way between a target and its image; the line's frame has no error along it. */
-static void refine(struct rho_learned_reflector *line, float along_m, float across_m,
-                   float variance_m2)
-{
-    float *p = line->variance;
-    const float s = variance_at(line, along_m) + variance_m2;
-    const float to_offset = p[0] + along_m * p[1], to_slope = p[1] + along_m * p[2];
-    const float off_m = across_m - across_at(line, along_m);
-    if (!(s > 0.0f)) {
-        return;
-    }
-    line->offset_m += to_offset / s * off_m;
-    line->slope += to_slope / s * off_m;
-    p[0] -= to_offset * to_offset / s;
-    p[1] -= to_offset * to_slope / s;
-    p[2] -= to_slope * to_slope / s;
-}
-
-static void reach_to(struct rho_learned_reflector *line, float along_m)
-{
-    line->from_m = along_m < line->from_m ? along_m : line->from_m;
-    line->to_m = along_m > line->to_m ? along_m : line->to_m;
-}
-
-/* A target that has a plot of this scan, and may have an image. */
-static int is_target(const struct rho_track_report *track, const struct rho_scan *scan)
-{
-    return track->plot >= 0 && (uint32_t)track->plot < scan->num_plots &&
-           track->status == RHO_TRACK_CONFIRMED && track->hits >= TARGET_HITS;
-}
-
-/* ---- pairs of tracks ------------------------------------------------------------------------- */
-
-/* What two tracks say of a line half way between them. */
-struct between {
-    float x_m, y_m, cos_along, sin_along;
-    float variance_m2, slope_variance; /* across the line; of its direction */
-    float crossing_x_m, crossing_y_m;  /* of the line of sight to the image */
-    float sigma_m;                     /* of the target's place */
-};
-
-/* Of a covariance at x and y from `first` on, in a direction. */
-static float variance_along(const float *covariance, int first, float cos_along, float sin_along)
-{
-    return covariance[RHO_AT(first, first)] * cos_along * cos_along +
-           2.0f * covariance[RHO_AT(first + 1, first)] * cos_along * sin_along +
-           covariance[RHO_AT(first + 1, first + 1)] * sin_along * sin_along;
-}
-
-/* The line of sight to the image crosses the line, which the target is before. */
-static int is_behind(const struct rho_sensor *sensor, const struct rho_track_report *target,
-                     const struct rho_track_report *image, struct between *between)
-{
-    const float x_m = sensor ? sensor->x_m : 0.0f, y_m = sensor ? sensor->y_m : 0.0f;
-    const float c = between->cos_along, s = between->sin_along;
-    const float sensor_m = (y_m - between->y_m) * c - (x_m - between->x_m) * s;
-    const float target_m =
-        (target->state[RHO_Y] - between->y_m) * c - (target->state[RHO_X] - between->x_m) * s;
-    const float image_m =
-        (image->state[RHO_Y] - between->y_m) * c - (image->state[RHO_X] - between->x_m) * s;
-    if (!(sensor_m * target_m > 0.0f) || !(sensor_m * image_m < 0.0f)) {
-        return 0;
-    }
-    const float part = sensor_m / (sensor_m - image_m);
-    between->crossing_x_m = x_m + part * (image->state[RHO_X] - x_m);
-    between->crossing_y_m = y_m + part * (image->state[RHO_Y] - y_m);
-    return 1;
-}
-
-/* Target and image are beside each other, and as fast along the line, which has its direction from
- * their velocities. */
-static int may_be_image(const struct rho_sensor *sensor, const struct rho_track_report *target,
-                        const struct rho_track_report *image, struct between *between)
-{
-    const float *t = target->state, *g = image->state;
-    const float dx_m = g[RHO_X] - t[RHO_X], dy_m = g[RHO_Y] - t[RHO_Y];
-    const float vx_mps = 0.5f * (g[RHO_VX] + t[RHO_VX]), vy_mps = 0.5f * (g[RHO_VY] + t[RHO_VY]);
-    const float speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
-    const float apart_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
-    const float sigma_m2 = target->sigma_m * target->sigma_m + image->sigma_m * image->sigma_m;
-    if (!(speed_mps > 0.0f) || apart_m * apart_m < APART_SIGMAS * APART_SIGMAS * sigma_m2) {
-        return 0;
-    }
-    const float c = vx_mps / speed_mps, s = vy_mps / speed_mps;
-    const float across_mps2 = variance_along(target->covariance, RHO_VX, -s, c) +
-                              variance_along(image->covariance, RHO_VX, -s, c);
-    const float along_mps2 = variance_along(target->covariance, RHO_VX, c, s) +
-                             variance_along(image->covariance, RHO_VX, c, s);
-    const float turned = 0.25f * across_mps2 / (speed_mps * speed_mps);
-    const float along_m2 = variance_along(target->covariance, RHO_X, c, s) +
-                           variance_along(image->covariance, RHO_X, c, s) +
-                           turned * apart_m * apart_m;
-    const float off_m = dx_m * c + dy_m * s;
-    const float off_mps = (g[RHO_VX] - t[RHO_VX]) * c + (g[RHO_VY] - t[RHO_VY]) * s;
-    if (turned * SPEED_SIGMAS * SPEED_SIGMAS > 1.0f || !(along_m2 > 0.0f) || !(along_mps2 > 0.0f) ||
-        off_m * off_m / along_m2 + off_mps * off_mps / along_mps2 > PAIR_CHI2) {
-        return 0;
-    }
-    between->x_m = 0.5f * (t[RHO_X] + g[RHO_X]);
-    between->y_m = 0.5f * (t[RHO_Y] + g[RHO_Y]);
-    between->cos_along = c;
-    between->sin_along = s;
-    between->variance_m2 = 0.25f * (variance_along(target->covariance, RHO_X, -s, c) +
-                                    variance_along(image->covariance, RHO_X, -s, c));
-    between->slope_variance = turned;
-    between->sigma_m = target->sigma_m;
-    return is_behind(sensor, target, image, between);
-}
-
-/* The line goes through the place, in the direction that two tracks say. */
-static int is_on(const struct rho_learned_reflector *line, const struct between *between)
-{
-    float along_m, across_m;
-    to_frame(line, between->x_m, between->y_m, &along_m, &across_m);
-    const float off_m = across_m - across_at(line, along_m);
-    const float limit_m2 = variance_at(line, along_m) + between->variance_m2;
-    /* either way along: the sign of the cosine does not matter */
-    const float cosine =
-        between->cos_along * line->cos_along + between->sin_along * line->sin_along;
-    const float sine = between->sin_along * line->cos_along - between->cos_along * line->sin_along;
-    const float turned = cosine > 0.0f ? sine - line->slope : -sine - line->slope;
-    return off_m * off_m <= LINE_SIGMAS * LINE_SIGMAS * limit_m2 &&
-           turned * turned <=
-               LINE_SIGMAS * LINE_SIGMAS * (between->slope_variance + line->variance[2]);
-}
-
-static void begin_line(struct rho_learned_reflector *line, const struct between *between)
-{
-    float across_m;
-    memset(line, 0, sizeof *line);
-    line->x_m = between->x_m;
-    line->y_m = between->y_m;
-    line->cos_along = between->cos_along;
-    line->sin_along = between->sin_along;
-    line->variance[0] = between->variance_m2;
-    line->variance[2] = between->slope_variance;
-    line->pairs = 1.0f;
-    line->sigma_m = between->sigma_m;
-    line->is_taken = 1;
-    to_frame(line, between->crossing_x_m, between->crossing_y_m, &line->from_m, &across_m);
-    line->to_m = line->from_m;
-}
-
-/* The line that two tracks are on, or a new one: of those that are only observed, that with the
- * fewest pairs makes room, once others have come as often. */
-static void note_pair(struct rho_reflector_learning *learning, const struct between *between)
-{
-    struct rho_learned_reflector *least = 0;
-    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
-        struct rho_learned_reflector *line = &learning->lines[i];
-        if (line->is_taken && is_on(line, between)) {
-            float along_m, across_m;
-            to_frame(line, between->x_m, between->y_m, &along_m, &across_m);
-            refine(line, along_m, across_m, REPEATED * between->variance_m2);
-            to_frame(line, between->crossing_x_m, between->crossing_y_m, &along_m, &across_m);
-            reach_to(line, along_m);
-            line->pairs += 1.0f;
-            return;
-        }
-        if (!line->is_used && (!least || line->pairs < least->pairs)) {
-            least = line;
-        }
-    }
-    if (least) {
-        least->pairs -= 1.0f;
-        if (least->pairs < 0.0f) {
-            begin_line(least, between);
-        }
-    }
-}
-
-static void look_for_pairs(struct rho_reflector_learning *learning, const struct rho_sensor *sensor,
-                           const struct rho_scan *scan, const struct rho_report *report)
-{
-    const uint32_t num_tracks = report->num_tracks, all = num_tracks * num_tracks;
-    struct between between;
-    for (uint32_t i = 0; i < PAIRS_MAX && i < all; i++) {
-        const uint32_t pair = learning->next_pair < all ? learning->next_pair : 0;
-        const struct rho_track_report *target = &report->tracks[pair / num_tracks],
-                                      *image = &report->tracks[pair % num_tracks];
-        learning->next_pair = pair + 1u;
-        if (target != image && is_target(target, scan) && image->plot >= 0 &&
-            image->hits >= IMAGE_HITS && may_be_image(sensor, target, image, &between)) {
-            note_pair(learning, &between);
-        }
-    }
 }
 
 /* ---- witnesses ------------------------------------------------------------------------------- */
@@ -601,6 +385,13 @@ int rho_reflector_learning_wall(const struct rho_reflector_learning *learning, u
     return 1;
 }
 
+static int are_equal(const struct rho_reflector *a, const struct rho_reflector *b)
+{
+    return !(a->from_x_m < b->from_x_m || a->from_x_m > b->from_x_m || a->from_y_m < b->from_y_m ||
+             a->from_y_m > b->from_y_m || a->to_x_m < b->to_x_m || a->to_x_m > b->to_x_m ||
+             a->to_y_m < b->to_y_m || a->to_y_m > b->to_y_m);
+}
+
 /* The tracker has the walls that set_walls gave it last. */
 static int are_set(const struct rho_reflector_learning *learning, const struct rho_tracker *tracker)
 {
@@ -611,8 +402,7 @@ static int are_set(const struct rho_reflector_learning *learning, const struct r
         if (!rho_reflector_learning_wall(learning, i, &wall)) {
             continue;
         }
-        if (count >= tracker->num_reflectors ||
-            memcmp(&wall, &tracker->reflectors[count], sizeof wall) != 0) {
+        if (count >= tracker->num_reflectors || !are_equal(&wall, &tracker->reflectors[count])) {
             return 0;
         }
         count++;
@@ -666,7 +456,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
                         .images_left = of_plots < IMAGES_MAX ? of_plots + 1u : IMAGES_MAX};
     const int has_walls = learning->num_used > 0;
     learning->steps++;
-    look_for_pairs(learning, look.sensor, scan, report);
+    rho_reflector_learning_note_pairs(learning, look.sensor, scan, report);
     look_at_images(learning, &look, report);
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         decide(learning, tracker, &learning->lines[i]);

@@ -352,6 +352,14 @@ static void a_snapshot_keeps_walls(void **state)
     assert_int_equal(rho_snapshot_save(&part, 1, 0, image, sizeof image, &size), RHO_ERROR_STATE);
 }
 
+/* As it is now, and sound again as it was. */
+static void is_unsound(struct rho_learned_reflector *line, const struct rho_learned_reflector *good)
+{
+    assert_false(rho_reflector_learning_is_sound(&learning));
+    *line = *good;
+    assert_true(rho_reflector_learning_is_sound(&learning));
+}
+
 /* A line of unknown origin is one that a step can work with. */
 static void unsound_lines_are_found(void **state)
 {
@@ -368,28 +376,34 @@ static void unsound_lines_are_found(void **state)
     }
     assert_int_equal(num_walls(&wall), 1);
     const struct rho_learned_reflector good = *line;
-#define IS_UNSOUND(change)                                                                         \
-    do {                                                                                           \
-        change;                                                                                    \
-        assert_false(rho_reflector_learning_is_sound(&learning));                                  \
-        *line = good;                                                                              \
-        assert_true(rho_reflector_learning_is_sound(&learning));                                   \
-    } while (0)
-    IS_UNSOUND(line->cos_along = line->sin_along = 0.0f); /* a wall of no length */
-    IS_UNSOUND(line->cos_along = line->sin_along = 1.0f);
-    IS_UNSOUND(line->variance[0] = -1.0f);
-    IS_UNSOUND(line->variance[2] = -1e-6f);
-    IS_UNSOUND(line->variance[1] = 1.0f);
-    IS_UNSOUND(line->variance[1] = NAN);
-    IS_UNSOUND(line->from_m = line->to_m + 1.0f);
-    IS_UNSOUND(line->offset_m = RHO_LIMIT_POSITION_M; line->x_m = RHO_LIMIT_POSITION_M;
-               line->y_m = RHO_LIMIT_POSITION_M);
-    IS_UNSOUND(line->distance_m2 = NAN);
-    IS_UNSOUND(line->off_m2 = -1.0f);
-    IS_UNSOUND(line->witnesses[1].off_m = NAN);
-    IS_UNSOUND(line->is_used = 2);
-    IS_UNSOUND(line->is_taken = 0);
-#undef IS_UNSOUND
+    line->cos_along = line->sin_along = 0.0f; /* a wall of no length */
+    is_unsound(line, &good);
+    line->cos_along = line->sin_along = 1.0f;
+    is_unsound(line, &good);
+    line->variance[0] = -1.0f;
+    is_unsound(line, &good);
+    line->variance[2] = -1e-6f;
+    is_unsound(line, &good);
+    line->variance[1] = 1.0f;
+    is_unsound(line, &good);
+    line->variance[1] = NAN;
+    is_unsound(line, &good);
+    line->from_m = line->to_m + 1.0f;
+    is_unsound(line, &good);
+    line->offset_m = RHO_LIMIT_POSITION_M;
+    line->x_m = RHO_LIMIT_POSITION_M;
+    line->y_m = RHO_LIMIT_POSITION_M;
+    is_unsound(line, &good);
+    line->distance_m2 = NAN;
+    is_unsound(line, &good);
+    line->off_m2 = -1.0f;
+    is_unsound(line, &good);
+    line->witnesses[1].off_m = NAN;
+    is_unsound(line, &good);
+    line->is_used = 2;
+    is_unsound(line, &good);
+    line->is_taken = 0;
+    is_unsound(line, &good);
 }
 
 static void an_old_scan_teaches_nothing(void **state)
