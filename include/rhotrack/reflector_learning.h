@@ -12,7 +12,8 @@
  * wall shows every target that passes, at its place and with its range rate, to a sensor that sees
  * the target itself. So each track that comes along is a witness. Of the first 24 looks that have
  * a plot of it, those with a plot where its image would be are counted; and those with a plot where
- * the image is not, a little further along the line, as clutter and other traffic give them.
+ * the image is not, a little further along the line, as clutter and other traffic give them. A
+ * track that is seen across another such line may be an image itself, and says nothing against.
  *
  * A line becomes a wall of the tracker's (reflectors.h), behind those that it was told, when
  *

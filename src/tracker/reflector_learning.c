@@ -155,6 +155,11 @@ static float learn_place(struct rho_learned_reflector *line, const struct look *
     return off_m;
 }
 
+static int is_observed(const struct rho_learned_reflector *line)
+{
+    return line->is_taken && (line->is_used || line->pairs >= OBSERVED_PAIRS);
+}
+
 /* One more witness, of those that the memory still counts: where it passed, how far off it was. */
 static void note_distance(struct rho_learned_reflector *line, float distance_m, float off_m)
 {
@@ -164,13 +169,45 @@ static void note_distance(struct rho_learned_reflector *line, float distance_m, 
     line->off_m2 += gain * (off_m * off_m - line->off_m2);
 }
 
+/*
+ * The track is seen across another line that is observed: it may be an image in that one, which
+ * has none itself, and says nothing against this line.
+ */
+static int may_be_image_in_other(const struct rho_reflector_learning *learning,
+                                 const struct rho_learned_reflector *line,
+                                 const struct rho_sensor *sensor,
+                                 const struct rho_track_report *track)
+{
+    const float x_m = sensor ? sensor->x_m : 0.0f, y_m = sensor ? sensor->y_m : 0.0f;
+    for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
+        const struct rho_learned_reflector *other = &learning->lines[i];
+        float from_m, to_m, sensor_m, track_m;
+        if (other == line || !is_observed(other)) {
+            continue;
+        }
+        to_frame(other, x_m, y_m, &from_m, &sensor_m);
+        to_frame(other, track->state[RHO_X], track->state[RHO_Y], &to_m, &track_m);
+        sensor_m -= across_at(other, from_m);
+        track_m -= across_at(other, to_m);
+        if (sensor_m * track_m < 0.0f) {
+            const float at_m = from_m + (to_m - from_m) * sensor_m / (sensor_m - track_m);
+            if (at_m >= other->from_m && at_m <= other->to_m) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
 static void judge(struct rho_reflector_learning *learning, struct rho_learned_reflector *line,
-                  const struct rho_reflector_witness *witness,
+                  const struct rho_sensor *sensor, const struct rho_reflector_witness *witness,
                   const struct rho_track_report *target)
 {
     float along_m, across_m;
     if (witness->hits < FOR_HITS + HITS_OF_OTHER * witness->other) {
-        line->witnesses_against++;
+        line->witnesses_against =
+            (uint16_t)(line->witnesses_against +
+                       !may_be_image_in_other(learning, line, sensor, target));
     } else {
         to_frame(line, target->state[RHO_X], target->state[RHO_Y], &along_m, &across_m);
         across_m -= across_at(line, along_m);
@@ -284,7 +321,7 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
     witness->other = (uint16_t)(witness->other + (nearest_plot(look, &image, target->plot) >= 0));
     witness->looks++;
     if (witness->looks == JUDGED_LOOKS) {
-        judge(learning, line, witness, target);
+        judge(learning, line, look->sensor, witness, target);
     }
 }
 
@@ -294,7 +331,7 @@ static void look_at_images(struct rho_reflector_learning *learning, struct look 
     for (unsigned k = 0; k < RHO_LEARNED_REFLECTORS && look->images_left > 0; k++) {
         struct rho_learned_reflector *line =
             &learning->lines[(learning->next_line + k) % RHO_LEARNED_REFLECTORS];
-        if (!line->is_taken || (!line->is_used && line->pairs < OBSERVED_PAIRS)) {
+        if (!is_observed(line)) {
             continue;
         }
         forget_ended(line, report);

@@ -117,6 +117,32 @@ static void a_wall_is_learned_from_cars_that_pass(void **state)
     }
 }
 
+/* The images in the one are before the other, and have none in it. */
+static void walls_on_both_sides_are_learned(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        struct rho_reflector wall;
+        prepare(seed);
+        for (int k = 0; k < 2500; k++) {
+            double x_m, y_m;
+            for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
+                if (i >= 0 && place_of(i, k, &x_m, &y_m)) {
+                    add_noisy(x_m, y_m, 0.5);
+                    if (uniform(0.0, 1.0) < 0.6) {
+                        add_noisy(x_m, 2.0 * WALL_M - y_m, 0.5);
+                    }
+                    if (uniform(0.0, 1.0) < 0.5) {
+                        add_noisy(x_m, -2.0 * 10.0 - y_m, 0.5);
+                    }
+                }
+            }
+            look(k);
+        }
+        assert_int_equal(num_walls(&wall), 2);
+    }
+}
+
 static void without_images_nothing_is_learned(void **state)
 {
     (void)state;
@@ -460,6 +486,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_wall_is_learned_from_cars_that_pass),
+        cmocka_unit_test(walls_on_both_sides_are_learned),
         cmocka_unit_test(without_images_nothing_is_learned),
         cmocka_unit_test(two_lanes_are_no_wall),
         cmocka_unit_test(a_rail_beside_two_lanes_is_learned),
