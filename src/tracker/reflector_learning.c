@@ -347,7 +347,7 @@ static void look_at_images(struct rho_reflector_learning *learning, struct look 
 
 /* ---- walls ----------------------------------------------------------------------------------- */
 
-/* The line lies on the wall, or on what would make it longer; another one may follow behind a gap. */
+/* The line lies on the wall, or makes it longer; behind a gap another one may follow. */
 static int is_same(const struct rho_learned_reflector *line, const struct rho_reflector *wall)
 {
     const float limit_m = SAME_SIGMAS * line->sigma_m;
@@ -378,7 +378,7 @@ static int is_well_known(const struct rho_learned_reflector *line)
     return variance_at(line, line->from_m) <= limit_m2 && variance_at(line, line->to_m) <= limit_m2;
 }
 
-/* Lanes mirror one another at one distance, but for errors and for where in its lane each car is. */
+/* Lanes mirror one another at one distance, but for errors and for cars' places in them. */
 static int is_spread(const struct rho_learned_reflector *line)
 {
     return line->distance_m2 >=
