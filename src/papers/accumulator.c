@@ -20,7 +20,7 @@
 #define SPARSE_CELLS 8u
 #define SPARSE_POINTS 64u
 #define PRUNED_VOTES 3u /* with two votes by chance nearly every row has a cell */
-#define NARROW_SCANS (8u * sizeof(uint8_t)) /* a byte's bits */
+#define NARROW_SCANS (8u * sizeof(uint8_t)) /* a narrow cell's bits */
 #define NARROW_POINTS UINT8_MAX
 
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */

@@ -324,6 +324,10 @@ static void bad_configs_are_refused(void **state)
     REFUSED(min_share, NAN);
     REFUSED(neighbours, 6);
     REFUSED(no_pruning, 2);
+    uint16_t rows, cells;
+    config.theta_cell_rad = 1.01e-4f;
+    assert_int_equal(rho_accumulator_plane(&config, &rows, &cells), RHO_OK);
+    assert_int_equal(rows, 31105);
 }
 
 static void bad_points_are_refused(void **state)

@@ -283,8 +283,10 @@ static void limits_are_those_of_the_header(void **state)
     (void)state;
     ACCEPTED(eps_rho_m, 0.001f);
     lay_table_1(3, 0.0, 0);
-    t_s[4] = 1.001e9f;
+    t_s[4] = 0.999e9f;
     paper(RHO_HOUGH_MHT);
+    find();
+    t_s[4] = 1.001e9f;
     prepare();
     refuse(RHO_ERROR_VALUE, &points);
 }
