@@ -175,6 +175,29 @@ static void stale_and_short_lines_start_nothing(void **state)
     assert_non_null(follower(4.0));
 }
 
+/* Three sigmas of a cell of 25 m from the motion of the voters: a plot as far is the line's. */
+static void a_line_has_the_plots_near_its_motion(void **state)
+{
+    const double speed_mps = hypot(220.0, 90.0);
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        begin_by(RHO_HOUGH_IHT);
+        for (int k = 0; k < 4; k++) {
+            const double t_s = SCAN_S * k, off_m = k == 1 ? (i ? 78.0 : 72.0) : 0.0;
+            num_plots = 0;
+            add(target_m(0, t_s) + off_m * 90.0 / speed_mps,
+                target_m(1, t_s) + off_m * 220.0 / speed_mps, 0.5);
+            const struct rho_scan scan = {
+                .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = 1, .plots = plots};
+            assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+            assert_int_equal(rho_paper_starts_step(&starts, &tracker, &scan, &report), RHO_OK);
+        }
+        assert_true(starts.work.peaks > 0);
+        assert_int_equal(starts.work.started, !i);
+        assert_int_equal(report.num_tracks, !i);
+    }
+}
+
 static void the_same_plots_give_the_same_bytes(void **state)
 {
     (void)state;
@@ -332,6 +355,7 @@ int main(void)
         cmocka_unit_test(the_last_search_can_be_looked_at),
         cmocka_unit_test(unclaimed_plots_are_held_and_counted),
         cmocka_unit_test(stale_and_short_lines_start_nothing),
+        cmocka_unit_test(a_line_has_the_plots_near_its_motion),
         cmocka_unit_test(the_same_plots_give_the_same_bytes),
         cmocka_unit_test(bad_calls_are_refused),
         cmocka_unit_test(lines_of_bearings_start_tracks),
