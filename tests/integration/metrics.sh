@@ -69,6 +69,20 @@ check 'the last words have the same numbers' grep -Eq \
     "rhotrack: $messages_in messages in, [0-9]+ out; $steps steps, $plots plots, $tracks_confirmed tracks confirmed" \
     node.err
 
+# ---- a limit that an operator changes ----
+start --commands
+"$program" publish scene/plots.csv --speed 40 2>/dev/null &
+publisher=$!
+run command set work_max 5000
+check 'work_max is set' exits 0
+sleep 0.2 # a page is sent again as it is for 100 ms
+check 'and the text has it' test "$(python3 -c "
+import re, urllib.request
+text = urllib.request.urlopen('http://127.0.0.1:$port/metrics').read().decode()
+print(re.search('^rhotrack_step_work_max (.*)', text, re.M)[1])")" = 5000
+kill "$publisher"
+stop
+
 # ---- where it listens ----
 start
 if [ -n "${RHO_ON_LOOPBACK:-}" ]; then

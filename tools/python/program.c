@@ -1225,6 +1225,6 @@ bool program_node_tracks(struct program_node *node, struct program_tracks *track
 {
     RETURN_ON_FAILURE(false)
     tracks->count = 0;
-    add_tracks(tracks, node_core_report(node->core), node_core_live_tracker(node->core));
+    add_tracks(tracks, node_core_report(node->core), node_core_state(node->core));
     return true;
 }

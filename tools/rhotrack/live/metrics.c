@@ -205,7 +205,7 @@ static void write_work(FILE *out, const struct metrics_source *source)
     write_one(out, "step_work_worst", "gauge", "Units of work of the worst step.",
               tracker->work.work_worst);
     write_one(out, "step_work_max", "gauge", "Units of work that a step may do; 0: any.",
-              source->parameters->value[PARAMETER_WORK_MAX]);
+              tracker->config.work_max);
     write_counter(out, "partial_steps_total", "Steps that left something out.",
                   tracker->work.partial_steps);
     write_counter(out, "plots_not_tried_total", "Plots left out with all that they might go with.",

@@ -16,7 +16,7 @@
 struct metrics_source {
     const struct node_core *core;
     const struct transport *transport;
-    const struct parameters *parameters;  /* names of sensors */
+    const struct parameters *parameters;  /* as it was started: names of sensors */
     uint64_t messages_in;                 /* of other programs */
     struct node_core_losses losses;       /* of inputs and outputs */
     uint64_t pages_sent, clients_refused; /* of this text */

@@ -657,11 +657,6 @@ const struct rho_report *node_core_report(const struct node_core *core)
     return core->pipeline.report;
 }
 
-const struct rho_tracker *node_core_live_tracker(const struct node_core *core)
-{
-    return core->pipeline.tracker;
-}
-
 int node_core_wall(const struct node_core *core, unsigned place, struct rho_reflector *wall)
 {
     return rho_reflector_learning_wall(core->pipeline.learning, place, wall);

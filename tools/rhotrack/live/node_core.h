@@ -102,7 +102,6 @@ struct node_core_losses {
 void node_core_status(struct node_core *core, const struct node_core_losses *losses);
 
 const struct rho_report *node_core_report(const struct node_core *core); /* of the last step */
-const struct rho_tracker *node_core_live_tracker(const struct node_core *core);
 /* Without the scans that were refused at first, and taken when their sensor's restart was clear. */
 const struct rho_scan_assembler_counters *node_core_assembler(const struct node_core *core);
 const struct rho_frames_counters *node_core_frames(const struct node_core *core);
