@@ -103,33 +103,39 @@ stop
 check 'and ends no node' exits 0
 check 'nothing is lost by it' is_whole live/first.lcm live/node.lcm
 start --set log_file_mb=0.1
-rm -f followed
 cat >follow.py <<'PYTHON'
-import os, struct, sys, time
-def events():
-    while not os.path.exists("followed"):
-        here = open("live/node.lcm", "rb")
-        data = b""
-        while True:
-            piece = here.read()
-            data += piece
-            while len(data) >= 28:
-                _, number, _, channel, size = struct.unpack_from(">IQqII", data)
-                if len(data) < 28 + channel + size:
-                    break
-                data = data[28 + channel + size:]
-                yield number
-            if piece:
-                continue
+import glob, os, struct, time
+def next_file(inode):
+    """The one behind it, or None: it is still written, or the names have changed meanwhile."""
+    earlier = sorted(glob.glob("live/node-*.lcm"))
+    for i, name in enumerate(earlier):
+        if os.stat(name).st_ino == inode:
             try:
-                if os.stat("live/node.lcm").st_ino != os.fstat(here.fileno()).st_ino:
-                    rest = here.read()
-                    if not rest:
-                        assert not data, "half an event at the end of a file"
-                        break
-                    data += rest
+                behind = open((earlier[i + 1:] + ["live/node.lcm"])[0], "rb")
             except FileNotFoundError:
-                pass
+                return None
+            return behind if sorted(glob.glob("live/node-*.lcm")) == earlier else None
+    return None
+def events():
+    here, behind, data = open("live/node.lcm", "rb"), None, b""
+    open("follows", "w").close()
+    while True:
+        piece = here.read()
+        data += piece
+        while len(data) >= 28:
+            _, number, _, channel, size = struct.unpack_from(">IQqII", data)
+            if len(data) < 28 + channel + size:
+                break
+            data = data[28 + channel + size:]
+            yield number
+        if piece:
+            continue
+        if behind:
+            assert not data, "half an event at the end of a file"
+            here, behind = behind, None
+            continue
+        behind = next_file(os.fstat(here.fileno()).st_ino)
+        if not behind:
             if os.path.exists("followed"):
                 return
             time.sleep(0.002)
@@ -141,12 +147,13 @@ print(count)
 PYTHON
 python3 follow.py >follow.out 2>follow.err &
 reader=$!
+wait_until 10 test -e follows
 play
 sleep 1.2
 touch followed
 wait "$reader"
 stop
-check "a reader that follows misses nothing ($(cat follow.out) events, $(find live -name \
+check "a reader that follows misses nothing ($(cat follow.out follow.err) events, $(find live -name \
     'node-*' | wc -l) files put away)" test "$(cat follow.out)" -gt 500 -a "$(find live -name \
     'node-*' | wc -l)" -gt 3
 
@@ -173,7 +180,7 @@ check 'it was said once' test "$(grep -c 'goes on without' node.err)" -eq 1
 mkdir -p locked
 if [ "$(id -u)" -ne 0 ] || unshare -m sh -c 'mount -t tmpfs none locked' 2>/dev/null; then
     # shellcheck disable=SC2016 # that shell's
-    unshare -m bash -c 'mount -t tmpfs none locked && : >locked/node.lcm &&
+    unshare -m bash -c 'mount -t tmpfs none locked && cp sizes/node.lcm locked &&
         mount --bind locked/node.lcm locked/node.lcm && # a mount is not renamed
         "$0" node --lcm "file://record.lcm?speed=0" --config scene/scenario.ini \
         --log locked/node.lcm --set log_file_mb=0.05; echo $? >code
@@ -181,7 +188,10 @@ if [ "$(id -u)" -ne 0 ] || unshare -m sh -c 'mount -t tmpfs none locked' 2>/dev/
     check 'one that cannot be put away is said once' test "$(grep -c \
         'locked/node.lcm: cannot be put away, or an earlier file removed: Device or resource busy' \
         node.err)" -eq 1
-    check 'and has all events' is_whole stays.lcm
+    earlier=$(stat -c %s sizes/node.lcm)
+    check 'the log of an earlier run stays in it' cmp -n "$earlier" sizes/node.lcm stays.lcm
+    tail -c +$((earlier + 1)) stays.lcm >added.lcm
+    check 'and all events are added' is_whole added.lcm
 else
     echo 'skipped: files that cannot be put away: no mounts here'
 fi

@@ -181,7 +181,9 @@ static void open_file(struct node_log *log, struct file *file, int flags)
         drop_queue(log, reason);
     }
     file->begin = log->written - bytes;
-    log->begin -= bytes; /* they count for its limit */
+    if (!log->refusal) {
+        log->begin -= bytes; /* they count for its limit; not to be refused again at each event */
+    }
     pthread_cond_broadcast(&log->changed);
 }
 
@@ -215,7 +217,7 @@ static void *write_queue(void *object)
     if (node_log_limits_cut(&log->limits)) { /* an earlier run's stays */
         put_away(log, node_log_files_time_us(log->path));
     }
-    open_file(log, &file, O_TRUNC);
+    open_file(log, &file, log->refusal ? O_APPEND : O_TRUNC);
     while (!log->is_ended || log->written < log->put) {
         const size_t bytes = file.descriptor >= 0 ? piece_bytes(log) : 0;
 

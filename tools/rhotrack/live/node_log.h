@@ -6,7 +6,7 @@
  * more. Of a record, which waits, none are left out that the queue could hold (4 MiB).
  *
  * Where the log is cut into several files (node_log_files.h), each holds whole events, and whoever
- * reads one to its end and then opens the name again misses none.
+ * reads one to its end once it is put away, and goes on with the next name, misses none.
  */
 #ifndef RHOTRACK_TOOL_NODE_LOG_H
 #define RHOTRACK_TOOL_NODE_LOG_H
