@@ -58,6 +58,22 @@ check 'typed, it works' test "$status" -eq 0 -a -s mine/tracks.html
 
 terminal "'$program' track popup/plots.csv -o popup/tracks.csv --set range_max_m=1000"
 check 'no command comes next without a track' test ! -s next
+cp popup/truth.csv mine
+terminal "'$program' track \"mine/it's.csv\" -o mine/tracks.csv --columns x_m=Ost,y_m=Nord"
+check 'a truth without the columns of --columns: a page, too' next "$program plot tracks *"
+terminal "$(cat next)"
+check 'typed, it works' exits 0
+sed '1s/x_m/Ost/; 1s/y_m/Nord/' popup/truth.csv >mine/truth.csv
+terminal "'$program' track \"mine/it's.csv\" -o mine/tracks.csv --columns x_m=Ost,y_m=Nord"
+check 'with them: evaluate' next "$program evaluate mine/truth.csv * --columns x_m=Ost,y_m=Nord"
+terminal "$(cat next)"
+check 'typed, it works' exits 0
+head -1 popup/truth.csv >mine/truth.csv
+terminal "'$program' track \"mine/it's.csv\" -o mine/tracks.csv --columns x_m=Ost,y_m=Nord"
+check 'a truth without targets: a page' next "$program plot tracks *"
+terminal "$(cat next)"
+check 'typed, it works' exits 0
+
 run track popup/plots.csv -o popup/tracks.csv
 check 'nothing of it where standard error is no terminal' bash -c '! grep -q "next: \|not used" stderr'
 for args in "track popup/plots.csv" "track popup/plots.csv -o x.lcm" "simulate crossing"; do

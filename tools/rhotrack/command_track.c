@@ -501,7 +501,7 @@ static void print_results(const struct tracking *tracking, const struct inputs *
     }
 }
 
-/* With a truth beside the plots its figures, else a picture; and a scene's own settings, unused. */
+/* With a truth of targets beside the plots its figures, else a picture; and a scene's own settings, unused. */
 static void say_next(const struct command_line *line)
 {
     const char *plots = line->arguments[0];
@@ -512,7 +512,8 @@ static void say_next(const struct command_line *line)
         fprintf(stderr, "rhotrack: %s stands beside the plots and was not used (--config)\n",
                 config);
     }
-    if (line->output && path_ends_with(line->output, ".csv") && truth) {
+    if (line->output && path_ends_with(line->output, ".csv") && truth &&
+        next_command_can_read(line, truth)) {
         next_command_say(line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
         next_command_say_page(line, line->arguments, line->num_arguments, line->output);

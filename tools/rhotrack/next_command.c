@@ -83,3 +83,35 @@ char *next_command_beside(const char *path, const char *name)
     free(beside);
     return NULL;
 }
+
+/* The columns that --columns names. */
+static bool has_columns(const char *header, const char *columns)
+{
+    while ((columns = strchr(columns, '='))) {
+        const size_t length = strcspn(++columns, ",");
+
+        if (!memmem(header, strlen(header), columns, length)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool next_command_can_read(const struct command_line *line, const char *path)
+{
+    FILE *file = fopen(path, "r");
+    char *header = NULL, *row = NULL;
+    size_t room = 0, row_room = 0;
+    bool can = file && getline(&header, &room, file) > 0 && getline(&row, &row_room, file) > 0;
+
+    for (size_t i = 0; can && i < line->num_settings; i += 2) {
+        can = strcmp(line->settings[i], "--columns") != 0 ||
+              has_columns(header, line->settings[i + 1]);
+    }
+    free(header);
+    free(row);
+    if (file) {
+        fclose(file);
+    }
+    return can;
+}

@@ -3,6 +3,8 @@
 #ifndef RHOTRACK_TOOL_NEXT_COMMAND_H
 #define RHOTRACK_TOOL_NEXT_COMMAND_H
 
+#include <stdbool.h>
+
 #include "commands.h"
 
 /*
@@ -17,5 +19,8 @@ void next_command_say_page(const struct command_line *line, char *const *files, 
 
 /* A file of that name in the path's folder, in new memory; NULL where there is none. */
 char *next_command_beside(const char *path, const char *name);
+
+/* A CSV file has rows, and the columns of this command's --columns. */
+bool next_command_can_read(const struct command_line *line, const char *path);
 
 #endif
