@@ -61,6 +61,7 @@ write("dense.csv", radar(9, turn=2.5, clutter=200, decimals=3))
 write("tenths.csv", radar(10, turn=2.5, clutter=200, decimals=1))
 write("seconds.csv", radar(11, clutter=30, decimals=0))
 write("near.csv", radar(12, turn=1.25, near=200, far=3000, speed=15))
+write("fastest.csv", radar(15, turn=0.5, seconds=40, near=200, far=3000, speed=15))
 write("places.csv", radar(13), place=(0, 0))
 write("elsewhere.csv", radar(13), place=(30000, 20000))
 write("one_direction.csv", radar(14, targets=60, clutter=40, blind=(0.9, 6.2)))
@@ -102,6 +103,7 @@ turns '200 plots a turn' dense.csv 'turns of (2.5|2.50.|2.49.) s by azimuth, clo
 turns 'times in tenths of seconds' tenths.csv 'turns of (2.5|2.50.|2.49.) s by azimuth, clockwise' 12
 turns 'times in whole seconds' seconds.csv 'turns of (4|4.00.|3.99.) s by azimuth, clockwise' 12
 turns 'a near radar' near.csv 'turns of 1.2[45].? s by azimuth, clockwise' 12
+turns 'the fastest' fastest.csv 'turns of (0.5|0.50..?|0.49..?) s by azimuth, clockwise' 12
 turns 'places, not ranges' places.csv 'turns of (4|4.00.|3.99.) s by azimuth, clockwise' 12
 turns 'all in one direction' one_direction.csv 'scans, [34].[0-9]* s apart, by the gaps between them' 8
 turns 'a staring radar' staring.csv 'scans, 0.5 s apart, by the gaps between them' 8

@@ -101,7 +101,7 @@ static double find_rate(const struct fitted *fitted)
 {
     const double span_s = fitted->after_s[fitted->count - 1];
     const double step = TURN_RAD / (STEPS_A_LOBE * span_s);
-    const size_t num = (size_t)(TURN_RAD / TURN_MIN_S / step);
+    const size_t num = (size_t)(TURN_RAD / TURN_MIN_S / step) + 2; /* both sides of the fastest */
     double *found = must_calloc(2 * num + 1, sizeof *found), highest = 0, rate = 0;
 
     for (size_t i = 0; i <= 2 * num; i++) {
