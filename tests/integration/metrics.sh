@@ -83,6 +83,26 @@ print(re.search('^rhotrack_step_work_max (.*)', text, re.M)[1])")" = 5000
 kill "$publisher"
 stop
 
+# ---- no descriptor is left ----
+ticks() { awk '{ print $14 + $15 }' "/proc/$node/stat"; }
+connect='import socket, sys, time
+here = [socket.create_connection(("127.0.0.1", int(sys.argv[1]))) for _ in range(14)]
+time.sleep(3)'
+limit=$(ulimit -Sn)
+ulimit -Sn 14
+start
+ulimit -Sn "$limit"
+python3 -c "$connect" $port &
+clients=$!
+sleep 1
+before=$(ticks)
+sleep 1.5
+check "it does not spin: $(($(ticks) - before)) ticks" test $(($(ticks) - before)) -lt 20
+wait "$clients"
+answers() { python3 -c "import urllib.request; urllib.request.urlopen('http://127.0.0.1:$port/metrics')"; }
+check 'and answers again' wait_until 5 answers
+stop
+
 # ---- where it listens ----
 start
 if [ -n "${RHO_ON_LOOPBACK:-}" ]; then

@@ -40,6 +40,7 @@ struct client {
 
 struct page_server {
     int listener, poll;
+    bool is_deaf; /* no descriptor is left: who connects waits, and wakes nobody */
     const char *path, *type;
     page_server_write *write;
     void *context;
@@ -265,6 +266,17 @@ static void serve(struct page_server *server, struct client *client)
     }
 }
 
+/* Whoever waits for what cannot be accepted would be woken at once, without end. */
+static void set_deaf(struct page_server *server, bool is_deaf)
+{
+    struct epoll_event event = {.events = is_deaf ? 0 : EPOLLIN};
+
+    if (is_deaf != server->is_deaf &&
+        epoll_ctl(server->poll, EPOLL_CTL_MOD, server->listener, &event) == 0) {
+        server->is_deaf = is_deaf;
+    }
+}
+
 static void accept_clients(struct page_server *server)
 {
     for (int i = 0; i < ACCEPTED_MAX; i++) {
@@ -273,6 +285,8 @@ static void accept_clients(struct page_server *server)
         struct epoll_event event = {.events = EPOLLIN};
 
         if (descriptor < 0) {
+            set_deaf(server,
+                     errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM);
             return;
         }
         client = have_place(server);
