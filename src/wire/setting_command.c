@@ -21,7 +21,7 @@ struct field {
 
 static const struct field *field_of(int number)
 {
-    static const struct field fields[] = {
+    static const struct field fields[RHO_MESSAGE_SETTING_WORK_MAX + 1] = {
         [RHO_MESSAGE_SETTING_V_MIN_MPS] = FIELD(v_min_mps, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_V_MAX_MPS] = FIELD(v_max_mps, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_ACCEL_MAX_MPS2] = FIELD(accel_max_mps2, AS_FLOAT, STEP),
@@ -40,7 +40,7 @@ static const struct field *field_of(int number)
         [RHO_MESSAGE_SETTING_FALSE_TRACKS_PER_HOUR] = FIELD(false_tracks_per_hour, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_WORK_MAX] = FIELD(work_max, AS_UINT32, STEP),
     };
-    return number > 0 && (size_t)number < sizeof fields / sizeof fields[0] ? &fields[number] : 0;
+    return number > 0 && number <= RHO_MESSAGE_SETTING_WORK_MAX ? &fields[number] : 0;
 }
 
 const char *rho_command_setting_name(int field)
