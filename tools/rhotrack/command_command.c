@@ -9,9 +9,9 @@
 #include "base/common.h"
 #include "base/hint.h"
 #include "commands.h"
-#include "live/transport.h"
 #include "rhotrack/command.h"
 #include "rhotrack/message.h"
+#include "transport/transport.h"
 
 #define SIGMA_M 100.0f /* of a place that a person points at */
 #define WAIT_S 15.0

@@ -27,9 +27,9 @@
 #include "live/node_tally.h"
 #include "live/page_server.h"
 #include "live/senders.h"
-#include "live/transport.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
+#include "transport/transport.h"
 
 enum {
     HINT_SCANS = 1000,

@@ -15,8 +15,8 @@
 #include "io/log/message_source.h"
 #include "io/scans/scan_interval_hint.h"
 #include "live/publish.h"
-#include "live/transport.h"
 #include "rhotrack/udpm.h"
+#include "transport/transport.h"
 
 #define NS_PER_S 1000000000
 #define PIECE_NS 100000000 /* a signal between a look and a sleep is noticed after this long */

@@ -14,8 +14,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/scans/revolutions.h"
 #include "io/scans/scan_reader.h"
+#include "io/turns/revolutions.h"
 
 #define HEADER                                                                                     \
     "t_s,sensor_id,range_m,azimuth_rad,sensor_x_m,sensor_y_m,sector_from_rad,sector_to_rad,scan\n"

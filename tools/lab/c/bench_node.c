@@ -23,11 +23,11 @@
 #include "base/common.h"
 #include "base/random.h"
 #include "commands.h"
-#include "live/transport.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
 #include "rhotrack/udpm.h"
 #include "scenario.h"
+#include "transport/transport.h"
 
 /*
  * 50 scans a second of 100 plots each, in three parts. Scans are 10 s apart by their own clock, as

@@ -9,8 +9,8 @@
 #include <stdio.h>
 
 #include "live/node_core.h"
-#include "live/transport.h"
 #include "settings/parameters.h"
+#include "transport/transport.h"
 
 /* What the parts of a node know. */
 struct metrics_source {

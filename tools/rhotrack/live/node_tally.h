@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #include "live/node_core.h"
-#include "live/transport.h"
+#include "transport/transport.h"
 
 #define NODE_TALLIES 41
 

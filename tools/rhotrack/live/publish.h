@@ -7,7 +7,7 @@
 #define RHOTRACK_TOOL_PUBLISH_H
 
 #include "command_line.h"
-#include "live/transport.h"
+#include "transport/transport.h"
 
 #define PUBLISH_EPOCH_OF_CSV 1 /* where rows do not say one */
 

@@ -13,7 +13,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "live/transport.h"
+#include "transport/transport.h"
 
 enum { SENDERS_CHANNELS = 64, SENDERS_NODES = 8, SENDERS_LINES = 8 };
 

@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_PLOT_PARAMETER_SPACE_H
 #define RHOTRACK_TOOL_PLOT_PARAMETER_SPACE_H
 
-#include "io/scans/revolutions.h"
+#include "io/turns/revolutions.h"
 #include "picture/picture.h"
 #include "picture/plot_data.h"
 #include "settings/parameters.h"

@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_PLOT_VOTES_H
 #define RHOTRACK_TOOL_PLOT_VOTES_H
 
-#include "io/scans/revolutions.h"
+#include "io/turns/revolutions.h"
 #include "picture/picture.h"
 #include "settings/method.h"
 

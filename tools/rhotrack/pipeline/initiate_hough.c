@@ -9,8 +9,8 @@
 #include "base/common.h"
 #include "io/output/initiated_output.h"
 #include "io/scans/hough_batch.h"
-#include "io/scans/revolutions.h"
 #include "io/scans/scan_reader.h"
+#include "io/turns/revolutions.h"
 #include "pipeline/pipeline.h"
 
 #define CELLS_MAX (UINT32_C(1) << 20)

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "io/scans/antenna_turns.h"
+#include "io/turns/antenna_turns.h"
 
 /* The place of a row's plot as its sensor sees it. Returns false where it saw nothing. */
 static bool find_place(const struct rows_file *file, const struct row *row,

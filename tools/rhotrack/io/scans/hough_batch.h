@@ -3,7 +3,7 @@
 #ifndef RHOTRACK_TOOL_HOUGH_BATCH_H
 #define RHOTRACK_TOOL_HOUGH_BATCH_H
 
-#include "io/scans/revolutions.h"
+#include "io/turns/revolutions.h"
 #include "rhotrack/hough.h"
 
 struct hough_batch {

@@ -10,9 +10,9 @@
 #include "io/csv/table_stream.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
-#include "io/scans/antenna_turns.h"
 #include "io/scans/gather.h"
 #include "io/scans/reorder_buffer.h"
+#include "io/turns/antenna_turns.h"
 
 #define FOLLOW_BEGUN_MAX 2 /* a numbered scan's last plots may come a minute later */
 

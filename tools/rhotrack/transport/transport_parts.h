@@ -3,7 +3,7 @@
 #ifndef RHOTRACK_TOOL_TRANSPORT_PARTS_H
 #define RHOTRACK_TOOL_TRANSPORT_PARTS_H
 
-#include "live/transport.h"
+#include "transport/transport.h"
 
 struct transport_provider {
     int (*descriptor)(const void *object);

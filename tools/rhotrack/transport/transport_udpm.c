@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "base/common.h"
-#include "live/transport_parts.h"
 #include "rhotrack/udpm.h"
+#include "transport/transport_parts.h"
 
 /*
  * Datagrams taken from the kernel at a time. What is longer than DATAGRAM_BYTES is no message of

@@ -11,7 +11,7 @@
 
 #include "base/common.h"
 #include "io/log/lcm_log.h"
-#include "live/transport_parts.h"
+#include "transport/transport_parts.h"
 
 struct log {
     struct lcm_log_reader *reader;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "io/scans/turn_search.h"
+#include "io/turns/turn_search.h"
 
 #include <math.h>
 #include <stdbool.h>

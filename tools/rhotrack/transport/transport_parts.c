@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "live/transport_parts.h"
+#include "transport/transport_parts.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "live/transport_parts.h"
 #include "rhotrack/udpm.h"
+#include "transport/transport_parts.h"
 
 /* Capacity of liblcm's queue, which drops newer messages; rhotrack's own are never longer. */
 enum { QUEUE_MESSAGES = 10000, MESSAGE_BYTES = 65536 };

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#include "io/scans/antenna_turns.h"
+#include "io/turns/antenna_turns.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/scans/turn_search.h"
+#include "io/turns/turn_search.h"
 
 #define LOOKED_MAX 6000       /* rows */
 #define SENSOR_MAX 3000       /* of one sensor */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "live/transport.h"
+#include "transport/transport.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/common.h"
-#include "live/transport_parts.h"
+#include "transport/transport_parts.h"
 
 static const char *or_default(const char *url)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "io/scans/revolutions.h"
+#include "io/turns/revolutions.h"
 
 #include <inttypes.h>
 #include <stdio.h>
