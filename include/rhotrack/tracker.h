@@ -253,6 +253,7 @@ struct rho_tracker_learned {
      * which is used as if it were stated (gate best); those looks are none of the rings'
      */
     uint8_t blind_rates, used_rates; /* as learned; as the sensor's notch_mps has it now */
+    uint8_t notches_forgotten;       /* that were none; after three no more is learned */
     uint8_t rate_looks[RHO_LEARN_RATES], rate_hits[RHO_LEARN_RATES]; /* halved at 250 */
 };
 

@@ -77,7 +77,8 @@ enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 #define FASTER_LOOKS 60.0f
 #define RATE_MIN2 0.0625f /* square of the first interval's end */
 #define RATE_LOOKS_MAX 250
-#define RATES_LEAST 4u /* intervals: a narrower notch is not told from targets that stop */
+#define RATES_LEAST 4u   /* intervals: a narrower notch is not told from targets that stop */
+#define FORGOTTEN_MAX 3u /* notches: a sensor that is blind elsewhere would have one now and then */
 
 /* One Kalman filter takes manoeuvres for noise, and loses targets that are there. */
 static int learns(const struct rho_tracker_config *config)
@@ -393,7 +394,11 @@ static int note_rate(struct step *step, const struct rho_track *track, unsigned 
         learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] / 2u);
         learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] / 2u);
     }
-    const unsigned found = find_blind_rates(learned);
+    const unsigned found =
+        learned->notches_forgotten < FORGOTTEN_MAX ? find_blind_rates(learned) : 0u;
+    if (found == 0 && learned->blind_rates > 0) {
+        learned->notches_forgotten = (uint8_t)(learned->notches_forgotten + 1u);
+    }
     if (found > learned->blind_rates) {
         /* what the rings have learned so far was of slower targets as well */
         learned->is_lowered = 0;
@@ -544,6 +549,7 @@ int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
         }
     }
     return learned->blind_rates <= RHO_LEARN_RATES && learned->used_rates <= RHO_LEARN_RATES &&
+           learned->notches_forgotten <= FORGOTTEN_MAX &&
            rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&

@@ -178,7 +178,7 @@ static void work_is_counted(void **state)
     assert_int_equal(at.work, 2 + 2 * 1);
     tracker.config.work_max = 800000;
     group();
-    assert_int_equal(at.share.end, 100000); /* of all work an eighth */
+    assert_int_equal(at.share.end, 200000); /* of all work a quarter */
 }
 
 static void rows_are_those_of_the_plots_again(void **state)
