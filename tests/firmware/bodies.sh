@@ -6,12 +6,12 @@
 . "$(dirname "$0")/records.bash"
 . "$(dirname "$0")/../integration/checks.bash"
 
-cat >bodies.h <<'H'
-#define RHO_BODIES 1
-#define NODE_BODY_MAX_M 15.0f
+echo '#include "nodes/traffic.h"' >bodies.h
+cat >points.h <<'H'
 #include "nodes/traffic.h"
+#undef NODE_BODY_MAX_M
+#define NODE_BODY_MAX_M 0.0f
 H
-sed 's/BODY_MAX_M 15.0f/BODY_MAX_M 0.0f/' bodies.h >points.h
 build_with() { # configuration
     gcc -std=c99 -O1 -ffp-contract=off -I"$root/include" -I"$root/tools/firmware" -I. \
         -DRHO_CONFIG_FILE="\"$1.h\"" -o "./$1" "$root"/src/*/*.c \
