@@ -21,6 +21,8 @@
  * for being seen seldom are counted for as long as they are there. Of a target that fades the first
  * miss counts alone: the pd that is learned is rather too high, and is never above the one stated.
  */
+#include <string.h>
+
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/measurement.h"
@@ -75,8 +77,10 @@ enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 #define BLIND_SURELY 4.0f
 #define BLIND_LOOKS 20.0f
 #define FASTER_LOOKS 60.0f
-#define RATE_MIN2 0.0625f /* square of the first interval's end */
+#define RATE_MIN2 0.0625f   /* square of the first interval's end */
+#define FLOAT_EXPONENT 127u /* of 1.0f in its bits */
 #define RATE_LOOKS_MAX 250
+#define LOOKS_A_NOTCH 8u /* at an interval, from one search for a notch to the next */
 #define RATES_LEAST 4u   /* intervals: a narrower notch is not told from targets that stop */
 #define FORGOTTEN_MAX 3u /* notches: a sensor that is blind elsewhere would have one now and then */
 
@@ -327,18 +331,22 @@ void rho_tracker_use_notch(struct step *step)
 /* The interval of the track's range rate; the last one where it has none. */
 static unsigned rate_of(const struct rho_sensor *sensor, const struct rho_track *track)
 {
-    float row[6], rate_mps, end2 = RATE_MIN2;
-    unsigned interval = 0;
+    float row[6], rate_mps, rate2;
+    uint32_t bits;
     if (!rho_measurement_range_rate(track->kalman.state, sensor,
                                     track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
                                     &rate_mps)) {
         return RHO_LEARN_RATES - 1u;
     }
-    while (interval + 1u < RHO_LEARN_RATES && rate_mps * rate_mps >= end2) {
-        end2 *= 2.0f;
-        interval++;
+    /* each ends at twice the square of the one before: the float's own exponent tells it */
+    rate2 = rate_mps * rate_mps / RATE_MIN2;
+    memcpy(&bits, &rate2, sizeof bits);
+    const uint32_t exponent = bits >> 23;
+    if (exponent < FLOAT_EXPONENT) {
+        return 0;
     }
-    return interval;
+    return exponent - FLOAT_EXPONENT + 1u < RHO_LEARN_RATES ? exponent - FLOAT_EXPONENT + 1u
+                                                            : RHO_LEARN_RATES - 1u;
 }
 
 /* The notch that is used: as it is, narrower, or none. */
@@ -383,17 +391,8 @@ static unsigned find_blind_rates(const struct rho_tracker_learned *learned)
     return 0;
 }
 
-/* 1: the look is one of those that the rings learn from. */
-static int note_rate(struct step *step, const struct rho_track *track, unsigned is_seen)
+static void learn_notch(struct rho_tracker_learned *learned)
 {
-    struct rho_tracker_learned *learned = step->learned;
-    const unsigned rate = rate_of(step->sensor, track);
-    learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
-    learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
-    if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
-        learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] / 2u);
-        learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] / 2u);
-    }
     const unsigned found =
         learned->notches_forgotten < FORGOTTEN_MAX ? find_blind_rates(learned) : 0u;
     if (found == 0 && learned->blind_rates > 0) {
@@ -407,6 +406,22 @@ static int note_rate(struct step *step, const struct rho_track *track, unsigned 
         }
     }
     learned->blind_rates = (uint8_t)found;
+}
+
+/* 1: the look is one of those that the rings learn from. */
+static int note_rate(struct step *step, const struct rho_track *track, unsigned is_seen)
+{
+    struct rho_tracker_learned *learned = step->learned;
+    const unsigned rate = rate_of(step->sensor, track);
+    learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
+    learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
+    if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
+        learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] / 2u);
+        learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] / 2u);
+    }
+    if (learned->rate_looks[rate] % LOOKS_A_NOTCH == 0) {
+        learn_notch(learned);
+    }
     return rate >= learned->blind_rates;
 }
 

@@ -216,7 +216,7 @@ static void the_sensor_is_not_blamed(void **state)
     for (int is_told = 0; is_told < 2; is_told++) {
         prepare(350.0f, 20.0f, 30.0f);
         describe(is_told ? 12.0f : 0.0f, is_told ? 60.0f : 0.0f);
-        for (int k = 0; k < 400; k++) {
+        for (int k = 0; k < 600; k++) {
             fly_past(k);
         }
         assert_int_equal(rho_tracker_known_of(&tracker, SENSOR, &known), RHO_OK);
