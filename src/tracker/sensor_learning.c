@@ -396,7 +396,7 @@ static void learn_notch(struct rho_tracker_learned *learned)
     const unsigned found =
         learned->notches_forgotten < FORGOTTEN_MAX ? find_blind_rates(learned) : 0u;
     if (found == 0 && learned->blind_rates > 0) {
-        learned->notches_forgotten = (uint8_t)(learned->notches_forgotten + 1u);
+        learned->notches_forgotten = (learned->notches_forgotten + 1u) & FORGOTTEN_MAX;
     }
     if (found > learned->blind_rates) {
         /* what the rings have learned so far was of slower targets as well */
@@ -405,7 +405,7 @@ static void learn_notch(struct rho_tracker_learned *learned)
             learned->looks[ring] = learned->hits[ring] = 0;
         }
     }
-    learned->blind_rates = (uint8_t)found;
+    learned->blind_rates = found & 31u;
 }
 
 /* 1: the look is one of those that the rings learn from. */
@@ -563,8 +563,8 @@ int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
             return 0;
         }
     }
-    return learned->blind_rates <= RHO_LEARN_RATES && learned->used_rates <= RHO_LEARN_RATES &&
-           learned->notches_forgotten <= FORGOTTEN_MAX &&
+    return (!RHO_DOPPLER_NOTCH ||
+            (learned->blind_rates <= RHO_LEARN_RATES && learned->used_rates <= RHO_LEARN_RATES)) &&
            rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
