@@ -84,7 +84,7 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
     span->scan_b = rho_window_scan_at(window, span->b);
     span->gap_s = search->time_s[span->b] - search->time_s[span->a];
     span->misses_max = (uint8_t)(span->b - span->a + 1u - search->min_scans);
-    if (HAS_SPAN_HITS) {
+    if (HAS_SPAN_HITS) { /* else it is not read */
         unsigned hits = search->initiator->span_hits[span->a];
         hits = hits > search->min_scans ? hits : search->min_scans;
         span->misses_amid = (int8_t)(span->b - span->a + 1 - (int)hits);
@@ -315,10 +315,18 @@ static struct box predict_box(const struct rho_window_scan *scan, const struct e
 /* Tries the kernels of the span that begin in that box. Returns the units that the box takes. */
 static uint32_t try_first_plots(struct search *search, const struct span *span,
                                 const struct ending *ending, const struct third *third,
-                                const struct way *way)
+                                float third_m)
 {
     const struct rho_window_scan *scan = span->scan_a;
-    const struct box box = predict_box(scan, ending, third, way);
+    const float begin_s = span->gap_s + ending->plot->offset_s - scan->offset_min_s;
+    struct way way;
+    way.begin_s = begin_s;
+    way.far_m = search->initiator->config.v_max_mps * begin_s + span->slack_m;
+    way.third_m = third_m;
+    if (HAS_SPAN_HITS) { /* else it is not read */
+        way.own_m = 0.0f;
+    }
+    const struct box box = predict_box(scan, ending, third, &way);
     uint32_t passed = 0;
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
@@ -393,16 +401,16 @@ static struct reach widest_reach(const struct fan *fan, unsigned spans, unsigned
  * The ways to the first plots of these spans, whose first vote is `gap` scans before the end.
  * Returns what noise and the gate add to the distance of this vote from the ending.
  */
-static float open_ways(const struct search *search, const struct fan *fan,
-                       const struct ending *ending, unsigned spans, unsigned gap, struct way *ways)
+static float open_ways(const struct fan *fan, const struct ending *ending, unsigned spans,
+                       unsigned gap, float *thirds_m)
 {
     float far_m = 0.0f;
     for (unsigned n = 0; spans >> n; n++) {
         const struct span *span = &fan->spans[n];
         if (spans >> n & 1u) {
-            const struct reach reach = {span->voters[gap - 1u].gate_radius_m, 0.0f, span->slack_m};
-            ways[n] = way_from(search, span->scan_a, ending, span->gap_s, &reach);
-            far_m = larger(far_m, reach.slack_m + GATE_ROUNDING * reach.third_m);
+            const float gate_radius_m = span->voters[gap - 1u].gate_radius_m;
+            far_m = larger(far_m, span->slack_m + GATE_ROUNDING * gate_radius_m);
+            thirds_m[n] = ending->gate_rounded * gate_radius_m + ending->rounding_m;
         }
     }
     return far_m;
@@ -415,11 +423,11 @@ static int try_third_plots(struct search *search, const struct fan *fan,
     const struct rho_window_scan *scan =
         rho_window_scan_at(&search->initiator->window, fan->spans[0].b - gap);
     const unsigned b = fan->spans[0].b;
-    struct way ways[SPANS_MAX];
-    const float far_m = open_ways(search, fan, ending, spans, gap, ways) + ending->rounding_m +
+    float thirds_m[SPANS_MAX];
+    const float far_m = open_ways(fan, ending, spans, gap, thirds_m) + ending->rounding_m +
                         GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);
-    struct box box = box_about(ending->plot, far_m);
-    struct rho_window_bins bins = bins_under(search, scan, &box);
+    const struct box box = box_about(ending->plot, far_m);
+    const struct rho_window_bins bins = bins_under(search, scan, &box);
     const float gap_s = search->time_s[b] - search->time_s[b - gap] + ending->plot->offset_s;
     /* spans without further misses: where the next scan has no vote there is no kernel of them */
     const unsigned full = !HAS_SPAN_HITS || ending->is_clear
@@ -456,7 +464,7 @@ static int try_third_plots(struct search *search, const struct fan *fan,
             }
             for (unsigned n = 0; tried >> n; n++) {
                 if (tried >> n & 1u) {
-                    passed += try_first_plots(search, &fan->spans[n], ending, &third, &ways[n]);
+                    passed += try_first_plots(search, &fan->spans[n], ending, &third, thirds_m[n]);
                 }
             }
             if (passed >= CHARGED_UNITS) {
@@ -558,13 +566,14 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
 {
     const struct span *widest = &fan->spans[0];
     struct ending ending = {.plot = &widest->scan_b->plots[j]};
-    unsigned counts[RHO_MAX_SCANS] = {0}, by_votes = 0;
+    unsigned by_votes = 0;
     if (rho_initiator_is_spent(search)) {
         return 0;
     }
+    const float x_m = ending.plot->x_m, y_m = ending.plot->y_m;
     float far_m = travel_max_m(search, &ending, widest->b, widest->a);
-    ending.rounding_m = ROUNDING_SHARE * (larger(ending.plot->x_m, -ending.plot->x_m) +
-                                          larger(ending.plot->y_m, -ending.plot->y_m) + far_m);
+    ending.rounding_m =
+        ROUNDING_SHARE * ((x_m < 0.0f ? -x_m : x_m) + (y_m < 0.0f ? -y_m : y_m) + far_m);
     if (!rho_initiator_is_isotropic(search)) {
         ending.noise = rho_window_noise(widest->scan_b, ending.plot);
     }
@@ -572,16 +581,19 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
                                  &ending);
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
     ending.is_clear = !HAS_SPAN_HITS || !fan->has_span_hits || is_clear(search, ending.plot);
-    count_reachable(search, fan, &ending, counts);
-    for (unsigned n = 0; n < fan->num_spans; n++) {
-        if (rho_initiator_misses_max(&fan->spans[n], &ending) < 0) {
-            continue;
-        }
-        if ((fan->ordered >> n & 1u) &&
-            votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
-            by_votes |= 1u << n;
-        } else if (!try_pairs(search, &fan->spans[n], &ending)) {
-            return 0;
+    {
+        unsigned counts[RHO_MAX_SCANS]; /* its room on the stack is free behind */
+        count_reachable(search, fan, &ending, counts);
+        for (unsigned n = 0; n < fan->num_spans; n++) {
+            if (rho_initiator_misses_max(&fan->spans[n], &ending) < 0) {
+                continue;
+            }
+            if ((fan->ordered >> n & 1u) &&
+                votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
+                by_votes |= 1u << n;
+            } else if (!try_pairs(search, &fan->spans[n], &ending)) {
+                return 0;
+            }
         }
     }
     for (unsigned gap = 1; spans_of_gap(fan, &ending, by_votes, gap) != 0; gap++) {
