@@ -84,7 +84,7 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
     span->scan_b = rho_window_scan_at(window, span->b);
     span->gap_s = search->time_s[span->b] - search->time_s[span->a];
     span->misses_max = (uint8_t)(span->b - span->a + 1u - search->min_scans);
-    if (HAS_SPAN_HITS) { /* else it is not read */
+    if (HAS_SPAN_HITS) {
         unsigned hits = search->initiator->span_hits[span->a];
         hits = hits > search->min_scans ? hits : search->min_scans;
         span->misses_amid = (int8_t)(span->b - span->a + 1 - (int)hits);
@@ -248,20 +248,19 @@ struct reach {
 
 /* What the boxes in an earlier scan have in common, whichever the third plot is. */
 struct way {
-    float begin_s;        /* from the scan's first plot to the ending */
-    float far_m;          /* most that a target travels in this time */
-    float third_m, own_m; /* the gates of the reach, with what rounding may add */
+    float begin_s; /* from the scan's first plot to the ending */
+    float far_m;   /* most that a target travels in this time, with noise */
+    float third_m; /* gate of the third plot, with what rounding may add */
 };
 
 static struct way way_from(const struct search *search, const struct rho_window_scan *scan,
-                           const struct ending *ending, float gap_s, const struct reach *reach)
+                           const struct ending *ending, float gap_s, float third_m, float slack_m)
 {
     const float begin_s = gap_s + ending->plot->offset_s - scan->offset_min_s;
     return (struct way){
         .begin_s = begin_s,
-        .far_m = search->initiator->config.v_max_mps * begin_s + reach->slack_m,
-        .third_m = ending->gate_rounded * reach->third_m + ending->rounding_m,
-        .own_m = ending->gate_rounded * reach->own_m,
+        .far_m = search->initiator->config.v_max_mps * begin_s + slack_m,
+        .third_m = ending->gate_rounded * third_m + ending->rounding_m,
     };
 }
 
@@ -296,11 +295,11 @@ static struct box fit_box(const struct box *box, const struct ending *ending,
  * extrapolated from the ending.
  */
 static struct box predict_box(const struct rho_window_scan *scan, const struct ending *ending,
-                              const struct third *third, const struct way *way)
+                              const struct third *third, const struct way *way, float own_m)
 {
     const struct rho_window_plot *to = ending->plot;
     const float ratio = way->begin_s * third->per_s;
-    const float gate_radius_m = ratio * way->third_m + (HAS_SPAN_HITS ? way->own_m : 0.0f);
+    const float gate_radius_m = ratio * way->third_m + own_m;
     const float x_m = to->x_m + third->dx_m * ratio, y_m = to->y_m + third->dy_m * ratio;
     struct box box = {x_m - gate_radius_m, x_m + gate_radius_m, y_m - gate_radius_m,
                       y_m + gate_radius_m};
@@ -315,18 +314,10 @@ static struct box predict_box(const struct rho_window_scan *scan, const struct e
 /* Tries the kernels of the span that begin in that box. Returns the units that the box takes. */
 static uint32_t try_first_plots(struct search *search, const struct span *span,
                                 const struct ending *ending, const struct third *third,
-                                float third_m)
+                                const struct way *way)
 {
     const struct rho_window_scan *scan = span->scan_a;
-    const float begin_s = span->gap_s + ending->plot->offset_s - scan->offset_min_s;
-    struct way way;
-    way.begin_s = begin_s;
-    way.far_m = search->initiator->config.v_max_mps * begin_s + span->slack_m;
-    way.third_m = third_m;
-    if (HAS_SPAN_HITS) { /* else it is not read */
-        way.own_m = 0.0f;
-    }
-    const struct box box = predict_box(scan, ending, third, &way);
+    const struct box box = predict_box(scan, ending, third, way, 0.0f);
     uint32_t passed = 0;
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
@@ -345,9 +336,10 @@ static uint32_t try_first_plots(struct search *search, const struct span *span,
 
 /* True where a plot of the scan before the third plot may vote for kernels with this one. */
 static int may_vote_next(const struct rho_window_scan *scan, const struct ending *ending,
-                         const struct third *third, const struct way *way, uint32_t *passed)
+                         const struct third *third, const struct way *way, float own_m,
+                         uint32_t *passed)
 {
-    const struct box box = predict_box(scan, ending, third, way);
+    const struct box box = predict_box(scan, ending, third, way, own_m);
     const struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -401,16 +393,16 @@ static struct reach widest_reach(const struct fan *fan, unsigned spans, unsigned
  * The ways to the first plots of these spans, whose first vote is `gap` scans before the end.
  * Returns what noise and the gate add to the distance of this vote from the ending.
  */
-static float open_ways(const struct fan *fan, const struct ending *ending, unsigned spans,
-                       unsigned gap, float *thirds_m)
+static float open_ways(const struct search *search, const struct fan *fan,
+                       const struct ending *ending, unsigned spans, unsigned gap, struct way *ways)
 {
     float far_m = 0.0f;
     for (unsigned n = 0; spans >> n; n++) {
         const struct span *span = &fan->spans[n];
         if (spans >> n & 1u) {
-            const float gate_radius_m = span->voters[gap - 1u].gate_radius_m;
-            far_m = larger(far_m, span->slack_m + GATE_ROUNDING * gate_radius_m);
-            thirds_m[n] = ending->gate_rounded * gate_radius_m + ending->rounding_m;
+            const float third_m = span->voters[gap - 1u].gate_radius_m;
+            ways[n] = way_from(search, span->scan_a, ending, span->gap_s, third_m, span->slack_m);
+            far_m = larger(far_m, span->slack_m + GATE_ROUNDING * third_m);
         }
     }
     return far_m;
@@ -423,11 +415,11 @@ static int try_third_plots(struct search *search, const struct fan *fan,
     const struct rho_window_scan *scan =
         rho_window_scan_at(&search->initiator->window, fan->spans[0].b - gap);
     const unsigned b = fan->spans[0].b;
-    float thirds_m[SPANS_MAX];
-    const float far_m = open_ways(fan, ending, spans, gap, thirds_m) + ending->rounding_m +
+    struct way ways[SPANS_MAX];
+    const float far_m = open_ways(search, fan, ending, spans, gap, ways) + ending->rounding_m +
                         GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);
-    const struct box box = box_about(ending->plot, far_m);
-    const struct rho_window_bins bins = bins_under(search, scan, &box);
+    struct box box = box_about(ending->plot, far_m);
+    struct rho_window_bins bins = bins_under(search, scan, &box);
     const float gap_s = search->time_s[b] - search->time_s[b - gap] + ending->plot->offset_s;
     /* spans without further misses: where the next scan has no vote there is no kernel of them */
     const unsigned full = !HAS_SPAN_HITS || ending->is_clear
@@ -435,11 +427,13 @@ static int try_third_plots(struct search *search, const struct fan *fan,
                               : spans & ~spans_of_gap(fan, ending, spans, gap + 1u);
     const struct rho_window_scan *next = scan;
     struct way next_way = {0};
+    float own_m = 0.0f;
     if (full != 0) {
         const struct reach reach = widest_reach(fan, full, gap);
         next = rho_window_scan_at(&search->initiator->window, b - gap - 1u);
         next_way = way_from(search, next, ending, search->time_s[b] - search->time_s[b - gap - 1u],
-                            &reach);
+                            reach.third_m, reach.slack_m);
+        own_m = ending->gate_rounded * reach.own_m;
     }
     struct third third = {.first = {.gap = gap}};
     uint32_t passed = 0;
@@ -459,12 +453,12 @@ static int try_third_plots(struct search *search, const struct fan *fan,
             third.first.index = k;
             unsigned tried = spans;
             if ((full & (full - 1u)) != 0 &&
-                !may_vote_next(next, ending, &third, &next_way, &passed)) {
+                !may_vote_next(next, ending, &third, &next_way, own_m, &passed)) {
                 tried &= ~full;
             }
             for (unsigned n = 0; tried >> n; n++) {
                 if (tried >> n & 1u) {
-                    passed += try_first_plots(search, &fan->spans[n], ending, &third, thirds_m[n]);
+                    passed += try_first_plots(search, &fan->spans[n], ending, &third, &ways[n]);
                 }
             }
             if (passed >= CHARGED_UNITS) {
@@ -566,14 +560,13 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
 {
     const struct span *widest = &fan->spans[0];
     struct ending ending = {.plot = &widest->scan_b->plots[j]};
-    unsigned by_votes = 0;
+    unsigned counts[RHO_MAX_SCANS] = {0}, by_votes = 0;
     if (rho_initiator_is_spent(search)) {
         return 0;
     }
-    const float x_m = ending.plot->x_m, y_m = ending.plot->y_m;
     float far_m = travel_max_m(search, &ending, widest->b, widest->a);
-    ending.rounding_m =
-        ROUNDING_SHARE * ((x_m < 0.0f ? -x_m : x_m) + (y_m < 0.0f ? -y_m : y_m) + far_m);
+    ending.rounding_m = ROUNDING_SHARE * (larger(ending.plot->x_m, -ending.plot->x_m) +
+                                          larger(ending.plot->y_m, -ending.plot->y_m) + far_m);
     if (!rho_initiator_is_isotropic(search)) {
         ending.noise = rho_window_noise(widest->scan_b, ending.plot);
     }
@@ -581,19 +574,16 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
                                  &ending);
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
     ending.is_clear = !HAS_SPAN_HITS || !fan->has_span_hits || is_clear(search, ending.plot);
-    {
-        unsigned counts[RHO_MAX_SCANS]; /* its room on the stack is free behind */
-        count_reachable(search, fan, &ending, counts);
-        for (unsigned n = 0; n < fan->num_spans; n++) {
-            if (rho_initiator_misses_max(&fan->spans[n], &ending) < 0) {
-                continue;
-            }
-            if ((fan->ordered >> n & 1u) &&
-                votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
-                by_votes |= 1u << n;
-            } else if (!try_pairs(search, &fan->spans[n], &ending)) {
-                return 0;
-            }
+    count_reachable(search, fan, &ending, counts);
+    for (unsigned n = 0; n < fan->num_spans; n++) {
+        if (rho_initiator_misses_max(&fan->spans[n], &ending) < 0) {
+            continue;
+        }
+        if ((fan->ordered >> n & 1u) &&
+            votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
+            by_votes |= 1u << n;
+        } else if (!try_pairs(search, &fan->spans[n], &ending)) {
+            return 0;
         }
     }
     for (unsigned gap = 1; spans_of_gap(fan, &ending, by_votes, gap) != 0; gap++) {
