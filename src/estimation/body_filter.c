@@ -41,16 +41,6 @@
 /* The least variance of a place on a body: 0.1 m of length. */
 #define LEAST_M2 1e-3f
 
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
-static float smaller(float a, float b)
-{
-    return a < b ? a : b;
-}
-
 /* An axis that no plot has told yet. */
 static struct rho_body_side untold(float m2, float weight)
 {
@@ -90,8 +80,7 @@ void rho_body_turn(struct rho_body_filter *body, const float velocity_mps[2],
     if (!body->has_heading) {
         const float width_m2 = body->prior_m2 / (ASPECT_PRIOR * ASPECT_PRIOR);
         body->across_m2 = width_m2;
-        body->across = (struct rho_body_side){
-            width_m2, WIDTH_PRIOR_WEIGHT, 2.0f * width_m2 * width_m2 / WIDTH_PRIOR_WEIGHT, 1.0f};
+        body->across = untold(width_m2, WIDTH_PRIOR_WEIGHT);
     }
     body->cos_heading = c;
     body->sin_heading = s;
@@ -129,7 +118,7 @@ static float turned_of(const struct rho_body_filter *body)
 
 static float usual_along_m2(const struct rho_body_filter *body)
 {
-    return larger(body->along_m2, body->prior_m2 / 16.0f);
+    return rho_larger(body->along_m2, body->prior_m2 / 16.0f);
 }
 
 static float usual_across_m2(const struct rho_body_filter *body)
@@ -160,7 +149,7 @@ static float squares_of(float v_m2, float own_m2)
 static void learn(struct rho_body_side *side, float usual_m2, float seen_m2, float own_m2, float n)
 {
     const float more = n / squares_of(usual_m2, own_m2);
-    const float v_m2 = larger(side->mean_m2, LEAST_M2);
+    const float v_m2 = rho_larger(side->mean_m2, LEAST_M2);
     side->weight *= more < WEIGHT_MOST ? 1.0f - more / WEIGHT_MOST : 0.0f;
     side->weight += more;
     const float gain = more / side->weight;
@@ -179,7 +168,7 @@ static void learn_across(struct rho_body_filter *body, const struct rho_body_loo
 {
     const float usual_m2 = usual_across_m2(body), noise_m2 = look->noise_across_m2 / n;
     const float missed = rho_body_missed_share(body, look->num_plots);
-    const float along_m2 = larger(look->along_m2, n * LEAST_M2);
+    const float along_m2 = rho_larger(look->along_m2, n * LEAST_M2);
     const float slope = look->cross_m2 / along_m2;
     const float slope_variance = (noise_m2 + missed * usual_m2) / along_m2;
     const float turned = turned_of(body);
@@ -189,14 +178,14 @@ static void learn_across(struct rho_body_filter *body, const struct rho_body_loo
     const float squares_m2 = look->across_m2 - 2.0f * k * off * look->cross_m2 +
                              k * k * along_m2 * (off * off + 1.0f / body->slope_weight);
     const float own_m2 = noise_m2 + left * body->along_m2;
-    const float most_m2 = (n + STRAY_SQUARES) * (larger(usual_m2, body->across_m2) + own_m2);
-    const float sum_m2 = smaller(squares_m2, most_m2) - (n - gone) * noise_m2;
+    const float most_m2 = (n + STRAY_SQUARES) * (rho_larger(usual_m2, body->across_m2) + own_m2);
+    const float sum_m2 = rho_smaller(squares_m2, most_m2) - (n - gone) * noise_m2;
     if (n - gone > LEAST_PLOTS) {
         learn(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2, own_m2,
               n - gone);
     }
     const float more = 1.0f / (slope_variance + TURNED_LOOKS * turned);
-    body->slope_weight *= 1.0f - smaller(n / PLOTS_MOST, 1.0f);
+    body->slope_weight *= 1.0f - rho_smaller(n / PLOTS_MOST, 1.0f);
     body->slope_weight += more;
     body->slope += more / body->slope_weight * off;
 }
@@ -212,10 +201,10 @@ void rho_body_add(struct rho_body_filter *body, const struct rho_body_look *look
     }
     const float along_m2 = look->noise_along_m2 / n + turned_of(body) * body->across_m2;
     learn(&body->along, usual_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
-    body->along_m2 = larger(body->along.mean_m2, LEAST_M2);
+    body->along_m2 = rho_larger(body->along.mean_m2, LEAST_M2);
     learn_across(body, look, n);
-    body->across_m2 = larger(body->across.mean_m2, body->along_m2 / (ASPECT_MAX * ASPECT_MAX));
-    body->plots = smaller(body->plots + n, PLOTS_MOST);
+    body->across_m2 = rho_larger(body->across.mean_m2, body->along_m2 / (ASPECT_MAX * ASPECT_MAX));
+    body->plots = rho_smaller(body->plots + n, PLOTS_MOST);
 }
 
 /*
@@ -248,7 +237,7 @@ void rho_body_shape(const struct rho_body_filter *body, struct rho_body *shape)
         .plots = body->plots,
     };
     /* a turn that slopes tell is off by as much as the slope is: (s + e)^2 - s^2 */
-    const float turned = smaller(turned_of(body), 1.0f / body->slope_weight);
+    const float turned = rho_smaller(turned_of(body), 1.0f / body->slope_weight);
     const float off = rho_sqrt(turned * (turned + 4.0f * body->slope * body->slope));
     shape->length_m = side_m(body, &body->along, body->along_m2, turned * body->across_m2,
                              &shape->sigma_length_m);

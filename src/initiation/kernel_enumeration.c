@@ -231,16 +231,6 @@ static int try_pairs(struct search *search, const struct span *span, const struc
 
 /* ---- the third plot first -------------------------------------------------------------------- */
 
-static float smaller(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 /* Gates of the third plot and of the vote in the box, and what noise adds to a target's travel. */
 struct reach {
     float third_m, own_m, slack_m;
@@ -283,10 +273,12 @@ static struct box fit_box(const struct box *box, const struct ending *ending,
         return all;
     }
     const float x_m = spread * third->dx_m, y_m = spread * third->dy_m;
-    struct box fitted = {.x0_m = larger(box->x0_m - larger(x_m, 0.0f), all.x0_m),
-                         .y0_m = larger(box->y0_m - larger(y_m, 0.0f), all.y0_m)};
-    fitted.x1_m = larger(fitted.x0_m, smaller(box->x1_m - smaller(x_m, 0.0f), all.x1_m));
-    fitted.y1_m = larger(fitted.y0_m, smaller(box->y1_m - smaller(y_m, 0.0f), all.y1_m));
+    struct box fitted = {.x0_m = rho_larger(box->x0_m - rho_larger(x_m, 0.0f), all.x0_m),
+                         .y0_m = rho_larger(box->y0_m - rho_larger(y_m, 0.0f), all.y0_m)};
+    fitted.x1_m =
+        rho_larger(fitted.x0_m, rho_smaller(box->x1_m - rho_smaller(x_m, 0.0f), all.x1_m));
+    fitted.y1_m =
+        rho_larger(fitted.y0_m, rho_smaller(box->y1_m - rho_smaller(y_m, 0.0f), all.y1_m));
     return fitted;
 }
 
@@ -378,10 +370,10 @@ static struct reach widest_reach(const struct fan *fan, unsigned spans, unsigned
     for (unsigned n = 0; n < fan->num_spans; n++) {
         const struct span *span = &fan->spans[n];
         if (spans >> n & 1u) {
-            reach.third_m = larger(reach.third_m, span->voters[gap - 1u].gate_radius_m);
-            reach.slack_m = larger(reach.slack_m, span->slack_m);
+            reach.third_m = rho_larger(reach.third_m, span->voters[gap - 1u].gate_radius_m);
+            reach.slack_m = rho_larger(reach.slack_m, span->slack_m);
             if (span->a + gap + 1u < span->b) {
-                reach.own_m = larger(reach.own_m, span->voters[gap].gate_radius_m);
+                reach.own_m = rho_larger(reach.own_m, span->voters[gap].gate_radius_m);
             }
         }
     }
@@ -402,7 +394,7 @@ static float open_ways(const struct search *search, const struct fan *fan,
         if (spans >> n & 1u) {
             const float third_m = span->voters[gap - 1u].gate_radius_m;
             ways[n] = way_from(search, span->scan_a, ending, span->gap_s, third_m, span->slack_m);
-            far_m = larger(far_m, span->slack_m + GATE_ROUNDING * third_m);
+            far_m = rho_larger(far_m, span->slack_m + GATE_ROUNDING * third_m);
         }
     }
     return far_m;
@@ -494,8 +486,8 @@ static int votes_are_cheaper(struct search *search, const struct span *span,
     float gate_radius_m = ending->gate_share * span->voters[0].gate_radius_m;
     float ratio = span->gap_s / (search->time_s[span->b] - search->time_s[span->b - 1u]);
     struct box gate = box_about(ending->plot, gate_radius_m), firsts;
-    firsts = box_about(ending->plot, smaller(gate_radius_m * ratio,
-                                             travel_max_m(search, ending, span->b, span->a)));
+    firsts = box_about(ending->plot, rho_smaller(gate_radius_m * ratio,
+                                                 travel_max_m(search, ending, span->b, span->a)));
     float lookup = LOOKUP_PLOTS + (float)count_in(search, before, &gate);
     float found = (float)count_in(search, span->scan_a, &firsts), by_votes = 0.0f;
     float in_gate = SHARE_IN_GATE * ending->along_share / ending->gate_share;
@@ -565,8 +557,8 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
         return 0;
     }
     float far_m = travel_max_m(search, &ending, widest->b, widest->a);
-    ending.rounding_m = ROUNDING_SHARE * (larger(ending.plot->x_m, -ending.plot->x_m) +
-                                          larger(ending.plot->y_m, -ending.plot->y_m) + far_m);
+    ending.rounding_m = ROUNDING_SHARE * (rho_larger(ending.plot->x_m, -ending.plot->x_m) +
+                                          rho_larger(ending.plot->y_m, -ending.plot->y_m) + far_m);
     if (!rho_initiator_is_isotropic(search)) {
         ending.noise = rho_window_noise(widest->scan_b, ending.plot);
     }

@@ -10,11 +10,6 @@
 /* Sums of a few such products are rounded to 1e-6 in float32. */
 #define LESS_THAN_ALL (1.0f - 4.0e-6f)
 
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 /* Whole number of spans. */
 static int whole(float spans)
 {
@@ -32,8 +27,8 @@ int rho_initiator_open_aliases(const struct rho_window_scan *scan,
     aliases->span_mps = scan->sensor.range_rate_span_mps;
     float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * aliases->seen.variance);
     float error_mps = aliases->seen.error_mps; /* in the gate, or nearly: one alias at least */
-    aliases->last = whole(larger(reach_mps - error_mps, 0.0f) / aliases->span_mps);
-    aliases->first = -whole(larger(reach_mps + error_mps, 0.0f) / aliases->span_mps);
+    aliases->last = whole(rho_larger(reach_mps - error_mps, 0.0f) / aliases->span_mps);
+    aliases->first = -whole(rho_larger(reach_mps + error_mps, 0.0f) / aliases->span_mps);
     return 1;
 }
 

@@ -204,18 +204,13 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
 
 /* ---- the frame of the noise ------------------------------------------------------------------ */
 
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 /* Without a line of sight: one variance for all axes. */
 static void open_without_sight(const struct rho_plot *plot, const struct rho_sigma_factors *factors,
                                struct rho_measurement *out)
 {
     float sigma_m = rho_plot_sigma_m(plot);
     if (out->has_z) {
-        sigma_m = larger(sigma_m, plot->sigma_up_m);
+        sigma_m = rho_larger(sigma_m, plot->sigma_up_m);
     }
     sigma_m *= factors->range > factors->cross ? factors->range : factors->cross;
     out->cos_azimuth = out->cos_elevation = 1.0f;
@@ -245,7 +240,7 @@ static float squared_share(float sigma_m, float factor)
 static float up_factor(const struct rho_sigma_factors *factors)
 {
     const float least = factors->range < factors->cross ? factors->range : factors->cross;
-    const float most = larger(factors->range, factors->cross);
+    const float most = rho_larger(factors->range, factors->cross);
     return least > 1.0f ? least : most < 1.0f ? most : 1.0f;
 }
 
@@ -264,7 +259,7 @@ struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *
 float rho_measurement_widest_factor(const struct rho_sensor *sensor)
 {
     const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
-    return larger(larger(factors.range, factors.cross), 1.0f);
+    return rho_larger(rho_larger(factors.range, factors.cross), 1.0f);
 }
 
 int rho_measurement_is_bearing(const struct rho_bearing *bearing)
@@ -318,7 +313,7 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
     float level = ce * ce * variance[0] + se * se * variance[2];
     float slant = ce * se * (variance[0] - variance[2]);
     /* rounding of the thinnest ellipses */
-    float allowance = larger(level, variance[1]) * ROUNDING_ALLOWANCE;
+    float allowance = rho_larger(level, variance[1]) * ROUNDING_ALLOWANCE;
     covariance[0] = ca * ca * level + sa * sa * variance[1] + allowance;
     covariance[1] = ca * sa * (level - variance[1]);
     covariance[2] = sa * sa * level + ca * ca * variance[1] + allowance;

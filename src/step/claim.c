@@ -21,20 +21,15 @@
 
 /* ---- the plots of the scan ------------------------------------------------------------------- */
 
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 /* Bounds of noise and own time, for the boxes that gates search. */
 static void note_widest(struct step *step, const struct rho_plot *plot)
 {
     float offset_s = (float)plot->offset_us * 1e-6f;
     const float factor = rho_measurement_widest_factor(step->sensor);
-    step->sigma_max_m = larger(step->sigma_max_m, factor * rho_plot_sigma_m(plot));
-    step->offset_max_s = larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+    step->sigma_max_m = rho_larger(step->sigma_max_m, factor * rho_plot_sigma_m(plot));
+    step->offset_max_s = rho_larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
     if (step->scan->measures & RHO_MEASURES_Z) {
-        step->sigma_max_m = larger(step->sigma_max_m, factor * plot->sigma_up_m);
+        step->sigma_max_m = rho_larger(step->sigma_max_m, factor * plot->sigma_up_m);
     }
 }
 
@@ -133,7 +128,7 @@ static void widen_for_hough(const struct step *step, const struct rho_track *tra
     const float dt_s = rho_seconds_between(track->updated_us, step->time_us);
     for (int axis = 0; axis < 2; axis++) {
         half_m[axis] = config->hough_window_m > 0.0f
-                           ? larger(half_m[axis], config->hough_window_m)
+                           ? rho_larger(half_m[axis], config->hough_window_m)
                            : half_m[axis] + 2.0f * config->accel_max_mps2 * dt_s * dt_s;
     }
 }

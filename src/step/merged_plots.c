@@ -98,11 +98,6 @@ static int find_pair(const struct step *step, unsigned row, struct pair *pair)
     return 1;
 }
 
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 /*
  * 1 where a merged plot is likelier than a miss of the second target. *gain_nat: of the plot, for
  * the second track.
@@ -131,7 +126,7 @@ static int is_merged(const struct step *step, const struct pair *pair, float *ga
     }
     const float merged = rho_sqrt(share) * rho_exp(-0.5f * distance2);
     const float log_miss = rho_tracker_detection(step, pair->second).log_miss;
-    *gain_nat = larger(log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
+    *gain_nat = rho_larger(log_miss, ratio_nat < GAIN_MAX_NAT ? ratio_nat : GAIN_MAX_NAT);
     return merged * rho_exp(ratio_nat) > (1.0f - merged) * rho_exp(log_miss);
 }
 

@@ -18,8 +18,7 @@
 
 float rho_tracker_body_prior_m2(const struct rho_tracker *tracker)
 {
-    const float half_m = PRIOR_SHARE * tracker->bodies.length_max_m;
-    const float length_m = half_m > PRIOR_LEAST_M ? half_m : PRIOR_LEAST_M;
+    const float length_m = rho_larger(PRIOR_SHARE * tracker->bodies.length_max_m, PRIOR_LEAST_M);
     return length_m * length_m / 12.0f;
 }
 

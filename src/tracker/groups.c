@@ -28,11 +28,6 @@
 
 #define NONE UINT16_MAX
 
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 static float longest_m(const struct step *step)
 {
     return step->tracker->bodies.length_max_m;
@@ -49,7 +44,7 @@ static int have_one_rate(const struct step *step, const struct rho_plot *one,
     }
     const float x_m = one->x_m - (step->sensor ? step->sensor->x_m : 0.0f),
                 y_m = one->y_m - (step->sensor ? step->sensor->y_m : 0.0f);
-    const float range_m = larger(rho_sqrt(x_m * x_m + y_m * y_m), apart_m);
+    const float range_m = rho_larger(rho_sqrt(x_m * x_m + y_m * y_m), apart_m);
     const float off_mps = rho_measurement_range_rate_error_mps(step->sensor, one->range_rate_mps,
                                                                other->range_rate_mps);
     const float slack_mps =
@@ -101,7 +96,8 @@ static struct outline outline_of(const struct step *step, unsigned row)
 /* How far a track goes until the plot that is farthest off the scan's time. */
 static float moved_m(const struct step *step, const struct outline *outline)
 {
-    const float vx_mps = outline->track->kalman.state[3], vy_mps = outline->track->kalman.state[4];
+    const float vx_mps = outline->track->kalman.state[RHO_VX],
+                vy_mps = outline->track->kalman.state[RHO_VY];
     return step->offset_max_s * rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
 }
 
@@ -110,7 +106,7 @@ static float half_box_m(const struct step *step, const struct outline *outline)
 {
     const float noise_m2 = step->sigma_max_m * step->sigma_max_m;
     return 1.5f * GATE_SIGMAS *
-               rho_sqrt(larger(outline->place_m2[0], outline->place_m2[2]) + noise_m2) +
+               rho_sqrt(rho_larger(outline->place_m2[0], outline->place_m2[2]) + noise_m2) +
            moved_m(step, outline);
 }
 
@@ -462,7 +458,7 @@ static void body_spread(const struct step *step, unsigned group, const struct rh
 
 static float within_limits(float sigma)
 {
-    sigma = larger(sigma, RHO_LIMIT_SIGMA_MIN);
+    sigma = rho_larger(sigma, RHO_LIMIT_SIGMA_MIN);
     return sigma < RHO_LIMIT_SIGMA_MAX ? sigma : RHO_LIMIT_SIGMA_MAX;
 }
 
@@ -509,8 +505,9 @@ static void open_groups(struct step *step)
         groups->of[i] = groups->next[i] = groups->owner[i] = NONE;
         step->report->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (is_valid) {
-            step->sigma_max_m = larger(step->sigma_max_m, rho_plot_sigma_m(plot));
-            step->offset_max_s = larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
+            step->sigma_max_m = rho_larger(step->sigma_max_m, rho_plot_sigma_m(plot));
+            step->offset_max_s =
+                rho_larger(step->offset_max_s, offset_s < 0.0f ? -offset_s : offset_s);
         }
     }
 }

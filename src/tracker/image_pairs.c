@@ -87,9 +87,8 @@ static int may_be_image(const struct rho_sensor *sensor, const struct rho_track_
 /* The line goes through the place, in the direction that two tracks say. */
 static int is_on(const struct rho_learned_reflector *line, const struct between *between)
 {
-    float along_m, across_m;
-    to_frame(line, between->x_m, between->y_m, &along_m, &across_m);
-    const float off_m = across_m - across_at(line, along_m);
+    float along_m;
+    const float off_m = off_line_m(line, between->x_m, between->y_m, &along_m);
     const float limit_m2 = variance_at(line, along_m) + between->variance_m2;
     /* either way along: the sign of the cosine does not matter */
     const float cosine =

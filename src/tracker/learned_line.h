@@ -5,6 +5,7 @@
 #ifndef RHOTRACK_LEARNED_LINE_H
 #define RHOTRACK_LEARNED_LINE_H
 
+#include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/reflector_learning.h"
 
@@ -22,6 +23,15 @@ static inline void to_frame(const struct rho_learned_reflector *line, float x_m,
 static inline float across_at(const struct rho_learned_reflector *line, float along_m)
 {
     return line->offset_m + line->slope * along_m;
+}
+
+/* How far a place is off the line, and where along it. */
+static inline float off_line_m(const struct rho_learned_reflector *line, float x_m, float y_m,
+                               float *along_m)
+{
+    float across_m;
+    to_frame(line, x_m, y_m, along_m, &across_m);
+    return across_m - across_at(line, *along_m);
 }
 
 static inline float variance_at(const struct rho_learned_reflector *line, float along_m)
@@ -50,8 +60,8 @@ static inline void refine(struct rho_learned_reflector *line, float along_m, flo
 
 static inline void reach_to(struct rho_learned_reflector *line, float along_m)
 {
-    line->from_m = along_m < line->from_m ? along_m : line->from_m;
-    line->to_m = along_m > line->to_m ? along_m : line->to_m;
+    line->from_m = rho_smaller(along_m, line->from_m);
+    line->to_m = rho_larger(along_m, line->to_m);
 }
 
 /* A target that has a plot of this scan, and may have an image. */

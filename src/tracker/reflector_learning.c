@@ -181,14 +181,12 @@ static int may_be_image_in_other(const struct rho_reflector_learning *learning,
     const float x_m = sensor ? sensor->x_m : 0.0f, y_m = sensor ? sensor->y_m : 0.0f;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         const struct rho_learned_reflector *other = &learning->lines[i];
-        float from_m, to_m, sensor_m, track_m;
+        float from_m, to_m;
         if (other == line || !is_observed(other)) {
             continue;
         }
-        to_frame(other, x_m, y_m, &from_m, &sensor_m);
-        to_frame(other, track->state[RHO_X], track->state[RHO_Y], &to_m, &track_m);
-        sensor_m -= across_at(other, from_m);
-        track_m -= across_at(other, to_m);
+        const float sensor_m = off_line_m(other, x_m, y_m, &from_m);
+        const float track_m = off_line_m(other, track->state[RHO_X], track->state[RHO_Y], &to_m);
         if (sensor_m * track_m < 0.0f) {
             const float at_m = from_m + (to_m - from_m) * sensor_m / (sensor_m - track_m);
             if (at_m >= other->from_m && at_m <= other->to_m) {
@@ -203,22 +201,20 @@ static void judge(struct rho_reflector_learning *learning, struct rho_learned_re
                   const struct rho_sensor *sensor, const struct rho_reflector_witness *witness,
                   const struct rho_track_report *target)
 {
-    float along_m, across_m;
     if (witness->hits < FOR_HITS + HITS_OF_OTHER * witness->other) {
         line->witnesses_against =
             (uint16_t)(line->witnesses_against +
                        !may_be_image_in_other(learning, line, sensor, target));
     } else {
-        to_frame(line, target->state[RHO_X], target->state[RHO_Y], &along_m, &across_m);
-        across_m -= across_at(line, along_m);
-        across_m = across_m < 0.0f ? -across_m : across_m;
+        float along_m;
+        const float off_m = off_line_m(line, target->state[RHO_X], target->state[RHO_Y], &along_m);
         if (line->witnesses_for == 0) {
             line->first = learning->steps;
         } else if (witness->since > line->first && line->late_ones < UINT8_MAX) {
             line->late_ones++;
         }
         line->witnesses_for++;
-        note_distance(line, across_m, witness->off_m / (float)witness->hits);
+        note_distance(line, off_m < 0.0f ? -off_m : off_m, witness->off_m / (float)witness->hits);
     }
     if (line->witnesses_for + line->witnesses_against >= MEMORY_WITNESSES) {
         line->witnesses_for /= 2;
@@ -261,9 +257,7 @@ static void forget_ended(struct rho_learned_reflector *line, const struct rho_re
 static float reach_of(const struct look *look, const struct rho_track_report *target,
                       const struct rho_kalman *image)
 {
-    const struct rho_plot *own = &look->scan->plots[target->plot];
-    const float sigma_m =
-        own->sigma_cross_m > own->sigma_range_m ? own->sigma_cross_m : own->sigma_range_m;
+    const float sigma_m = rho_plot_sigma_m(&look->scan->plots[target->plot]);
     struct rho_gate gate;
     float half_m[2];
     rho_gate_open(&gate, image, look->noise_density, look->sensor, look->scan->measures);
@@ -392,19 +386,23 @@ static int is_wall(const struct rho_learned_reflector *line)
            line->late_ones >= WALL_LATE_ONES && is_spread(line) && is_well_known(line);
 }
 
+static void forget(struct rho_learned_reflector *line)
+{
+    line->is_taken = line->is_used = 0;
+    line->pairs = 0.0f;
+}
+
 /* Walls that the tracker knows already are not learned. */
 static void decide(struct rho_reflector_learning *learning, const struct rho_tracker *tracker,
                    struct rho_learned_reflector *line)
 {
     if (line->witnesses_against > line->witnesses_for + 1) {
-        line->is_taken = line->is_used = 0;
-        line->pairs = 0.0f;
+        forget(line);
     } else if (line->is_taken && !line->is_used && is_wall(line)) {
         line->is_used = learning->num_told + learning->num_used < RHO_MAX_REFLECTORS;
         for (unsigned i = 0; i < tracker->num_reflectors; i++) {
             if (is_same(line, &tracker->reflectors[i])) {
-                line->is_taken = line->is_used = 0;
-                line->pairs = 0.0f;
+                forget(line);
             }
         }
         learning->num_used = (uint16_t)(learning->num_used + line->is_used);

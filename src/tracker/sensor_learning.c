@@ -21,8 +21,6 @@
  * for being seen seldom are counted for as long as they are there. Of a target that fades the first
  * miss counts alone: the pd that is learned is rather too high, and is never above the one stated.
  */
-#include <string.h>
-
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/measurement.h"
@@ -331,17 +329,14 @@ void rho_tracker_use_notch(struct step *step)
 /* The interval of the track's range rate; the last one where it has none. */
 static unsigned rate_of(const struct rho_sensor *sensor, const struct rho_track *track)
 {
-    float row[6], rate_mps, rate2;
-    uint32_t bits;
+    float row[6], rate_mps;
     if (!rho_measurement_range_rate(track->kalman.state, sensor,
                                     track->kalman.covariance[RHO_AT(2, 2)] > 0.0f, row,
                                     &rate_mps)) {
         return RHO_LEARN_RATES - 1u;
     }
     /* each ends at twice the square of the one before: the float's own exponent tells it */
-    rate2 = rate_mps * rate_mps / RATE_MIN2;
-    memcpy(&bits, &rate2, sizeof bits);
-    const uint32_t exponent = bits >> 23;
+    const uint32_t exponent = rho_float_bits(rate_mps * rate_mps / RATE_MIN2) >> 23;
     if (exponent < FLOAT_EXPONENT) {
         return 0;
     }

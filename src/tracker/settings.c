@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/settings.h"
 
+#include "rhotrack/detail/approx.h"
+
 /* Share of the largest acceleration that targets have for a whole initiation window. */
 #define TURN_SHARE 0.2f
 
@@ -124,11 +126,6 @@ enum rho_status rho_settings_check(const struct rho_settings *settings,
 
 /* ---- apply --------------------------------------------------------------------------------- */
 
-static float smaller(float a, float b)
-{
-    return a < b ? a : b;
-}
-
 static void apply_to_tracker(const struct rho_settings *settings, struct rho_tracker_config *config)
 {
     config->pd = settings->pd;
@@ -137,7 +134,7 @@ static void apply_to_tracker(const struct rho_settings *settings, struct rho_tra
     config->accel_max_mps2 = settings->accel_max_mps2;
     config->coast_scans_max = settings->coast_scans_max;
     config->work_max = settings->work_max;
-    config->late_max_s = smaller(LATE_SCANS * settings->scan_interval_s, LATE_LIMIT_S);
+    config->late_max_s = rho_smaller(LATE_SCANS * settings->scan_interval_s, LATE_LIMIT_S);
 }
 
 static void apply_to_initiator(const struct rho_settings *settings,
@@ -157,7 +154,7 @@ static void apply_to_initiator(const struct rho_settings *settings,
 
 static void apply_to_passive(const struct rho_settings *settings, struct rho_passive_config *config)
 {
-    const float range_m = smaller(settings->range_max_m, PASSIVE_RANGE_MAX_M);
+    const float range_m = rho_smaller(settings->range_max_m, PASSIVE_RANGE_MAX_M);
     config->range_max_m = range_m > PASSIVE_RANGE_MIN_M ? range_m : PASSIVE_RANGE_MIN_M;
     config->rho_cell_m = PASSIVE_SPAN * config->range_max_m / (float)RHO_PASSIVE_RHO_CELLS;
     config->v_max_mps = settings->v_max_mps;

@@ -44,6 +44,17 @@ static inline float rho_float_of(uint32_t bits)
     return binary.v;
 }
 
+/* Of two numbers the larger, and the smaller one; b where they cannot be compared (NaN). No stack. */
+static inline float rho_larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static inline float rho_smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
 /*
  * Sine and cosine of an angle in radians, |angle_rad| <= 100; NaN beyond. Absolute error <= 1e-7.
  */
