@@ -63,29 +63,28 @@ static void refuse_config(const struct command_line *line)
 /* Its own plots, and what a tracker may know of them. */
 static void say_next(const struct command_line *line)
 {
-    static const char *const names[] = {"plots.csv", "bearings.csv"};
     char *folder = line->runs > 1 ? path_join(line->output, "run-0000") : must_copy(line->output);
-    char *within = path_join(folder, "."), *config = next_command_beside(within, "scenario.ini");
-    char *tracks = path_join(folder, "tracks.csv");
+    char *files[] = {path_join(folder, "plots.csv"), path_join(folder, "bearings.csv")};
+    char *config = path_join(folder, "scenario.ini"), *tracks = path_join(folder, "tracks.csv");
     const char *words[8] = {"track"};
     size_t count = 1;
 
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const char *file = next_command_beside(within, names[i]);
-
-        if (file) {
-            words[count++] = file;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        if (file_bytes(files[i]) > 0) {
+            words[count++] = files[i];
         }
     }
-    if (count > 1 && config) {
+    if (count > 1 && file_bytes(config) > 0) {
         words[count++] = "--config";
         words[count++] = config;
         words[count++] = "-o";
         words[count++] = tracks;
         next_command_say(line, words);
     }
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        free(files[i]);
+    }
     free(folder);
-    free(within);
     free(config);
     free(tracks);
 }

@@ -12,18 +12,24 @@
 #include "rhotrack/detail/body_filter.h"
 
 /* n plots of a body of 12 by 3 m, each axis with so much noise. */
+static void add_plot(struct rho_body_look *look, double along_m, double across_m, double sigma_m)
+{
+    look->num_plots++;
+    look->along_m2 += (float)(along_m * along_m);
+    look->across_m2 += (float)(across_m * across_m);
+    look->cross_m2 += (float)(along_m * across_m);
+    look->noise_along_m2 += (float)(sigma_m * sigma_m);
+    look->noise_across_m2 += (float)(sigma_m * sigma_m);
+}
+
 static struct rho_body_look look_of(unsigned n, double sigma_m)
 {
-    struct rho_body_look look = {.num_plots = n};
+    struct rho_body_look look = {0};
     for (unsigned i = 0; i < n; i++) {
         double along_m = uniform(-6.0, 6.0), across_m = uniform(-1.5, 1.5);
         along_m += sigma_m * normal();
         across_m += sigma_m * normal();
-        look.along_m2 += (float)(along_m * along_m);
-        look.across_m2 += (float)(across_m * across_m);
-        look.cross_m2 += (float)(along_m * across_m);
-        look.noise_along_m2 += (float)(sigma_m * sigma_m);
-        look.noise_across_m2 += (float)(sigma_m * sigma_m);
+        add_plot(&look, along_m, across_m, sigma_m);
     }
     return look;
 }
@@ -70,12 +76,7 @@ static struct rho_body_look look_at(const double (*places_m)[2], unsigned n, dou
         const double along_m = places_m[i][0] + sigma_m * normal(),
                      across_m = places_m[i][1] + off_rad * along_m + sigma_m * normal();
         if (uniform(0.0, 1.0) < 0.7) {
-            look.num_plots++;
-            look.along_m2 += (float)(along_m * along_m);
-            look.across_m2 += (float)(across_m * across_m);
-            look.cross_m2 += (float)(along_m * across_m);
-            look.noise_along_m2 += (float)(sigma_m * sigma_m);
-            look.noise_across_m2 += (float)(sigma_m * sigma_m);
+            add_plot(&look, along_m, across_m, sigma_m);
         }
     }
     return look;

@@ -109,6 +109,20 @@ static void a_truck_is_one_track(void **state)
     }
 }
 
+/* Scan k of two vehicles: each has a track, the same one from the twentieth scan on. */
+static void keep_two(const struct vehicle *pair, int k, uint32_t ids[2])
+{
+    see(&pair[0], k);
+    see(&pair[1], k);
+    look(k);
+    for (int n = 0; n < 2 && k >= 20; n++) {
+        const int place = place_of(&pair[n], k);
+        assert_true(place >= 0);
+        ids[n] = ids[n] ? ids[n] : report.tracks[place].track_id;
+        assert_int_equal(report.tracks[place].track_id, ids[n]);
+    }
+}
+
 /* Seen apart first, then for long beside or behind each other. */
 static void neighbours_stay_two(void **state)
 {
@@ -129,15 +143,7 @@ static void neighbours_stay_two(void **state)
             struct vehicle now[2] = {pairs[i][0], pairs[i][1]};
             /* 20 m more between them, which they make good in 10 s */
             now[1].x_m += k < 100 ? 20.0 - 0.2 * k : 0.0;
-            see(&now[0], k);
-            see(&now[1], k);
-            look(k);
-            for (int n = 0; n < 2 && k >= 20; n++) {
-                const int place = place_of(&now[n], k);
-                assert_true(place >= 0);
-                ids[n] = ids[n] ? ids[n] : report.tracks[place].track_id;
-                assert_int_equal(report.tracks[place].track_id, ids[n]);
-            }
+            keep_two(now, k, ids);
             assert_true(k < 20 || report.num_tracks == 2);
         }
     }
@@ -156,15 +162,7 @@ static void plots_far_off_the_scans_time_are_owned(void **state)
     prepare(15.0f);
     own_s = 1.5;
     for (int k = 0; k < 220; k++) {
-        see(&pair[0], k);
-        see(&pair[1], k);
-        look(k);
-        for (int n = 0; n < 2 && k >= 20; n++) {
-            const int place = place_of(&pair[n], k);
-            assert_true(place >= 0);
-            ids[n] = ids[n] ? ids[n] : report.tracks[place].track_id;
-            assert_int_equal(report.tracks[place].track_id, ids[n]);
-        }
+        keep_two(pair, k, ids);
     }
 }
 
@@ -210,15 +208,7 @@ static void those_that_only_pass_stay_two(void **state)
     }
     prepare(25.0f);
     for (int k = 0; k < 120; k++) {
-        see(&pair[0], k);
-        see(&pair[1], k);
-        look(k);
-        for (int n = 0; n < 2 && k >= 20; n++) {
-            const int place = place_of(&pair[n], k);
-            assert_true(place >= 0);
-            ids[n] = ids[n] ? ids[n] : report.tracks[place].track_id;
-            assert_int_equal(report.tracks[place].track_id, ids[n]);
-        }
+        keep_two(pair, k, ids);
     }
 }
 
