@@ -15,6 +15,25 @@
 #define LATE_LIMIT_S 60.0
 #define INTERVAL_MIN_S 1e-3
 
+/* Fields of struct rho_settings that are parameters as they are. */
+#define SAME_FIELDS(FIELD)                                                                         \
+    FIELD(V_MIN_MPS, v_min_mps, float)                                                             \
+    FIELD(V_MAX_MPS, v_max_mps, float)                                                             \
+    FIELD(ACCEL_MAX_MPS2, accel_max_mps2, float)                                                   \
+    FIELD(PD, pd, float)                                                                           \
+    FIELD(SIGMA_RANGE_M, sigma_range_m, float)                                                     \
+    FIELD(SIGMA_AZIMUTH_RAD, sigma_azimuth_rad, float)                                             \
+    FIELD(SIGMA_ELEVATION_RAD, sigma_elevation_rad, float)                                         \
+    FIELD(SIGMA_RANGE_RATE_MPS, sigma_range_rate_mps, float)                                       \
+    FIELD(SIGMA_RAD, sigma_rad, float)                                                             \
+    FIELD(RANGE_MIN_M, range_min_m, float)                                                         \
+    FIELD(RANGE_MAX_M, range_max_m, float)                                                         \
+    FIELD(FALSE_TRACKS_PER_HOUR, false_tracks_per_hour, float)                                     \
+    FIELD(SCANS, scans, uint16_t)                                                                  \
+    FIELD(MIN_SCANS, min_scans, uint16_t)                                                          \
+    FIELD(COAST_SCANS_MAX, coast_scans_max, uint16_t)                                              \
+    FIELD(WORK_MAX, work_max, uint32_t)
+
 struct rho_settings parameters_settings(const struct parameters *parameters)
 {
     const double *value = parameters->value;
@@ -22,29 +41,16 @@ struct rho_settings parameters_settings(const struct parameters *parameters)
 
     parameters_check(parameters);
     rho_settings_default(&settings);
-    settings.v_min_mps = (float)value[PARAMETER_V_MIN_MPS];
-    settings.v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
-    settings.accel_max_mps2 = (float)value[PARAMETER_ACCEL_MAX_MPS2];
-    settings.pd = (float)value[PARAMETER_PD];
+#define TAKE(id, name, type) settings.name = (type)value[PARAMETER_##id];
+    SAME_FIELDS(TAKE)
+#undef TAKE
     settings.scan_interval_s =
         (float)fmax(value[PARAMETER_LATE_MAX_S] / LATE_SCANS, INTERVAL_MIN_S);
-    settings.sigma_range_m = (float)value[PARAMETER_SIGMA_RANGE_M];
-    settings.sigma_azimuth_rad = (float)value[PARAMETER_SIGMA_AZIMUTH_RAD];
-    settings.sigma_elevation_rad = (float)value[PARAMETER_SIGMA_ELEVATION_RAD];
-    settings.sigma_range_rate_mps = (float)value[PARAMETER_SIGMA_RANGE_RATE_MPS];
-    settings.sigma_rad = (float)value[PARAMETER_SIGMA_RAD];
-    settings.range_min_m = (float)value[PARAMETER_RANGE_MIN_M];
-    settings.range_max_m = (float)value[PARAMETER_RANGE_MAX_M];
     settings.area_is_fixed = parameters_is_set(parameters, PARAMETER_AREA_X_MIN_M);
     settings.area.x_min_m = (float)value[PARAMETER_AREA_X_MIN_M];
     settings.area.x_max_m = (float)value[PARAMETER_AREA_X_MAX_M];
     settings.area.y_min_m = (float)value[PARAMETER_AREA_Y_MIN_M];
     settings.area.y_max_m = (float)value[PARAMETER_AREA_Y_MAX_M];
-    settings.false_tracks_per_hour = (float)value[PARAMETER_FALSE_TRACKS_PER_HOUR];
-    settings.scans = (uint16_t)value[PARAMETER_SCANS];
-    settings.min_scans = (uint16_t)value[PARAMETER_MIN_SCANS];
-    settings.coast_scans_max = (uint16_t)value[PARAMETER_COAST_SCANS_MAX];
-    settings.work_max = (uint32_t)value[PARAMETER_WORK_MAX];
     return settings;
 }
 
@@ -72,26 +78,11 @@ bool parameters_take_settings(struct parameters *parameters, const struct rho_se
         enum parameter_id id;
         double before, value;
     } fields[] = {
-#define FIELD(id, name) {PARAMETER_##id, (double)before.name, (double)settings->name}
-        FIELD(V_MIN_MPS, v_min_mps),
-        FIELD(V_MAX_MPS, v_max_mps),
-        FIELD(ACCEL_MAX_MPS2, accel_max_mps2),
-        FIELD(PD, pd),
-        FIELD(SIGMA_RANGE_M, sigma_range_m),
-        FIELD(SIGMA_AZIMUTH_RAD, sigma_azimuth_rad),
-        FIELD(SIGMA_ELEVATION_RAD, sigma_elevation_rad),
-        FIELD(SIGMA_RANGE_RATE_MPS, sigma_range_rate_mps),
-        FIELD(SIGMA_RAD, sigma_rad),
-        FIELD(RANGE_MIN_M, range_min_m),
-        FIELD(RANGE_MAX_M, range_max_m),
-        FIELD(SCANS, scans),
-        FIELD(MIN_SCANS, min_scans),
-        FIELD(COAST_SCANS_MAX, coast_scans_max),
-        FIELD(FALSE_TRACKS_PER_HOUR, false_tracks_per_hour),
-        FIELD(WORK_MAX, work_max),
-#undef FIELD
-        {PARAMETER_LATE_MAX_S, LATE_SCANS * (double)before.scan_interval_s,
-         fmin(LATE_SCANS * (double)settings->scan_interval_s, LATE_LIMIT_S)},
+#define CHANGE(id, name, type) {PARAMETER_##id, (double)before.name, (double)settings->name},
+        SAME_FIELDS(CHANGE)
+#undef CHANGE
+            {PARAMETER_LATE_MAX_S, LATE_SCANS * (double)before.scan_interval_s,
+             fmin(LATE_SCANS * (double)settings->scan_interval_s, LATE_LIMIT_S)},
     };
 
     if (!go_with_sensors(parameters, settings)) {
