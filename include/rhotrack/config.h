@@ -133,8 +133,8 @@
 /* ---- Further capacities of trackers ---- */
 
 /*
- * Bins of one scan's neighbour look-up. More bins mean fewer distance tests. Default, embedded: 2.25
- * a plot. RAM: 2 bytes a bin and scan. 1 .. 32767.
+ * Bins of one scan's neighbour look-up. More bins mean fewer distance tests. Default, embedded:
+ * 2.25 a plot. RAM: 2 bytes a bin and scan. 1 .. 32767.
  */
 #ifndef RHO_MAX_BINS
 #define RHO_MAX_BINS RHO_CONFIG_PICK(RHO_MAX_PLOTS < 14563 ? RHO_MAX_PLOTS * 9 / 4 : 32767, 16384)
@@ -250,8 +250,8 @@
 
 /*
  * 1: the arithmetic of Kalman filters is straight code, and skips axes that are not coupled. 0:
- * loops with the same results but for the sign of a zero (1.2 KB less on a Cortex-M4 whose filter is
- * 1 alone).
+ * loops with the same results but for the sign of a zero (1.2 KB less on a Cortex-M4 whose filter
+ * is 1 alone).
  */
 #ifndef RHO_FAST_UPDATES
 #define RHO_FAST_UPDATES 1

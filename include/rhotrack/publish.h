@@ -51,8 +51,8 @@ RHO_MUST_CHECK enum rho_status rho_publish_tracks(const struct rho_report *repor
                                                   size_t capacity, size_t *size);
 
 /*
- * Messages that the bodies of the report's tracks take, 1 where none has one yet; 0: the tracker was
- * not told that its targets have bodies (rhotrack/body.h), or there is no tracker or report.
+ * Messages that the bodies of the report's tracks take, 1 where none has one yet; 0: the tracker
+ * was not told that its targets have bodies (rhotrack/body.h), or there is no tracker or report.
  *   report  of the tracker's last step
  * Cost: tracks. Stack: 160 bytes.
  */
@@ -126,8 +126,8 @@ RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_scan_assembl
                                                    struct rho_message_sensor_list *list);
 
 /*
- * What the tracker has learned of one described sensor, and uses. scan and epoch are 0: they are the
- * caller's. sensor_id beyond int16_t becomes -1.
+ * What the tracker has learned of one described sensor, and uses. scan and epoch are 0: they are
+ * the caller's. sensor_id beyond int16_t becomes -1.
  *   place  among the tracker's sensors: 0 .. num_sensors - 1
  * Returns 0 where there is no sensor at this place, or tracker or learned is NULL; *learned is
  * unchanged then. Cost: RHO_MAX_SENSORS. Stack: 216 bytes.

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * reflector_learning: walls, guard rails and quays that nobody told of, learned from what they show.
+ * reflector_learning: walls, guard rails and quays that nobody told of, learned from what they
+ * show.
  *
  *     rho_reflector_learning_init(&learning, sizeof learning);
  *     ...

@@ -11,10 +11,11 @@
  *            /:    |                                   crosses the wall it is seen.
  *     sensor  target
  *
- * Of walls that are told, or learned (reflector_learning.h), the tracker knows where the images of its tracks would be. Plots that no
- * track claims, and are where the image of one is, with its range rate where that is measured, are
- * GHOST (enum rho_fate): they start nothing. A young track that moves as the image of another one
- * ends. A target behind the wall is found where its motion differs from the image's.
+ * Of walls that are told, or learned (reflector_learning.h), the tracker knows where the images of
+ * its tracks would be. Plots that no track claims, and are where the image of one is, with its
+ * range rate where that is measured, are GHOST (enum rho_fate): they start nothing. A young track
+ * that moves as the image of another one ends. A target behind the wall is found where its motion
+ * differs from the image's.
  *
  * Stack: 88 bytes at most.
  */

@@ -28,7 +28,9 @@
 #define ASPECT_USUAL 4.0f
 /* It is never longer than so many times its width. */
 #define ASPECT_MAX 16.0f
-/* Squares over what n plots have on average that a stray plot, or a wrong first heading, may add. */
+/*
+ * Squares over what n plots have on average that a stray plot, or a wrong first heading, may add.
+ */
 #define STRAY_SQUARES 12.0f
 /* A slope before any was seen, 1 / variance: 5 scatterers on a body 6 times as long as wide. */
 #define SLOPE_WEIGHT 144.0f

@@ -156,7 +156,9 @@ void program_maintainers_free(struct program_maintainers *maintainers);
 bool program_maintainers_predict(struct program_maintainers *maintainers, double t_s,
                                  double *places_m);
 
-/* Scans of the first track, the second, ... in turn. log_densities: of each scan; NULL: estimated. */
+/*
+ * Scans of the first track, the second, ... in turn. log_densities: of each scan; NULL: estimated.
+ */
 bool program_maintainers_run(struct program_maintainers *maintainers,
                              const struct program_scans *scans, const double *log_densities);
 

@@ -501,7 +501,10 @@ static void print_results(const struct tracking *tracking, const struct inputs *
     }
 }
 
-/* With a truth of targets beside the plots its figures, else a picture; and a scene's own settings, unused. */
+/*
+ * With a truth of targets beside the plots its figures, else a picture; and a scene's own settings,
+ * unused.
+ */
 static void say_next(const struct command_line *line)
 {
     const char *plots = line->arguments[0];

@@ -143,7 +143,9 @@ static void sides_are_off_by_their_sigmas(void **state)
     }
 }
 
-/* One look that a neighbour's plot strays into: not a wide body for the rest of the track's life. */
+/*
+ * One look that a neighbour's plot strays into: not a wide body for the rest of the track's life.
+ */
 static void a_stray_plot_is_no_width(void **state)
 {
     struct rho_body_filter body;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The long memory of clutter (RHO_MAX_CLUTTER_CELLS): hot spots smaller than the window's map can
- * tell, how they are learned, where, and how they are forgotten. Limits are tried with a memory that
- * is made by hand, which takes the private header.
+ * tell, how they are learned, where, and how they are forgotten. Limits are tried with a memory
+ * that is made by hand, which takes the private header.
  */
 #include "../../src/initiation/search.h"
 #include "initiator_setup.h"

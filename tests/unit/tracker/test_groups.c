@@ -31,7 +31,9 @@ static void see(double x_m, double y_m, double rate_mps)
     plot->sigma_range_rate_mps = 1.0f;
 }
 
-/* One that flies east at 10 m/s, 1 m and 1 m/s uncertain, whose body is known from so many plots. */
+/*
+ * One that flies east at 10 m/s, 1 m and 1 m/s uncertain, whose body is known from so many plots.
+ */
 static void have_track(float plots_of_body)
 {
     struct rho_track *track = &tracker.tracks[0];

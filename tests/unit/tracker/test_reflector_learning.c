@@ -203,7 +203,9 @@ static void two_lanes_are_no_wall(void **state)
     }
 }
 
-/* A guard rail beside two lanes as near to each other as lanes are, and cars not in their middle. */
+/*
+ * A guard rail beside two lanes as near to each other as lanes are, and cars not in their middle.
+ */
 static void a_rail_beside_two_lanes_is_learned(void **state)
 {
     (void)state;

@@ -404,8 +404,8 @@ static void bounds_are_checked(void **state)
 }
 
 /*
- * Aircraft of 75 m/s pass tangentially at 10 to 21 km, 20 minutes each, one after the other; a radar
- * that is blind within 12 m/s of zero Doppler sees them not.
+ * Aircraft of 75 m/s pass tangentially at 10 to 21 km, 20 minutes each, one after the other; a
+ * radar that is blind within 12 m/s of zero Doppler sees them not.
  */
 static void pass(int k, double notch_mps)
 {

@@ -161,7 +161,9 @@ static const struct rho_sensor radar = {.sensor_id = 1, .pd = 0.9f, .range_max_m
 static struct rho_scan scan;
 static struct step at;
 
-/* Tracks that were confirmed, with 8 hits and no plot, the second maybe one of the first's target. */
+/*
+ * Tracks that were confirmed, with 8 hits and no plot, the second maybe one of the first's target.
+ */
 static void prepare(unsigned num_tracks)
 {
     draw(1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * error_lines: standard error of a program that runs for months. From error_lines_open on each line,
- * whichever part of the program writes it, begins with its time, and sensors that have a name
+ * error_lines: standard error of a program that runs for months. From error_lines_open on each
+ * line, whichever part of the program writes it, begins with its time, and sensors that have a name
  * ([sensor N] name) are called by it:
  *
  *     2026-11-22T09:14:03.250Z rhotrack: sensor 1 (north) is silent: ...

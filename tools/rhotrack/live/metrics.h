@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * metrics: all that a node counts and measures, in the text form of Prometheus, version 0.0.4. Names
- * begin with rhotrack_, units are in the names, and each has its HELP and TYPE.
+ * metrics: all that a node counts and measures, in the text form of Prometheus, version 0.0.4.
+ * Names begin with rhotrack_, units are in the names, and each has its HELP and TYPE.
  */
 #ifndef RHOTRACK_TOOL_METRICS_H
 #define RHOTRACK_TOOL_METRICS_H

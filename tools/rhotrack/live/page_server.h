@@ -2,11 +2,11 @@
 /*
  * page_server: one page of text over HTTP on 127.0.0.1, for a program that must not wait.
  *
- * It is no thread and no library: it waits in the program's own poll, by one descriptor, so the text
- * is made between two steps and needs no lock. What clients do is bounded: each call takes a few of
- * them, a request has 4 KiB and 2 s from the connection to the last byte of its answer, and where
- * all places are taken the one that has been there longest goes. The page is made ten times a second
- * at most, however often it is asked for.
+ * It is no thread and no library: it waits in the program's own poll, by one descriptor, so the
+ * text is made between two steps and needs no lock. What clients do is bounded: each call takes a
+ * few of them, a request has 4 KiB and 2 s from the connection to the last byte of its answer, and
+ * where all places are taken the one that has been there longest goes. The page is made ten times a
+ * second at most, however often it is asked for.
  */
 #ifndef RHOTRACK_TOOL_PAGE_SERVER_H
 #define RHOTRACK_TOOL_PAGE_SERVER_H

@@ -7,7 +7,8 @@
  * Data blocks (category, length, records) of any category are told apart. Records of these five
  * are taken apart by their field specification, with the length of every item of the standard
  * profiles (CAT048 1.27 to 1.32, CAT034 1.27 to 1.29, CAT001 1.2 to 1.4, CAT002 1.0 to 1.2, CAT062
- * 1.18 to 1.21), so that any valid record can be skipped. No heap, no recursion; nothing is read beyond the bytes that are given.
+ * 1.18 to 1.21), so that any valid record can be skipped. No heap, no recursion; nothing is read
+ * beyond the bytes that are given.
  * Cost: proportional to the bytes.
  */
 #ifndef RHOTRACK_TOOL_ASTERIX_H

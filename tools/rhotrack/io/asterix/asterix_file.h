@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * asterix_file: the records of radars (CAT048, CAT034, CAT001, CAT002) of a recording: data blocks one after the other,
- * as they were sent; or those in the UDP datagrams of a network recording (captured_datagrams.h).
+ * asterix_file: the records of radars (CAT048, CAT034, CAT001, CAT002) of a recording: data blocks
+ * one after the other, as they were sent; or those in the UDP datagrams of a network recording
+ * (captured_datagrams.h).
  *
- * Blocks of other categories are skipped and counted, a line each. A bad place is an error, `rhotrack: FILE:
- * byte N: what is wrong`, exit 2; with keep_going the rest of its block is skipped, and where its
- * length is not to be believed all bytes up to the next block of these categories that is good as a
- * whole. In a network recording the place is `packet N, byte M of its content`; datagrams that are
- * not blocks from the first byte to the last are left out and counted.
+ * Blocks of other categories are skipped and counted, a line each. A bad place is an error,
+ * `rhotrack: FILE: byte N: what is wrong`, exit 2; with keep_going the rest of its block is
+ * skipped, and where its length is not to be believed all bytes up to the next block of these
+ * categories that is good as a whole. In a network recording the place is `packet N, byte M of its
+ * content`; datagrams that are not blocks from the first byte to the last are left out and counted.
  */
 #ifndef RHOTRACK_TOOL_ASTERIX_FILE_H
 #define RHOTRACK_TOOL_ASTERIX_FILE_H
@@ -18,7 +19,8 @@
 
 /*
  * Whether a file is a recording: a name that ends with .ast or .asterix, or a plain file that
- * begins with a data block of such records, or of tracks (CAT062), that is good as a whole, or as a network recording.
+ * begins with a data block of such records, or of tracks (CAT062), that is good as a whole, or as a
+ * network recording.
  */
 bool asterix_file_is_asterix(const char *path);
 

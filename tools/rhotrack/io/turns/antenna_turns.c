@@ -132,7 +132,9 @@ bool antenna_turns_decide(struct antenna_turns *turns, const char *path, double 
     return has_any;
 }
 
-/* How far the antenna has turned since its cut, if it looks there, within half a turn of a guess. */
+/*
+ * How far the antenna has turned since its cut, if it looks there, within half a turn of a guess.
+ */
 static double turned_near(const struct turn_rule *rule, const double place_m[2], double guess_rad)
 {
     double since_cut = atan2(place_m[1], place_m[0]) - rule->cut_rad;
