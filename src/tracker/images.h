@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * images: where a wall shows a target a second time. Private to src/tracker.
+ * images: where a wall shows a target a second time. Private to src/tracker and src/walls.
  */
 #ifndef RHOTRACK_IMAGES_H
 #define RHOTRACK_IMAGES_H

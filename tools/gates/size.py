@@ -30,15 +30,16 @@ import measurements  # noqa: E402 (found by the line above)
 
 # The rows of the first table: title, files (patterns of room/file; -pattern: without these),
 # object.
-IMAGES = "*_validate tracker/snapshot"
+IMAGES = "*_validate settings/snapshot"
 ROWS = [
     ("initiation: kernels, fits, false-track rate, clutter map", "initiation/* -*_validate",
      "initiator"),
     ("tracks: estimation, association, tracker",
-     "estimation/* association/* tracker/* -*_validate -tracker/snapshot -tracker/bearing_*",
+     "estimation/* association/* tracker/* settings/* -*_validate -settings/snapshot -tracker/bearing_*",
      "tracker"),
     ("of these kalman, input and gate, by themselves; RAM of one track",
      "estimation/kalman* estimation/input* association/gate", "input"),
+    ("walls that are learned, linked only where they are called", "walls/*", ""),
     ("base and measurement", "base/* measurement/* -measurement/crossing", ""),
     ("passive sensors: crossing, bearings, tracker's part, linked only where they are called",
      "measurement/crossing bearings/* tracker/bearing_* -*_validate -bearings/frames", "passive"),
@@ -62,8 +63,8 @@ ROWS = [
 # stack. Not red.
 AIMS = [
     ("a radar node: all but passive sensors, papers, images and names",
-     "base/* measurement/* estimation/* association/* initiation/* tracker/* wire/* "
-     "-measurement/crossing -tracker/bearing_* -*_validate -tracker/snapshot -wire/message_names "
+     "base/* measurement/* estimation/* association/* initiation/* tracker/* settings/* wire/* "
+     "-measurement/crossing -tracker/bearing_* -*_validate -settings/snapshot -wire/message_names "
      "-wire/show*",
      96 * 1024, "initiator tracker scan_assembler report", 176 * 1024, 4096),
 ]

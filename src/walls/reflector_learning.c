@@ -6,13 +6,13 @@
 
 #include <string.h>
 
-#include "images.h"
+#include "../tracker/images.h"
 #include "learned_line.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/linalg.h"
-#include "step.h"
+#include "../tracker/step.h"
 
 #define MAGIC 0x52464c4eu /* "RFLN" */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * learned_line: a line that may be a wall, with its uncertainty. Private to src/tracker.
+ * learned_line: a line that may be a wall, with its uncertainty. Private to src/walls.
  */
 #ifndef RHOTRACK_LEARNED_LINE_H
 #define RHOTRACK_LEARNED_LINE_H
