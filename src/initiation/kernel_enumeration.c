@@ -404,9 +404,8 @@ static float open_ways(const struct search *search, const struct fan *fan,
 static int try_third_plots(struct search *search, const struct fan *fan,
                            const struct ending *ending, unsigned spans, unsigned gap)
 {
-    const struct rho_window_scan *scan =
-        rho_window_scan_at(&search->initiator->window, fan->spans[0].b - gap);
     const unsigned b = fan->spans[0].b;
+    const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, b - gap);
     struct way ways[SPANS_MAX];
     const float far_m = open_ways(search, fan, ending, spans, gap, ways) + ending->rounding_m +
                         GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);

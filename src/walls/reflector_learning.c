@@ -7,12 +7,12 @@
 #include <string.h>
 
 #include "../tracker/images.h"
+#include "../tracker/step.h"
 #include "learned_line.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/linalg.h"
-#include "../tracker/step.h"
 
 #define MAGIC 0x52464c4eu /* "RFLN" */
 
