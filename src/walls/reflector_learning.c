@@ -87,8 +87,9 @@ static struct rho_reflector wall_of(const struct rho_learned_reflector *line)
 struct look {
     const struct rho_scan *scan;
     const struct rho_sensor *sensor;
+    const struct rho_report *report;
     float noise_density;
-    float body_max_m;
+    const struct rho_tracker *tracker;
     unsigned images_left;
 };
 
@@ -103,8 +104,18 @@ static int looked_at(const struct look *look, const struct rho_kalman *image)
                                look->scan->sector_from_rad, look->scan->sector_to_rad);
 }
 
+/* The plot is the target's, or another one of its body. */
+static int is_own(const struct look *look, const struct rho_track_report *target, uint32_t plot)
+{
+    const struct rho_groups *groups = &look->tracker->bodies.groups;
+    return (int32_t)plot == target->plot ||
+           (rho_tracker_has_bodies(look->tracker) && plot < RHO_BODY_PLOTS &&
+            groups->of[plot] == groups->of[target->plot]);
+}
+
 /* The row of the nearest plot in the gate that is not the target's own, -1: none. */
-static int32_t nearest_plot(const struct look *look, const struct rho_kalman *image, int32_t own)
+static int32_t nearest_plot(const struct look *look, const struct rho_kalman *image,
+                            const struct rho_track_report *target)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
@@ -113,7 +124,7 @@ static int32_t nearest_plot(const struct look *look, const struct rho_kalman *im
     rho_gate_open(&gate, image, look->noise_density, look->sensor, look->scan->measures);
     for (uint32_t i = 0; i < look->scan->num_plots; i++) {
         const struct rho_plot *plot = &look->scan->plots[i];
-        if ((int32_t)i != own && rho_measurement_is_valid(plot, look->scan->measures) &&
+        if (!is_own(look, target, i) && rho_measurement_is_valid(plot, look->scan->measures) &&
             rho_gate_test(&gate, plot, &result) && (nearest < 0 || result.distance2 < least)) {
             least = result.distance2;
             nearest = (int32_t)i;
@@ -265,13 +276,23 @@ static float reach_of(const struct look *look, const struct rho_track_report *ta
     return half_m[0] + half_m[1];
 }
 
-/* Plots of the target's own body would be taken for the image's. */
+/* Neither is on the other's body: plots of the target's own would be taken for the image's. */
 static int is_apart(const struct look *look, const struct rho_track_report *target,
                     const struct rho_kalman *image)
 {
+    const struct rho_tracker *tracker = look->tracker;
     const float dx_m = image->state[RHO_X] - target->state[RHO_X],
                 dy_m = image->state[RHO_Y] - target->state[RHO_Y];
-    return dx_m * dx_m + dy_m * dy_m > look->body_max_m * look->body_max_m;
+    const unsigned row = (unsigned)(target - look->report->tracks);
+    struct rho_body body;
+    if (!rho_tracker_has_bodies(tracker) || !rho_tracker_body_of(tracker, row, &body)) {
+        return 1;
+    }
+    const float c = rho_cos(body.heading_rad), s = rho_sin(body.heading_rad);
+    const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
+    const float length_m = body.length_m + 3.0f * body.sigma_length_m,
+                width_m = body.width_m + 3.0f * body.sigma_width_m;
+    return along_m > length_m || along_m < -length_m || across_m > width_m || across_m < -width_m;
 }
 
 /* Looks for a plot at the track's image, and once as far beside it as the gate does not reach. */
@@ -299,7 +320,7 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
             (struct rho_reflector_witness){.track_id = target->track_id, .since = learning->steps};
     }
     look->images_left--;
-    const int32_t nearest = nearest_plot(look, &image, target->plot);
+    const int32_t nearest = nearest_plot(look, &image, target);
     const float off_m =
         nearest >= 0 ? learn_place(line, look, target, &look->scan->plots[nearest], crossing_m)
                      : 0.0f;
@@ -312,7 +333,7 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
     image.state[RHO_Y] += beside_m * line->sin_along;
     witness->hits = (uint16_t)(witness->hits + (nearest >= 0));
     witness->off_m += off_m;
-    witness->other = (uint16_t)(witness->other + (nearest_plot(look, &image, target->plot) >= 0));
+    witness->other = (uint16_t)(witness->other + (nearest_plot(look, &image, target) >= 0));
     witness->looks++;
     if (witness->looks == JUDGED_LOOKS) {
         judge(learning, line, look->sensor, witness, target);
@@ -487,7 +508,8 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     struct look look = {.scan = scan,
                         .sensor = rho_tracker_find_sensor(tracker, scan->sensor_id),
                         .noise_density = 1.0f,
-                        .body_max_m = tracker->bodies.length_max_m,
+                        .tracker = tracker,
+                        .report = report,
                         .images_left = of_plots < IMAGES_MAX ? of_plots + 1u : IMAGES_MAX};
     const int has_walls = learning->num_used > 0;
     learning->steps++;

@@ -117,6 +117,24 @@ static void a_wall_is_learned_from_cars_that_pass(void **state)
     }
 }
 
+/* Images nearer than the longest body is long, once the bodies are known to be shorter. */
+static void a_wall_is_learned_where_bodies_may_be_long(void **state)
+{
+    struct rho_reflector wall;
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    prepare(2);
+    assert_int_equal(rho_tracker_set_body_max(&tracker, 35.0f), RHO_OK);
+    for (int k = 0; k < 1500; k++) {
+        traffic(k, 0.3);
+        look(k);
+    }
+    assert_int_equal(num_walls(&wall), 1);
+    is_the_wall(&wall);
+}
+
 /* The images in the one are before the other, and have none in it. */
 static void walls_on_both_sides_are_learned(void **state)
 {
@@ -488,6 +506,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_wall_is_learned_from_cars_that_pass),
+        cmocka_unit_test(a_wall_is_learned_where_bodies_may_be_long),
         cmocka_unit_test(walls_on_both_sides_are_learned),
         cmocka_unit_test(without_images_nothing_is_learned),
         cmocka_unit_test(two_lanes_are_no_wall),
