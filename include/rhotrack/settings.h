@@ -37,6 +37,8 @@
  *   beam width                    sigma_azimuth_rad, sigma_elevation_rad: / 4; monopulse: / 10
  *   accuracy, rms                 the sigma itself
  *   velocity resolution           sigma_range_rate_mps: / 3.5; scans have RHO_MEASURES_RANGE_RATE
+ *   resolution                    resolution_range_m, resolution_azimuth_rad of struct rho_sensor;
+ *                                 beside others resolution_range_rate_mps
  *   elevations                    scans have RHO_MEASURES_Z; z_m of struct rho_sensor
  *   unambiguous velocity +-v      range_rate_span_mps of struct rho_sensor: 2 v
  *   MTI: lowest and blind speed   notch_mps, blind_speed_mps of struct rho_sensor

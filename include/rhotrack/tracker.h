@@ -255,6 +255,9 @@ struct rho_tracker_learned {
     unsigned blind_rates : 5, used_rates : 5; /* as learned; as the sensor's notch_mps has it now */
     unsigned notches_forgotten : 2;           /* that were none; after three no more is learned */
     uint8_t rate_looks[RHO_LEARN_RATES], rate_hits[RHO_LEARN_RATES]; /* halved at 250 */
+    /* resolution cell, along the line of sight and across: ln of what its square is of the first
+     * one's, and the weight of that (RHO_SHARES_PLOTS) */
+    float log_cell[2], cell_weight[2];
 };
 
 /* How often a sensor looks at a place. */
@@ -419,6 +422,9 @@ struct rho_tracker_known {
     uint32_t innovations, looks;      /* that was learned from */
     /* learned of a sensor of which no notch was stated (RHO_DOPPLER_NOTCH); 0: none */
     float notch_mps;
+    /* resolution cell in sigmas of plots, where none was stated (RHO_SHARES_PLOTS); 0: not learned
+     */
+    float resolution_range_sigmas, resolution_cross_sigmas;
 };
 
 /* Errors: NULL, STATE (not initialised, or the sensor was not described). Constant cost.

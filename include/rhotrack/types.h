@@ -198,6 +198,12 @@ struct rho_sensor {
      * RHO_DOPPLER_NOTCH does not read them
      */
     float notch_mps, blind_speed_mps;
+    /*
+     * its resolution cell: two targets that are nearer than that in all three give one plot. Those
+     * in range and azimuth are learned where they are 0 (gate best); with a range rate of 0 that
+     * does not tell targets apart. A build without RHO_SHARES_PLOTS does not read them
+     */
+    float resolution_range_m, resolution_azimuth_rad, resolution_range_rate_mps;
 };
 
 /* The use that a step made of an input: every plot or bearing gets exactly one fate. */

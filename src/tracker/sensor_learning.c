@@ -560,6 +560,7 @@ int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned)
     }
     return (!RHO_DOPPLER_NOTCH ||
             (learned->blind_rates <= RHO_LEARN_RATES && learned->used_rates <= RHO_LEARN_RATES)) &&
+           (!RHO_SHARES_PLOTS || rho_tracker_has_sound_cell(learned)) &&
            rho_is_within(learned->log_noise[0], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            rho_is_within(learned->log_noise[1], -LOG_NOISE_MAX, LOG_NOISE_MAX) &&
            learned->innovations <= INNOVATIONS_MAX && learned->is_lowered < 1u << RHO_LEARN_RINGS &&
@@ -585,6 +586,8 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
         .range_factor = factor_of(tracker, learned, 0),
         .cross_factor = factor_of(tracker, learned, 1),
         .innovations = learned->innovations,
+        .resolution_range_sigmas = RHO_SHARES_PLOTS ? rho_tracker_cell_sigmas(learned, 0) : 0.0f,
+        .resolution_cross_sigmas = RHO_SHARES_PLOTS ? rho_tracker_cell_sigmas(learned, 1) : 0.0f,
     };
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
         known->pd[ring] = learned->is_lowered >> ring & 1u

@@ -276,6 +276,26 @@ static inline int rho_tracker_is_frozen(const struct rho_track *track)
     return RHO_MAX_EXCLUDED_AREAS > 0 && track->is_frozen;
 }
 
+/* ---- resolution ------------------------------------------------------------------------------ */
+
+/* resolution_cell.c (RHO_SHARES_PLOTS): two targets of which a sensor makes one plot */
+int rho_tracker_is_cell(const struct rho_sensor *sensor);
+/* Variances of the distances at which it does, along the line of sight and across it. */
+void rho_tracker_cell_at(const struct step *step, const struct rho_plot *plot,
+                         const struct rho_measurement *seen, float near_m2[2]);
+/* ... and of range rates; 0: they do not tell targets apart. */
+float rho_tracker_rate_cell_mps2(const struct rho_sensor *sensor);
+/* What a pair of tracks says of the cell, along and across. */
+struct apart {
+    float is_one;       /* probability that one plot is of both */
+    float of_one_m2[2]; /* squared distance of both targets, expected if it is */
+    float of_two_m2[2]; /* ... and if it is not */
+    float near_m2[2];
+};
+void rho_tracker_learn_cell(struct step *step, const struct apart *apart);
+float rho_tracker_cell_sigmas(const struct rho_tracker_learned *learned, int axis);
+int rho_tracker_has_sound_cell(const struct rho_tracker_learned *learned);
+
 /* ---- bodies ---------------------------------------------------------------------------------- */
 
 /* Targets may give several plots a scan. */

@@ -70,6 +70,14 @@ struct cJSON *learned_json(const struct rho_tracker *tracker)
         if (known.notch_mps > 0) {
             cJSON_AddNumberToObject(object, "notch_mps", (double)known.notch_mps);
         }
+        if (known.resolution_range_sigmas > 0) {
+            cJSON_AddNumberToObject(object, "resolution_range_sigmas",
+                                    (double)known.resolution_range_sigmas);
+        }
+        if (known.resolution_cross_sigmas > 0) {
+            cJSON_AddNumberToObject(object, "resolution_cross_sigmas",
+                                    (double)known.resolution_cross_sigmas);
+        }
         cJSON_AddItemToArray(list, object);
     }
     return list;

@@ -49,6 +49,13 @@
       "a sensor is blind to range rates over ground within it of 0; 0: to none")                   \
     X(BLIND_SPEED_MPS, "blind_speed_mps", "m/s", 0, 0, 4e4, 0, 1,                                  \
       "and within notch_mps of multiples of it, as of pulse repetition frequencies; 0: to none")   \
+    X(RESOLUTION_RANGE_M, "resolution_range_m", "m", 0, 0, 1e5, 0, 1,                              \
+      "of two targets nearer than that in range, azimuth and range rate a sensor makes one plot; " \
+      "0: not known")                                                                              \
+    X(RESOLUTION_AZIMUTH_RAD, "resolution_azimuth_rad", "rad", 0, 0, 1, 0, 1,                      \
+      "in azimuth; 0: not known")                                                                  \
+    X(RESOLUTION_RANGE_RATE_MPS, "resolution_range_rate_mps", "m/s", 0, 0, 1e4, 0, 1,              \
+      "in range rate; 0: range rates do not tell targets apart")                                   \
     X(SIGMA_RAD, "sigma_rad", "rad", 0.00175, 1e-6, 0.5, 0, 1,                                     \
       "bearing noise of a passive sensor")                                                         \
     X(FRAME_TOLERANCE_S, "frame_tolerance_s", "s", 0.05, 0, 60, 0, 1,                              \
@@ -217,6 +224,10 @@ enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONF
     X(NOTCH_MPS, "notch_mps", "m/s", 0, 4e4, "it is blind to range rates within it of 0")          \
     X(BLIND_SPEED_MPS, "blind_speed_mps", "m/s", 0, 4e4,                                           \
       "and within notch_mps of multiples of it")                                                   \
+    X(RESOLUTION_RANGE_M, "resolution_range_m", "m", 0, 1e5,                                       \
+      "it makes one plot of two targets nearer than that in range, azimuth and range rate")        \
+    X(RESOLUTION_AZIMUTH_RAD, "resolution_azimuth_rad", "rad", 0, 1, "in azimuth")                 \
+    X(RESOLUTION_RANGE_RATE_MPS, "resolution_range_rate_mps", "m/s", 0, 1e4, "in range rate")      \
     X(SIGMA_RAD, "sigma_rad", "rad", 1e-6, 0.5, "bearing noise of a passive sensor")               \
     X(RANGE_BIAS_M, "range_bias_m", "m", -1e4, 1e4, "it measures ranges so much too long")         \
     X(AZIMUTH_BIAS_RAD, "azimuth_bias_rad", "rad", -0.5, 0.5,                                      \

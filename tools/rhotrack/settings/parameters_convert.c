@@ -237,6 +237,12 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
             OF_SENSOR(SENSOR_RANGE_RATE_SPAN_MPS, value[PARAMETER_RANGE_RATE_SPAN_MPS]),
         .notch_mps = OF_SENSOR(SENSOR_NOTCH_MPS, value[PARAMETER_NOTCH_MPS]),
         .blind_speed_mps = OF_SENSOR(SENSOR_BLIND_SPEED_MPS, value[PARAMETER_BLIND_SPEED_MPS]),
+        .resolution_range_m =
+            OF_SENSOR(SENSOR_RESOLUTION_RANGE_M, value[PARAMETER_RESOLUTION_RANGE_M]),
+        .resolution_azimuth_rad =
+            OF_SENSOR(SENSOR_RESOLUTION_AZIMUTH_RAD, value[PARAMETER_RESOLUTION_AZIMUTH_RAD]),
+        .resolution_range_rate_mps =
+            OF_SENSOR(SENSOR_RESOLUTION_RANGE_RATE_MPS, value[PARAMETER_RESOLUTION_RANGE_RATE_MPS]),
     };
 #undef OF_SENSOR
     turn_sector(sensor, parameters_turn_rad(parameters, sensor_id));
@@ -269,7 +275,9 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
         !is_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
         !is_asked_for(parameters, PARAMETER_RANGE_MAX_M) &&
         !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0) &&
-        !(parameters->value[PARAMETER_NOTCH_MPS] > 0.0)) {
+        !(parameters->value[PARAMETER_NOTCH_MPS] > 0.0) &&
+        !(parameters->value[PARAMETER_RESOLUTION_RANGE_M] > 0.0) &&
+        !(parameters->value[PARAMETER_RESOLUTION_AZIMUTH_RAD] > 0.0)) {
         return false;
     }
     parameters_to_any_sensor(parameters, sensor_id, sensor);
