@@ -252,8 +252,9 @@ struct rho_tracker_learned {
      * blind_rates intervals it sees targets so much worse than above that it has a notch there,
      * which is used as if it were stated (gate best); those looks are none of the rings'
      */
-    unsigned blind_rates : 5, used_rates : 5; /* as learned; as the sensor's notch_mps has it now */
-    unsigned notches_forgotten : 2;           /* that were none; after three no more is learned */
+    unsigned blind_rates : 5;       /* as learned */
+    unsigned used_rates : 5;        /* as the sensor's notch_mps has it now */
+    unsigned notches_forgotten : 2; /* that were none; after three no more is learned */
     uint8_t rate_looks[RHO_LEARN_RATES], rate_hits[RHO_LEARN_RATES]; /* halved at 250 */
     /* resolution cell, along the line of sight and across: ln of what its square is of the first
      * one's, and the weight of that (RHO_SHARES_PLOTS) */

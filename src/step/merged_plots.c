@@ -270,10 +270,13 @@ void rho_tracker_share_merged_plots(struct step *step)
         return; /* its own plot may be there */
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (!may_be_merged(&tracker->tracks[row])) {
+        const int has_own = rho_assignment_column(&tracker->assignment, row) != RHO_ASSIGNMENT_NONE;
+        /* one's own plot says nothing of another target */
+        if (tracker->assignment.num_pairs[row] <= (unsigned)has_own ||
+            !may_be_merged(&tracker->tracks[row])) {
             continue;
         }
-        if (rho_assignment_column(&tracker->assignment, row) != RHO_ASSIGNMENT_NONE) {
+        if (has_own) {
             note_resolved(step, row);
         } else if (find_pair(step, row, &pair) && is_merged(step, &pair, &gain_nat)) {
             share(step, &pair, gain_nat);

@@ -143,14 +143,12 @@ static int sees(const struct rho_tracker *tracker, const struct rho_tracker_pace
                 float y_m)
 {
     const struct rho_sensor *known = rho_tracker_find_sensor(tracker, pace->sensor_id);
-    struct rho_sensor sensor;
     if (!known) {
         return 1;
     }
-    sensor = *known;
-    sensor.x_m = pace->x_m; /* bearings say themselves where it is */
-    sensor.y_m = pace->y_m;
-    return rho_measurement_covers(&sensor, 0.0f, 0.0f, x_m, y_m);
+    /* bearings say themselves where it is: the place is moved as far as it is off */
+    return rho_measurement_covers(known, 0.0f, 0.0f, x_m + (known->x_m - pace->x_m),
+                                  y_m + (known->y_m - pace->y_m));
 }
 
 /* One of the sensors that saw the track last: two are known of where there are sectors. */
