@@ -314,11 +314,54 @@ static void least_bodies_have_a_size(void **state)
             look(k);
             assert_true(rho_tracker_is_sound(&tracker));
             if (rho_tracker_body_of(&tracker, 0, &body)) {
-                assert_true(body.length_m > 0.0f && body.length_m < 0.3f);
+                assert_true(fabs((double)body.length_m - 0.1) < 0.02);
                 assert_true(isfinite(body.sigma_length_m) && isfinite(body.sigma_width_m));
             }
         }
         assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
+    }
+}
+
+/* Of a body that stands nothing is learned: half as long as the longest, and as wide. */
+static void a_body_that_stands_is_half_as_long_as_the_longest(void **state)
+{
+    struct rho_body body;
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    prepare(15.0f);
+    for (int k = 0; k < 10; k++) {
+        (void)add(29.0, 50.0, 0.2);
+        (void)add(31.0, 50.0, 0.2);
+        look(k);
+    }
+    assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);
+    assert_true(fabs((double)body.length_m - 7.5) < 0.1);
+    assert_true(fabs((double)body.width_m - 7.5) < 0.1);
+}
+
+/* Places vary by 1e-7 m^2 on the least body that a filter can work with. */
+static void least_variances_are_sound(void **state)
+{
+    (void)state;
+    if (!RHO_BODIES) {
+        skip();
+    }
+    prepare(15.0f);
+    for (int k = 0; k < 20; k++) {
+        see(&truck, k);
+        look(k);
+    }
+    for (int i = 0; i < 3; i++) {
+        const struct rho_bodies good = tracker.bodies;
+        struct rho_body_filter *body = &tracker.bodies.of[0];
+        float *m2 = i == 0 ? &body->along_m2 : i == 1 ? &body->across_m2 : &body->prior_m2;
+        *m2 = 1.4e-7f;
+        assert_true(rho_tracker_is_sound(&tracker));
+        *m2 = 0.7e-7f;
+        assert_false(rho_tracker_is_sound(&tracker));
+        tracker.bodies = good;
     }
 }
 
@@ -372,6 +415,8 @@ int main(void)
         cmocka_unit_test(telling),
         cmocka_unit_test(poor_azimuths_teach_sound_bodies),
         cmocka_unit_test(least_bodies_have_a_size),
+        cmocka_unit_test(a_body_that_stands_is_half_as_long_as_the_longest),
+        cmocka_unit_test(least_variances_are_sound),
         cmocka_unit_test(unsound_bodies_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
