@@ -402,6 +402,30 @@ static void every_look_as_derived(void **state)
     expect_close(reference.along_m2, 1e-3);
 }
 
+/*
+ * A plot alone, at this place along a body of 3.5 m whose heading is known to .3 rad: the farther
+ * out it is, the more of it tells the turn. The width is learned where a tenth of it is left.
+ */
+static int learns_width(double along_m)
+{
+    struct rho_body_filter body;
+    struct rho_body_look look = {0};
+    rho_body_start(&body, 1, 1.0f);
+    moves(&body, 10.0f, 0.0f, 9.0f);
+    body.along.weight = 2000.0f;
+    const float before = body.across.weight;
+    add_plot(&look, along_m, 0.0, 0.0);
+    rho_body_add(&body, &look);
+    return body.across.weight > before;
+}
+
+static void a_plot_that_tells_little_but_the_turn_tells_no_width(void **state)
+{
+    (void)state;
+    assert_true(learns_width(1.97));  /* .14 of a plot */
+    assert_false(learns_width(2.53)); /* .07 */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -415,6 +439,7 @@ int main(void)
         cmocka_unit_test(a_heading_takes_a_speed_of_three_sigmas),
         cmocka_unit_test(what_a_new_body_is_taken_for),
         cmocka_unit_test(every_look_as_derived),
+        cmocka_unit_test(a_plot_that_tells_little_but_the_turn_tells_no_width),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

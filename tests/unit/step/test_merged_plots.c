@@ -401,6 +401,28 @@ static void a_pair_that_was_missed_is_seen_again(void **state)
     assert_true(confirmed >= 1);
 }
 
+/* Two abreast are seen as one by the last plot of a scan, the first one that has no room. */
+static void a_shared_plot_beyond_the_capacity_is_told_by_its_row(void **state)
+{
+    (void)state;
+    if (!RHO_CLAIMS_BEYOND) {
+        skip();
+    }
+    begin_pair(7);
+    for (int k = 0; k < 25; k++) {
+        const double x_m = SPEED_MPS * 10.0 * k;
+        for (int i = 0; i < RHO_MAX_PLOTS && k == 24; i++) {
+            add(x_m + 500.0 * i, 40000.0, SIGMA_M);
+        }
+        for (int i = 0; i < (k < 20 ? 2 : 1); i++) {
+            add(x_m, k < 20 ? 60.0 * i : 30.0, SIGMA_M);
+        }
+        step(10.0 * k);
+    }
+    assert_int_equal(report.num_tracks, 2);
+    assert_int_equal(find_share().plot, RHO_MAX_PLOTS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -415,6 +437,7 @@ int main(void)
         cmocka_unit_test(those_whose_ranges_differ_share_nothing),
         cmocka_unit_test(a_shared_plot_has_its_own_time),
         cmocka_unit_test(a_pair_that_was_missed_is_seen_again),
+        cmocka_unit_test(a_shared_plot_beyond_the_capacity_is_told_by_its_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
