@@ -6,7 +6,7 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 
-#define DIMENSIONS_MAX 4
+#define DIMENSIONS_MAX (RHO_Z + 2) /* x, y, z and the range rate */
 #define BOX_MARGIN 1.001f /* more than rounding is wrong by */
 
 /* The expected range rate: the same for all plots without an own time. */

@@ -11,9 +11,9 @@
 
 #include "imm_axes.h"
 
-/* States of the steady and of the manoeuvring model. */
-#define RHO_PLANE_STEADY 4
-#define RHO_PLANE_MANOEUVRE 6
+/* States of the steady and of the manoeuvring model, of two axes. */
+#define RHO_PLANE_STEADY (2 * 2)
+#define RHO_PLANE_MANOEUVRE (2 * 3)
 
 /* Predicted range rate of an estimate. */
 struct plane_rate {

@@ -10,8 +10,8 @@
 #include "rhotrack/detail/linalg.h"
 #include "search.h"
 
-#define ROWS_MAX 4     /* along, cross, up, range rate */
-#define UNKNOWNS_MAX 8 /* place and velocity, acceleration in the plane */
+#define ROWS_MAX (3 + 1)         /* along, cross, up, range rate */
+#define UNKNOWNS_MAX (3 + 3 + 2) /* place and velocity, acceleration in the plane */
 
 /* The plot of scan m nearest to a fitted track; -1: none. factor widens the gate's covariance. */
 int rho_initiator_nearest_anisotropic(struct search *search, const struct line_fit *fit,

@@ -350,8 +350,8 @@ int rho_measurement_range_rate(const float state[6], const struct rho_sensor *se
 
 /* ---- ambiguous range rates ------------------------------------------------------------------- */
 
-#define INNOVATIONS_MAX 7
-#define TURNS_MAX 1.0e6f /* what is farther off is no range rate */
+#define INNOVATIONS_MAX (3 + 3 + 1) /* place, velocity, range rate */
+#define TURNS_MAX 1.0e6f            /* what is farther off is no range rate */
 
 /* Standard deviations of the expectation within half the span. */
 #define CLEAR_SIGMAS 3.0f
