@@ -310,6 +310,41 @@ static void the_margin_of_the_range_is_as_derived(void **state)
     }
 }
 
+/* Whether the plot is within the coverage, 1 .. 50 km to the east, 30 degrees to either side. */
+static int is_covered(double x_m, double y_m, double sigma_range_m, double sigma_cross_m)
+{
+    const struct rho_sensor sensor = {.sensor_id = NEAR,
+                                      .pd = 0.9f,
+                                      .range_min_m = 1e3f,
+                                      .range_max_m = 5e4f,
+                                      .sector_from_rad = -0.5f,
+                                      .sector_to_rad = 0.5f};
+    const struct rho_plot plot = {.x_m = (float)x_m,
+                                  .y_m = (float)y_m,
+                                  .sigma_range_m = (float)sigma_range_m,
+                                  .sigma_cross_m = (float)sigma_cross_m};
+    const struct rho_scan scan = {.sensor_id = NEAR, .num_plots = 1, .plots = &plot};
+    start(RHO_TRACKER_NEAREST);
+    assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
+    assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
+    assert_int_equal(tracker.counters.plots_outside, report.fates_total[RHO_FATE_INVALID]);
+    return report.fates_total[RHO_FATE_INVALID] == 0;
+}
+
+/* A target at the border has plots up to four standard deviations beyond it. */
+static void plots_just_beyond_the_coverage_are_of_it(void **state)
+{
+    (void)state;
+    for (int beyond = 3; beyond <= 5; beyond += 2) {
+        const double angle = 0.5 + 0.01 * beyond; /* 100 m at 10 km */
+        const int expected = beyond < 4;
+        assert_int_equal(is_covered(5e4 + 100.0 * beyond, 0.0, 100.0, 1.0), expected);
+        assert_int_equal(is_covered(1e3 - 50.0 * beyond, 0.0, 50.0, 1.0), expected);
+        assert_int_equal(is_covered(1e4 * cos(angle), 1e4 * sin(angle), 1.0, 100.0), expected);
+        assert_int_equal(is_covered(1e4 * cos(angle), -1e4 * sin(angle), 1.0, 100.0), expected);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -319,6 +354,7 @@ int main(void)
         cmocka_unit_test(no_plot_is_lost_at_the_edge_of_a_sector),
         cmocka_unit_test(a_plot_far_off_in_its_own_time_is_claimed),
         cmocka_unit_test(the_margin_of_the_range_is_as_derived),
+        cmocka_unit_test(plots_just_beyond_the_coverage_are_of_it),
         cmocka_unit_test(between_looks_a_report_goes_on_with_the_turn),
     };
 

@@ -174,6 +174,17 @@ static void silence_teaches_nothing(void **state)
     assert_true(tracker.straight_s < 0.2f * straight_s && calm_s() <= 300.0);
 }
 
+/* Slow antennas look once in less than a minute: nothing is forgotten for that. */
+static void slow_looks_are_no_silence(void **state)
+{
+    (void)state;
+    begin_turns();
+    fly(300, TARGETS, 0);
+    assert_true(calm_s() >= 1200.0);
+    step(TURN_S * (turn - 1) + 45.0);
+    assert_true(calm_s() >= 1200.0);
+}
+
 /* Two states of the chain have no calm one; and gates without hypotheses none at all. */
 static void where_nothing_is_calm_nothing_is_learned(void **state)
 {
@@ -197,6 +208,7 @@ int main(void)
         cmocka_unit_test(what_is_learned_is_used),
         cmocka_unit_test(turns_take_it_back),
         cmocka_unit_test(silence_teaches_nothing),
+        cmocka_unit_test(slow_looks_are_no_silence),
         cmocka_unit_test(where_nothing_is_calm_nothing_is_learned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

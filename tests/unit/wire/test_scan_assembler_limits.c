@@ -498,6 +498,10 @@ static void configurations_beyond_their_ranges_are_refused(void **state)
     ALLOW(hold_us, 10000000);
     REFUSE(hold_us, -1);
     REFUSE(hold_us, 10000001);
+    ALLOW(late_max_us, 0);
+    ALLOW(late_max_us, 60 * SECOND_US);
+    REFUSE(late_max_us, -1);
+    REFUSE(late_max_us, 60 * SECOND_US + 1);
     ALLOW(jump_max_us, 1000000);
     ALLOW(jump_max_us, 3600 * SECOND_US);
     REFUSE(jump_max_us, 999999);
