@@ -164,7 +164,7 @@ static void it_does_not_wait_for_ever(void **state)
     for (; k < 106; k++) {
         (void)see(0.5 * k, 100.0 - 0.2 * (k - 100), 3.0, -0.4, 0.0, 0.1, 0.3);
     }
-    for (; k < 106 + 200; k++) {
+    for (; k < 106 + 560; k++) {
         (void)see(0.5 * k, 98.8, 3.0, 0.0, 0.0, 0.3, 0.3);
     }
     assert_int_equal(report.num_tracks, 1);
@@ -186,6 +186,76 @@ static void what_has_gone_ends(void **state)
         }
         /* 75 m/s is within 12 of a multiple of 40 m/s: nothing says that it has gone */
         assert_int_equal(report.num_tracks, blind);
+    }
+}
+
+/* What the twentieth plot of an aircraft adds to its score; from then on looks are blind, or not. */
+static double gain_nat(int is_blind)
+{
+    double before_nat = 0.0;
+    prepare(350.0f, 20.0f, 30.0f);
+    describe(0.0f, 0.0f);
+    for (int k = 0; k < 20; k++) {
+        (void)see(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, 0.0);
+        if (k == 18) {
+            before_nat = (double)report.tracks[0].score_nat;
+            describe(is_blind ? 12.0f : 0.0f, is_blind ? 37.5f : 0.0f);
+        }
+    }
+    assert_int_equal(report.num_tracks, 1);
+    return (double)report.tracks[0].score_nat - before_nat;
+}
+
+/* All looks but one of a hundred are blind, and of these three of a hundred have a plot. */
+static void a_plot_in_the_notch_is_unlikely(void **state)
+{
+    (void)state;
+    const double less_nat = gain_nat(0) - gain_nat(1);
+    assert_true(fabs(less_nat - log(0.9 / (0.99 * 0.03 + 0.01 * 0.9))) < 0.2);
+}
+
+/* One step without the initiator: 240 plots of clutter that the target is not in. */
+static void see_among_clutter(double t_s, int is_seen)
+{
+    for (int i = 0; i < 240; i++) {
+        add(9000.0 + 200.0 * (i % 60), -2600.0 + 400.0 * (i / 60), 30.0);
+    }
+    if (is_seen) {
+        add_noisy(8000.0 + 75.0 * t_s, 0.0, 30.0);
+    }
+    const struct rho_scan scan = {
+        .time_us = llround(t_s * 1e6), .sensor_id = SENSOR, .num_plots = num_plots, .plots = plots};
+    assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
+    num_plots = 0;
+}
+
+/* Plots of clutter in the gate of three sigmas: those that nobody claimed, over where they were. */
+static double clutter_in_gate(void)
+{
+    const struct rho_extent *extent = &tracker.extent;
+    const double area_m2 =
+        (double)(extent->x_max_m - extent->x_min_m) * (double)(extent->y_max_m - extent->y_min_m);
+    return 9.0 * 3.141592653589793 * pow((double)report.tracks[0].sigma_m, 2.0) *
+           (double)tracker.unclaimed_plots / area_m2;
+}
+
+/* A track in the notch is missed all the same where three plots of clutter are in its gate. */
+static void clutter_ends_the_wait(void **state)
+{
+    (void)state;
+    for (int last = 40; last < 44; last++) {
+        double before = 0.0;
+        prepare(350.0f, 20.0f, 30.0f);
+        describe(12.0f, 37.5f);
+        for (int k = 0; k < 12; k++) {
+            (void)see(4.0 * k, 8000.0 + 300.0 * k, 0.0, 75.0, 0.0, 30.0, 0.0);
+        }
+        for (int k = 12; k < 80 && report.tracks[0].misses == 0; k++) {
+            before = clutter_in_gate();
+            see_among_clutter(4.0 * k, k < last);
+            assert_int_equal(report.num_tracks, 1);
+        }
+        assert_true(before < 3.3 && clutter_in_gate() > 2.7);
     }
 }
 
@@ -241,10 +311,16 @@ static void a_notch_is_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_aircraft_passes),        cmocka_unit_test(not_told_it_is_lost),
-        cmocka_unit_test(a_platform_moves),          cmocka_unit_test(a_car_stops),
-        cmocka_unit_test(it_does_not_wait_for_ever), cmocka_unit_test(what_has_gone_ends),
-        cmocka_unit_test(the_sensor_is_not_blamed),  cmocka_unit_test(a_notch_is_checked),
+        cmocka_unit_test(an_aircraft_passes),
+        cmocka_unit_test(not_told_it_is_lost),
+        cmocka_unit_test(a_platform_moves),
+        cmocka_unit_test(a_car_stops),
+        cmocka_unit_test(it_does_not_wait_for_ever),
+        cmocka_unit_test(what_has_gone_ends),
+        cmocka_unit_test(the_sensor_is_not_blamed),
+        cmocka_unit_test(a_notch_is_checked),
+        cmocka_unit_test(a_plot_in_the_notch_is_unlikely),
+        cmocka_unit_test(clutter_ends_the_wait),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
