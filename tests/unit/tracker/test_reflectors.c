@@ -178,6 +178,170 @@ static void an_established_track_stays(void **state)
     assert_int_equal(report.num_tracks, 2);
 }
 
+/* ---- limits from both sides ------------------------------------------------------------------ */
+
+/* Without noise, but stated as others: where tracks are is where cars are. */
+static void see_exactly(const struct car *car, double t_s)
+{
+    (void)add(car->x_m + car->vx_mps * t_s, car->y_m + car->vy_mps * t_s, 0.5);
+}
+
+static void tell(const struct rho_reflector *told)
+{
+    assert_int_equal(rho_tracker_set_reflectors(&tracker, told, told ? 1 : 0), RHO_OK);
+}
+
+static const struct car plain = {-60.0, 20.0, 12.0, 0.0};
+
+/* The line of sight to the image passes the end of the wall by so many of the track's sigmas. */
+static unsigned ghosts_beside(double sigmas)
+{
+    const struct car image = image_of(&plain);
+    prepare(0);
+    for (int k = 0; k < 30; k++) {
+        see_exactly(&plain, 0.1 * k);
+        look(k);
+    }
+    const double x_m = plain.x_m + plain.vx_mps * 3.0, crossing_m = x_m * 40.0 / image.y_m;
+    const double end_m = crossing_m + sigmas * (double)report.tracks[0].sigma_m;
+    const struct rho_reflector told = {(float)end_m, 40.0f, 300.0f, 40.0f};
+    tell(&told);
+    see_exactly(&plain, 3.0);
+    see_exactly(&image, 3.0);
+    look(30);
+    return report.fates_total[RHO_FATE_GHOST];
+}
+
+static void a_line_of_sight_may_pass_the_end_by_three_sigmas(void **state)
+{
+    (void)state;
+    assert_int_equal(ghosts_beside(2.2), 1);
+    assert_int_equal(ghosts_beside(4.4), 0);
+}
+
+/* How far one is off the image of the other in x, y and their rates, in chi-square. */
+static double chi2_of(const struct rho_track_report *of, const struct rho_track_report *one)
+{
+    static const int rows[4] = {0, 1, 3, 4};
+    double s[4][5], chi2 = 0.0;
+    const double image[4] = {(double)of->state[0], 80.0 - (double)of->state[1],
+                             (double)of->state[3], -(double)of->state[4]};
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++) {
+            const int a = rows[i > j ? i : j], b = rows[i > j ? j : i];
+            const double sign = i % 2 == j % 2 ? 1.0 : -1.0;
+            s[i][j] =
+                (double)one->covariance[RHO_AT(a, b)] + sign * (double)of->covariance[RHO_AT(a, b)];
+        }
+        s[i][4] = (double)one->state[rows[i]] - image[i];
+    }
+    for (int k = 0; k < 4; k++) { /* elimination: each pivot has its part of chi2 */
+        chi2 += s[k][4] * s[k][4] / s[k][k];
+        for (int i = k + 1; i < 4; i++) {
+            const double factor = s[i][k] / s[k][k];
+            for (int j = k; j < 5; j++) {
+                s[i][j] -= factor * s[k][j];
+            }
+        }
+    }
+    return chi2;
+}
+
+/* A young track so far off the image, when the wall is told: whether it ends. */
+static int ends_off(double off_m, double *chi2)
+{
+    struct car near = image_of(&plain);
+    near.x_m += off_m;
+    for (int is_told = 0; is_told < 2; is_told++) {
+        prepare(0);
+        for (int k = 0; k < 32; k++) {
+            see_exactly(&plain, 0.1 * k);
+            if (k >= 20) {
+                see_exactly(&near, 0.1 * k);
+            }
+            tell(is_told && k == 31 ? &wall : NULL);
+            look(k);
+        }
+        if (!is_told) {
+            assert_int_equal(report.num_tracks, 2);
+            *chi2 = chi2_of(&report.tracks[0], &report.tracks[1]);
+        }
+    }
+    return report.num_tracks == 1;
+}
+
+/* chi2 18.5 in four dimensions, by place and velocity. */
+static void a_young_track_at_an_image_ends(void **state)
+{
+    double most = 0.0, least = 1e9;
+    (void)state;
+    for (int i = 0; i < 40; i++) {
+        double chi2;
+        const int ends = ends_off(0.05 * i, &chi2);
+        most = ends ? fmax(chi2, most) : most;
+        least = ends ? least : fmin(chi2, least);
+    }
+    assert_true(most > 14.0 && most < 22.0);
+    assert_true(least > 16.0 && least < 28.0);
+}
+
+/* At the image for so long that it is established, seen in so many of ten looks: it ends. */
+static int ends_seen(int of_ten)
+{
+    const struct car image = image_of(&plain);
+    prepare(0);
+    for (int k = 0; k < 100; k++) {
+        see_exactly(&plain, 0.1 * k);
+        if (k < 6 || k * of_ten % 10 < of_ten) {
+            see_exactly(&image, 0.1 * k);
+        }
+        tell(k == 90 ? &wall : NULL);
+        look(k);
+        if (k == 90) {
+            return report.num_tracks == 1;
+        }
+        assert_true(k < 10 || report.num_tracks == 2);
+    }
+    return -1;
+}
+
+static void an_established_track_at_an_image_ends_where_it_is_seen_seldom(void **state)
+{
+    (void)state;
+    assert_int_equal(ends_seen(5), 1);
+    assert_int_equal(ends_seen(8), 0);
+}
+
+/* Units of the step with a wall, over those without: a plot beside the image's gate, or none. */
+static uint32_t work_of_wall(int has_plot)
+{
+    uint32_t work[2];
+    for (int is_told = 0; is_told < 2; is_told++) {
+        const struct car image = image_of(&plain);
+        prepare(0);
+        for (int k = 0; k <= 40; k++) {
+            see_exactly(&plain, 0.1 * k);
+            tell(is_told && k == 40 ? &wall : NULL);
+            if (has_plot && k == 40) { /* in the corner of its box */
+                (void)add(image.x_m + image.vx_mps * 4.0 + 2.0, image.y_m + 2.0, 0.5);
+            }
+            look(k);
+        }
+        assert_int_equal(report.num_tracks, 1);
+        assert_int_equal(report.fates_total[RHO_FATE_GHOST], 0);
+        work[is_told] = tracker.work.work;
+    }
+    return work[1] - work[0];
+}
+
+static void work_of_images_is_counted(void **state)
+{
+    (void)state;
+    /* one image is made, and one plot tested */
+    assert_int_equal(work_of_wall(0), 12);
+    assert_int_equal(work_of_wall(1), 12 + 3);
+}
+
 #define CARS (RHO_MAX_TRACKS < 400 ? RHO_MAX_TRACKS : 400)
 #define BEYOND RHO_TRACKER_WORK_BEYOND
 
@@ -251,6 +415,10 @@ int main(void)
         cmocka_unit_test(an_established_track_stays),
         cmocka_unit_test(many_young_tracks_and_walls_cost_no_more_than_they_may),
         cmocka_unit_test(walls_are_checked),
+        cmocka_unit_test(a_line_of_sight_may_pass_the_end_by_three_sigmas),
+        cmocka_unit_test(a_young_track_at_an_image_ends),
+        cmocka_unit_test(an_established_track_at_an_image_ends_where_it_is_seen_seldom),
+        cmocka_unit_test(work_of_images_is_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
