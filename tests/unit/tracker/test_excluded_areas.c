@@ -82,12 +82,35 @@ static void refuses_areas_that_are_none(void **state)
     assert_false(rho_tracker_is_sound(&tracker));
 }
 
+/* Eight comparisons of a plot with an area are one unit of work. */
+static void comparisons_are_work(void **state)
+{
+    uint32_t work[2];
+    (void)state;
+    for (int is_told = 0; is_told < 2; is_told++) {
+        draw(7);
+        begin();
+        for (int i = 0; i < 4 && is_told; i++) {
+            const struct rho_extent area = {-9000.0f, -8000.0f, 0.0f, 1.0f + (float)i};
+            assert_int_equal(rho_tracker_exclude_area(&tracker, &area), RHO_OK);
+        }
+        for (int i = 0; i < 64; i++) {
+            (void)add(1000.0 * i, 0.0, 10.0);
+        }
+        step(0.0);
+        assert_int_equal(report.fates_total[RHO_FATE_HELD], 64);
+        work[is_told] = tracker.work.work;
+    }
+    assert_int_equal(work[1] - work[0], 64 * 4 / 8);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plots_in_an_excluded_area_start_nothing),
         cmocka_unit_test(tracks_pass_through_an_excluded_area),
         cmocka_unit_test(refuses_areas_that_are_none),
+        cmocka_unit_test(comparisons_are_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -286,6 +286,8 @@ static void limits_beyond_a_minute_are_refused(void **state)
         config.late_max_s = bad[i];
         assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
     }
+    config.late_max_s = 60.0f;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
 }
 
 /* ---- what it is worth ------------------------------------------------------------------------ */
