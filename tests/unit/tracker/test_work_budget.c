@@ -213,6 +213,68 @@ static void echoes_are_looked_for_in_turns(void **state)
 }
 #endif
 
+/* ---- figures --------------------------------------------------------------------------------- */
+
+/* Units of the only plot, for each of its track's hypotheses: with these measurements. */
+static uint32_t units_of_plot(uint8_t gate, uint32_t measures, int32_t offset_us)
+{
+    uint32_t hypotheses = 0;
+    begin_with(0, gate);
+    for (int k = 0; k <= QUIET; k++) {
+        struct rho_plot *plot = add(200.0 * k, 0.0, 20.0);
+        plot->sigma_up_m = 20.0f;
+        plot->vx_mps = 100.0f;
+        plot->sigma_mps = 5.0f;
+        plot->offset_us = offset_us;
+        const struct rho_scan scan = {.time_us = INT64_C(2000000) * k,
+                                      .measures = measures,
+                                      .num_plots = num_plots,
+                                      .plots = plots};
+        hypotheses = k == QUIET ? report.tracks[0].num_hypotheses : 0;
+        assert_int_equal(rho_tracker_step(&tracker, k < QUIET ? &initiator : NULL, &scan, &report),
+                         RHO_OK);
+        num_plots = 0;
+    }
+    assert_int_equal(report.num_tracks, 1);
+    assert_int_equal(tracker.work.work % hypotheses, 0);
+    return tracker.work.work / hypotheses;
+}
+
+/* A gate test; the place; its own time; and a velocity in the plane, or with a height. */
+static void plots_near_a_track_cost_their_units(void **state)
+{
+    const uint32_t flat = RHO_MEASURES_VELOCITY, high = flat | RHO_MEASURES_Z;
+    (void)state;
+    assert_int_equal(units_of_plot(RHO_TRACKER_NEAREST, 0, 0), 12);
+    assert_int_equal(units_of_plot(RHO_TRACKER_BEST, 0, 0), 20);
+    assert_int_equal(units_of_plot(RHO_TRACKER_BEST, 0, 1000), 20 + 60);
+    assert_int_equal(units_of_plot(RHO_TRACKER_BEST, flat, 0), 20 + 70);
+    assert_int_equal(units_of_plot(RHO_TRACKER_BEST, high, 0), 20 + 140);
+}
+
+/*
+ * A quarter of the limit is for claims, half of it reserved: the first of eight tracks has an
+ * eighth of that, and a quarter of the other half. That is 3/64, 60 plots of 12 units each.
+ */
+static void a_track_has_its_share_of_the_work(void **state)
+{
+    (void)state;
+    begin_with(RHO_LIMIT_WORK, RHO_TRACKER_NEAREST);
+    for (int k = 0; k < QUIET; k++) {
+        see_targets(k);
+        step(2.0 * k);
+    }
+    assert_int_equal(report.num_tracks, TARGETS);
+    const float *at = report.tracks[0].state;
+    tracker.config.work_max = 64 * 60 * 12 / 3;
+    see_targets(QUIET);
+    for (int i = 0; i < CROWD; i++) {
+        (void)add((double)at[0] + 2.0 * (double)at[3] + 0.1 * i, (double)at[1], 20.0);
+    }
+    step_without_search(2.0 * QUIET, 1);
+    assert_in_range(tracker.work.plots_not_tried, CROWD - 60, CROWD + TARGETS - 60);
+}
+
 static void a_limit_beyond_what_counts_is_refused(void **state)
 {
     (void)state;
@@ -233,6 +295,8 @@ int main(void)
         cmocka_unit_test(echoes_are_looked_for_in_turns),
 #endif
         cmocka_unit_test(a_limit_beyond_what_counts_is_refused),
+        cmocka_unit_test(plots_near_a_track_cost_their_units),
+        cmocka_unit_test(a_track_has_its_share_of_the_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -137,6 +137,7 @@ static void values_beyond_the_message_become_its_largest(void **state)
     assert_int_equal(list.echoes[0].sensor_id, -1);
     assert_int_equal(list.echoes[0].hits, INT16_MAX);
     assert_true(list.echoes[0].x_m == 2e6f && list.echoes[0].y_m == -2e6f);
+    assert_true(list.echoes[0].sigma_range_m == 1e6f && list.echoes[0].sigma_cross_m == 1e6f);
 }
 
 int main(void)
