@@ -252,6 +252,25 @@ static void plots_near_a_track_cost_their_units(void **state)
     assert_int_equal(units_of_plot(RHO_TRACKER_BEST, high, 0), 20 + 140);
 }
 
+/* Of 256 plots in the order of x an eighth is in the box of the track: four are passed a unit. */
+static void plots_that_are_passed_over_cost_a_quarter_of_a_unit(void **state)
+{
+    (void)state;
+    if (RHO_PLOT_STRIPS > 1 || RHO_MAX_PLOTS < 256) {
+        skip();
+    }
+    begin_with(0, RHO_TRACKER_NEAREST);
+    for (int k = 0; k < QUIET; k++) {
+        (void)add(200.0 * k, 0.0, 20.0);
+        step(2.0 * k);
+    }
+    for (int i = 0; i < 256; i++) {
+        (void)add(200.0 * QUIET + 5000.0 * i, 0.0, 20.0);
+    }
+    step_without_search(2.0 * QUIET, 0);
+    assert_int_equal(tracker.work.work, 12 + 256 / 8 / 4);
+}
+
 /*
  * A quarter of the limit is for claims, half of it reserved: the first of eight tracks has an
  * eighth of that, and a quarter of the other half. That is 3/64, 60 plots of 12 units each.
@@ -297,6 +316,7 @@ int main(void)
         cmocka_unit_test(a_limit_beyond_what_counts_is_refused),
         cmocka_unit_test(plots_near_a_track_cost_their_units),
         cmocka_unit_test(a_track_has_its_share_of_the_work),
+        cmocka_unit_test(plots_that_are_passed_over_cost_a_quarter_of_a_unit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
