@@ -7,7 +7,7 @@
 #include "rhotrack/detail/linalg.h"
 
 #define DIMENSIONS_MAX (RHO_Z + 2) /* x, y, z and the range rate */
-#define BOX_MARGIN 1.001f /* more than rounding is wrong by */
+#define BOX_MARGIN 1.001f          /* more than rounding is wrong by */
 
 /* The expected range rate: the same for all plots without an own time. */
 static void expect_rate(const struct rho_kalman *at, const struct rho_sensor *sensor, int has_z,

@@ -189,7 +189,7 @@ static void what_has_gone_ends(void **state)
     }
 }
 
-/* What the twentieth plot of an aircraft adds to its score; from then on looks are blind, or not. */
+/* What the twentieth plot of an aircraft adds to its score; its look is blind, or is not. */
 static double gain_nat(int is_blind)
 {
     double before_nat = 0.0;
