@@ -401,6 +401,36 @@ static void a_pair_that_was_missed_is_seen_again(void **state)
     assert_true(confirmed >= 1);
 }
 
+/*
+ * Two abreast for twenty scans, missed in two, and in the next one seen as one; or each by a plot
+ * of its own, which is vague.
+ */
+static double sigma_after(int is_shared)
+{
+    begin_pair(8);
+    for (int k = 0; k < 23; k++) {
+        const double x_m = SPEED_MPS * 10.0 * k;
+        for (int i = 0; i < 2 && (k < 20 || (k == 22 && !is_shared)); i++) {
+            add(x_m, 60.0 * i, k < 20 ? SIGMA_M : sqrt(5.0) * SIGMA_M);
+        }
+        if (k == 22 && is_shared) {
+            add(x_m, 30.0, SIGMA_M);
+        }
+        step(10.0 * k);
+    }
+    assert_int_equal(report.num_tracks, 2);
+    assert_int_equal(find_share().tracks, is_shared);
+    return (double)report.tracks[0].sigma_m;
+}
+
+/* As uncertain as what lies up to two sigmas beside the plot: by root 5 sigmas. */
+static void a_shared_plot_is_a_vague_one(void **state)
+{
+    (void)state;
+    const double shared_m = sigma_after(1), vague_m = sigma_after(0);
+    assert_true(fabs(shared_m - vague_m) < 0.06 * vague_m);
+}
+
 /* Two abreast are seen as one by the last plot of a scan, the first one that has no room. */
 static void a_shared_plot_beyond_the_capacity_is_told_by_its_row(void **state)
 {
@@ -437,6 +467,7 @@ int main(void)
         cmocka_unit_test(those_whose_ranges_differ_share_nothing),
         cmocka_unit_test(a_shared_plot_has_its_own_time),
         cmocka_unit_test(a_pair_that_was_missed_is_seen_again),
+        cmocka_unit_test(a_shared_plot_is_a_vague_one),
         cmocka_unit_test(a_shared_plot_beyond_the_capacity_is_told_by_its_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
