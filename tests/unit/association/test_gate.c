@@ -234,6 +234,24 @@ static void no_plot_in_the_gate_is_outside_of_the_box(void **state)
     assert_true(inside > 1000 && outside > 1000);
 }
 
+/* Without own times the box is as wide as the gate of one axis, but for rounding. */
+static void the_box_is_no_larger_than_it_must_be(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 100; i++) {
+        const struct rho_kalman kalman = some_filter(3);
+        struct rho_gate gate;
+        float half_m[2];
+        rho_gate_open(&gate, &kalman, NOISE, NULL, 0u);
+        rho_gate_box(&gate, 60.0f, 0.0f, half_m);
+        for (int axis = 0; axis < 2; axis++) {
+            const double variance_m2 = (double)kalman.covariance[RHO_AT(axis, axis)] + 3600.0;
+            const double exact_m = sqrt((double)RHO_GATE_CHI2_4D * variance_m2);
+            assert_true((double)half_m[axis] >= exact_m && (double)half_m[axis] < 1.01 * exact_m);
+        }
+    }
+}
+
 static void a_range_rate_at_the_sensor_says_nothing(void **state)
 {
     (void)state;
@@ -306,6 +324,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_distance_has_as_many_dimensions_as_are_measured),
         cmocka_unit_test(no_plot_in_the_gate_is_outside_of_the_box),
+        cmocka_unit_test(the_box_is_no_larger_than_it_must_be),
         cmocka_unit_test(a_range_rate_at_the_sensor_says_nothing),
         cmocka_unit_test(z_counts_where_both_have_it),
         cmocka_unit_test(what_is_not_a_number_is_outside),
