@@ -93,6 +93,7 @@ static int has_left(unsigned k, unsigned s)
 struct count {
     unsigned looks, exchanges, left;
     unsigned targets, tracks;
+    double score_nat; /* of all tracks */
 };
 
 static void count_looks(struct count *count)
@@ -119,6 +120,9 @@ static void search_formations(struct count *count, double apart_m, double mps, d
             assert_int_equal(search_scene(&passive, &scene), RHO_OK);
             assert_true(are_tracks_sound(&passive));
             count_looks(count);
+            for (unsigned i = 0; i < passive.num_tracks; i++) {
+                count->score_nat += 1e-3 * passive.tracks[i].score_mnat;
+            }
             count->targets += targets;
             count->tracks += passive.num_tracks;
         }
@@ -140,6 +144,11 @@ static void test_each_look_is_given_out_as_well_as_can_be(void **state)
     assert_in_range(count.exchanges, 0, 4);
     assert_in_range(count.left, 0, 6);
     assert_in_range(count.tracks, count.targets * 97 / 100, count.targets);
+    /*
+     * Sets that turn out to be better than the best one take its place, in 13 of these searches
+     * more than twice: 101454.6 nat, and 13 less where two sets may.
+     */
+    assert_true(count.score_nat > 101448.0);
 }
 
 int main(void)
