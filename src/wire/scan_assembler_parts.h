@@ -49,7 +49,7 @@ enum scan_verdict {
  * newcomer had the turn. Higher values are checksums of the first part.
  */
 #define CHECK_NONE 0u
-#define CHECK_NOT_ADMITTED 1u
+#define CHECK_NOT_ADMITTED (CHECK_NONE + 1u)
 
 /* ---- scan_admission.c: numbers and clocks ---- */
 
