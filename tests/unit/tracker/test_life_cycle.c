@@ -700,6 +700,38 @@ static void nothing_is_faster_than_v_max_for_long(void **state)
     assert_true(rows <= 2); /* three updates in a row are too fast */
 }
 
+/*
+ * A track of clutter is given up once its score has fallen 4.6 nat below the threshold that started
+ * it, in steps of ln 2: one in a hundred is true.
+ */
+static void tentative_tracks_end_at_a_score(void **state)
+{
+    double least_nat = 0.0;
+    (void)state;
+    begin_by_rate(3);
+    config.pd = initiation.pd = 0.5f;
+    config.coast_scans_max = 50;
+    config.accel_max_mps2 = 5.0f;
+    begin();
+    for (int k = 0; k < 40; k++) {
+        const double before_nat = 1e-3 * tracker.start_mnat;
+        for (int i = 0; i < 30; i++) {
+            const double x_m = uniform(-2e4, 2e4);
+            add(x_m, uniform(-2e4, 2e4), 20.0);
+        }
+        if (k < 8) {
+            add_noisy(200.0 * k, 0.0, 20.0);
+        }
+        step(2.0 * k);
+        for (unsigned i = 0; i < report.num_tracks; i++) {
+            if (!tracker.tracks[i].was_confirmed) {
+                least_nat = fmin(least_nat, (double)report.tracks[i].score_nat - before_nat);
+            }
+        }
+    }
+    assert_true(least_nat > -4.7 && least_nat < -3.6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -714,6 +746,7 @@ int main(void)
         cmocka_unit_test(targets_that_have_gone_take_no_slots),
         cmocka_unit_test(plots_beyond_a_stated_coverage_are_invalid),
         cmocka_unit_test(nothing_is_faster_than_v_max_for_long),
+        cmocka_unit_test(tentative_tracks_end_at_a_score),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
