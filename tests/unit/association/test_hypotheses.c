@@ -549,12 +549,22 @@ static void a_target_that_weaves_in_clutter_is_kept(void **state)
     assert_true(num_lost <= 2);
 }
 
+/* As far as the gate reaches with the plot's noise alone: what is farther off costs less. */
+static void the_margin_of_the_box_is_the_gate_s(void **state)
+{
+    struct rho_hypotheses_box box = {0};
+    (void)state;
+    assert_float_equal(rho_hypotheses_box_margin_m(&pool, 0, &box, 20.0f, 0.0f),
+                       20.0 * sqrt((double)RHO_IMM_GATE), 0.1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_are_answered_as_by_the_plain_rules),
         cmocka_unit_test(plots_of_others_are_left_out_by_the_plain_rules),
         cmocka_unit_test(a_target_that_weaves_in_clutter_is_kept),
+        cmocka_unit_test(the_margin_of_the_box_is_the_gate_s),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
