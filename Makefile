@@ -166,8 +166,8 @@ demo-live:
 	@$(MAKE) --no-print-directory $(jobs) all
 	@RHOTRACK=$(abspath $(program)) tools/demo_live.sh $(BUILD)/demo-live
 
-experiment_names := air_traffic claims dense_windows doppler extended false_alarms initiation maneuver notch \
-                    papers_initiation passive polar real_skies rotating several_radars two_radars
+experiment_names := air_traffic claims dense_windows doppler extended extended_rivals false_alarms initiation \
+                    maneuver notch papers_initiation passive polar real_skies rotating several_radars two_radars
 ## Set up what is missing, build, and run all experiments of the lab (build/experiment; LAB=options; hours)
 experiments:
 	@tools/setup.sh
@@ -365,7 +365,7 @@ $(BUILD)/tests/bench/hough_opencv: tests/bench/hough_opencv.cpp Makefile
 	@mkdir -p $(@D) && echo "  c++      $@" && \
 	g++ -O2 $(opencv_flags) -o $@ $< -lopencv_imgproc -lopencv_core
 
-## Install Stone Soup in build/stonesoup (from the package index), where tools/lab/air_traffic.py finds it
+## Install Stone Soup in build/stonesoup (from the package index), where the lab finds it
 bench-stonesoup: $(BUILD)/stonesoup/bin/stonesoup.installed
 
 $(BUILD)/stonesoup/bin/stonesoup.installed: tests/bench/requirements.txt

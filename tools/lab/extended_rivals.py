@@ -1,0 +1,227 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Experiment extended-rivals: targets that give several plots a scan, by rhotrack and by others.
+
+The same scenes and seeds as in experiment extended, cut in time, go to rhotrack with bodies; to
+group tracking as Texas Instruments publishes it (parts/group_tracker.py); and, where the package is
+installed (`make bench-stonesoup`), to Stone Soup's trackers of points behind DBSCAN, as it has none
+of extended targets (parts/clustered_stonesoup.py).
+
+rhotrack is told what the scene tells: the longest body, speeds, errors. The others' settings were
+chosen for each kind of scene, on seeds from 1001. Tracks, identities, completeness and the centre's
+error are those of experiment extended. Switches: none of a target's tracks has the number of its
+last one. On none: tracks a scan that are on no target's body. Times are the processor's.
+"""
+import dataclasses
+import time
+
+import numpy as np
+
+from common import lab
+from common import scene_runs
+from common import stonesoup_tracker
+import extended
+from parts import clustered_stonesoup
+from parts import group_tracker
+import rhotrack
+
+RUNS = 3
+CAR = '{"length_m": 4.5, "width_m": 1.8, "scatterers": 3, "seen": 0.6}'
+CARS_AT_A_LIGHT = 24
+PLOT = ("t_s", "sensor_id", "range_m", "azimuth_rad", "range_rate_mps", "sector_from_rad",
+        "sector_to_rad", "scan")
+STONE_SOUP = {f"Stone Soup, {method.upper()}": method for method in clustered_stonesoup.METHODS}
+OWN, GROUPS = "rhotrack", "group tracking"
+
+# The settings: the best of a search along one of them after the other, from seed 1001, by tracks,
+# identities, switches, completeness, centre and tracks on none; one set for all roads, as rhotrack
+# has one of its defaults.
+ROAD = (0.2, 0.01, 0.1)
+ROAD_GROUPS = group_tracker.Settings(
+    ROAD, gate=16.0, distance_m=12.0, rate_mps=1.0, min_points=2, spread_m=1.5, spread_mps=0.3,
+    speed_mps=3.0, accel_mps2=0.2, smoothing=0.1, hits=3, lost_new=1, lost=5)
+ROAD_GNN = clustered_stonesoup.Settings(
+    ROAD, reach_m=8.0, reach_mps=2.0, min_points=1, centre_m=1.5, centre_mps=0.05,
+    process_noise=1.0, speed_mps=3.0, gate=4.0, clutter=1 / (1.2 * 200**2 * 40), hits=6, lost=8)
+ROAD_JPDA = dataclasses.replace(ROAD_GNN, lost=5)
+SHIPS = (5.0, 0.002)
+SHIP_GROUPS = group_tracker.Settings(
+    SHIPS, gate=12.0, distance_m=200.0, rate_mps=0.0, min_points=2, spread_m=80.0, spread_mps=0.0,
+    speed_mps=8.0, accel_mps2=0.003, smoothing=0.2, hits=3, lost_new=2, lost=5)
+SHIP_GNN = clustered_stonesoup.Settings(
+    SHIPS, reach_m=200.0, reach_mps=0.0, min_points=2, centre_m=40.0, centre_mps=0.0,
+    process_noise=0.001, speed_mps=8.0, gate=4.0, clutter=30 / (3.14 * 15000**2), hits=2, lost=5,
+    lost_m=500.0)
+SHIP_JPDA = dataclasses.replace(SHIP_GNN, process_noise=0.1, gate=2.5)
+
+
+@dataclasses.dataclass
+class Case:
+    name: str
+    scene: str
+    settle_s: float
+    groups: group_tracker.Settings
+    clusters: dict  # by Stone Soup's method
+    sets: tuple
+
+
+ON_ROADS = (ROAD_GROUPS, {"gnn": ROAD_GNN, "jpda": ROAD_JPDA})
+AT_SEA = (SHIP_GROUPS, {"gnn": SHIP_GNN, "jpda": SHIP_JPDA})
+CASES = (
+    Case("trucks", "trucks", 5.0, *ON_ROADS, ("duration_s=30",)),
+    Case("cars at a light", "traffic-light", 5.0, *ON_ROADS, (
+        "duration_s=30", "settings.body_max_m=15", "radars.0.notch_mps=0",
+        *(f"targets.{i}.body={CAR}" for i in range(CARS_AT_A_LIGHT)))),
+    Case("bodies-apart", "bodies-apart", 5.0, *ON_ROADS, ()),
+    Case("ships-250m", "ships-250m", 120.0, *AT_SEA, ()))
+
+
+def simulate(case, seed):
+    """The run, with the truth's columns."""
+    return scene_runs.simulate(case.scene, seed, *case.sets, also=lambda folder: with_headings(
+        extended.table(folder / "truth.csv")))
+
+
+def with_headings(truth):
+    """A target that stands is headed as it came: it creeps."""
+    last = {}
+    for row, target in enumerate(truth["target_id"]):
+        velocity = np.array([truth["vx_mps"][row], truth["vy_mps"][row]])
+        if np.hypot(*velocity) > 0.1:
+            last[target] = velocity / np.hypot(*velocity)
+        elif target in last:
+            truth["vx_mps"][row], truth["vy_mps"][row] = 1e-3 * last[target]
+    return truth
+
+
+def track_own(run):
+    """Tracks of all scans, and the mean time of a step in ms."""
+    names = [name for name in PLOT if name in run.plots.dtype.names]
+    rows = scene_runs.with_fields(run.plots, names)
+    tracker, found, times_ms = rhotrack.Tracker(run.settings), [], []
+    for scan in np.split(rows, np.flatnonzero(np.diff(rows["scan"])) + 1):
+        ready = rhotrack.Scans([scan], run.settings)
+        start = time.thread_time()
+        tracks = tracker.run(ready)
+        times_ms.append((time.thread_time() - start) * 1e3)
+        found.append(tracks[tracks["status"] != "tentative"])
+    found = np.concatenate(found)
+    return {name: found[name] for name in ("t_s", "track_id", "x_m", "y_m")}, np.mean(times_ms)
+
+
+def scans_of(run, num_axes):
+    """(time, plots, their times) of each scan."""
+    names = ["range_m", "azimuth_rad", "range_rate_mps"][:num_axes]
+    scans = []
+    for rows in run.scans:
+        plots = rows[scene_runs.has_plot(rows)]
+        scans.append((rows["t_s"][0], np.column_stack([plots[name] for name in names]),
+                      plots["t_s"]))
+    return scans
+
+
+def track(case, run, tracker):
+    """Columns of tracks, and ms a scan."""
+    if tracker == OWN:
+        return track_own(run)
+    if tracker == GROUPS:
+        rows, ms = group_tracker.track(scans_of(run, len(case.groups.sigmas)), case.groups)
+    else:
+        method = STONE_SOUP[tracker]
+        settings = case.clusters[method]
+        rows, ms = clustered_stonesoup.track(scans_of(run, len(settings.sigmas)), settings, method)
+    return {name: rows[name] for name in rows.dtype.names}, ms
+
+
+def switches(truth, tracks, pairs, length_m):
+    """How often a target of a length has no track of its last one's number, by target."""
+    ids, seen = truth["target_id"].astype(int), {}
+    for row, col, along, across in pairs:
+        if truth["length_m"][row] == length_m:
+            seen.setdefault((ids[row], truth["t_s"][row]), []).append(
+                (np.hypot(along, across), tracks["track_id"][col]))
+    last, count = {}, 0
+    for (target, _), found in sorted(seen.items()):
+        numbers = [number for _, number in found]
+        if target in last and last[target] not in numbers:
+            count += 1
+        if last.get(target) not in numbers:
+            last[target] = min(found)[1]
+    return count / len(np.unique(ids[truth["length_m"] == length_m]))
+
+
+def run_one(job):
+    """Figures by length; those of the scene alone are in each."""
+    number, tracker, seed = job
+    case = CASES[number]
+    run = simulate(case, seed)
+    tracks, ms = track(case, run, tracker)
+    return score(run.also, tracks, case.settle_s, ms)
+
+
+def score(truth, tracks, settle_s, ms):
+    tracks = {**tracks, "status": np.full(len(tracks["t_s"]), "confirmed")}
+    figures = extended.score(truth, tracks, settle_s)
+    pairs, _ = extended.pairs_of(truth, tracks)
+    return {float(length): {**of, "switches": switches(truth, tracks, pairs, float(length)),
+                            "others": figures["others"], "scan_ms": ms}
+            for length, of in figures.items() if length != "others"}
+
+
+def judge(report, figures):
+    """rhotrack is to be no worse than the best of the others. figures: by scene and length, of each
+    tracker (mean, its error)."""
+    for (scene, length), trackers in figures.items():
+        own, others = trackers[OWN], [of for name, of in trackers.items() if name != OWN]
+        for key in ("identities", "centre"):
+            value, error = lab.quotient_of(own[key], min(of[key] for of in others))
+            report.at_most(f"{scene}, {length:g} m: {key} over the best of the others", value, 1.0,
+                           error)
+        best = max(of["complete"] for of in others)
+        report.at_least(f"{scene}, {length:g} m: complete, less the best of the others",
+                        own["complete"][0] - best[0], -0.01,
+                        np.hypot(own["complete"][1], best[1]))
+
+
+def add_options(parser):
+    parser.add_argument("--scene", choices=[case.name for case in CASES], help="this one alone")
+
+
+def main():
+    options = lab.options_of(__doc__, RUNS, add_options)
+    report = lab.Report("Targets that give several plots a scan, by other trackers", options)
+    is_there = stonesoup_tracker.is_installed()
+    trackers = [OWN, GROUPS, *(STONE_SOUP if is_there else ())]
+    chosen = [number for number, case in enumerate(CASES) if options.scene in (None, case.name)]
+    jobs = [(number, tracker, options.seed + k) for number in chosen for tracker in trackers
+            for k in range(options.runs)]
+    done = report.map(run_one, jobs)
+    figures = {}
+    for number in chosen:
+        for tracker in trackers:
+            runs = [result for job, result in zip(jobs, done) if job[:2] == (number, tracker)]
+            for length in runs[0]:
+                figures.setdefault((CASES[number].name, length), {})[tracker] = {
+                    key: lab.mean_of([one[length][key] for one in runs]) for key in runs[0][length]}
+    report.text("Trucks and cars at a light (scene traffic-light without its notch, each car with "
+                "three scatterers) are cut to 30 s for all trackers alike. " + (
+                    "Stone Soup: its trackers of points, behind DBSCAN." if is_there else
+                    "Stone Soup is left out: the Python package stonesoup is not installed; "
+                    "`make bench-stonesoup` installs it."))
+    report.table(["scene", "length m", "tracker", "tracks a target", "identities a target",
+                  "switches a target", "complete", "centre over length", "on none a scan",
+                  "ms a scan"],
+                 [[scene, f"{length:g}", tracker, *(f"{of[key][0]:.3f}" for key in (
+                     "tracks", "identities", "switches", "complete", "centre", "others",
+                     "scan_ms"))]
+                  for (scene, length), found in figures.items() for tracker, of in found.items()])
+    report.fact("cases", [{"scene": scene, "length_m": length, "tracker": tracker,
+                           **lab.values_of(of)}
+                          for (scene, length), found in figures.items()
+                          for tracker, of in found.items()])
+    judge(report, figures)
+    report.close()
+
+
+if __name__ == "__main__":
+    main()
