@@ -411,7 +411,7 @@ static double sigma_after(int is_shared)
     for (int k = 0; k < 23; k++) {
         const double x_m = SPEED_MPS * 10.0 * k;
         for (int i = 0; i < 2 && (k < 20 || (k == 22 && !is_shared)); i++) {
-            add(x_m, 60.0 * i, k < 20 ? SIGMA_M : sqrt(5.0) * SIGMA_M);
+            add(x_m, 60.0 * i, k < 20 ? SIGMA_M : sqrt(2.0) * SIGMA_M);
         }
         if (k == 22 && is_shared) {
             add(x_m, 30.0, SIGMA_M);
@@ -423,7 +423,10 @@ static double sigma_after(int is_shared)
     return (double)report.tracks[0].sigma_m;
 }
 
-/* As uncertain as what lies up to two sigmas beside the plot: by root 5 sigmas. */
+/*
+ * Where the tracks know little each knows of the plot what (4 r + p) (n + p) - p^2 over
+ * 4 r + n + 4 p becomes, r + n / 4: with a cell of n = 4 r it is as vague as root 2 sigmas.
+ */
 static void a_shared_plot_is_a_vague_one(void **state)
 {
     (void)state;
