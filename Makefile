@@ -303,9 +303,9 @@ quick_scripts := $(addprefix tests/integration/,claims.sh command_line.sh docume
 quick_scripts := $(wildcard $(quick_scripts)) $(sort $(wildcard tests/regression/*.sh tests/regression/*.py)) \
                  $(addprefix tools/gates/,layers.py tested.py poison.sh extract_example.sh)
 # What the embedded profile leaves out is tested in the other one.
-left_out := evidence bodies groups
+left_out := tracker/test_evidence tracker/test_bodies tracker/test_groups step/test_split_bodies
 quick_programs := $(filter $(BUILD)/tests/embedded/%,$(unit_programs)) $(filter-out $(BUILD)/tests/lab/%,$(tool_programs)) \
-                  $(left_out:%=$(BUILD)/tests/workstation/unit/tracker/test_%)
+                  $(left_out:%=$(BUILD)/tests/workstation/unit/%)
 other_programs := $(filter-out $(quick_programs),$(unit_programs) $(tool_programs))
 other_scripts := $(filter-out $(quick_scripts),$(sort $(wildcard tests/integration/*.sh tests/lab/test_*.py)) \
                    tools/gates/gates.py tools/gates/determinism.sh)

@@ -16,8 +16,9 @@
  * the velocity): M. Feldmann, D. Franken, W. Koch, Tracking of Extended Objects and Group Targets
  * Using Random Matrices, IEEE Transactions on Signal Processing 59 (2011), 1409-1420.
  *
- * Not decided: two targets that are never farther apart than the longest body, from their first
- * plots on, are one. Plots of one body in two sectors of a turn are two groups.
+ * Two targets that are never farther apart than the longest body, from their first plots on, are
+ * one, until that is surely wider than 0.3 of the longest (src/step/split_bodies.c). Plots of one
+ * body in two sectors of a turn are two groups.
  *
  * Stack: 128 bytes at most.
  */

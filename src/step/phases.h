@@ -51,6 +51,9 @@ void rho_tracker_claim_parts(struct step *step);
 /* merged_plots.c: pairs of tracks take one plot, before the others take theirs */
 void rho_tracker_share_merged_plots(struct step *step);
 
+/* split_bodies.c: tracks of bodies that are surely two targets become two */
+void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan);
+
 /*
  * track_starts.c: a started track of any initiator joins the others where there is room; else it
  * ends, and 0. rho_tracker_start_track does the same between two steps.

@@ -122,6 +122,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         }
         if (rho_tracker_has_bodies(tracker)) {
             rho_tracker_update_bodies(&step, scan);
+            rho_tracker_split_bodies(&step, scan);
             rho_tracker_ungroup(&step, scan);
         }
         rho_tracker_end_work(&step);

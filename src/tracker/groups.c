@@ -19,8 +19,6 @@
 #define TURN_RADPS 0.3f
 /* Two plots of one target are farther apart than it is long by so many of their sigmas. */
 #define APART_SIGMAS 2.0f
-/* The body of a track is known from so many plots on. */
-#define NEW_PLOTS 30.0f
 /* Work units: a plot compared with a body, or with another plot; passed over. */
 #define TEST_UNITS 6u
 #define PAIR_UNITS 2u
@@ -231,7 +229,7 @@ static int are_one(struct step *step, unsigned row, unsigned other)
 
 static int is_new(const struct step *step, unsigned row)
 {
-    return may_own(step, row) && step->tracker->bodies.of[row].plots < NEW_PLOTS;
+    return may_own(step, row) && step->tracker->bodies.of[row].plots < RHO_BODY_NEW_PLOTS;
 }
 
 /* Velocities that may be one target's: those that only pass each other have others. */
@@ -433,7 +431,7 @@ static void body_spread(const struct step *step, unsigned group, const struct rh
     const struct rho_groups *groups = &bodies->groups;
     const unsigned owner = groups->owner[groups->first[group]];
     if (owner != NONE) {
-        const float share = bodies->of[owner].plots < NEW_PLOTS
+        const float share = bodies->of[owner].plots < RHO_BODY_NEW_PLOTS
                                 ? 1.0f
                                 : rho_body_missed_share(&bodies->of[owner], count);
         rho_body_spread(&bodies->of[owner], xx_yx_yy);

@@ -298,6 +298,9 @@ int rho_tracker_has_sound_cell(const struct rho_tracker_learned *learned);
 
 /* ---- bodies ---------------------------------------------------------------------------------- */
 
+/* The body of a track is known from so many plots on. */
+#define RHO_BODY_NEW_PLOTS 30.0f
+
 /* Targets may give several plots a scan. */
 static inline int rho_tracker_has_bodies(const struct rho_tracker *tracker)
 {

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * split_bodies: two targets that were taken for one body, until it is surely wider than any.
+ *
+ * Cars abreast of each other are one group from afar, and go on as one track. Nearer to the sensor
+ * their body is known to be as wide as two lanes. Then the track goes on with the plots on one side
+ * of it, and a new one with those on the other: each at the mean of its plots, with the velocity
+ * that both had.
+ */
+#include "phases.h"
+#include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/body_filter.h"
+
+/* No body is wider than this share of the longest, by so many sigmas of its width; */
+#define WIDEST_SHARE 0.3f
+#define WIDER_SIGMAS 2.0f
+/* ... which so many plots tell, more than one of a first heading that is wrong. */
+#define TOLD_PLOTS 100.0f
+
+struct side {
+    unsigned plots;
+    float x_m, y_m; /* sums, and then means, from the track's place */
+};
+
+static int is_too_wide(const struct step *step, unsigned row)
+{
+    const struct rho_bodies *bodies = &step->tracker->bodies;
+    const float widest_m = WIDEST_SHARE * bodies->length_max_m;
+    struct rho_body shape;
+    if (bodies->of[row].plots < TOLD_PLOTS ||
+        !(12.0f * bodies->of[row].across_m2 > widest_m * widest_m)) {
+        return 0;
+    }
+    rho_body_shape(&bodies->of[row], &shape);
+    return shape.width_m - WIDER_SIGMAS * shape.sigma_width_m > widest_m;
+}
+
+/* The scan's plots of the track, to the left of its heading and to the right. 0: a side has none. */
+static int find_sides(const struct step *step, const struct rho_scan *scan, unsigned row,
+                      struct side sides[2])
+{
+    const struct rho_bodies *bodies = &step->tracker->bodies;
+    const struct rho_body_filter *body = &bodies->of[row];
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const float *state = track->kalman.state;
+    for (unsigned i = bodies->groups.first[track->plot]; i != UINT16_MAX;
+         i = bodies->groups.next[i]) {
+        const struct rho_plot *plot = &scan->plots[i];
+        const float after_s = rho_seconds_between(track->time_us, step->time_us + plot->offset_us);
+        const float dx_m = plot->x_m - state[RHO_X] - after_s * state[RHO_VX],
+                    dy_m = plot->y_m - state[RHO_Y] - after_s * state[RHO_VY];
+        struct side *side = &sides[body->cos_heading * dy_m < body->sin_heading * dx_m];
+        side->plots++;
+        side->x_m += dx_m;
+        side->y_m += dy_m;
+    }
+    for (int i = 0; i < 2 && sides[i].plots > 0; i++) {
+        sides[i].x_m /= (float)sides[i].plots;
+        sides[i].y_m /= (float)sides[i].plots;
+    }
+    return sides[0].plots > 0 && sides[1].plots > 0;
+}
+
+/* The track as if it had been that side's from the start. */
+static enum rho_status start_side(const struct step *step, const struct rho_track *track,
+                                  uint32_t track_id, const struct side *side, struct rho_track *out)
+{
+    const float mean_m2 = rho_tracker_body_prior_m2(step->tracker) / (float)side->plots;
+    struct rho_kalman there = track->kalman;
+    there.state[RHO_X] += side->x_m;
+    there.state[RHO_Y] += side->y_m;
+    there.covariance[RHO_AT(RHO_X, RHO_X)] += mean_m2;
+    there.covariance[RHO_AT(RHO_Y, RHO_Y)] += mean_m2;
+    return rho_track_start_estimate(out, track_id, &there, track->time_us, track->sensor_id,
+                                    track->hits, &step->model, track->score_mnat);
+}
+
+static void start_body(const struct step *step, unsigned row)
+{
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const float *state = track->kalman.state, *p = track->kalman.covariance;
+    const float velocity[3] = {p[RHO_AT(RHO_VX, RHO_VX)], p[RHO_AT(RHO_VX, RHO_VY)],
+                               p[RHO_AT(RHO_VY, RHO_VY)]};
+    struct rho_body_filter *body = &step->tracker->bodies.of[row];
+    rho_body_start(body, track->track_id, rho_tracker_body_prior_m2(step->tracker));
+    rho_body_turn(body, &state[RHO_VX], velocity);
+    body->plots = RHO_BODY_NEW_PLOTS; /* it adopts none of the other side's */
+}
+
+/* 0: there is no room for another track. */
+static int split(struct step *step, unsigned row, const struct side sides[2])
+{
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_track *track = &tracker->tracks[row];
+    struct rho_track stays, leaves;
+    if (tracker->num_tracks == RHO_MAX_TRACKS ||
+        start_side(step, track, track->track_id, &sides[0], &stays) != RHO_OK) {
+        return 0;
+    }
+    const struct rho_track was = *track;
+    rho_track_end(track, &step->model);
+    *track = was;
+    track->slot = stays.slot;
+    track->kalman = stays.kalman;
+    if (start_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
+        const struct rho_track_limits limits = rho_tracker_limits(step);
+        leaves.status = was.status;
+        leaves.was_confirmed = was.was_confirmed;
+        (void)!rho_tracker_admit(step, &leaves, &limits);
+    }
+    return 1;
+}
+
+void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan)
+{
+    struct rho_tracker *tracker = step->tracker;
+    for (unsigned row = 0; !step->is_late && row < tracker->bodies.count; row++) {
+        struct side sides[2] = {{0}, {0}};
+        if (tracker->tracks[row].plot >= 0 && is_too_wide(step, row) &&
+            find_sides(step, scan, row, sides) && split(step, row, sides)) {
+            start_body(step, row);
+            rho_tracker_align_bodies(step);
+            start_body(step, tracker->num_tracks - 1u);
+        }
+    }
+}
