@@ -104,6 +104,10 @@ static int split(struct step *step, unsigned row, const struct side sides[2])
     track->kalman = stays.kalman;
     if (start_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
         const struct rho_track_limits limits = rho_tracker_limits(step);
+        /* its own hits are not known: it may still be an image in a wall (reflectors.h) */
+        if (leaves.hits >= RHO_ESTABLISHED_HITS) {
+            leaves.hits = RHO_ESTABLISHED_HITS - 1;
+        }
         leaves.status = was.status;
         leaves.was_confirmed = was.was_confirmed;
         (void)!rho_tracker_admit(step, &leaves, &limits);
