@@ -226,7 +226,7 @@ void rho_node_work(const struct rho_node *node, struct rho_message_work *work);
 /*
  * Fills learned_t of one described sensor: at each call of the next one.
  * Returns 0 where no sensor is described; *learned is unchanged then. Cost: that of
- * rho_publish_learned. Stack: 240 bytes.
+ * rho_publish_learned. Stack: 248 bytes.
  */
 int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned);
 

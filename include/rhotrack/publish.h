@@ -130,7 +130,7 @@ RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_scan_assembl
  * the caller's. sensor_id beyond int16_t becomes -1.
  *   place  among the tracker's sensors: 0 .. num_sensors - 1
  * Returns 0 where there is no sensor at this place, or tracker or learned is NULL; *learned is
- * unchanged then. Cost: RHO_MAX_SENSORS. Stack: 216 bytes.
+ * unchanged then. Cost: RHO_MAX_SENSORS. Stack: 232 bytes.
  */
 int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
                         struct rho_message_learned *learned);

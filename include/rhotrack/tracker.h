@@ -429,7 +429,7 @@ struct rho_tracker_known {
 };
 
 /* Errors: NULL, STATE (not initialised, or the sensor was not described). Constant cost.
- * Stack: 120 bytes. */
+ * Stack: 128 bytes. */
 RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker,
                                                     int32_t sensor_id,
                                                     struct rho_tracker_known *known);
