@@ -102,6 +102,7 @@ static int split(struct step *step, unsigned row, const struct side sides[2])
     *track = was;
     track->slot = stays.slot;
     track->kalman = stays.kalman;
+    track->input = stays.input;
     if (start_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
         const struct rho_track_limits limits = rho_tracker_limits(step);
         /* its own hits are not known: it may still be an image in a wall (reflectors.h) */
@@ -119,12 +120,15 @@ void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; !step->is_late && row < tracker->bodies.count; row++) {
+        const unsigned num_tracks = tracker->num_tracks;
         struct side sides[2] = {{0}, {0}};
         if (tracker->tracks[row].plot >= 0 && is_too_wide(step, row) &&
             find_sides(step, scan, row, sides) && split(step, row, sides)) {
             start_body(step, row);
-            rho_tracker_align_bodies(step);
-            start_body(step, tracker->num_tracks - 1u);
+            if (tracker->num_tracks > num_tracks) {
+                rho_tracker_align_bodies(step);
+                start_body(step, num_tracks);
+            }
         }
     }
 }
