@@ -151,6 +151,7 @@ struct rho_scan_assembler_config {
         gives_other; /* 1: items of sensors that were not described have `other` as their sensor */
     uint16_t is_record;            /* 1: no sensor is a newcomer: for files */
     uint32_t stranger_plots_per_s; /* 1 .. 1e6: of all newcomers that are not named, together */
+    uint32_t reserved;             /* 0 */
     uint32_t num_allowed;          /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
     /* sensor_ids; messages of any other are dropped; an even count leaves no padding */
     int16_t allowed[(RHO_MAX_SENSORS + 1) / 2 * 2];

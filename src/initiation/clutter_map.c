@@ -138,7 +138,7 @@ static void advance_blocks(struct rho_clutter_map *map)
 
 void rho_clutter_map_age(struct rho_clutter_map *map, float share)
 {
-    const struct rho_echo_returns none = {.looks = {{0.0f}}};
+    static const struct rho_echo_returns none;
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
         add_table(&map->tables[0][r], rho_clutter_map_remaining(share), &none);
     }

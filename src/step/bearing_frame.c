@@ -236,8 +236,8 @@ static void claim_and_update(struct step *step)
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
         struct look look = open_look(step, scan, first);
-        rho_tracker_note_pace(step->tracker, &look.sensor, step->time_us, scan->sector_from_rad,
-                              scan->sector_to_rad);
+        rho_tracker_note_pace(step->tracker, scan->sensor_id, &look.sensor, step->time_us,
+                              scan->sector_from_rad, scan->sector_to_rad);
         step->sensor = &look.sensor;
         rho_tracker_set_pd(step);
         claim_look(step, &look);

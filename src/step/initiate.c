@@ -52,15 +52,20 @@ static void search_newest(struct step *step)
     step->is_partial |= initiator->budget.partial_steps != before.partial_steps;
 }
 
-/* Pointers were checked before the step began. The search uses the pd that was learned. */
-static void push(struct step *step, const struct rho_scan *held)
+/*
+ * Pointers were checked before the step began. The plots with a place in the report are offered;
+ * the search uses the pd that was learned.
+ */
+static void push(struct step *step)
 {
+    struct rho_scan held = *step->scan;
     struct rho_sensor sensor;
+    held.num_plots = step->num_gated;
     if (step->sensor) {
         sensor = *step->sensor;
         sensor.pd = rho_tracker_mean_pd(step);
     }
-    (void)!rho_initiator_push(step->initiator, held, step->sensor ? &sensor : 0,
+    (void)!rho_initiator_push(step->initiator, &held, step->sensor ? &sensor : 0,
                               step->report->fates, &step->tracker->counters.plots_clutter);
 }
 
@@ -68,10 +73,7 @@ static void start_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_initiator *initiator = step->initiator;
-    /* only the plots with a place in the report are offered */
-    struct rho_scan held = *step->scan;
-    held.num_plots = step->num_gated;
-    push(step, &held);
+    push(step);
     if (RHO_MAX_ECHOES > 0) {
         rho_tracker_keep_repeats(step);
     }

@@ -36,7 +36,6 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
 /* Applies what is known of the sensor, before any track is moved. */
 static void open_scan(struct step *step)
 {
-    const struct rho_sensor nowhere = {.sensor_id = step->scan->sensor_id};
     const unsigned place = rho_tracker_place_of_sensor(step->tracker, step->scan->sensor_id);
     if (place < step->tracker->num_sensors) {
         step->sensor = &step->tracker->sensors[place];
@@ -47,7 +46,7 @@ static void open_scan(struct step *step)
         rho_tracker_note_look(step);
     }
     if (!step->is_late) {
-        rho_tracker_note_pace(step->tracker, step->sensor ? step->sensor : &nowhere, step->time_us,
+        rho_tracker_note_pace(step->tracker, step->scan->sensor_id, step->sensor, step->time_us,
                               step->scan->sector_from_rad, step->scan->sector_to_rad);
     }
     if (RHO_DOPPLER_NOTCH) {

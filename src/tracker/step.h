@@ -505,8 +505,10 @@ void rho_tracker_reset_manoeuvre_interval(struct rho_tracker *tracker, int64_t t
 
 /* unobserved_tracks.c: how often sensors look; 1 where a track was not observed for too long */
 void rho_tracker_forget_pace(struct rho_tracker *tracker, int32_t sensor_id);
-void rho_tracker_note_pace(struct rho_tracker *tracker, const struct rho_sensor *sensor,
-                           int64_t time_us, float sector_from_rad, float sector_to_rad);
+/* sensor: where it looks from; NULL: the origin */
+void rho_tracker_note_pace(struct rho_tracker *tracker, int32_t sensor_id,
+                           const struct rho_sensor *sensor, int64_t time_us, float sector_from_rad,
+                           float sector_to_rad);
 int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *track, int is_missed,
                                    const struct rho_track_limits *limits);
 /* The track's place is less well known than the range of its sensor. */

@@ -100,21 +100,22 @@ static void average_interval(struct rho_tracker_pace *pace, float gap_s)
     pace->interval_s += INTERVAL_SMOOTHING * ((gap_s < most_s ? gap_s : most_s) - pace->interval_s);
 }
 
-void rho_tracker_note_pace(struct rho_tracker *tracker, const struct rho_sensor *sensor,
-                           int64_t time_us, float sector_from_rad, float sector_to_rad)
+void rho_tracker_note_pace(struct rho_tracker *tracker, int32_t sensor_id,
+                           const struct rho_sensor *sensor, int64_t time_us, float sector_from_rad,
+                           float sector_to_rad)
 {
     const float middle_rad = rho_angle_wrap(
         sector_from_rad + 0.5f * rho_angle_sector_width(sector_from_rad, sector_to_rad));
-    struct rho_tracker_pace *pace = find_pace(tracker, sensor->sensor_id);
+    struct rho_tracker_pace *pace = find_pace(tracker, sensor_id);
     if (!pace) {
         pace = add_pace(tracker);
         memset(pace, 0, sizeof *pace); /* padding, too: snapshots hold it */
-        pace->sensor_id = sensor->sensor_id;
+        pace->sensor_id = sensor_id;
         pace->azimuth_rad = middle_rad;
         pace->time_us = time_us;
     }
-    pace->x_m = sensor->x_m;
-    pace->y_m = sensor->y_m;
+    pace->x_m = sensor ? sensor->x_m : 0.0f;
+    pace->y_m = sensor ? sensor->y_m : 0.0f;
     const float gap_s = rho_seconds_between(pace->time_us, time_us);
     const int looks_there = rho_angle_in_sector(pace->azimuth_rad, sector_from_rad, sector_to_rad);
     if (looks_there && gap_s > 0.0f) {

@@ -12,7 +12,7 @@ ARM_CC ?= arm-none-eabi-gcc
 # another.
 FIRMWARE_OPT := -Os -flto -flto-partition=one -fno-reorder-blocks -fno-move-loop-invariants -fno-tree-loop-im -fno-schedule-insns2 \
                 -fno-tree-dominator-opts -fno-ipa-sra \
-                --param=large-stack-frame=64 --param=large-stack-frame-growth=50
+                --param=large-stack-frame=64 --param=large-stack-frame-growth=40
 
 m4_cpu := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
 m4_flags := $(m4_cpu) -DMPS2_ETHERNET=0x40200000u
