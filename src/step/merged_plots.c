@@ -7,9 +7,9 @@
  * other, both take the plot. So crossing tracks keep their velocities, and tracks in formation stay
  * together until they part.
  *
- * Two targets d apart along the line of sight are unresolved with probability e^-(d^2 / 2 n), and so
- * across it (resolution_cell.c has n); d is as uncertain as both tracks' places, by a variance of c.
- * The product of both axes'
+ * Two targets d apart along the line of sight are unresolved with probability e^-(d^2 / 2 n), and
+ * so across it (resolution_cell.c has n); d is as uncertain as both tracks' places, by a variance
+ * of c. The product of both axes'
  *     root(n / (n + c)) e^-(d^2 / 2 (n + c))
  * is `merged`; and of the range rates', where the sensor resolves those.
  * The plot is shared where that explains it better than a miss of the second target does:
@@ -119,6 +119,20 @@ static float rates_apart_mps(const struct step *step, const struct pair *pair)
     return second_mps - first_mps;
 }
 
+/*
+ * From where the track expects its target to the plot, along and across: at the plot's own time.
+ * The way from one target to the other is taken to be the same then.
+ */
+static void from_track(const struct step *step, const struct pair *pair,
+                       const struct rho_track *track, float from_m[2])
+{
+    const struct rho_plot *plot = &step->scan->plots[pair->plot];
+    const float after_s = (float)plot->offset_us * 1e-6f, *state = track->kalman.state;
+    const float place_m[2] = {plot->x_m - state[RHO_X] - after_s * state[RHO_VX],
+                              plot->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
+    along_and_across(&pair->seen, place_m, from_m);
+}
+
 /* One axis of the probability that both are not resolved. */
 static float unresolved(float near2, float apart, float variance)
 {
@@ -157,14 +171,9 @@ static void teach(struct step *step, const struct pair *pair, const float both_m
  */
 static int is_merged(struct step *step, const struct pair *pair, float *gain_nat)
 {
-    const struct rho_plot *plot = &step->scan->plots[pair->plot];
-    /* at the plot's own time; the way from one to the other is taken to be the same then */
-    const float after_s = (float)plot->offset_us * 1e-6f, *state = pair->first->kalman.state;
-    const float place_m[2] = {plot->x_m - state[RHO_X] - after_s * state[RHO_VX],
-                              plot->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
     float from_m[2], first_m2[2], second_m2[2], both_m2[2];
     float merged = unresolved_by_rate(step, pair), ratio_nat = 0.0f;
-    along_and_across(&pair->seen, place_m, from_m);
+    from_track(step, pair, pair->first, from_m);
     variances_along(&pair->seen, pair->first, first_m2);
     variances_along(&pair->seen, pair->second, second_m2);
     for (int axis = 0; axis < 2; axis++) {
@@ -187,14 +196,10 @@ static struct rho_track_plot part_of(const struct step *step, const struct pair 
                                      const struct rho_track *other)
 {
     struct rho_track_plot part = rho_tracker_plot_of(step, pair->plot);
-    const float after_s = (float)step->scan->plots[pair->plot].offset_us * 1e-6f;
-    const float *state = other->kalman.state;
-    const float place_m[2] = {part.plot.x_m - state[RHO_X] - after_s * state[RHO_VX],
-                              part.plot.y_m - state[RHO_Y] - after_s * state[RHO_VY]};
     const float c = pair->seen.cos_azimuth, s = pair->seen.sin_azimuth;
     const float half_mps = 0.5f * rates_apart_mps(step, pair);
     float from_m[2], other_m2[2], farther_m[2], wider[2];
-    along_and_across(&pair->seen, place_m, from_m);
+    from_track(step, pair, other, from_m);
     variances_along(&pair->seen, other, other_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float noise_m2 =

@@ -35,7 +35,7 @@ static int is_too_wide(const struct step *step, unsigned row)
     return shape.width_m - WIDER_SIGMAS * shape.sigma_width_m > widest_m;
 }
 
-/* The scan's plots of the track, to the left of its heading and to the right. 0: a side has none. */
+/* The track's plots in the scan, left and right of its heading. 0: a side has none. */
 static int find_sides(const struct step *step, const struct rho_scan *scan, unsigned row,
                       struct side sides[2])
 {
@@ -77,13 +77,10 @@ static enum rho_status start_side(const struct step *step, const struct rho_trac
 
 static void start_body(const struct step *step, unsigned row)
 {
-    const struct rho_track *track = &step->tracker->tracks[row];
-    const float *state = track->kalman.state, *p = track->kalman.covariance;
-    const float velocity[3] = {p[RHO_AT(RHO_VX, RHO_VX)], p[RHO_AT(RHO_VX, RHO_VY)],
-                               p[RHO_AT(RHO_VY, RHO_VY)]};
-    struct rho_body_filter *body = &step->tracker->bodies.of[row];
-    rho_body_start(body, track->track_id, rho_tracker_body_prior_m2(step->tracker));
-    rho_body_turn(body, &state[RHO_VX], velocity);
+    struct rho_tracker *tracker = step->tracker;
+    struct rho_body_filter *body = &tracker->bodies.of[row];
+    rho_body_start(body, tracker->tracks[row].track_id, rho_tracker_body_prior_m2(tracker));
+    rho_tracker_turn_body(tracker, row);
     body->plots = RHO_BODY_NEW_PLOTS; /* it adopts none of the other side's */
 }
 

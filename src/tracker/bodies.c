@@ -89,6 +89,15 @@ static void look_at(const struct step *step, const struct rho_scan *scan,
     }
 }
 
+void rho_tracker_turn_body(struct rho_tracker *tracker, unsigned row)
+{
+    const struct rho_kalman *kalman = &tracker->tracks[row].kalman;
+    const float *p = kalman->covariance;
+    const float velocity[3] = {p[RHO_AT(RHO_VX, RHO_VX)], p[RHO_AT(RHO_VX, RHO_VY)],
+                               p[RHO_AT(RHO_VY, RHO_VY)]};
+    rho_body_turn(&tracker->bodies.of[row], &kalman->state[RHO_VX], velocity);
+}
+
 void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -98,13 +107,11 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         const struct rho_track *track = &tracker->tracks[row];
-        const float *p = track->kalman.covariance;
-        const float velocity[3] = {p[RHO_AT(3, 3)], p[RHO_AT(3, 4)], p[RHO_AT(4, 4)]};
         struct rho_body_look look = {0};
         if (track->plot < 0) {
             continue;
         }
-        rho_body_turn(&tracker->bodies.of[row], &track->kalman.state[3], velocity);
+        rho_tracker_turn_body(tracker, row);
         look_at(step, scan, track, row, &look);
         rho_body_add(&tracker->bodies.of[row], &look);
     }

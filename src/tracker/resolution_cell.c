@@ -10,8 +10,8 @@
  *     p = e^-(d1^2 / 2 n1 + d2^2 / 2 n2)        n = cell^2 / 2 ln 2
  *
  * along the line of sight and across it: at a distance of one cell it is a half. Where no cell was
- * stated n is e^l (2 sigma)^2, of the plot's sigma on that axis, and l is 0 at first. Each pair says
- * p, or 1 - p; their logarithms' slopes with respect to l are
+ * stated n is e^l (2 sigma)^2, of the plot's sigma on that axis, and l is 0 at first. Each pair
+ * says p, or 1 - p; their logarithms' slopes with respect to l are
  *
  *     d^2 / 2 n        -p / (1 - p) d^2 / 2 n
  *

@@ -315,6 +315,8 @@ void rho_tracker_ungroup(struct step *step, const struct rho_scan *scan);
 /* bodies.c (RHO_BODIES): bodies are in the order of the tracks; before rows become those of plots,
  * each learns from its track's plots */
 void rho_tracker_align_bodies(struct step *step);
+/* The heading of a track's body is that of its velocity. */
+void rho_tracker_turn_body(struct rho_tracker *tracker, unsigned row);
 void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
 /* Variance of a place on a body that nothing is known of, on each axis. */
 float rho_tracker_body_prior_m2(const struct rho_tracker *tracker);

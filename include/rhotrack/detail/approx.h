@@ -44,7 +44,7 @@ static inline float rho_float_of(uint32_t bits)
     return binary.v;
 }
 
-/* Of two numbers the larger, and the smaller one; b where they cannot be compared (NaN). No stack. */
+/* The larger and the smaller of two numbers; b where they cannot be compared (NaN). No stack. */
 static inline float rho_larger(float a, float b)
 {
     return a > b ? a : b;
