@@ -16,7 +16,7 @@
 #   PROFILE=workstation  installs the library of that profile (default embedded)
 #   LAB='--runs 5'    options of all experiments of `make experiments` (tools/lab/README.md)
 
-VERSION := $(shell awk '$$2 ~ /^RHO_VERSION_[MP]/ {v = v s $$3; s = "."} END {print v}' include/rhotrack/version.h)
+VERSION := $(shell awk '$$2 ~ /^RHO_VERSION_[MP]/ {v = v s $$3; s = "."} END {print v}' include/rhotrack/rhotrack.h)
 BUILD := build
 # One folder has one name: objects built as one path are found by it.
 override BUILD := $(patsubst $(CURDIR)/%,%,$(BUILD))

@@ -20,8 +20,8 @@
 
 #include "rhotrack/message.h"
 #include "rhotrack/settings.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -9,8 +9,8 @@
 #define RHOTRACK_EXCLUDED_AREAS_H
 
 #include "rhotrack/config.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

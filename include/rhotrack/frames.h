@@ -43,7 +43,6 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -37,7 +37,7 @@
 #include "rhotrack/config.h"
 #include "rhotrack/detail/accumulator.h"
 #include "rhotrack/detail/plane.h"
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -31,7 +31,6 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/window.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -16,7 +16,7 @@
 
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/measurement.h"
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

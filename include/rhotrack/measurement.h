@@ -20,7 +20,6 @@
 
 #include <stdint.h>
 
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

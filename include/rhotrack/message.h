@@ -40,7 +40,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -185,7 +185,7 @@ struct rho_message_command_answer {
     int32_t epoch; /* the tracker's boot number: another one after each restart */
     int32_t number; /* of the command */
     int8_t action; /* of the command; 1 .. 127 */
-    int8_t status; /* 0: done; else refused, by enum rho_status of rhotrack/status.h; 0 .. 127 */
+    int8_t status; /* 0: done; else refused, by enum rho_status of rhotrack/types.h; 0 .. 127 */
     int32_t track_id; /* that was started, or changed; 0: none; 0 .. 2147483647 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_command_answer_encode(
@@ -535,7 +535,7 @@ struct rho_message_setting_answer {
     int32_t epoch; /* the tracker's boot number: another one after each restart */
     int32_t number; /* of the setting_t */
     int16_t field; /* of the setting_t; 0 .. 32767 */
-    int8_t status; /* 0: changed; else refused, by enum rho_status of rhotrack/status.h; 0 .. 127 */
+    int8_t status; /* 0: changed; else refused, by enum rho_status of rhotrack/types.h; 0 .. 127 */
     int8_t applies; /* when; one of NEVER, STEP, WINDOW, SENSOR, PLOT */
     int16_t fault_field; /* that would be outside its range, this one or another; 0 .. 32767 */
     float value; /* that the field has; refused: that it would have, or that of the fault's field */

@@ -56,7 +56,6 @@
 #include "rhotrack/message.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/scan_assembler.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
 #include "rhotrack/types.h"
 

@@ -29,8 +29,8 @@
 #include "rhotrack/detail/window.h"
 #include "rhotrack/hough.h"
 #include "rhotrack/passive_paper.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

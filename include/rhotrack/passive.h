@@ -32,7 +32,6 @@
 #include "rhotrack/config.h"
 #include "rhotrack/detail/batch.h"
 #include "rhotrack/detail/ghost.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

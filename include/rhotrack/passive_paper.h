@@ -37,7 +37,6 @@
 #include "rhotrack/detail/batch.h"
 #include "rhotrack/detail/ghost.h"
 #include "rhotrack/detail/plane.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -26,8 +26,8 @@
 #include "rhotrack/message.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/scan_assembler.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/types.h"
 #include "rhotrack/zones.h"
 
 #ifdef __cplusplus

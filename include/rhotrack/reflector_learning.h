@@ -40,7 +40,6 @@
 #include <stdint.h>
 
 #include "rhotrack/reflectors.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
 #include "rhotrack/types.h"
 

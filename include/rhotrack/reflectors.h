@@ -23,7 +23,7 @@
 #define RHOTRACK_REFLECTORS_H
 
 #include "rhotrack/config.h"
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

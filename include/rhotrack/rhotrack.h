@@ -13,9 +13,7 @@
 #define RHOTRACK_RHOTRACK_H
 
 #include "rhotrack/config.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
-#include "rhotrack/version.h"
 
 /* tracking */
 #include "rhotrack/excluded_areas.h"
@@ -50,5 +48,14 @@
 #include "rhotrack/hough.h"
 #include "rhotrack/paper_starts.h"
 #include "rhotrack/passive_paper.h"
+
+/*
+ * The one place where the version of rhotrack stands. Program and packages have it from here, and
+ * tests/integration/packages.sh holds tools/python, which states it twice, against it. CHANGELOG.md
+ * says what a version promises.
+ */
+#define RHO_VERSION_MAJOR 0
+#define RHO_VERSION_MINOR 1
+#define RHO_VERSION_PATCH 0
 
 #endif

@@ -70,7 +70,6 @@
 #include "rhotrack/detail/window.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/passive.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
 #include "rhotrack/types.h"
 

@@ -25,8 +25,8 @@
 #include "rhotrack/message.h"
 #include "rhotrack/paper_starts.h"
 #include "rhotrack/passive_paper.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -54,7 +54,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -28,7 +28,6 @@
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/input.h"
 #include "rhotrack/kalman.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

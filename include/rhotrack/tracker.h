@@ -64,7 +64,6 @@
 #include "rhotrack/initiator.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/reflectors.h"
-#include "rhotrack/status.h"
 #include "rhotrack/track.h"
 #include "rhotrack/types.h"
 

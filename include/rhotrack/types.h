@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * types: scans, plots, bearings and sensors, and the words that the library uses for them. Plain
- * data, a unit in every field name.
+ * types: scans, plots, bearings and sensors, the outcomes of calls, and the words that the library
+ * uses for them. Plain data, a unit in every field name.
  *
  * Conventions, everywhere in rhotrack:
  *   frame     local Cartesian, metres: x east, y north, z up
@@ -11,6 +11,8 @@
  *   lines     rho = x cos(theta) + y sin(theta), rho signed, theta in [0, pi); (rho, theta) and
  *             (-rho, theta +- pi) are one line; its tracks head to theta + pi/2 or theta - pi/2
  *   scores    natural logarithms of likelihood ratios, as integer thousandths of a nat (mnat)
+ *   outcomes  every call that can fail returns an enum rho_status. Zero is success; a call that
+ *             returns anything else has left its object unchanged, byte for byte
  *
  * Words:
  *   plot                  one detection by a radar, as a place
@@ -60,9 +62,41 @@
 
 #include "rhotrack/config.h"
 
+/* Marks functions whose result must be used: the compiler warns where it is not. */
+#if defined(__GNUC__)
+#define RHO_MUST_CHECK __attribute__((warn_unused_result))
+#else
+#define RHO_MUST_CHECK
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* The outcome of every call that can fail. */
+enum rho_status {
+    RHO_OK = 0,
+    RHO_ERROR_NULL, /* a pointer that must point somewhere is NULL */
+    /* sizeof(object) differs: library and caller were built with other capacities */
+    RHO_ERROR_SIZE,
+    RHO_ERROR_CONFIG,   /* a parameter is outside its range */
+    RHO_ERROR_VALUE,    /* a number is not finite or outside its range */
+    RHO_ERROR_CAPACITY, /* more than a RHO_MAX_... allows */
+    RHO_ERROR_SINGULAR, /* a matrix is not positive definite */
+    RHO_ERROR_STATE,    /* the object was never initialised, or does not have the thing asked for */
+    /* decoding of a message: */
+    RHO_ERROR_SHORT,    /* the bytes end too early */
+    RHO_ERROR_TYPE,     /* the fingerprint differs: another message, or another version of it */
+    RHO_ERROR_COUNT,    /* the count of a list is negative, or more than the message may hold */
+    RHO_ERROR_TRAILING, /* bytes follow the end of the message */
+    RHO_NUM_STATUS      /* count of the values above, not an outcome */
+};
+
+/*
+ * Name of an outcome for logs: "ok", "null", "size", ... A constant string; "unknown" for any other
+ * value. Cost: constant. Stack: 0 bytes.
+ */
+const char *rho_status_name(enum rho_status status);
 
 /* Limits of inputs. Plots beyond them get the fate INVALID; parameters beyond them are refused. */
 #define RHO_LIMIT_POSITION_M 2.0e6f

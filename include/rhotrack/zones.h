@@ -26,8 +26,8 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
-#include "rhotrack/status.h"
 #include "rhotrack/tracker.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

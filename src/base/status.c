@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 /* Characters, not pointers: nothing to relocate, so the table is read-only in every build. */
 static const char status_names[RHO_NUM_STATUS][9] = {

@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 #include "rhotrack/message.h"
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #define MESSAGE_FINGERPRINT_BYTES 8u
 #define MESSAGE_COUNT_BYTES 2u

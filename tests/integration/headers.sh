@@ -87,8 +87,8 @@ check 'seen: a header that lacks an include' \
 check 'seen: a header without a guard' \
     sees udpm.h '/RHOTRACK_UDPM_H/d; $d' 'udpm.h does not compile alone as c11' compile_alone c11
 check 'seen: C that C++ does not know' \
-    sees status.h '$i static inline int f(void) { return (struct { int a; }){.a = 1}.a; }' \
-    'status.h does not compile alone as c++17' compile_alone c++17
+    sees types.h '$i static inline int f(void) { return (struct { int a; }){.a = 1}.a; }' \
+    'types.h does not compile alone as c++17' compile_alone c++17
 check 'seen: rhotrack.h lacks a header' \
     sees rhotrack.h '/passive_paper/d' 'does not include rhotrack/passive_paper.h' includes_all
 check 'seen: a header without extern "C"' \

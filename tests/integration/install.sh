@@ -11,7 +11,7 @@ build=$(cd "$root" && realpath -m "${BUILD:-build}")
 cortex='-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard'
 own=$folder/examples/my_config.h
 version=$(awk '$2 ~ /^RHO_VERSION_[MP]/ {v = v s $3; s = "."} END {print v}' \
-    "$root/include/rhotrack/version.h")
+    "$root/include/rhotrack/rhotrack.h")
 cp -r "$root/tools/examples" .
 rm -rf examples/*/build examples/*/example
 unset DESTDIR PKG_CONFIG_PATH PKG_CONFIG_LIBDIR PKG_CONFIG_SYSROOT_DIR RHOTRACK
@@ -72,7 +72,7 @@ check 'no file knows where it was staged or built' leaks_nothing "$stage/opt"
 no_placeholders() { ! grep -rnE '@[A-Z_]+@' "$1"/lib/pkgconfig "$1"/lib/cmake "$1"/lib/systemd; }
 check 'templates are filled in' no_placeholders "$stage/opt/rt"
 go "$stage/opt/rt/bin/rhotrack" --version
-check 'the installed program runs, version of version.h' test "$(cat stdout)" = \
+check 'the installed program runs, version of rhotrack.h' test "$(cat stdout)" = \
     "rhotrack $version"
 
 

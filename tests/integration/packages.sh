@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The packages of tools/packaging: each has the version of rhotrack/version.h and all sources; each
+# The packages of tools/packaging: each has the version of rhotrack/rhotrack.h and all sources; each
 # is built by its tool where that is to be had, else as its tool would do it; its program tracks. Of
 # the Debian packages lintian finds nothing, and they are installed in a folder.
 root=$(realpath "$(dirname "$0")/../..")
@@ -10,7 +10,7 @@ build=$(cd "$root" && realpath -m "${BUILD:-build}")
 unset RHOTRACK DESTDIR PKG_CONFIG_PATH PKG_CONFIG_LIBDIR
 packages=$folder/packages
 version=$(awk '$2 ~ /^RHO_VERSION_[MP]/ {v = v s $3; s = "."} END {print v}' \
-    "$root/include/rhotrack/version.h")
+    "$root/include/rhotrack/rhotrack.h")
 tree=$packages/rhotrack-$version
 main=$root/tools/examples/main.c
 quick='-DCMAKE_BUILD_TYPE=Debug'
@@ -48,7 +48,7 @@ mkdir other
 (cd "$root" && cp -r --parents include src tools/packaging tools/install CMakeLists.txt LICENSE \
     CHANGELOG.md tools/rhotrack/picture/page "$folder/other")
 sed -i 's/\(VERSION_MAJOR\) .*/\1 7/; s/\(VERSION_MINOR\) .*/\1 8/; s/\(VERSION_PATCH\) .*/\1 9/' \
-    other/include/rhotrack/version.h
+    other/include/rhotrack/rhotrack.h
 echo 'int rho_another;' >other/src/base/another.c
 check 'packages of another version' go other/tools/packaging/package.py others
 check '... all state it' all_state others 7.8.9

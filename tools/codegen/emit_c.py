@@ -59,7 +59,7 @@ HEADER_TOP = """\
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -6,7 +6,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 
 project = "rhotrack"
-header = (HERE.parents[1] / "include/rhotrack/version.h").read_text()
+header = (HERE.parents[1] / "include/rhotrack/rhotrack.h").read_text()
 version = release = ".".join(re.findall(r"^#define RHO_VERSION_\w+ (\d+)", header, re.MULTILINE))
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_gallery.gen_gallery"]
 source_suffix = {".rst": "restructuredtext", ".md": "markdown"}

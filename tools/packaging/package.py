@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Writes the packages of other build systems, from the templates beside, one list of sources
-(src/*/*.c) and one version (include/rhotrack/version.h).
+(src/*/*.c) and one version (include/rhotrack/rhotrack.h).
 
 Usage: package.py [--packager 'NAME <MAIL>'] [--url URL] FOLDER
 FOLDER gets:
@@ -31,7 +31,7 @@ DESCRIPTION = "Tracks from radar plots and bearings, without a heap"
 
 
 def version():
-    text = (HOME / "include/rhotrack/version.h").read_text(encoding="utf-8")
+    text = (HOME / "include/rhotrack/rhotrack.h").read_text(encoding="utf-8")
     return ".".join(re.findall(r"^#define RHO_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", text, re.M))
 
 

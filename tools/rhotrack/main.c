@@ -10,7 +10,7 @@
 #include "command_line.h"
 #include "commands.h"
 #include "io/csv/table_form.h"
-#include "rhotrack/version.h"
+#include "rhotrack/rhotrack.h"
 
 #define INPUT_FORMATS                                                                              \
     "Plots in CSV have t_s,sensor_id and x_m,y_m[,z_m] or range_m,azimuth_rad; for places also\n"  \

@@ -31,7 +31,7 @@
 #include <stdint.h>
 
 #include "rhotrack/config.h"
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

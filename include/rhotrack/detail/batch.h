@@ -15,7 +15,6 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/crossing.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -26,7 +26,6 @@
 #ifndef RHOTRACK_CROSSING_H
 #define RHOTRACK_CROSSING_H
 
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

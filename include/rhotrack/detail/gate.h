@@ -14,7 +14,6 @@
 
 #include "rhotrack/kalman.h"
 #include "rhotrack/measurement.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -34,7 +34,6 @@
 #include "rhotrack/detail/imm.h"
 #include "rhotrack/detail/notch.h"
 #include "rhotrack/kalman.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -35,7 +35,6 @@
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/kalman.h"
 #include "rhotrack/measurement.h"
-#include "rhotrack/status.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -37,7 +37,7 @@
 
 #include "rhotrack/kalman.h"
 #include "rhotrack/measurement.h"
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -13,7 +13,7 @@
 #define RHOTRACK_LINALG_H
 
 #include "rhotrack/config.h"
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -18,7 +18,7 @@
 
 #include <stdint.h>
 
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #ifdef __cplusplus
 extern "C" {

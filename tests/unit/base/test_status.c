@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 static void every_status_has_its_name(void **state)
 {

@@ -12,7 +12,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "rhotrack/status.h"
+#include "rhotrack/types.h"
 
 #define EXIT_RUNTIME 1
 #define EXIT_USAGE 2
