@@ -30,8 +30,8 @@ extern "C" {
 /*
  * Does what a command says, and fills the answer but for scan and epoch, which are 0.
  *   report  of the last step
- * Errors: NULL, VALUE (an action that is none), and those of the functions of operator.h and
- * excluded_areas.h, which are the answer's status, too; the tracker is unchanged. Stack: 3.3 KB.
+ * Errors: NULL, VALUE (an action that is none), and those of the functions of operator.h, which are
+ * the answer's status, too; the tracker is unchanged. Stack: 3.3 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_command_run(const struct rho_message_command *command,
                                                struct rho_tracker *tracker,

@@ -207,8 +207,8 @@
 #endif
 
 /*
- * Areas that an operator can exclude (rhotrack/excluded_areas.h). 0 leaves them and frozen tracks
- * out of the program. RAM: 16 bytes each. 0 .. 64.
+ * Areas that an operator can exclude (rhotrack/operator.h). 0 leaves them and frozen tracks out of
+ * the program. RAM: 16 bytes each. 0 .. 64.
  */
 #ifndef RHO_MAX_EXCLUDED_AREAS
 #define RHO_MAX_EXCLUDED_AREAS RHO_CONFIG_PICK(4, 16)
@@ -372,7 +372,7 @@
 #define RHO_PASSIVE_PAIRS 256
 #endif
 
-/* ---- The papers' methods (hough.h, passive_paper.h, paper_starts.h, show.h) ---- */
+/* ---- The papers' methods (hough.h, passive_paper.h, paper_starts.h, publish.h) ---- */
 
 /* Cells of rho in a row of the Hough accumulator. RAM: 6 or 8 bytes a cell. 64 .. 32704. */
 #ifndef RHO_MAX_RHO_CELLS

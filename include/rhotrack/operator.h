@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * operator: tracks that a person starts, drops, renumbers and freezes by hand, between two steps.
+ * operator: tracks that a person starts, drops, renumbers and freezes by hand, and areas that a
+ * person excludes: places in which no tracks are to start, as a wind farm, a junction, a harbour
+ * basin. All between two steps.
  *
  *     rho_tracker_step(&tracker, &initiator, &scan, &report);
  *     if (rho_tracker_drop_track(&tracker, 12, &report) != RHO_OK) {
@@ -50,8 +52,7 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
                                                     struct rho_report *report);
 
 /*
- * Ends a track. Its plots may start another one: rho_tracker_exclude_area (excluded_areas.h)
- * prevents that.
+ * Ends a track. Its plots may start another one: rho_tracker_exclude_area prevents that.
  * Errors: NULL, STATE (as above), VALUE (no such track), CAPACITY (the report has no room for
  * another ended track: drop it after the next step). Cost: the report. Stack: 1.5 KB.
  */
@@ -80,6 +81,24 @@ RHO_MUST_CHECK enum rho_status rho_tracker_renumber_track(struct rho_tracker *tr
 RHO_MUST_CHECK enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker,
                                                         uint32_t track_id, int is_frozen,
                                                         struct rho_report *report);
+
+/*
+ * Excludes an area, sides included: from the next step on its plots start no tracks. Tracks still
+ * take them. A plot there that no track claims is GHOST (enum rho_fate), and counted in
+ * plots_excluded; bearings are not touched.
+ *   area  copied; min below max
+ * Errors: NULL, STATE (not initialised), CAPACITY (RHO_MAX_EXCLUDED_AREAS are there), VALUE (a side
+ * that is no coordinate, or turned round). Constant cost; a step's grows by plots times areas.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_exclude_area(struct rho_tracker *tracker,
+                                                        const struct rho_extent *area);
+
+/*
+ * Takes back the excluded areas that hold a place. Errors: NULL, STATE (not initialised), VALUE
+ * (none does). Cost: areas.
+ */
+RHO_MUST_CHECK enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m,
+                                                         float y_m);
 
 #ifdef __cplusplus
 }

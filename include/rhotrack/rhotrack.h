@@ -16,12 +16,10 @@
 #include "rhotrack/types.h"
 
 /* tracking */
-#include "rhotrack/excluded_areas.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/measurement.h"
 #include "rhotrack/operator.h"
 #include "rhotrack/passive.h"
-#include "rhotrack/reflector_learning.h"
 #include "rhotrack/reflectors.h"
 #include "rhotrack/settings.h"
 #include "rhotrack/snapshot.h"
@@ -34,7 +32,6 @@
 #include "rhotrack/node.h"
 #include "rhotrack/publish.h"
 #include "rhotrack/scan_assembler.h"
-#include "rhotrack/show.h"
 #include "rhotrack/udpm.h"
 #include "rhotrack/zones.h"
 

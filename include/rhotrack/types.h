@@ -247,7 +247,7 @@ enum rho_fate {
     /*
      * a bearing with false crossings alone; kept, as the other sensors may have missed its target.
      * Or a plot where a wall would show the image of a track (reflectors.h), or in an excluded
-     * area (excluded_areas.h)
+     * area (operator.h)
      */
     RHO_FATE_GHOST,
     RHO_FATE_STALE, /* its scan is older than the scans that were already processed */

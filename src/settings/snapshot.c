@@ -5,7 +5,7 @@
 
 #include "rhotrack/initiator.h"
 #include "rhotrack/passive.h"
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/settings.h"
 #include "rhotrack/tracker.h"
 

@@ -2,7 +2,7 @@
 /*
  * excluded_areas: places in which no plot starts a track.
  */
-#include "rhotrack/excluded_areas.h"
+#include "rhotrack/operator.h"
 
 #include <string.h>
 

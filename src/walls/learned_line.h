@@ -7,7 +7,8 @@
 
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
+#include "rhotrack/tracker.h"
 
 #define TARGET_HITS 8 /* of a track that may have an image */
 #define REPEATED 8.0f /* a target's errors stay for about so many looks */

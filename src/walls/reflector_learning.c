@@ -2,7 +2,7 @@
 /*
  * reflector_learning: lines between tracks and their images are observed until they are walls.
  */
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 
 #include <string.h>
 

@@ -2,7 +2,6 @@
 /* An operator's messages, done by a tracker. */
 #include "rhotrack/command.h"
 
-#include "rhotrack/excluded_areas.h"
 #include "rhotrack/operator.h"
 
 static enum rho_status start(const struct rho_message_command *command, struct rho_tracker *tracker,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* show: which messages of a step are sent, by the rate of their kind. */
-#include "rhotrack/show.h"
+#include "rhotrack/publish.h"
 
 #include <string.h>
 

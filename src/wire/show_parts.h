@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_SHOW_PARTS_H
 #define RHOTRACK_SHOW_PARTS_H
 
-#include "rhotrack/show.h"
+#include "rhotrack/publish.h"
 
 /* One message: where it goes. */
 struct rho_show_output {

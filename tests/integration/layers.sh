@@ -34,6 +34,8 @@ seed include/rhotrack/detail/linalg.h '#include "rhotrack/tracker.h"' \
 seed include/rhotrack/detail/gate.h '#include "rhotrack/detail/window.h"' \
     'association may not include'
 seed src/window/window.c '#include "rhotrack/kalman.h"' 'window may not include'
+seed src/tracker/coverage.c '#include "rhotrack/operator.h"' \
+    'tracker may not include rhotrack/operator.h of step'
 seed src/base/angle.c '#include <stdio.h>' 'system header <stdio.h>'
 seed src/base/angle.c '#include "../tracker/step.h"' 'base may not include ../tracker/step.h'
 seed include/rhotrack/tracker.h '#include "../../src/tracker/step.h"' 'private header'

@@ -6,7 +6,7 @@
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/udpm.h"
 #include "starts.h"
 

@@ -6,9 +6,9 @@ for circles of files.
 A room is a folder of src/. A public header (include/rhotrack/, include/rhotrack/detail/) belongs to
 the room that has the source of its name, or of the longest name that it begins with; else to the
 first room. A file may include the headers of its own room, those of the rooms that the table lists
-for it (`all above`: every earlier row), private headers of its own folder, and the system headers
-below. No function has an #if inside: an option is an `if` on a constant, or a file that the build
-chooses.
+for it (`all above`: every earlier row), a public header that declares a function which it defines,
+private headers of its own folder, and the system headers below. No function has an #if inside: an
+option is an `if` on a constant, or a file that the build chooses.
 
 Files that need one another, directly or through others, are a circle: one file, or there is a third
 one below them. The symbols of the objects tell, in BUILD/embedded/src and
@@ -71,9 +71,16 @@ def conditions_inside(text):
             yield number
 
 
-def check_file(path, room, rooms, allowed):
+def declares_one(header, text):
+    """True where a header declares a function that a source defines."""
+    defined = re.findall(r"^\w[\w *]*?\b(rho_\w+)\([^;{]*\)\n\{", text, re.MULTILINE)
+    declared = re.findall(r"\b(rho_\w+)\(", header.read_text(encoding="utf-8"))
+    return not set(defined).isdisjoint(declared)
+
+
+def check_file(path, room, rooms, allowed, include):
     """What is wrong with one file, as (path, line, text). rooms: {stem of a public header: its
-    room}."""
+    room}; include: the folder of rhotrack/."""
     if room not in allowed:
         yield path, 1, f"room {room} has no row in the table"
         return
@@ -90,9 +97,10 @@ def check_file(path, room, rooms, allowed):
                 yield path, number, f"include of a macro, {name}"
         elif target.parts[0] == "rhotrack":
             home = rooms.get(target.stem)
-            if home is None:
+            if home is None or not (include / name).is_file():
                 yield path, number, f"there is no header {name}"
-            elif home != room and home not in allowed[room]:
+            elif home != room and home not in allowed[room] and not (
+                    path.suffix == ".c" and declares_one(include / name, text)):
                 yield path, number, f"{room} may not include {name} of {home}"
         elif "include" in path.parts or not (path.parent / target).is_file():
             yield path, number, f"private header \"{name}\""
@@ -184,10 +192,12 @@ def main():
     rooms = {path.stem: owner(path.stem, sources) or first for path in headers}
     files = sorted(root.glob("src/**/*.[ch]"))
     for path in files:
-        problems.extend(check_file(path, path.relative_to(root / "src").parts[0], rooms, allowed))
+        problems.extend(check_file(path, path.relative_to(root / "src").parts[0], rooms, allowed,
+                                   root / "include"))
     for path in headers:
         if path.stem != UMBRELLA:
-            problems.extend(check_file(path, rooms[path.stem], rooms, allowed))
+            problems.extend(
+                check_file(path, rooms[path.stem], rooms, allowed, root / "include"))
     for path, number, text in problems:
         print(f"{path.relative_to(root)}:{number}: {text}")
     between = list(

@@ -3,7 +3,7 @@
  * Targets that give several plots a scan: one track each, with its extent; near each other they
  * stay two; and what a tracker may be told of them.
  */
-#include "rhotrack/excluded_areas.h"
+#include "rhotrack/operator.h"
 #include "tracker_setup.h"
 
 #define SENSOR 1

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Excluded areas: no plot in them starts a track, and tracks pass through. */
-#include "rhotrack/excluded_areas.h"
+#include "rhotrack/operator.h"
 
 #include "two_flights.h"
 

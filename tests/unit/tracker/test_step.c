@@ -5,7 +5,7 @@
  * hand, which takes the private header: those of a scene never stand at a limit.
  */
 #include "../../src/tracker/step.h"
-#include "rhotrack/excluded_areas.h"
+#include "rhotrack/operator.h"
 #include "rhotrack/reflectors.h"
 #include "tracker_setup.h"
 

@@ -3,7 +3,7 @@
  * Which two tracks are taken for a target and its image, and which line they say: reports made by
  * hand, each limit from both sides.
  */
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 #include "tracker_setup.h"
 
 static struct rho_reflector_learning learning;

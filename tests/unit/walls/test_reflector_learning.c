@@ -3,7 +3,7 @@
  * Walls that nobody told of are learned from the images of cars that pass; lanes, formations and
  * clutter are no walls; what was learned is used, refined, kept and forgotten.
  */
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/snapshot.h"
 #include "tracker_setup.h"
 

@@ -3,7 +3,7 @@
  * How targets speak for a line or against it, and which line is a wall then: lines as a snapshot
  * may have them, reports made by hand, each limit from both sides.
  */
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 #include "tracker_setup.h"
 
 #define LINE_M 150.0f

@@ -3,7 +3,7 @@
  * What a step thought, as messages: ghosts, accumulators, planes and hypotheses as receivers read
  * them, beside the objects; rates, turns, and what is left out.
  */
-#include "rhotrack/show.h"
+#include "rhotrack/publish.h"
 #include "tracker_setup.h"
 
 #define SCAN_S 2.0

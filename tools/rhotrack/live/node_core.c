@@ -11,8 +11,8 @@
 #include "pipeline/learned.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/command.h"
-#include "rhotrack/excluded_areas.h"
 #include "rhotrack/message.h"
+#include "rhotrack/operator.h"
 #include "rhotrack/publish.h"
 #include "rhotrack/udpm.h"
 

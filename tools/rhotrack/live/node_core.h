@@ -23,7 +23,7 @@
 #include "rhotrack/frames.h"
 #include "rhotrack/message.h"
 #include "rhotrack/node.h"
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/scan_assembler.h"
 #include "rhotrack/tracker.h"
 #include "rhotrack/zones.h"
@@ -124,7 +124,7 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
 /* Scans after which a sensor is believed. */
 int node_core_follow_scans(const struct node_core *core);
 
-/* The wall that was learned at this place (reflector_learning.h); 0: none. */
+/* The wall that was learned at this place (reflectors.h); 0: none. */
 int node_core_wall(const struct node_core *core, unsigned place, struct rho_reflector *wall);
 
 /* Sends what is known of clutter that comes back, RHO_CLUTTER. */

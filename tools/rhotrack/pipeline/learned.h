@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/tracker.h"
 
 /*

@@ -7,7 +7,7 @@
 #define RHOTRACK_TOOL_PIPELINE_H
 
 #include "rhotrack/paper_starts.h"
-#include "rhotrack/reflector_learning.h"
+#include "rhotrack/reflectors.h"
 #include "rhotrack/zones.h"
 #include "settings/parameters.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "rhotrack/show.h"
+#include "rhotrack/publish.h"
 #include "settings/method.h"
 
 struct pipeline_show {
