@@ -85,8 +85,8 @@
 #endif
 
 /*
- * Echoes in the clutter map (rhotrack/clutter_map.h), of all sensors together. 0 leaves the map out
- * of the program. RAM: 64 bytes each. 0 .. 32767.
+ * Echoes in the clutter map (rhotrack/detail/clutter_map.h), of all sensors together. 0 leaves the
+ * map out of the program. RAM: 64 bytes each. 0 .. 32767.
  */
 #ifndef RHO_MAX_ECHOES
 #define RHO_MAX_ECHOES RHO_CONFIG_PICK(128, 8192)

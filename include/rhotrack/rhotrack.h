@@ -6,8 +6,10 @@
  *
  * Scans of plots or bearings go in, tracks come out. Each header below is the manual of its part;
  * types.h states the conventions, settings.h what is to be said of a radar, tracker.h the step.
- * Including all costs nothing: functions that a program does not call are not linked. All headers
- * are C99, and C++17 through extern "C".
+ * detail/ has what the objects of these embed, and comes with them: detail/clutter_map.h the echoes
+ * of a tracker, detail/kalman.h, detail/measurement.h and detail/track.h parts for programs that
+ * build a tracker of their own. Including all costs nothing: functions that a program does not call
+ * are not linked. All headers are C99, and C++17 through extern "C".
  */
 #ifndef RHOTRACK_RHOTRACK_H
 #define RHOTRACK_RHOTRACK_H
@@ -16,8 +18,8 @@
 #include "rhotrack/types.h"
 
 /* tracking */
+#include "rhotrack/body.h"
 #include "rhotrack/initiator.h"
-#include "rhotrack/measurement.h"
 #include "rhotrack/operator.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/reflectors.h"
@@ -34,12 +36,6 @@
 #include "rhotrack/scan_assembler.h"
 #include "rhotrack/udpm.h"
 #include "rhotrack/zones.h"
-
-/* parts of a tracker, for programs that build their own */
-#include "rhotrack/body.h"
-#include "rhotrack/clutter_map.h"
-#include "rhotrack/kalman.h"
-#include "rhotrack/track.h"
 
 /* the methods of the papers, to compare with */
 #include "rhotrack/hough.h"

@@ -53,18 +53,18 @@
 #include <stdint.h>
 
 #include "rhotrack/body.h"
-#include "rhotrack/clutter_map.h"
 #include "rhotrack/config.h"
 #include "rhotrack/detail/assignment.h"
+#include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/input.h"
 #include "rhotrack/detail/split_plots.h"
+#include "rhotrack/detail/track.h"
 #include "rhotrack/detail/window.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/reflectors.h"
-#include "rhotrack/track.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -370,6 +370,19 @@ struct rho_report {
     /* identities of tracks that had been confirmed and ended in this step */
     uint32_t ended[RHO_MAX_TRACKS];
 };
+
+/*
+ * Name of a status: "free", "tentative", "confirmed", "coasting"; "unknown" for any other value.
+ * Constant cost. Stack: 0 bytes.
+ */
+const char *rho_track_status_name(enum rho_track_status status);
+
+/*
+ * Of one of the tracker's tracks: root of the mean position (velocity) variance over the axes that
+ * were measured so far, metres (metres a second). Constant cost. Stack: 32 bytes.
+ */
+float rho_track_sigma_m(const struct rho_track *track);
+float rho_track_sigma_mps(const struct rho_track *track);
 
 /*
  * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, late_max 20 s, learn_noise_min

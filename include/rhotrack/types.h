@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * types: scans, plots, bearings and sensors, the outcomes of calls, and the words that the library
- * uses for them. Plain data, a unit in every field name.
+ * types: scans, plots (also made of range and azimuth), bearings, sensors, outcomes of calls, and
+ * the words that the library uses for them. Plain data, a unit in every field name.
  *
  * Conventions, everywhere in rhotrack:
  *   frame     local Cartesian, metres: x east, y north, z up
@@ -265,6 +265,25 @@ const char *rho_fate_name(enum rho_fate fate);
 
 /* One number for a plot's noise: the larger of its horizontal sigmas. Constant cost. */
 float rho_plot_sigma_m(const struct rho_plot *plot);
+
+/*
+ * Converts a polar plot: the sensor's biases are subtracted (range, azimuth, time), the place is
+ * converted without bias, and the noise of the angles becomes metres across the line of sight.
+ *   measures  RHO_MEASURES_Z: the elevation counts; RHO_MEASURES_RANGE_RATE: the range rate counts
+ *   sensor    NULL: at the origin, without biases
+ *   plot      offset, place, range rate, snr and sigmas are filled, the rest is 0
+ * The mean of r cos(a + noise) is r cos(a) exp(-sigma^2 / 2): the converted place falls short of
+ * the true one by r sigma^2 / 2 along the line of sight, and is moved out again. The noise of the
+ * angles also spreads the place along the line of sight, with the variance r^2 sigma^4 / 2, which
+ * sigma_range_m gets. Errors: NULL, VALUE (range not in 0 .. RHO_LIMIT_POSITION_M, exclusive of 0,
+ * azimuth beyond +-pi, elevation beyond +-pi/2, a sigma outside its limits, range rate beyond
+ * RHO_LIMIT_SPEED_MPS, the place or offset beyond its limit, also once the biases are off; any of
+ * it not finite); *plot is unchanged. Cost: two sines and cosines. Stack: 220 bytes.
+ */
+RHO_MUST_CHECK enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar,
+                                                          uint32_t measures,
+                                                          const struct rho_sensor *sensor,
+                                                          struct rho_plot *plot);
 
 /* a + n, saturating at UINT32_MAX, as every counter of the library does. Constant cost. */
 static inline uint32_t rho_count(uint32_t counter, uint32_t n)

@@ -5,7 +5,7 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 enum rho_status rho_batch_init(struct rho_batch *batch, unsigned scans_max, float apart_max_m)
 {

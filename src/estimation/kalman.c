@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "rhotrack/kalman.h"
+#include "rhotrack/detail/kalman.h"
 
 #include <float.h>
 #include <stddef.h>

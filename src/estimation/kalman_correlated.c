@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "rhotrack/kalman.h"
+#include "rhotrack/detail/kalman.h"
 
 /* Smallest pivot as a share of the element's variance: four units of float32's rounding. */
 #define PIVOT_LEAST (1.0f / 4194304.0f)

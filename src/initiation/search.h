@@ -6,8 +6,8 @@
 #ifndef RHOTRACK_SEARCH_H
 #define RHOTRACK_SEARCH_H
 
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/initiator.h"
-#include "rhotrack/measurement.h"
 
 #define LOG_PI 1.14472989f
 #define LOG_TWO_PI 1.83787707f

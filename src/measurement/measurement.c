@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 #include <float.h>
 

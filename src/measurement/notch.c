@@ -7,7 +7,7 @@
 
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 #define ROOT_TWO_PI 2.50662827f
 

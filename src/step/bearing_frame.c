@@ -13,7 +13,7 @@
 #include "phases.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 /* A target at the border of a sector has bearings so many standard deviations beyond it. */
 #define BEARING_SIGMAS 4.0f

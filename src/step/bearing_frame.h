@@ -6,7 +6,7 @@
 #define RHOTRACK_BEARING_FRAME_H
 
 #include "phases.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 static inline int is_bearing(const struct rho_bearing *bearing)
 {

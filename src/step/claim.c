@@ -4,7 +4,7 @@
  */
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 /* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the
  * paper. */

@@ -28,7 +28,7 @@
  */
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 /* Variance of a place anywhere between both targets, over the square of half their distance. */
 #define BETWEEN (1.0f / 3.0f)

@@ -5,7 +5,7 @@
 #include "phases.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 static enum rho_status check_step(const struct rho_tracker *tracker,
                                   const struct rho_initiator *initiator,

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "phases.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 /* The row of a held plot in its scan; -1: it came with an earlier sector. */
 static int16_t row_of(const struct rho_window *window, const struct rho_window_scan *scan,

@@ -6,7 +6,7 @@
 
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "step.h"
 
 /* Places on a body of unknown extent: it is half as long as the longest, in any direction. */

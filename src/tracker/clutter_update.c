@@ -18,7 +18,7 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/clutter_map_cells.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "step.h"
 
 /* Hits of a track from which it is a target's, if it is not too slow. */

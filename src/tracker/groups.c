@@ -9,7 +9,7 @@
  */
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "step.h"
 
 /* A plot is a track's by its place up to so many standard deviations on each axis of the body. */

@@ -5,7 +5,7 @@
 #ifndef RHOTRACK_IMAGES_H
 #define RHOTRACK_IMAGES_H
 
-#include "rhotrack/kalman.h"
+#include "rhotrack/detail/kalman.h"
 #include "rhotrack/reflectors.h"
 #include "rhotrack/types.h"
 

@@ -3,7 +3,7 @@
  * plot_scores: how much likelier a plot is a track's than clutter, ln; and the pairs of a track and
  * a plot or bearing that are offered to the assignment.
  */
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "step.h"
 
 /* ---- offers ---------------------------------------------------------------------------------- */

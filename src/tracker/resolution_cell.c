@@ -19,7 +19,7 @@
  * of what is known. l moves by slope over weight (Fisher's scoring).
  */
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "step.h"
 
 /* n of a cell of 1: 1 / 2 ln 2. */

@@ -16,7 +16,7 @@
 
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "step.h"
 
 /* Standard deviations from a track's place to the end of where its plot is expected. */

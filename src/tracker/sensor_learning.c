@@ -23,7 +23,7 @@
  */
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "step.h"
 
 /* Tracks that are likelier to turn teach nothing of noise. */

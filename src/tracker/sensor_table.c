@@ -3,8 +3,8 @@
  * sensor_table: the sensors that were described (rho_tracker_set_sensor).
  */
 #include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/notch.h"
-#include "rhotrack/measurement.h"
 #include "step.h"
 
 unsigned rho_tracker_place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id)

@@ -3,11 +3,12 @@
  * track: one target's life cycle, its evidence, and its estimate by the filter that it was started
  * with.
  */
-#include "rhotrack/track.h"
+#include "rhotrack/detail/track.h"
 
 #include <string.h>
 
 #include "rhotrack/detail/approx.h"
+#include "rhotrack/tracker.h"
 
 #define SCORE_LIMIT_MNAT 1000000000
 #define SCORE_LIMIT_NAT (0.001f * (float)SCORE_LIMIT_MNAT)

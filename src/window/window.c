@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "rhotrack/detail/angle.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "window_extent.h"
 #include "window_sigma.h"
 

@@ -2,8 +2,8 @@
 /* window_lookup: the held scans and plots, and the plot nearest to a place. */
 #include <string.h>
 
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
-#include "rhotrack/measurement.h"
 #include "window_sigma.h"
 
 /* ---- what is held ---------------------------------------------------------------------------- */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* window_validate: consistency of a window of unknown origin (a snapshot). */
 #include "rhotrack/detail/angle.h"
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
-#include "rhotrack/measurement.h"
 
 static int is_finite(float v)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Echoes that the tracker's clutter map knows, as messages. */
-#include "rhotrack/clutter_map.h"
 #include "rhotrack/detail/approx.h"
+#include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/publish.h"
 
 #define PART_ECHOES RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "rhotrack/detail/angle.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "scan_assembler_parts.h"
 
 #define MAGIC 0x66656564u

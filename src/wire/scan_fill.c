@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "rhotrack/detail/angle.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "scan_assembler_parts.h"
 
 #define NOT_A_PLACE FLT_MAX /* beyond every limit: the tracker gives the plot the fate INVALID */

@@ -18,7 +18,7 @@
 #include <string.h>
 
 #include "rhotrack/detail/angle.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/snapshot.h"
 #include "rhotrack/tracker.h"
 

@@ -33,7 +33,7 @@ seed include/rhotrack/detail/linalg.h '#include "rhotrack/tracker.h"' \
     'base may not include rhotrack/tracker.h of tracker'
 seed include/rhotrack/detail/gate.h '#include "rhotrack/detail/window.h"' \
     'association may not include'
-seed src/window/window.c '#include "rhotrack/kalman.h"' 'window may not include'
+seed src/window/window.c '#include "rhotrack/detail/kalman.h"' 'window may not include'
 seed src/tracker/coverage.c '#include "rhotrack/operator.h"' \
     'tracker may not include rhotrack/operator.h of step'
 seed src/base/angle.c '#include <stdio.h>' 'system header <stdio.h>'

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "rhotrack/kalman.h"
+#include "rhotrack/detail/kalman.h"
 
 #define STATES RHO_KALMAN_STATES
 #define PACKED RHO_TRIANGLE(RHO_KALMAN_STATES)

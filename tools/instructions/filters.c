@@ -11,8 +11,8 @@
 #include "draw.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/input.h"
-#include "rhotrack/kalman.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/kalman.h"
+#include "rhotrack/detail/measurement.h"
 
 #define STEPS 20
 #define PLOTS 5 /* the target's is the first */

@@ -11,7 +11,7 @@
 #include "draw.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/types.h"
 
 #define TARGETS 8
 #define INTERVAL_S 1.0f

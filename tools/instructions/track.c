@@ -12,7 +12,7 @@
 
 #include "count.h"
 #include "rhotrack/detail/gate.h"
-#include "rhotrack/track.h"
+#include "rhotrack/detail/track.h"
 #include "scene.h"
 
 #define START_STEPS 6

@@ -21,7 +21,7 @@
 #include "live/node_core.h"
 #include "pipeline/maintainer.h"
 #include "pipeline/pipeline.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "settings/method.h"
 #include "settings/parameters.h"
 

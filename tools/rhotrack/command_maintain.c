@@ -11,7 +11,7 @@
 #include "io/scans/frame_reader.h"
 #include "io/scans/scan_reader.h"
 #include "pipeline/maintainer.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 struct maintaining {
     struct maintainer *maintainer;

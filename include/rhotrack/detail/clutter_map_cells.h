@@ -7,7 +7,7 @@
 #ifndef RHOTRACK_CLUTTER_MAP_CELLS_H
 #define RHOTRACK_CLUTTER_MAP_CELLS_H
 
-#include "rhotrack/clutter_map.h"
+#include "rhotrack/detail/clutter_map.h"
 
 #ifdef __cplusplus
 extern "C" {

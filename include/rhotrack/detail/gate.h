@@ -12,8 +12,8 @@
 #ifndef RHOTRACK_GATE_H
 #define RHOTRACK_GATE_H
 
-#include "rhotrack/kalman.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/kalman.h"
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -32,8 +32,8 @@
 
 #include "rhotrack/config.h"
 #include "rhotrack/detail/imm.h"
+#include "rhotrack/detail/kalman.h"
 #include "rhotrack/detail/notch.h"
-#include "rhotrack/kalman.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

@@ -32,9 +32,9 @@
 
 #include <stdint.h>
 
+#include "rhotrack/detail/kalman.h"
 #include "rhotrack/detail/linalg.h"
-#include "rhotrack/kalman.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

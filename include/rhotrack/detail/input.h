@@ -35,8 +35,8 @@
 
 #include <stdint.h>
 
-#include "rhotrack/kalman.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/kalman.h"
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

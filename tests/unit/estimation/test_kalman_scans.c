@@ -101,7 +101,7 @@ static struct rho_polar_plot look(const struct radar *radar, double time_s)
         .sigma_range_rate_mps = radar->sigma_range_rate_mps};
 }
 
-/* The unbiased conversion of measurement.h, in double precision. */
+/* The unbiased conversion of types.h, in double precision. */
 static struct dense_place converted(const struct rho_polar_plot *polar, int axes)
 {
     const double e = axes == 3 ? polar->elevation_rad : 0.0, a = polar->azimuth_rad;

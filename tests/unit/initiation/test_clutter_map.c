@@ -3,7 +3,7 @@
  * Clutter that comes back, through the step: it starts no tracks and takes no target's plots; what
  * is learned, forgotten, saved.
  */
-#include "rhotrack/clutter_map.h"
+#include "rhotrack/detail/clutter_map.h"
 #include "tracker_setup.h"
 
 /* A build may leave the map out: RHO_MAX_ECHOES 0. */

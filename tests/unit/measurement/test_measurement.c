@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "rhotrack/detail/approx.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 #define PI 3.14159265358979323846
 #define ALL (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE)

@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "rhotrack/detail/hypotheses.h"
-#include "rhotrack/track.h"
+#include "rhotrack/detail/track.h"
 #include "rhotrack/tracker.h"
 
 #define SCAN_US 1000000

@@ -8,7 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "rhotrack/track.h"
+#include "rhotrack/detail/track.h"
+#include "rhotrack/tracker.h"
 
 static const struct rho_track_model model = {.speed_sigma_mps = 300.0f, .noise_density = 1.0f};
 static const struct rho_track_limits limits = {.confirm_mnat = 5000,

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "rhotrack/track.h"
+#include "rhotrack/detail/track.h"
 
 #define START_US INT64_C(7000000)
 

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "rhotrack/track.h"
+#include "rhotrack/detail/track.h"
 
 #define SCAN_US 1000000
 #define SIGMA_M 5.0f

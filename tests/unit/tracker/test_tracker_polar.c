@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/tracker.h"
 
 #define TURN_S 4.0

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
-#include "rhotrack/measurement.h"
 
 #define PLOTS 60
 

@@ -5,7 +5,6 @@
  */
 #include <math.h>
 
-#include "rhotrack/measurement.h"
 #include "rhotrack/tracker.h"
 #include "scan_assembler_setup.h"
 

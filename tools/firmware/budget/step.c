@@ -4,7 +4,6 @@
  * `make budget` links it, and nobody runs it.
  */
 #include "rhotrack/initiator.h"
-#include "rhotrack/measurement.h"
 #include "rhotrack/tracker.h"
 
 static struct rho_tracker tracker;

@@ -8,7 +8,6 @@
 #include "base/common.h"
 #include "base/portable_math.h"
 #include "pipeline/pipeline.h"
-#include "rhotrack/measurement.h"
 
 /* ---- what trackers are told ------------------------------------------------------------------ */
 

@@ -37,7 +37,7 @@ class _Plot:
 
 
 class Kalman:
-    """Nearly constant velocity, updated by one scalar at a time (rhotrack/kalman.h)."""
+    """Nearly constant velocity, updated by one scalar at a time (rhotrack/detail/kalman.h)."""
 
     def __init__(self) -> None:
         self.struct = ffi.new("struct rho_kalman *")

@@ -12,8 +12,8 @@
 #include "pipeline/scan_density.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/input.h"
-#include "rhotrack/measurement.h"
-#include "rhotrack/track.h"
+#include "rhotrack/detail/measurement.h"
+#include "rhotrack/detail/track.h"
 
 #define DEG_RAD 0.017453292519943295
 #define AXES 3

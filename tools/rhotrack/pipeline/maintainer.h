@@ -12,8 +12,8 @@
 
 #include "base/random.h"
 #include "rhotrack/detail/hypotheses.h"
-#include "rhotrack/kalman.h"
-#include "rhotrack/track.h"
+#include "rhotrack/detail/kalman.h"
+#include "rhotrack/detail/track.h"
 #include "rhotrack/types.h"
 #include "settings/parameters.h"
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 
 #define DIMENSIONS_MAX 7
 

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "rhotrack/kalman.h"
+#include "rhotrack/detail/kalman.h"
 #include "rhotrack/types.h"
 
 /*

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/common.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "settings/parameters.h"
 
 /* Bounds of the factor on sigmas where nobody has said how large they are. */

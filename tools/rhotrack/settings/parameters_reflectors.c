@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/number_text.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/reflectors.h"
 #include "settings/parameters.h"
 
 #define NUMBERS 4

@@ -3,7 +3,7 @@
 
 #include "io/csv/row_check.h"
 #include "rhotrack/detail/angle.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include <math.h>
 
 /* A row on its way through the checks. */

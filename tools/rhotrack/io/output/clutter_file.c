@@ -24,7 +24,7 @@
 #define ALL_REGIONS (RHO_ECHO_TABLES - 1)
 #define REGION_MAX (ALL_REGIONS - 1)
 
-/* The least of each class (rhotrack/clutter_map.h): it stands for the class in the file. */
+/* The least of each class (rhotrack/detail/clutter_map.h): it stands for the class in the file. */
 static const uint16_t hits_of_class[RHO_ECHO_HIT_CLASSES] = {1, 2, 3, RHO_ECHO_KNOWN_HITS};
 static const uint8_t unseen_of_class[RHO_ECHO_GAP_CLASSES] = {1, 2, 3, 5, 9};
 

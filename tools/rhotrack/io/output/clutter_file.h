@@ -18,7 +18,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "rhotrack/clutter_map.h"
+#include "rhotrack/detail/clutter_map.h"
 #include "settings/parameters.h"
 
 struct clutter_file {

@@ -15,7 +15,7 @@
 #define RHOTRACK_KALMAN_H
 
 #include "rhotrack/detail/linalg.h"
-#include "rhotrack/measurement.h"
+#include "rhotrack/detail/measurement.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus

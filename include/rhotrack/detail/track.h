@@ -23,11 +23,11 @@
 
 #include <stdint.h>
 
-#include "rhotrack/clutter_map.h"
+#include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/input.h"
-#include "rhotrack/kalman.h"
+#include "rhotrack/detail/kalman.h"
 #include "rhotrack/types.h"
 
 #ifdef __cplusplus
@@ -141,12 +141,6 @@ struct rho_track_limits {
     int32_t fall_mnat; /* one that was confirmed, so far below its highest score, is dropped; > 0 */
     uint8_t misses_in_row_max; /* the track ends at so many misses in a row */
 };
-
-/*
- * Name of a status: "free", "tentative", "confirmed", "coasting"; "unknown" for any other value.
- * Constant cost.
- */
-const char *rho_track_status_name(enum rho_track_status status);
 
 /*
  * The life cycle above as a pure function; an event that a status does not know changes nothing.
@@ -293,14 +287,6 @@ void rho_track_miss(struct rho_track *track, int32_t loss_mnat);
  */
 enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
                                                  const struct rho_track_limits *limits);
-
-/*
- * Root of the mean position (velocity) variance over the axes that were measured so far, metres
- * (metres a second).
- * Constant cost.
- */
-float rho_track_sigma_m(const struct rho_track *track);
-float rho_track_sigma_mps(const struct rho_track *track);
 
 #ifdef __cplusplus
 }
