@@ -49,7 +49,7 @@ static int find_pair(const struct rho_assignment *a, int row, int column)
     return i;
 }
 
-static int find_dearest(const struct rho_assignment_pair *pairs)
+static int find_dearest_pair(const struct rho_assignment_pair *pairs)
 {
     int i, dearest = 0;
 
@@ -61,10 +61,10 @@ static int find_dearest(const struct rho_assignment_pair *pairs)
     return dearest;
 }
 
-/* A full row: the dearest of its pairs and the new one is dropped. */
-static void replace_dearest(struct rho_assignment *a, int row, struct rho_assignment_pair pair)
+/* In a full row: of its pairs and the new one the dearest is dropped. */
+static void replace_dearest_pair(struct rho_assignment *a, int row, struct rho_assignment_pair pair)
 {
-    struct rho_assignment_pair *dearest = &a->pairs[row][find_dearest(a->pairs[row])];
+    struct rho_assignment_pair *dearest = &a->pairs[row][find_dearest_pair(a->pairs[row])];
 
     if (is_dearer(dearest, &pair)) {
         *dearest = pair;
@@ -112,7 +112,7 @@ static void label_row(struct rho_assignment *a, struct search *s, int row, int32
  * Brings the nearest open column, the lowest of equals, to the head of the queue's open part;
  * false: none in reach.
  */
-static int find_nearest(struct rho_assignment *a, const struct search *s)
+static int find_nearest_column(struct rho_assignment *a, const struct search *s)
 {
     int16_t *queue = a->column_queue;
     int32_t least = s->end_distance;
@@ -143,7 +143,7 @@ static int find_nearest(struct rho_assignment *a, const struct search *s)
 static void search_path(struct rho_assignment *a, struct search *s, int row)
 {
     label_row(a, s, row, 0);
-    while (find_nearest(a, s)) { /* at most num_columns times: each is scanned once */
+    while (find_nearest_column(a, s)) { /* at most num_columns times: each is scanned once */
         const int16_t column = a->column_queue[s->num_scanned];
         const int16_t owner = a->column_row[column];
         int32_t price;
@@ -178,7 +178,7 @@ static void update_prices(struct rho_assignment *a, const struct search *s)
  * Walks back from the end to the row that was searched for, each row on the way taking the
  * column it reached.
  */
-static void augment(struct rho_assignment *a, const struct search *s, int first_row)
+static void augment_along_path(struct rho_assignment *a, const struct search *s, int first_row)
 {
     int16_t column = s->end_column;
     int16_t row = s->end_row;
@@ -273,7 +273,7 @@ enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned r
     if (*num_pairs < RHO_MAX_GATE_PLOTS) {
         assignment->pairs[row][(*num_pairs)++] = pair;
     } else {
-        replace_dearest(assignment, (int)row, pair);
+        replace_dearest_pair(assignment, (int)row, pair);
     }
     return RHO_OK;
 }
@@ -291,7 +291,7 @@ void rho_assignment_solve(struct rho_assignment *assignment)
 
         search_path(assignment, &s, row);
         update_prices(assignment, &s);
-        augment(assignment, &s, row);
+        augment_along_path(assignment, &s, row);
     }
 }
 

@@ -10,8 +10,8 @@
 #define BOX_MARGIN 1.001f          /* more than rounding is wrong by */
 
 /* The expected range rate: the same for all plots without an own time. */
-static void expect_rate(const struct rho_kalman *at, const struct rho_sensor *sensor, int has_z,
-                        struct rho_gate_rate *rate)
+static void expect_range_rate(const struct rho_kalman *at, const struct rho_sensor *sensor,
+                              int has_z, struct rho_gate_rate *rate)
 {
     float row[RHO_KALMAN_STATES], projected[RHO_KALMAN_STATES];
     rate->is_known = rho_measurement_range_rate(at->state, sensor, has_z, row, &rate->rate_mps);
@@ -32,7 +32,7 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
     gate->has_z = rho_kalman_is_open(predicted, 2);
     gate->measures = measures;
     if (measures & RHO_MEASURES_RANGE_RATE) {
-        expect_rate(predicted, sensor, gate->has_z, &gate->rate);
+        expect_range_rate(predicted, sensor, gate->has_z, &gate->rate);
     }
 }
 
@@ -55,8 +55,8 @@ void rho_gate_box(const struct rho_gate *gate, float sigma_m, float offset_s, fl
  * Outside the gate along one axis alone, at the plot's own time: most plots end here, without a
  * division. NaN ends here too.
  */
-static int is_far(const struct rho_gate *gate, int axis, float place_m, float offset_s,
-                  float variance_m2)
+static int is_outside_on_axis(const struct rho_gate *gate, int axis, float place_m, float offset_s,
+                              float variance_m2)
 {
     const struct rho_kalman *at = &gate->predicted;
     const float *p = at->covariance;
@@ -77,8 +77,8 @@ struct innovation {
     float s[RHO_TRIANGLE(DIMENSIONS_MAX)];
 };
 
-static void add_position(const struct rho_kalman *at, const struct rho_measurement *seen, int num,
-                         struct innovation *innovation)
+static void begin_with_position(const struct rho_kalman *at, const struct rho_measurement *seen,
+                                int num, struct innovation *innovation)
 {
     float noise[RHO_TRIANGLE(3)];
     rho_measurement_covariance(seen, noise);
@@ -110,8 +110,8 @@ static int add_range_rate(const struct rho_gate_rate *rate, const struct rho_plo
     return 1;
 }
 
-/* Four dimensions: by the Cholesky factor. */
-static int measure_four(struct innovation *innovation, struct rho_gate_result *result)
+/* Position with height, and a range rate: by the Cholesky factor. */
+static int test_four_dimensions(struct innovation *innovation, struct rho_gate_result *result)
 {
     if (rho_linalg_cholesky(4, innovation->s, innovation->s) != RHO_OK) {
         return 0;
@@ -125,11 +125,11 @@ static int measure_four(struct innovation *innovation, struct rho_gate_result *r
     return result->distance2 <= RHO_GATE_CHI2_4D;
 }
 
-static int is_inside(struct innovation *innovation, struct rho_gate_result *result)
+static int is_innovation_inside(struct innovation *innovation, struct rho_gate_result *result)
 {
     const float *s = innovation->s, *d = innovation->d;
     if (innovation->num == 4) {
-        return measure_four(innovation, result);
+        return test_four_dimensions(innovation, result);
     }
     if (innovation->num == 3) {
         return rho_linalg_gate3(s, d, &result->distance2, &result->log_det) == RHO_OK &&
@@ -139,15 +139,15 @@ static int is_inside(struct innovation *innovation, struct rho_gate_result *resu
            result->distance2 <= RHO_GATE_CHI2_2D;
 }
 
-static int test_closely(const struct rho_gate *gate, const struct rho_kalman *at,
-                        const struct rho_gate_rate *rate, const struct rho_plot *plot,
-                        struct rho_gate_result *result)
+static int test_all_dimensions(const struct rho_gate *gate, const struct rho_kalman *at,
+                               const struct rho_gate_rate *rate, const struct rho_plot *plot,
+                               struct rho_gate_result *result)
 {
     struct rho_measurement seen;
     struct innovation innovation;
     rho_measurement_open(plot, gate->measures, gate->sensor, &seen);
     result->has_z = gate->has_z && seen.has_z;
-    add_position(at, &seen, result->has_z ? 3 : 2, &innovation);
+    begin_with_position(at, &seen, result->has_z ? 3 : 2, &innovation);
     result->has_range_rate =
         (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 && add_range_rate(rate, plot, &innovation);
     if (result->has_range_rate && !rho_measurement_unfold_range_rate(gate->sensor, innovation.num,
@@ -155,12 +155,12 @@ static int test_closely(const struct rho_gate *gate, const struct rho_kalman *at
         result->has_range_rate = 0;
         innovation.num--;
     }
-    return is_inside(&innovation, result);
+    return is_innovation_inside(&innovation, result);
 }
 
-/* At the plot's own time. */
-static int test_later(const struct rho_gate *gate, float offset_s, const struct rho_plot *plot,
-                      struct rho_gate_result *result)
+/* At the plot's own time, to which the estimate is predicted. */
+static int test_at_own_time(const struct rho_gate *gate, float offset_s,
+                            const struct rho_plot *plot, struct rho_gate_result *result)
 {
     struct rho_kalman at = gate->predicted;
     struct rho_gate_rate rate;
@@ -168,9 +168,9 @@ static int test_later(const struct rho_gate *gate, float offset_s, const struct 
         return 0;
     }
     if (gate->measures & RHO_MEASURES_RANGE_RATE) {
-        expect_rate(&at, gate->sensor, gate->has_z, &rate);
+        expect_range_rate(&at, gate->sensor, gate->has_z, &rate);
     }
-    return test_closely(gate, &at, &rate, plot, result);
+    return test_all_dimensions(gate, &at, &rate, plot, result);
 }
 
 int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
@@ -185,12 +185,13 @@ int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
         sigma_m = plot->sigma_up_m;
     }
     sigma_m *= rho_measurement_widest_factor(gate->sensor);
-    if (is_far(gate, 0, plot->x_m, offset_s, sigma_m * sigma_m) ||
-        is_far(gate, 1, plot->y_m, offset_s, sigma_m * sigma_m)) {
+    if (is_outside_on_axis(gate, 0, plot->x_m, offset_s, sigma_m * sigma_m) ||
+        is_outside_on_axis(gate, 1, plot->y_m, offset_s, sigma_m * sigma_m)) {
         return 0;
     }
-    return plot->offset_us == 0 ? test_closely(gate, &gate->predicted, &gate->rate, plot, result)
-                                : test_later(gate, offset_s, plot, result);
+    return plot->offset_us == 0
+               ? test_all_dimensions(gate, &gate->predicted, &gate->rate, plot, result)
+               : test_at_own_time(gate, offset_s, plot, result);
 }
 
 static int test_bearing(const struct rho_kalman *at, const struct rho_bearing *bearing, float x_m,

@@ -12,7 +12,7 @@ struct span {
     float min, max, variance_max;
 };
 
-static inline void widen(struct span *span, float value, float variance)
+static inline void widen_span(struct span *span, float value, float variance)
 {
     span->min = value < span->min ? value : span->min;
     span->max = value > span->max ? value : span->max;
@@ -20,32 +20,32 @@ static inline void widen(struct span *span, float value, float variance)
 }
 
 /* One element of all hypotheses' states, of both models. */
-static struct span span_of(const struct rho_hypotheses *pool, uint16_t slot, int element)
+static struct span span_of_element(const struct rho_hypotheses *pool, uint16_t slot, int element)
 {
     const int variance = RHO_AT(element, element);
     struct span span = {1e30f, -1e30f, 0.0f};
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        widen(&span, imm->state[element], imm->covariance[variance]);
+        widen_span(&span, imm->state[element], imm->covariance[variance]);
         if (element < RHO_KALMAN_STATES) {
-            widen(&span, imm->steady.state[element], imm->steady.covariance[variance]);
+            widen_span(&span, imm->steady.state[element], imm->steady.covariance[variance]);
         }
     }
     return span;
 }
 
-static float far_of(const struct span *span)
+static float gate_reach(const struct span *span)
 {
     return GATE_SIGMAS * rho_sqrt(span->variance_max);
 }
 
-/* Three elements from `first` on: either way on any axis, with its uncertainty. */
-static float most_of(const struct rho_hypotheses *pool, uint16_t slot, int first)
+/* The largest of three elements from `first` on, without sign, with its uncertainty. */
+static float largest_magnitude(const struct rho_hypotheses *pool, uint16_t slot, int first)
 {
     float most = 0.0f;
     for (int axis = 0; axis < 3; axis++) {
-        const struct span span = span_of(pool, slot, first + axis);
-        const float one = (span.max > -span.min ? span.max : -span.min) + far_of(&span);
+        const struct span span = span_of_element(pool, slot, first + axis);
+        const float one = (span.max > -span.min ? span.max : -span.min) + gate_reach(&span);
         most = one > most ? one : most;
     }
     return most;
@@ -63,14 +63,14 @@ static int have_heights(const struct rho_hypotheses *pool, uint16_t slot)
 static void fill_box(const struct rho_hypotheses *pool, uint16_t slot,
                      struct rho_hypotheses_box *box)
 {
-    const struct span x = span_of(pool, slot, 0), y = span_of(pool, slot, 1);
-    const float x_m = far_of(&x), y_m = far_of(&y);
+    const struct span x = span_of_element(pool, slot, 0), y = span_of_element(pool, slot, 1);
+    const float x_m = gate_reach(&x), y_m = gate_reach(&y);
     /* a hypothesis without a height ignores that of a plot */
     struct span z = {0.0f, 0.0f, 0.0f};
     float z_m = 1e30f;
     if (have_heights(pool, slot)) {
-        z = span_of(pool, slot, 2);
-        z_m = far_of(&z);
+        z = span_of_element(pool, slot, 2);
+        z_m = gate_reach(&z);
     }
     *box = (struct rho_hypotheses_box){
         .x_min_m = x.min - x_m,
@@ -109,8 +109,8 @@ static float drift_m(const struct rho_hypotheses *pool, uint16_t slot,
         t_s * t_s * t_s *
         (model->quiet_density * (1.0f / 3.0f) + model->drive_density * t_s * t_s * (1.0f / 20.0f));
     if (box->speed_max_mps < 0.0f) {
-        box->speed_max_mps = most_of(pool, slot, RHO_KALMAN_STATES - 3);
-        box->accel_max_mps2 = most_of(pool, slot, RHO_KALMAN_STATES);
+        box->speed_max_mps = largest_magnitude(pool, slot, RHO_KALMAN_STATES - 3);
+        box->accel_max_mps2 = largest_magnitude(pool, slot, RHO_KALMAN_STATES);
     }
     return t_s * (box->speed_max_mps + 0.5f * t_s * box->accel_max_mps2) +
            GATE_SIGMAS * rho_sqrt(noise_m2);

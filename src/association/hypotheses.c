@@ -25,18 +25,18 @@ int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot)
     return is_ready(pool) && slot < RHO_HYPOTHESES_SLOTS && pool->num_of[slot] > 0;
 }
 
-uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool)
+uint16_t rho_hypotheses_allot_node(struct rho_hypotheses *pool)
 {
     return pool->spare[--pool->num_free];
 }
 
-void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node)
+void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node)
 {
     pool->spare[pool->num_free++] = node;
 }
 
-/* The slot with the most hypotheses, of equals the first, but for one. */
-static uint16_t richest(const struct rho_hypotheses *pool, uint16_t but)
+/* The slot with the most hypotheses, of equals the first; slot `but` does not count. */
+static uint16_t slot_with_most(const struct rho_hypotheses *pool, uint16_t but)
 {
     uint16_t found = but;
     for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
@@ -51,7 +51,7 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
 {
     unsigned own = slot < RHO_HYPOTHESES_SLOTS ? pool->num_of[slot] : 0;
     while (own + pool->num_free < wanted) {
-        uint16_t giver = richest(pool, slot);
+        uint16_t giver = slot_with_most(pool, slot);
         unsigned most = giver == slot ? 0 : pool->num_of[giver];
         if (most < 2 || most <= own + pool->num_free) {
             pool->hypotheses_cut = rho_count(pool->hypotheses_cut, wanted - own - pool->num_free);
@@ -59,7 +59,7 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
         }
         pool->hypotheses_cut = rho_count(pool->hypotheses_cut, 1);
         pool->num_of[giver]--;
-        rho_hypotheses_release(pool, pool->node_of[giver][pool->num_of[giver]]);
+        rho_hypotheses_release_node(pool, pool->node_of[giver][pool->num_of[giver]]);
     }
     return wanted;
 }
@@ -114,7 +114,7 @@ void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s)
 
 /* ---- slots ----------------------------------------------------------------------------------- */
 
-static int find_slot(const struct rho_hypotheses *pool, uint16_t *slot)
+static int find_free_slot(const struct rho_hypotheses *pool, uint16_t *slot)
 {
     for (uint16_t i = 0; i < RHO_HYPOTHESES_SLOTS; i++) {
         if (pool->num_of[i] == 0) {
@@ -135,10 +135,10 @@ enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool, const struct rh
         return RHO_ERROR_STATE;
     }
     uint16_t found = 0;
-    if (!find_slot(pool, &found) || rho_hypotheses_make_room(pool, found, 1) < 1) {
+    if (!find_free_slot(pool, &found) || rho_hypotheses_make_room(pool, found, 1) < 1) {
         return RHO_ERROR_CAPACITY;
     }
-    uint16_t node = rho_hypotheses_allot(pool);
+    uint16_t node = rho_hypotheses_allot_node(pool);
     struct rho_hypothesis *first = &pool->nodes[node];
     memset(first, 0, sizeof *first);
     rho_imm_start(&first->imm, &pool->model, estimate);
@@ -159,7 +159,7 @@ void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot)
         return;
     }
     for (unsigned i = pool->num_of[slot]; i > 0; i--) {
-        rho_hypotheses_release(pool, pool->node_of[slot][i - 1]);
+        rho_hypotheses_release_node(pool, pool->node_of[slot][i - 1]);
     }
     pool->num_of[slot] = 0;
 }
@@ -177,9 +177,9 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 
 /* ---- predict --------------------------------------------------------------------------------- */
 
-/* The step of an interval, kept until another one is asked for. */
-static const struct rho_imm_step *find_step(struct rho_hypotheses *pool, int64_t from_us,
-                                            int64_t to_us)
+/* The models' step of an interval, kept until another interval is asked for. */
+static const struct rho_imm_step *step_of_interval(struct rho_hypotheses *pool, int64_t from_us,
+                                                   int64_t to_us)
 {
     float dt_s = rho_seconds_between(from_us, to_us);
     if (dt_s < pool->step.dt_s || dt_s > pool->step.dt_s) {
@@ -188,11 +188,11 @@ static const struct rho_imm_step *find_step(struct rho_hypotheses *pool, int64_t
     return &pool->step;
 }
 
-enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, struct rho_imm *imm,
-                                    int64_t from_us, int64_t to_us)
+enum rho_status rho_hypotheses_move_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
+                                           int64_t from_us, int64_t to_us)
 {
     return from_us == to_us ? RHO_OK
-                            : rho_imm_predict_unmixed(imm, find_step(pool, from_us, to_us));
+                            : rho_imm_predict_unmixed(imm, step_of_interval(pool, from_us, to_us));
 }
 
 const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
@@ -202,12 +202,12 @@ const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
         return &at->imm;
     }
     pool->scratch = at->imm;
-    return rho_hypotheses_move(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
+    return rho_hypotheses_move_filter(pool, &pool->scratch, at->time_us, time_us) == RHO_OK
                ? &pool->scratch
                : 0;
 }
 
-float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot)
+float rho_hypotheses_rebase_weights(struct rho_hypotheses *pool, uint16_t slot)
 {
     const float best = pool->nodes[pool->node_of[slot][0]].weight_nat;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
@@ -221,7 +221,7 @@ float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot)
 static enum rho_status move_without_noise(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                                           int64_t time_us)
 {
-    struct rho_imm_step step = *find_step(pool, at->time_us, time_us);
+    struct rho_imm_step step = *step_of_interval(pool, at->time_us, time_us);
     memset(step.noise, 0, sizeof step.noise);
     memset(step.quiet_noise, 0, sizeof step.quiet_noise);
     return rho_imm_predict_unmixed(&at->imm, &step);
@@ -241,10 +241,10 @@ static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int6
         uint16_t node = pool->node_of[slot][i];
         struct rho_hypothesis *at = &pool->nodes[node];
         if (at->time_us != time_us &&
-            (is_without_noise
-                 ? move_without_noise(pool, at, time_us)
-                 : rho_imm_predict(&at->imm, find_step(pool, at->time_us, time_us))) != RHO_OK) {
-            rho_hypotheses_release(pool, node);
+            (is_without_noise ? move_without_noise(pool, at, time_us)
+                              : rho_imm_predict(&at->imm, step_of_interval(pool, at->time_us,
+                                                                           time_us))) != RHO_OK) {
+            rho_hypotheses_release_node(pool, node);
             continue;
         }
         at->time_us = time_us;
@@ -255,7 +255,7 @@ static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int6
         return RHO_ERROR_VALUE;
     }
     if (pool->nodes[pool->node_of[slot][0]].weight_nat < 0.0f) {
-        (void)rho_hypotheses_rebase(pool, slot); /* the best one is gone */
+        (void)rho_hypotheses_rebase_weights(pool, slot); /* the best one is gone */
     }
     return RHO_OK;
 }
@@ -272,7 +272,7 @@ enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot
 
 /* ---- the mean -------------------------------------------------------------------------------- */
 
-float rho_hypotheses_sum(const struct rho_hypotheses *pool, uint16_t slot)
+float rho_hypotheses_sum_of_shares(const struct rho_hypotheses *pool, uint16_t slot)
 {
     float sum = 0.0f;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
@@ -294,13 +294,13 @@ struct sums {
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
 };
 
-/* A model's way from there, and that times its share. */
+/* A model's state less the place that sums are about, and that times the model's share. */
 struct way {
     float way[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
 };
 
-static inline void find_way(struct sums *sums, const struct rho_imm *imm, float s, float m,
-                            struct way *steady, struct way *manoeuvre, int i)
+static inline void find_deviation(struct sums *sums, const struct rho_imm *imm, float s, float m,
+                                  struct way *steady, struct way *manoeuvre, int i)
 {
     steady->way[i] = imm->steady.state[i] - sums->about[i];
     manoeuvre->way[i] = imm->state[i] - sums->about[i];
@@ -356,7 +356,7 @@ static inline void add_covariance(float *restrict out, const struct rho_imm *res
     out[place] += s * imm->steady.covariance[place] + m * imm->covariance[place];
 }
 
-/* Terms that couple the axes of the plane, beside add_axes. */
+/* Terms that couple the axes of the plane, beside add_axis_covariances. */
 static void add_plane_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
                                   float m)
 {
@@ -366,7 +366,7 @@ static void add_plane_covariances(float *restrict out, const struct rho_imm *res
     add_covariance(out, imm, RHO_AT(4, 3), s, m);
 }
 
-/* Terms that couple them with the height. */
+/* Terms that couple the axes of the plane with the height. */
 static void add_height_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
                                    float m)
 {
@@ -380,8 +380,8 @@ static void add_height_covariances(float *restrict out, const struct rho_imm *re
     add_covariance(out, imm, RHO_AT(5, 4), s, m);
 }
 
-static void add_axes(float *restrict out, const struct rho_imm *restrict imm, int has_height,
-                     float s, float m)
+static void add_axis_covariances(float *restrict out, const struct rho_imm *restrict imm,
+                                 int has_height, float s, float m)
 {
     add_covariance(out, imm, RHO_AT(0, 0), s, m);
     add_covariance(out, imm, RHO_AT(1, 1), s, m);
@@ -396,22 +396,22 @@ static void add_axes(float *restrict out, const struct rho_imm *restrict imm, in
     }
 }
 
-static void add_hypothesis(struct sums *sums, const struct rho_imm *imm, float share)
+static void add_moments(struct sums *sums, const struct rho_imm *imm, float share)
 {
     const float m = share * imm->probability, s = share - m;
     const int has_height = sums->has_height;
     struct way steady, manoeuvre;
-    find_way(sums, imm, s, m, &steady, &manoeuvre, 0);
-    find_way(sums, imm, s, m, &steady, &manoeuvre, 1);
-    find_way(sums, imm, s, m, &steady, &manoeuvre, 3);
-    find_way(sums, imm, s, m, &steady, &manoeuvre, 4);
+    find_deviation(sums, imm, s, m, &steady, &manoeuvre, 0);
+    find_deviation(sums, imm, s, m, &steady, &manoeuvre, 1);
+    find_deviation(sums, imm, s, m, &steady, &manoeuvre, 3);
+    find_deviation(sums, imm, s, m, &steady, &manoeuvre, 4);
     add_plane_squares(sums->covariance, &steady, &manoeuvre);
     if (has_height) {
-        find_way(sums, imm, s, m, &steady, &manoeuvre, 2);
-        find_way(sums, imm, s, m, &steady, &manoeuvre, 5);
+        find_deviation(sums, imm, s, m, &steady, &manoeuvre, 2);
+        find_deviation(sums, imm, s, m, &steady, &manoeuvre, 5);
         add_height_squares(sums->covariance, &steady, &manoeuvre);
     }
-    add_axes(sums->covariance, imm, has_height, s, m);
+    add_axis_covariances(sums->covariance, imm, has_height, s, m);
     if (imm->is_coupled) {
         add_plane_covariances(sums->covariance, imm, s, m);
     }
@@ -425,8 +425,9 @@ static void add_hypothesis(struct sums *sums, const struct rho_imm *imm, float s
     }
 }
 
-/* Of the slot's hypotheses that can be moved there. */
-static void sum_up(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us, struct sums *sums)
+/* Sums over the slot's hypotheses that can be moved to that time. */
+static void sum_up_moments(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
+                           struct sums *sums)
 {
     int is_first = 1;
     memset(sums, 0, sizeof *sums);
@@ -444,7 +445,7 @@ static void sum_up(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us, 
             is_first = 0;
         }
         if (imm) {
-            add_hypothesis(sums, imm, at->share);
+            add_moments(sums, imm, at->share);
         }
     }
 }
@@ -459,7 +460,7 @@ enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t sl
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
-    sum_up(pool, slot, time_us, &sums);
+    sum_up_moments(pool, slot, time_us, &sums);
     if (!(sums.share > 0.0f)) {
         return RHO_ERROR_VALUE;
     }

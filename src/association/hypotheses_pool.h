@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The pool's inside. Private to hypotheses*.c and gate_box.c.
+ * Inside of the pool of hypotheses. Private to hypotheses*.c and gate_box.c.
  */
 #ifndef RHOTRACK_HYPOTHESES_POOL_H
 #define RHOTRACK_HYPOTHESES_POOL_H
@@ -13,8 +13,8 @@
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot);
 
 /* A node of the pool; there must be one. */
-uint16_t rho_hypotheses_allot(struct rho_hypotheses *pool);
-void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node);
+uint16_t rho_hypotheses_allot_node(struct rho_hypotheses *pool);
+void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node);
 
 /*
  * Frees nodes of the slots with the most hypotheses, so that this slot can have `wanted`. Returns
@@ -23,8 +23,8 @@ void rho_hypotheses_release(struct rho_hypotheses *pool, uint16_t node);
 unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted);
 
 /* Moves one filter to another time without mixing: to a plot's own, or back from it. */
-enum rho_status rho_hypotheses_move(struct rho_hypotheses *pool, struct rho_imm *imm,
-                                    int64_t from_us, int64_t to_us);
+enum rho_status rho_hypotheses_move_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
+                                           int64_t from_us, int64_t to_us);
 
 /*
  * A hypothesis' filter at a time that need not be its own, there in the pool's scratch; NULL where
@@ -37,9 +37,9 @@ const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
  * Makes the weight of the best, the slot's first, 0 again and updates all shares. Returns the
  * weight that it had.
  */
-float rho_hypotheses_rebase(struct rho_hypotheses *pool, uint16_t slot);
+float rho_hypotheses_rebase_weights(struct rho_hypotheses *pool, uint16_t slot);
 
 /* The sum of a slot's shares. */
-float rho_hypotheses_sum(const struct rho_hypotheses *pool, uint16_t slot);
+float rho_hypotheses_sum_of_shares(const struct rho_hypotheses *pool, uint16_t slot);
 
 #endif

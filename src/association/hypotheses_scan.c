@@ -15,7 +15,7 @@
 
 /* ---- score ----------------------------------------------------------------------------------- */
 
-/* In two or three axes. */
+/* ln of the clutter's density in two or three axes. */
 static float log_clutter(const struct rho_hypotheses_clutter *clutter, uint32_t measures,
                          int num_axes)
 {
@@ -54,7 +54,8 @@ static inline float note_candidate(struct rho_hypothesis *at, float gain_nat, fl
 }
 
 /* The range rates that the slot's hypotheses expect, kept while plots come. */
-static void open_rates(struct rho_hypotheses *pool, uint16_t slot, const struct rho_sensor *sensor)
+static void expect_range_rates(struct rho_hypotheses *pool, uint16_t slot,
+                               const struct rho_sensor *sensor)
 {
     if (pool->gate_slot == slot && !(pool->gate_variance_m2 > 0.0f)) {
         return;
@@ -71,9 +72,9 @@ static void open_rates(struct rho_hypotheses *pool, uint16_t slot, const struct 
  * At the plot's own time. The expected range rates are known at the hypotheses' time alone; NULL:
  * not yet.
  */
-static inline int score_one(struct rho_hypotheses *pool, const struct rho_imm_rates *rates,
-                            const struct rho_hypothesis *at, const struct offer *offer,
-                            struct rho_imm_match *match)
+static inline int score_hypothesis(struct rho_hypotheses *pool, const struct rho_imm_rates *rates,
+                                   const struct rho_hypothesis *at, const struct offer *offer,
+                                   struct rho_imm_match *match)
 {
     if (rates && at->time_us == offer->time_us) {
         return rho_imm_score_plot_with_rates(&at->imm, rates, offer->seen, match);
@@ -83,7 +84,8 @@ static inline int score_one(struct rho_hypotheses *pool, const struct rho_imm_ra
 }
 
 /* Scores one by one. Returns the weight of the best hypothesis with the plot; -FLT_MAX: none. */
-static float score_each(struct rho_hypotheses *pool, uint16_t slot, const struct offer *offer)
+static float score_each_hypothesis(struct rho_hypotheses *pool, uint16_t slot,
+                                   const struct offer *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
     struct rho_imm_match match;
@@ -92,12 +94,12 @@ static float score_each(struct rho_hypotheses *pool, uint16_t slot, const struct
     if (pool->nodes[nodes[0]].time_us == offer->time_us) { /* so are the others, most often */
         rates = pool->opened.rates;
         if (offer->seen->measures & RHO_MEASURES_RANGE_RATE) {
-            open_rates(pool, slot, offer->seen->sensor);
+            expect_range_rates(pool, slot, offer->seen->sensor);
         }
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[nodes[i]];
-        if (score_one(pool, rates ? &rates[i] : 0, at, offer, &match)) {
+        if (score_hypothesis(pool, rates ? &rates[i] : 0, at, offer, &match)) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
             const float score = note_candidate(at, pd_over_clutter + match.log_likelihood,
                                                match.probability, offer->row);
@@ -124,8 +126,8 @@ static void open_gates(struct rho_hypotheses *pool, uint16_t slot, float varianc
 }
 
 /* True where the plot can be scored in the open gates, which are at the hypotheses' time. */
-static int has_gates(struct rho_hypotheses *pool, uint16_t slot, const struct rho_imm_plot *seen,
-                     int64_t time_us)
+static int fits_open_gates(struct rho_hypotheses *pool, uint16_t slot,
+                           const struct rho_imm_plot *seen, int64_t time_us)
 {
     const float variance_m2 = seen->position.variance_m2[0];
     if (!seen->position.is_isotropic || pool->nodes[pool->node_of[slot][0]].time_us != time_us ||
@@ -140,7 +142,7 @@ static int has_gates(struct rho_hypotheses *pool, uint16_t slot, const struct rh
 }
 
 /* A gain no better than this changes neither the hypothesis' list nor the best. */
-static inline float enough_for(const struct rho_hypothesis *at, float best)
+static inline float least_useful_gain(const struct rho_hypothesis *at, float best)
 {
     if (at->num_candidates < RHO_HYPOTHESES_CHILDREN) {
         return -FLT_MAX;
@@ -158,7 +160,7 @@ static inline float score_in_gate(struct rho_hypothesis *at, const struct rho_im
                                   const float place_m[3], int16_t row, float base, float best)
 {
     float log_likelihood, probability;
-    if (!rho_imm_score_in_gate(gate, place_m, enough_for(at, best) - base, &log_likelihood,
+    if (!rho_imm_score_in_gate(gate, place_m, least_useful_gain(at, best) - base, &log_likelihood,
                                &probability)) {
         return best;
     }
@@ -166,7 +168,7 @@ static inline float score_in_gate(struct rho_hypothesis *at, const struct rho_im
     return made > best ? made : best;
 }
 
-/* The same as score_each, in the gates that are open. */
+/* The same as score_each_hypothesis, in the gates that are open. */
 static float score_in_gates(struct rho_hypotheses *pool, uint16_t slot, const struct offer *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
@@ -194,8 +196,9 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
         .high = log_pd - log_clutter(clutter, seen->measures, 3),
         .row = row,
     };
-    const float best = has_gates(pool, slot, seen, time_us) ? score_in_gates(pool, slot, &offer)
-                                                            : score_each(pool, slot, &offer);
+    const float best = fits_open_gates(pool, slot, seen, time_us)
+                           ? score_in_gates(pool, slot, &offer)
+                           : score_each_hypothesis(pool, slot, &offer);
     if (!(best > -FLT_MAX)) {
         return 0;
     }
@@ -214,15 +217,15 @@ int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t sl
 
 /* ---- commit ---------------------------------------------------------------------------------- */
 
-static int is_free(const struct rho_hypotheses_scan *scan, int16_t row)
+static int is_free_plot(const struct rho_hypotheses_scan *scan, int16_t row)
 {
     return !scan->claims || scan->claims[row] < 0 || scan->claims[row] == scan->own;
 }
 
 /* The same plots in the last scans: the heavier one has the likelier history. */
-static inline int is_same(const struct rho_hypotheses *pool, const uint16_t *nodes,
-                          const struct rho_hypotheses_child *a,
-                          const struct rho_hypotheses_child *b)
+static inline int has_same_plots(const struct rho_hypotheses *pool, const uint16_t *nodes,
+                                 const struct rho_hypotheses_child *a,
+                                 const struct rho_hypotheses_child *b)
 {
     if (a->row != b->row) {
         return 0;
@@ -245,7 +248,7 @@ static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes,
 {
     struct rho_hypotheses_child *list = pool->children;
     unsigned gap = 0; /* what makes room */
-    while (gap < num && !is_same(pool, nodes, &list[gap], child)) {
+    while (gap < num && !has_same_plots(pool, nodes, &list[gap], child)) {
         gap++;
     }
     if (gap < num && !(child->weight_nat > list[gap].weight_nat)) {
@@ -267,8 +270,8 @@ static inline int is_too_light(const struct rho_hypotheses *pool, unsigned num, 
 }
 
 /* The heaviest children, the heaviest first. No filter has been touched yet. */
-static unsigned expand(struct rho_hypotheses *pool, uint16_t slot,
-                       const struct rho_hypotheses_scan *scan)
+static unsigned expand_children(struct rho_hypotheses *pool, uint16_t slot,
+                                const struct rho_hypotheses_scan *scan)
 {
     const uint16_t *nodes = pool->node_of[slot];
     unsigned num = 0;
@@ -282,7 +285,7 @@ static unsigned expand(struct rho_hypotheses *pool, uint16_t slot,
             }
             child.row = at->candidates[k].row;
             child.candidate = (uint8_t)k;
-            if (is_free(scan, child.row)) {
+            if (is_free_plot(scan, child.row)) {
                 num = insert_child(pool, nodes, num, &child);
             }
         }
@@ -299,7 +302,7 @@ static unsigned expand(struct rho_hypotheses *pool, uint16_t slot,
 static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot,
                                 const struct rho_hypotheses_scan *scan)
 {
-    unsigned num = expand(pool, slot, scan);
+    unsigned num = expand_children(pool, slot, scan);
     const float least = pool->children[0].weight_nat + RHO_HYPOTHESES_WEIGHT_MIN;
     while (num > 1 && pool->children[num - 1].weight_nat < least) {
         num--;
@@ -312,7 +315,7 @@ static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                          const struct rho_imm *before, const struct rho_imm_plot *seen,
                          int64_t time_us, const struct rho_imm_match *match, int16_t row)
 {
-    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
+    if (rho_hypotheses_move_filter(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
         rho_imm_update(&at->imm, &pool->model, seen, match) == RHO_OK) {
         at->time_us = time_us;
         return row;
@@ -326,7 +329,7 @@ static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
  * Loss of an estimate faster than any target, nat: half the squared excess in standard deviations
  * of the speed. By the likelier model.
  */
-static float loss_of_speed(const struct rho_imm *imm, float most_mps)
+static float loss_of_excess_speed(const struct rho_imm *imm, float most_mps)
 {
     const float *state = imm->probability > 0.5f ? imm->state : imm->steady.state;
     const float *covariance = imm->probability > 0.5f ? imm->covariance : imm->steady.covariance;
@@ -348,9 +351,10 @@ static float loss_of_speed(const struct rho_imm *imm, float most_mps)
 }
 
 /* A refused update weighs as a miss. Weights are still those of the scan. */
-static void advance(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                    const struct rho_imm *before, const struct rho_hypotheses_scan *scan,
-                    const struct rho_hypotheses_child *child, const struct rho_imm_plot *seen)
+static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                               const struct rho_imm *before, const struct rho_hypotheses_scan *scan,
+                               const struct rho_hypotheses_child *child,
+                               const struct rho_imm_plot *seen)
 {
     const float as_miss = at->weight_nat + scan->log_miss;
     int16_t row = child->row;
@@ -366,7 +370,7 @@ static void advance(struct rho_hypotheses *pool, struct rho_hypothesis *at,
     at->picks[RHO_HYPOTHESES_MEMORY - 1] = row;
     at->weight_nat = row == child->row ? child->weight_nat : as_miss;
     if (row >= 0) {
-        at->weight_nat -= loss_of_speed(&at->imm, pool->model.speed_max_mps);
+        at->weight_nat -= loss_of_excess_speed(&at->imm, pool->model.speed_max_mps);
     } else if (RHO_DOPPLER_NOTCH && scan->look && scan->log_miss < 0.0f) {
         rho_imm_miss(&at->imm, scan->sensor, scan->look);
     }
@@ -383,15 +387,15 @@ static uint16_t advance_child(struct rho_hypotheses *pool, uint16_t parent, int 
 {
     struct rho_hypothesis *from = &pool->nodes[parent];
     if (!is_last) {
-        const uint16_t node = rho_hypotheses_allot(pool);
+        const uint16_t node = rho_hypotheses_allot_node(pool);
         pool->nodes[node] = *from;
-        advance(pool, &pool->nodes[node], &from->imm, scan, child, seen);
+        advance_hypothesis(pool, &pool->nodes[node], &from->imm, scan, child, seen);
         return node;
     }
     if (child->row >= 0) {
         pool->scratch = from->imm;
     }
-    advance(pool, from, &pool->scratch, scan, child, seen);
+    advance_hypothesis(pool, from, &pool->scratch, scan, child, seen);
     return parent;
 }
 
@@ -399,8 +403,8 @@ static uint16_t advance_child(struct rho_hypotheses *pool, uint16_t parent, int 
  * Parents without children give their nodes back; the others' last child takes the node, the others
  * copies of it.
  */
-static void replace(struct rho_hypotheses *pool, uint16_t slot,
-                    const struct rho_hypotheses_scan *scan, unsigned num)
+static void replace_parents(struct rho_hypotheses *pool, uint16_t slot,
+                            const struct rho_hypotheses_scan *scan, unsigned num)
 {
     uint8_t uses[RHO_HYPOTHESES_OF_TRACK] = {0};
     uint16_t nodes[RHO_HYPOTHESES_OF_TRACK];
@@ -411,7 +415,7 @@ static void replace(struct rho_hypotheses *pool, uint16_t slot,
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         if (uses[i] == 0) {
-            rho_hypotheses_release(pool, pool->node_of[slot][i]);
+            rho_hypotheses_release_node(pool, pool->node_of[slot][i]);
         }
     }
     for (unsigned i = 0; i < num; i++) {
@@ -432,7 +436,7 @@ static void replace(struct rho_hypotheses *pool, uint16_t slot,
  * Sorts: the best is first and weighs 0, and those much lighter are removed. Returns the weight
  * that the best had.
  */
-static float order(struct rho_hypotheses *pool, uint16_t slot)
+static float sort_and_prune(struct rho_hypotheses *pool, uint16_t slot)
 {
     uint16_t *nodes = pool->node_of[slot];
     for (unsigned i = 1; i < pool->num_of[slot]; i++) {
@@ -444,10 +448,10 @@ static float order(struct rho_hypotheses *pool, uint16_t slot)
         }
         nodes[place] = node;
     }
-    const float best = rho_hypotheses_rebase(pool, slot);
+    const float best = rho_hypotheses_rebase_weights(pool, slot);
     for (unsigned i = pool->num_of[slot] - 1u;
          pool->nodes[nodes[i]].weight_nat < RHO_HYPOTHESES_WEIGHT_MIN; i--) {
-        rho_hypotheses_release(pool, nodes[i]);
+        rho_hypotheses_release_node(pool, nodes[i]);
         pool->num_of[slot] = (uint8_t)i;
     }
     return best;
@@ -463,21 +467,21 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
-    const float before = rho_hypotheses_sum(pool, slot);
-    replace(pool, slot, scan, choose_children(pool, slot, scan));
-    const float best = order(pool, slot);
+    const float before = rho_hypotheses_sum_of_shares(pool, slot);
+    replace_parents(pool, slot, scan, choose_children(pool, slot, scan));
+    const float best = sort_and_prune(pool, slot);
     outcome->row = pool->nodes[pool->node_of[slot][0]].picks[RHO_HYPOTHESES_MEMORY - 1];
-    outcome->gain_nat = best + rho_log(rho_hypotheses_sum(pool, slot) / before);
+    outcome->gain_nat = best + rho_log(rho_hypotheses_sum_of_shares(pool, slot) / before);
     return RHO_OK;
 }
 
 /* ---- certain plots --------------------------------------------------------------------------- */
 
-/* A hypothesis to another time; where that cannot be it stays as it is. */
-static int carry(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
+/* Moves a hypothesis to another time. 0: it cannot be moved, and stays as it is. */
+static int move_to_time(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
 {
     pool->scratch = at->imm;
-    if (rho_hypotheses_move(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
+    if (rho_hypotheses_move_filter(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
         at->imm = pool->scratch;
         return 0;
     }
@@ -485,11 +489,11 @@ static int carry(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t
     return 1;
 }
 
-static enum rho_status update_one(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                                  const struct rho_imm_plot *seen, int64_t time_us)
+static enum rho_status update_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                         const struct rho_imm_plot *seen, int64_t time_us)
 {
     struct rho_imm_match match;
-    if (!carry(pool, at, time_us)) {
+    if (!move_to_time(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
     /* far from both predictions, neither model is the likelier one */
@@ -515,19 +519,21 @@ enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot
         return RHO_ERROR_STATE;
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        enum rho_status one = update_one(pool, &pool->nodes[pool->node_of[slot][i]], seen, time_us);
+        enum rho_status one =
+            update_hypothesis(pool, &pool->nodes[pool->node_of[slot][i]], seen, time_us);
         status = status == RHO_OK ? RHO_OK : one;
         pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
     }
     return status;
 }
 
-static enum rho_status update_one_by_bearing(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                                             int64_t time_us, float x_m, float y_m,
-                                             float bearing_rad, float sigma_rad, float *gain_nat)
+static enum rho_status update_hypothesis_by_bearing(struct rho_hypotheses *pool,
+                                                    struct rho_hypothesis *at, int64_t time_us,
+                                                    float x_m, float y_m, float bearing_rad,
+                                                    float sigma_rad, float *gain_nat)
 {
     *gain_nat = 0.0f;
-    if (!carry(pool, at, time_us)) {
+    if (!move_to_time(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
     pool->scratch = at->imm;
@@ -540,8 +546,8 @@ static enum rho_status update_one_by_bearing(struct rho_hypotheses *pool, struct
     return status;
 }
 
-/* A bearing that could not be used has left its gain at 0. */
-static int is_said(float gain_nat)
+/* A bearing that a hypothesis could not use has left its gain at 0. */
+static int has_gain(float gain_nat)
 {
     return gain_nat < 0.0f || gain_nat > 0.0f;
 }
@@ -549,18 +555,18 @@ static int is_said(float gain_nat)
 /*
  * A hypothesis that could not use it must not gain by that: it gets the least gain of the others.
  */
-static void add_gains(struct rho_hypotheses *pool, uint16_t slot,
-                      const float gains_nat[RHO_HYPOTHESES_OF_TRACK])
+static void add_bearing_gains(struct rho_hypotheses *pool, uint16_t slot,
+                              const float gains_nat[RHO_HYPOTHESES_OF_TRACK])
 {
     float least = 0.0f;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        if (is_said(gains_nat[i]) && (!is_said(least) || gains_nat[i] < least)) {
+        if (has_gain(gains_nat[i]) && (!has_gain(least) || gains_nat[i] < least)) {
             least = gains_nat[i];
         }
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         pool->nodes[pool->node_of[slot][i]].weight_nat +=
-            is_said(gains_nat[i]) ? gains_nat[i] : least;
+            has_gain(gains_nat[i]) ? gains_nat[i] : least;
     }
 }
 
@@ -578,12 +584,12 @@ enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool, uint1
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         enum rho_status one =
-            update_one_by_bearing(pool, &pool->nodes[pool->node_of[slot][i]], time_us, x_m, y_m,
-                                  bearing_rad, sigma_rad, &gains_nat[i]);
+            update_hypothesis_by_bearing(pool, &pool->nodes[pool->node_of[slot][i]], time_us, x_m,
+                                         y_m, bearing_rad, sigma_rad, &gains_nat[i]);
         status = status == RHO_OK ? RHO_OK : one;
         pool->updates_refused = rho_count(pool->updates_refused, one != RHO_OK);
     }
-    add_gains(pool, slot, gains_nat);
-    (void)order(pool, slot);
+    add_bearing_gains(pool, slot, gains_nat);
+    (void)sort_and_prune(pool, slot);
     return status;
 }

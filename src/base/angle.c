@@ -76,7 +76,7 @@ float rho_angle_sector_width(float from_rad, float to_rad)
  * 0 where the gap shows that sectors overlap by more than the tolerance: they and both gaps are
  * then more than one turn.
  */
-static int close_gap(float *gap_rad, float free_rad, float tolerance_rad)
+static int accept_small_overlap(float *gap_rad, float free_rad, float tolerance_rad)
 {
     if (*gap_rad > free_rad + 2.0f * tolerance_rad) {
         if (RHO_TWO_PI - *gap_rad > tolerance_rad) {
@@ -99,8 +99,9 @@ unsigned rho_angle_sector_continues(float from_rad, float to_rad, float next_fro
     float left_rad = arc_between(to_rad, next_from_rad);
     float right_rad = arc_between(next_to_rad, from_rad);
 
-    if (!(free_rad >= -tolerance_rad) || !close_gap(&left_rad, free_rad, tolerance_rad) ||
-        !close_gap(&right_rad, free_rad, tolerance_rad)) {
+    if (!(free_rad >= -tolerance_rad) ||
+        !accept_small_overlap(&left_rad, free_rad, tolerance_rad) ||
+        !accept_small_overlap(&right_rad, free_rad, tolerance_rad)) {
         return 0;
     }
     if (left_rad <= tolerance_rad && right_rad <= tolerance_rad) {

@@ -77,7 +77,7 @@ static inline void lower_covariances(float p[21], const float row[6], const floa
 }
 
 /* The allowance covers the rounding of covariances: a variance without any needs none. */
-static inline float lowered(float variance, float gain, float covariance)
+static inline float lowered_variance(float variance, float gain, float covariance)
 {
     const float taken = gain * covariance; /* never negative; 0 where the two are not coupled */
 
@@ -88,7 +88,7 @@ static inline void lower_variances(float p[21], const float row[6], const float 
 {
     RHO_UNROLL
     for (int i = 0; i < 6; ++i) {
-        p[RHO_AT(i, i)] = lowered(p[RHO_AT(i, i)], gain[i], row[i]);
+        p[RHO_AT(i, i)] = lowered_variance(p[RHO_AT(i, i)], gain[i], row[i]);
     }
 }
 
@@ -211,7 +211,7 @@ enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *dist
 }
 
 /* Updates the state; false, and nothing is changed, where a result is not finite. */
-static inline int move_state(float x[6], const float gain[6], float innovation, float inverse)
+static inline int correct_state(float x[6], const float gain[6], float innovation, float inverse)
 {
     float next[6], sum = 0.0f;
 
@@ -267,7 +267,7 @@ static inline uint32_t magnitude_bits(float v)
     return rho_float_bits(v) << 1;
 }
 
-static inline int is_apart(const float p[21], const uint8_t others[4])
+static inline int is_axis_uncoupled(const float p[21], const uint8_t others[4])
 {
     return (magnitude_bits(p[others[0]]) | magnitude_bits(p[others[1]]) |
             magnitude_bits(p[others[2]]) | magnitude_bits(p[others[3]])) == 0;
@@ -282,7 +282,7 @@ struct scalar {
  * The same for an element that is coupled with the other one of its axis alone: the same bits up to
  * the sign of a zero, in a third of the time.
  */
-static int update_apart(float x[6], float p[21], int index, const struct scalar *seen)
+static int update_uncoupled(float x[6], float p[21], int index, const struct scalar *seen)
 {
     const int other = index < 3 ? index + 3 : index - 3;
     float *const mixed = &p[row_places[index][other]], *const own = &p[row_places[index][index]];
@@ -297,7 +297,7 @@ static int update_apart(float x[6], float p[21], int index, const struct scalar 
     }
     x[index] = x_own;
     x[other] = x_other;
-    *others = lowered(*others, gain, *mixed);
+    *others = lowered_variance(*others, gain, *mixed);
     *own *= seen->kept;
     *mixed *= seen->kept;
     return 1;
@@ -310,7 +310,7 @@ static int update_coupled(float x[6], float p[21], const uint8_t place[6],
 
     read_row(row, p, place);
     scale_row(gain, row, seen->inverse);
-    if (!move_state(x, gain, seen->innovation, seen->inverse)) {
+    if (!correct_state(x, gain, seen->innovation, seen->inverse)) {
         return 0;
     }
     lower_covariances(p, row, gain);
@@ -340,8 +340,8 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && seen.inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
-    if (!(RHO_FAST_UPDATES && is_apart(p, other_axes[index])
-              ? update_apart(x, p, index, &seen)
+    if (!(RHO_FAST_UPDATES && is_axis_uncoupled(p, other_axes[index])
+              ? update_uncoupled(x, p, index, &seen)
               : update_coupled(x, p, row_places[index], &seen))) {
         return RHO_ERROR_VALUE;
     }
@@ -385,7 +385,7 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
         return RHO_ERROR_SINGULAR;
     }
     scale_row(gain, projected, inverse);
-    if (!move_state(x, gain, innovation, inverse)) {
+    if (!correct_state(x, gain, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
     lower_covariances(p, projected, gain);

@@ -26,7 +26,7 @@ static int is_positive(float v)
 }
 
 /* 1 / (predicted + variance), or 0 where that is not a finite number. */
-static float inverse_of(float predicted, float variance)
+static float inverse_of_sum(float predicted, float variance)
 {
     const float sum = predicted + variance;
     const float inverse = 1.0f / sum;
@@ -36,7 +36,7 @@ static float inverse_of(float predicted, float variance)
 }
 
 /* x += spread innovation / S; false, and nothing is changed, where a result is not finite. */
-static int move_state(int n, float *x, const float *spread, float innovation, float inverse)
+static int correct_state(int n, float *x, const float *spread, float innovation, float inverse)
 {
     float next[RHO_LINALG_MAX], total = 0.0f;
     const float step = innovation * inverse;
@@ -57,7 +57,7 @@ static int move_state(int n, float *x, const float *spread, float innovation, fl
  * p -= spread spread^T / S. Elements that are not coupled to the measurement stay unchanged: an
  * axis without heights, say.
  */
-static void lower(int n, float *p, const float *spread, float inverse)
+static void lower_covariance(int n, float *p, const float *spread, float inverse)
 {
     int i, j;
 
@@ -99,15 +99,15 @@ enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float
         return RHO_ERROR_VALUE;
     }
     take_row(n, p, index, row);
-    inverse = inverse_of(row[index], variance);
+    inverse = inverse_of_sum(row[index], variance);
     if (!(inverse > 0.0f)) {
         return RHO_ERROR_SINGULAR;
     }
-    if (!move_state(n, x, row, innovation, inverse)) {
+    if (!correct_state(n, x, row, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
     kept = variance / (row[index] + variance);
-    lower(n, p, row, inverse);
+    lower_covariance(n, p, row, inverse);
     /* The measured row is scaled, not differenced: no digit is lost. */
     for (i = 0; i < n; ++i) {
         p[RHO_AT(i, index)] = row[i] * kept;
@@ -119,7 +119,7 @@ enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float
  * spread := p row; returns row . p row. Each element of p is read once: for its row, and for the
  * elements before.
  */
-static float project(int n, const float *p, int num, const float *row, float *spread)
+static float project_row(int n, const float *p, int num, const float *row, float *spread)
 {
     float variance = 0.0f;
     int i, j;
@@ -153,19 +153,19 @@ enum rho_status rho_linalg_update_along(int n, float *x, float *p, int num, cons
     if (n < 1 || n > RHO_LINALG_MAX || num < 1 || num > n) {
         return RHO_ERROR_CAPACITY;
     }
-    inverse = inverse_of(project(n, p, num, row, spread), variance);
+    inverse = inverse_of_sum(project_row(n, p, num, row, spread), variance);
     if (!(inverse > 0.0f)) {
         return RHO_ERROR_SINGULAR;
     }
-    if (!move_state(n, x, spread, innovation, inverse)) {
+    if (!correct_state(n, x, spread, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
-    lower(n, p, spread, inverse);
+    lower_covariance(n, p, spread, inverse);
     return RHO_OK;
 }
 
 /* Column k of S = L D L^T leaves what lies right of it, and of d. False where the pivot is none. */
-static int eliminate(int n, int k, float *s, float *d)
+static int eliminate_column(int n, int k, float *s, float *d)
 {
     const float pivot = s[RHO_AT(k, k)];
     const float inverse = 1.0f / pivot;
@@ -212,7 +212,7 @@ int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *dist
         return 0;
     }
     for (k = 0; k < n; ++k) {
-        if (!eliminate(n, k, s, d)) {
+        if (!eliminate_column(n, k, s, d)) {
             return 0;
         }
         distance += d[k] * d[k] / s[RHO_AT(k, k)];

@@ -24,7 +24,7 @@ enum rho_status rho_batch_init(struct rho_batch *batch, unsigned scans_max, floa
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-static float apart_m(float x_m, float y_m, float other_x_m, float other_y_m)
+static float distance_m(float x_m, float y_m, float other_x_m, float other_y_m)
 {
     float dx_m = other_x_m - x_m, dy_m = other_y_m - y_m;
     return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
@@ -40,15 +40,15 @@ static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
     return i;
 }
 
-static int is_apart(const struct rho_batch *batch, const struct rho_bearing_scan *scan, float x_m,
-                    float y_m)
+static int is_base_usable(const struct rho_batch *batch, const struct rho_bearing_scan *scan,
+                          float x_m, float y_m)
 {
-    return rho_is_within(apart_m(scan->x_m, scan->y_m, x_m, y_m), RHO_CROSSING_BASE_MIN_M,
+    return rho_is_within(distance_m(scan->x_m, scan->y_m, x_m, y_m), RHO_CROSSING_BASE_MIN_M,
                          batch->apart_max_m);
 }
 
-/* A known sensor has not moved; a new one is far enough from the known ones. */
-static int is_same_position(const struct rho_batch *batch, const struct rho_bearing_scan *scan)
+/* True where a known sensor has not moved, or a new one is far enough from the known ones. */
+static int has_possible_position(const struct rho_batch *batch, const struct rho_bearing_scan *scan)
 {
     unsigned known = find_sensor(batch, scan->sensor_id);
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
@@ -56,8 +56,8 @@ static int is_same_position(const struct rho_batch *batch, const struct rho_bear
     }
     for (unsigned i = 0; i < batch->num_sensors; i++) {
         const struct rho_batch_sensor *sensor = &batch->sensors[i];
-        if (i == known ? apart_m(scan->x_m, scan->y_m, sensor->x_m, sensor->y_m) > 0.0f
-                       : !is_apart(batch, scan, sensor->x_m, sensor->y_m)) {
+        if (i == known ? distance_m(scan->x_m, scan->y_m, sensor->x_m, sensor->y_m) > 0.0f
+                       : !is_base_usable(batch, scan, sensor->x_m, sensor->y_m)) {
             return 0;
         }
     }
@@ -71,7 +71,7 @@ static int is_apart_in_frame(const struct rho_batch *batch, const struct rho_fra
     for (uint32_t i = 0; i < number; i++) {
         const struct rho_bearing_scan *other = &frame->scans[i];
         if (other->sensor_id == frame->scans[number].sensor_id ||
-            !is_apart(batch, &frame->scans[number], other->x_m, other->y_m)) {
+            !is_base_usable(batch, &frame->scans[number], other->x_m, other->y_m)) {
             return 0;
         }
     }
@@ -86,7 +86,7 @@ static enum rho_status check_scans(const struct rho_batch *batch, const struct r
         if (scan->num_bearings > 0 && !scan->bearings) {
             return RHO_ERROR_NULL;
         }
-        if (!is_same_position(batch, scan) || !is_apart_in_frame(batch, frame, i) ||
+        if (!has_possible_position(batch, scan) || !is_apart_in_frame(batch, frame, i) ||
             !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad)) {
             return RHO_ERROR_VALUE;
         }
@@ -111,7 +111,7 @@ enum rho_status rho_batch_accepts(const struct rho_batch *batch, const struct rh
 
 /* ---- bearings -------------------------------------------------------------------------------- */
 
-static void drop_oldest(struct rho_batch *batch)
+static void drop_oldest_scan(struct rho_batch *batch)
 {
     size_t left = (size_t)batch->num_scans - 1u;
     for (unsigned s = 0; s < batch->num_sensors; s++) {
@@ -176,7 +176,7 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     rho_batch_compact(batch);
     batch->num_left = 0;
     if (batch->num_scans == batch->scans_max) {
-        drop_oldest(batch);
+        drop_oldest_scan(batch);
     }
     unsigned k = batch->num_scans;
     batch->time_us[k] = frame->time_us;

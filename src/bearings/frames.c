@@ -79,8 +79,9 @@ static unsigned find_or_add_sensor(struct rho_frames *frames, const struct rho_b
     return i;
 }
 
-/* A known sensor has not moved; a new one is far enough from the known ones. */
-static int is_same_position(const struct rho_frames *frames, const struct rho_bearing_scan *scan)
+/* True where a known sensor has not moved, or a new one is far enough from the known ones. */
+static int has_possible_position(const struct rho_frames *frames,
+                                 const struct rho_bearing_scan *scan)
 {
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return 0;
@@ -106,7 +107,7 @@ static enum rho_status check_scan(const struct rho_frames *frames,
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
         !rho_is_within(scan->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
         !rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
-        !is_same_position(frames, scan)) {
+        !has_possible_position(frames, scan)) {
         return RHO_ERROR_VALUE;
     }
     return find_sensor(frames, scan->sensor_id) < RHO_MAX_PASSIVE_SENSORS ? RHO_OK
@@ -115,7 +116,7 @@ static enum rho_status check_scan(const struct rho_frames *frames,
 
 /* ---- frames ---------------------------------------------------------------------------------- */
 
-static int is_in(const struct rho_frames_slot *slot, unsigned sensor)
+static int has_scan_of(const struct rho_frames_slot *slot, unsigned sensor)
 {
     for (unsigned i = 0; i < slot->num_scans; i++) {
         if (slot->scans[i].sensor == sensor) {
@@ -129,7 +130,7 @@ static int is_in(const struct rho_frames_slot *slot, unsigned sensor)
 static int is_complete(const struct rho_frames *frames, const struct rho_frames_slot *slot)
 {
     for (unsigned i = 0; i < frames->num_sensors; i++) {
-        if (frames->sensors[i].silent < frames->config.silent_frames && !is_in(slot, i)) {
+        if (frames->sensors[i].silent < frames->config.silent_frames && !has_scan_of(slot, i)) {
             return 0;
         }
     }
@@ -140,7 +141,7 @@ static void count_missing(struct rho_frames *frames, const struct rho_frames_slo
 {
     for (unsigned i = 0; i < frames->num_sensors; i++) {
         struct rho_frames_sensor *sensor = &frames->sensors[i];
-        if (!is_in(slot, i)) {
+        if (!has_scan_of(slot, i)) {
             sensor->missing = rho_count(sensor->missing, 1);
             sensor->silent = rho_count(sensor->silent, 1);
         }
@@ -202,10 +203,10 @@ static int is_within_tolerance(const struct rho_frames *frames, const struct rho
     int64_t first_us = scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
     int64_t last_us = scan->time_us > slot->last_us ? scan->time_us : slot->last_us;
     return last_us - first_us <= frames->config.tolerance_us &&
-           !is_in(slot, find_sensor(frames, scan->sensor_id));
+           !has_scan_of(slot, find_sensor(frames, scan->sensor_id));
 }
 
-static void add_or_count(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+static void add_or_count_late(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     const struct rho_frames_slot *slot = &frames->slots[frames->open];
     int is_joining = slot->num_scans > 0 && is_within_tolerance(frames, scan);
@@ -230,7 +231,7 @@ static int is_off_clock(const struct rho_frames *frames, int64_t time_us)
            (ahead_us > frames->config.jump_max_us || -ahead_us > frames->config.jump_max_us);
 }
 
-static void restart(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+static void restart_frames(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     close_open_frame(frames);
     frames->closed_us = INT64_MIN;
@@ -255,12 +256,12 @@ enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bear
     frames->has_closed = 0;
     if (!is_off_clock(frames, scan->time_us)) {
         frames->off_clock = (uint16_t)(frames->off_clock - (frames->off_clock > 0));
-        add_or_count(frames, scan);
+        add_or_count_late(frames, scan);
     } else if (frames->off_clock < frames->config.follow_scans) {
         frames->off_clock++;
         frames->counters.scans_off_clock = rho_count(frames->counters.scans_off_clock, 1);
     } else {
-        restart(frames, scan);
+        restart_frames(frames, scan);
     }
     return RHO_OK;
 }

@@ -17,7 +17,7 @@ static int are_finite(const float *bearings_rad, unsigned count)
     return 1;
 }
 
-static uint8_t reason_of(enum rho_crossing_fate fate)
+static uint8_t ghost_reason_of(enum rho_crossing_fate fate)
 {
     switch (fate) {
     case RHO_CROSSING_SIDES:
@@ -56,7 +56,7 @@ enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
             enum rho_crossing_fate fate = rho_crossing_find(
                 base, bearings_a_rad[i], bearings_b_rad[j], range_max_m, &crossing);
             matrix->delta_rad[i][j] = fate == RHO_CROSSING_MEETS ? crossing.delta_rad : 0.0f;
-            matrix->reason[i][j] = reason_of(fate);
+            matrix->reason[i][j] = ghost_reason_of(fate);
         }
     }
     return RHO_OK;
@@ -71,7 +71,7 @@ struct beams {
     int are_columns;
 };
 
-static int is_kept(const struct beams *beams, unsigned beam, unsigned other)
+static int is_crossing_kept(const struct beams *beams, unsigned beam, unsigned other)
 {
     const struct rho_ghost_matrix *matrix = beams->matrix;
     return (beams->are_columns ? matrix->reason[other][beam] : matrix->reason[beam][other]) ==
@@ -86,11 +86,11 @@ static void remove_crossing(const struct beams *beams, unsigned beam, unsigned o
 }
 
 /* How many crossings a beam has; *only is one of them. */
-static unsigned count_kept(const struct beams *beams, unsigned beam, unsigned *only)
+static unsigned count_kept_crossings(const struct beams *beams, unsigned beam, unsigned *only)
 {
     unsigned count = 0;
     for (unsigned other = 0; other < beams->others; other++) {
-        if (is_kept(beams, beam, other)) {
+        if (is_crossing_kept(beams, beam, other)) {
             *only = other;
             count++;
         }
@@ -101,10 +101,10 @@ static unsigned count_kept(const struct beams *beams, unsigned beam, unsigned *o
 /*
  * The first beam with a single crossing that is not done; the number of beams where there is none.
  */
-static unsigned find_single(const struct beams *beams, const uint8_t *done, unsigned *only)
+static unsigned find_single_crossing(const struct beams *beams, const uint8_t *done, unsigned *only)
 {
     unsigned beam = 0;
-    while (beam < beams->count && (done[beam] || count_kept(beams, beam, only) != 1)) {
+    while (beam < beams->count && (done[beam] || count_kept_crossings(beams, beam, only) != 1)) {
         beam++;
     }
     return beam;
@@ -117,9 +117,9 @@ static unsigned find_single(const struct beams *beams, const uint8_t *done, unsi
 static unsigned prune_beams(const struct beams *beams, uint8_t *done, uint8_t *others_done)
 {
     unsigned removed = 0, only = 0, beam;
-    while ((beam = find_single(beams, done, &only)) < beams->count) {
+    while ((beam = find_single_crossing(beams, done, &only)) < beams->count) {
         for (unsigned i = 0; i < beams->count; i++) {
-            if (i != beam && is_kept(beams, i, only)) {
+            if (i != beam && is_crossing_kept(beams, i, only)) {
                 remove_crossing(beams, i, only);
                 removed++;
             }
@@ -129,7 +129,7 @@ static unsigned prune_beams(const struct beams *beams, uint8_t *done, uint8_t *o
     return removed;
 }
 
-static unsigned prune(struct rho_ghost_matrix *matrix)
+static unsigned prune_single_crossings(struct rho_ghost_matrix *matrix)
 {
     uint8_t rows_done[RHO_MAX_BEARINGS] = {0}, columns_done[RHO_MAX_BEARINGS] = {0};
     struct beams rows = {matrix, matrix->rows, matrix->columns, 0};
@@ -142,7 +142,7 @@ static unsigned prune(struct rho_ghost_matrix *matrix)
 
 #define NONE 0xffu
 
-/* Each bearing of a with one of b, as many as there are. */
+/* Each bearing of sensor a matched with one of sensor b. */
 struct matching {
     unsigned count;                   /* bearings of either sensor */
     uint64_t kept[RHO_MAX_BEARINGS];  /* columns that meet the row */
@@ -200,7 +200,7 @@ static int match_row(struct matching *matching, unsigned row)
     return 0;
 }
 
-static int is_complete(struct matching *matching)
+static int complete_matching(struct matching *matching)
 {
     unsigned row = 0;
     while (row < matching->count && match_row(matching, row)) {
@@ -210,7 +210,7 @@ static int is_complete(struct matching *matching)
 }
 
 /* The rows that are free once each of them has taken the column of the next: from row i a bit k. */
-static void find_ways(const struct matching *matching, uint64_t ways[RHO_MAX_BEARINGS])
+static void find_reachable_rows(const struct matching *matching, uint64_t ways[RHO_MAX_BEARINGS])
 {
     for (unsigned i = 0; i < matching->count; i++) {
         ways[i] = 0;
@@ -235,10 +235,10 @@ static unsigned prune_unmatched(struct rho_ghost_matrix *matrix)
     uint64_t ways[RHO_MAX_BEARINGS];
     unsigned removed = 0;
     open_matching(&matching, matrix);
-    if (!is_complete(&matching)) {
+    if (!complete_matching(&matching)) {
         return 0;
     }
-    find_ways(&matching, ways);
+    find_reachable_rows(&matching, ways);
     for (unsigned i = 0; i < matching.count; i++) {
         for (unsigned j = 0; j < matching.count; j++) {
             if (matrix->reason[i][j] == RHO_GHOST_KEPT && !(ways[matching.row[j]] >> i & 1u)) {
@@ -254,7 +254,7 @@ static unsigned prune_unmatched(struct rho_ghost_matrix *matrix)
 unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule)
 {
     if (rule == RHO_GHOST_LITERAL) {
-        return prune(matrix);
+        return prune_single_crossings(matrix);
     }
     return rule == RHO_GHOST_SAFE && matrix->rows == matrix->columns ? prune_unmatched(matrix) : 0;
 }

@@ -14,7 +14,7 @@
 
 #define SCANS_MIN 4u
 #define LINES_MAX 96u
-#define VOTES_MIN 2u /* of a line */
+#define VOTES_MIN 2u /* crossings of a line */
 /*
  * Votes of a line, as a share of the scans that have crossings: in the first pass and in the
  * second.
@@ -120,7 +120,7 @@ uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passi
 /* ---- the search ------------------------------------------------------------------------------ */
 
 /* Only scans that two sensors or more reported in have crossings, and votes. */
-static unsigned count_crossed(const struct rho_batch *batch)
+static unsigned count_crossed_scans(const struct rho_batch *batch)
 {
     unsigned count = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
@@ -140,7 +140,7 @@ static unsigned count_crossed(const struct rho_batch *batch)
 static void search_lines(struct rho_passive_search *search, float votes_share)
 {
     struct rho_passive_line line;
-    float votes = votes_share * (float)count_crossed(&search->passive->batch);
+    float votes = votes_share * (float)count_crossed_scans(&search->passive->batch);
     unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
     votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
     rho_passive_find_crossings(search);

@@ -23,7 +23,7 @@ unsigned rho_passive_count_shared(const struct rho_passive_search *search,
     return shared;
 }
 
-/* Whether the other one claims most of the bearings of `of`. */
+/* Whether the other candidate claims most of the bearings of `of`. */
 static int is_duplicate(const struct rho_passive_search *search,
                         const struct rho_passive_candidate *of,
                         const struct rho_passive_candidate *other)

@@ -25,7 +25,7 @@ static void start_choice(struct rho_passive_choice *choice, const struct rho_pas
 }
 
 /* Adds a candidate, or removes it. */
-static void toggle(struct rho_passive_choice *choice, unsigned which)
+static void toggle_candidate(struct rho_passive_choice *choice, unsigned which)
 {
     const struct rho_passive *passive = choice->search->passive;
     float sign = choice->is_in[which] ? -1.0f : 1.0f;
@@ -58,20 +58,20 @@ static unsigned find_best_addition(const struct rho_passive_choice *choice, unsi
 static void add_while_gaining(struct rho_passive_choice *choice, unsigned excluded)
 {
     for (unsigned added; (added = find_best_addition(choice, excluded)) < choice->count;) {
-        toggle(choice, added);
+        toggle_candidate(choice, added);
         for (unsigned i = 0; i < choice->count; i++) {
             if (choice->is_in[i] && i != added && choice->gain_nat[i] < -RHO_PASSIVE_GAIN_MIN_NAT) {
-                toggle(choice, i);
+                toggle_candidate(choice, i);
             }
         }
     }
 }
 
 /* Replaces one candidate by others if that raises the total. Returns whether it is. */
-static int try_without(struct rho_passive_choice *choice, unsigned which)
+static int try_to_replace(struct rho_passive_choice *choice, unsigned which)
 {
     struct rho_passive_choice tried = *choice;
-    toggle(&tried, which);
+    toggle_candidate(&tried, which);
     add_while_gaining(&tried, which);
     if (!(tried.total_nat > choice->total_nat + RHO_PASSIVE_GAIN_MIN_NAT)) {
         return 0;
@@ -86,7 +86,7 @@ void rho_passive_improve_choice(struct rho_passive_choice *choice)
     do {
         is_better = 0;
         for (unsigned i = 0; i < choice->count; i++) {
-            is_better |= choice->is_in[i] && try_without(choice, i);
+            is_better |= choice->is_in[i] && try_to_replace(choice, i);
         }
     } while (is_better);
 }
@@ -112,7 +112,7 @@ void rho_passive_choose_candidates(const struct rho_passive_search *search,
     for (unsigned i = 0; i < STARTS && i < best->count; i++) {
         struct rho_passive_choice choice = {.count = 0};
         start_choice(&choice, search);
-        toggle(&choice, order[i]);
+        toggle_candidate(&choice, order[i]);
         add_while_gaining(&choice, choice.count);
         rho_passive_improve_choice(&choice);
         if (choice.total_nat > best->total_nat) {
@@ -136,16 +136,16 @@ void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned whic
         if (i == which || is_same_target(choice->search->passive, which, i)) {
             choice->is_out[i] = 1;
             if (choice->is_in[i]) {
-                toggle(choice, i);
+                toggle_candidate(choice, i);
             }
         }
     }
 }
 
-void rho_passive_include(struct rho_passive_choice *choice, unsigned which)
+void rho_passive_include_candidate(struct rho_passive_choice *choice, unsigned which)
 {
     if (which < choice->count && !choice->is_in[which]) {
-        toggle(choice, which);
+        toggle_candidate(choice, which);
     }
     add_while_gaining(choice, choice->count);
 }

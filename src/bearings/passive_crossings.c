@@ -59,8 +59,9 @@ static int has_bearing_at(const struct rho_passive_search *search, unsigned sens
 }
 
 /* All further sensors but one must have a bearing towards it, and one at least. */
-static int is_supported(const struct rho_passive_search *search, const struct sensor_pair *pair,
-                        const struct rho_passive_point *point)
+static int is_supported_by_sensors(const struct rho_passive_search *search,
+                                   const struct sensor_pair *pair,
+                                   const struct rho_passive_point *point)
 {
     unsigned num_sensors = search->passive->batch.num_sensors, support = 0;
     if (num_sensors < 3 || search->is_second) {
@@ -72,7 +73,7 @@ static int is_supported(const struct rho_passive_search *search, const struct se
     return support >= (num_sensors > 4 ? num_sensors - 3u : 1u);
 }
 
-static uint32_t find_least_certain(const struct rho_passive *passive)
+static uint32_t find_least_certain_crossing(const struct rho_passive *passive)
 {
     uint32_t worst = 0;
     for (uint32_t i = 1; i < passive->num_points; i++) {
@@ -85,7 +86,7 @@ static uint32_t find_least_certain(const struct rho_passive *passive)
 }
 
 /* A full list drops its least certain crossing, which is searched only after a change. */
-static void add_point(struct rho_passive_search *search, const struct rho_passive_point *point)
+static void list_crossing(struct rho_passive_search *search, const struct rho_passive_point *point)
 {
     struct rho_passive *passive = search->passive;
     if (passive->num_points < RHO_MAX_PASSIVE_POINTS) {
@@ -94,7 +95,7 @@ static void add_point(struct rho_passive_search *search, const struct rho_passiv
         return;
     }
     if (search->worst_point == passive->num_points) {
-        search->worst_point = find_least_certain(passive);
+        search->worst_point = find_least_certain_crossing(passive);
     }
     passive->work.points_dropped = rho_count(passive->work.points_dropped, 1);
     if (rho_passive_uncertainty_m2(point) <
@@ -104,7 +105,7 @@ static void add_point(struct rho_passive_search *search, const struct rho_passiv
     }
 }
 
-static void add_crossing(struct rho_passive_search *search, const struct sensor_pair *pair,
+static void try_crossing(struct rho_passive_search *search, const struct sensor_pair *pair,
                          const struct rho_crossing_base *base, unsigned i, unsigned j)
 {
     struct rho_passive *passive = search->passive;
@@ -126,8 +127,8 @@ static void add_crossing(struct rho_passive_search *search, const struct sensor_
                                       .xy_m2 = covariance_m2[1],
                                       .yy_m2 = covariance_m2[2],
                                       .scan = (uint16_t)pair->scan};
-    if (is_supported(search, pair, &point)) {
-        add_point(search, &point);
+    if (is_supported_by_sensors(search, pair, &point)) {
+        list_crossing(search, &point);
     }
 }
 
@@ -149,7 +150,7 @@ static void cross_scan(struct rho_passive_search *search, const struct sensor_pa
                 passive->work.ghosts = rho_count(passive->work.ghosts, (unsigned)is_ghost);
             }
             if (!is_ghost) {
-                add_crossing(search, pair, base, i, j);
+                try_crossing(search, pair, base, i, j);
             }
         }
     }

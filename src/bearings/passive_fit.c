@@ -29,7 +29,8 @@ struct equations {
     float a[RHO_TRIANGLE(N)], b[N];
 };
 
-static void add_row(struct equations *equations, const float row[N], float weight, float residual)
+static void add_equation(struct equations *equations, const float row[N], float weight,
+                         float residual)
 {
     for (int i = 0; i < N; i++) {
         for (int j = 0; j <= i; j++) {
@@ -58,8 +59,8 @@ static void add_bearing(const struct rho_passive_search *search, unsigned scan,
     float step = search->step[scan];
     float row_x = -nearest->offset.y_m / range2_m2, row_y = nearest->offset.x_m / range2_m2;
     const float row[N] = {row_x, row_y, step * row_x, step * row_y};
-    add_row(equations, row, 1.0f / (square(nearest->sigma_rad) + square(EXACT_M) / range2_m2),
-            rho_passive_normalised_residual(nearest) * nearest->sigma_rad);
+    add_equation(equations, row, 1.0f / (square(nearest->sigma_rad) + square(EXACT_M) / range2_m2),
+                 rho_passive_normalised_residual(nearest) * nearest->sigma_rad);
 }
 
 static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas)
@@ -187,7 +188,8 @@ static int is_in_view(const struct rho_passive_search *search, unsigned scan, un
     if (!(from_rad < to_rad || from_rad > to_rad)) {
         return 1; /* the whole circle needs no arctangent */
     }
-    struct rho_passive_offset offset = rho_passive_offset_from(search, scan, sensor, state_m);
+    struct rho_passive_offset offset =
+        rho_passive_offset_from_sensor(search, scan, sensor, state_m);
     return rho_angle_in_sector(rho_atan2(offset.y_m, offset.x_m), from_rad, to_rad);
 }
 
@@ -226,8 +228,8 @@ static int is_track(const struct rho_passive_search *search, const float state_m
 }
 
 /* Score of a look with a bearing. */
-static float hit_nat(const struct rho_passive_search *search, const struct rho_passive_match *seen,
-                     float chi2)
+static float score_of_hit(const struct rho_passive_search *search,
+                          const struct rho_passive_match *seen, float chi2)
 {
     return search->hit_nat - rho_log(seen->sigma_rad) - 0.5f * chi2;
 }
@@ -249,7 +251,7 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
             float chi2 = square(rho_passive_normalised_residual(&seen));
             score.hits++;
             score.chi2 += chi2;
-            score.score_nat += hit_nat(search, &seen, chi2);
+            score.score_nat += score_of_hit(search, &seen, chi2);
         }
     }
     score.is_track = is_track(search, state_m, &score, claim);
@@ -288,7 +290,7 @@ float rho_passive_score_gain(const struct rho_passive_search *search, const floa
         chi2 >= square(GATE_SIGMAS)) {
         return 0.0f;
     }
-    return hit_nat(search, &seen, chi2) - search->miss_nat;
+    return score_of_hit(search, &seen, chi2) - search->miss_nat;
 }
 
 /* ---- report ---------------------------------------------------------------------------------- */

@@ -45,8 +45,8 @@ static void list_pair(struct best_pairs *best, float agreement, struct pair pair
     best->pair[place] = pair;
 }
 
-static unsigned collect_points(const struct rho_passive_search *search,
-                               const struct rho_passive_line *line, uint16_t *index)
+static unsigned collect_points_of_line(const struct rho_passive_search *search,
+                                       const struct rho_passive_line *line, uint16_t *index)
 {
     const struct rho_passive *passive = search->passive;
     float least_m = LINE_CELLS * passive->config.rho_cell_m;
@@ -71,8 +71,8 @@ static unsigned collect_points(const struct rho_passive_search *search,
 }
 
 /* The constant velocity through two crossings. 0: no target is so fast. */
-static int connect(const struct rho_passive_search *search, struct pair pair,
-                   float state_m[RHO_PASSIVE_STATES])
+static int connect_crossings(const struct rho_passive_search *search, struct pair pair,
+                             float state_m[RHO_PASSIVE_STATES])
 {
     const struct rho_passive_point *a = &search->passive->points[pair.a];
     const struct rho_passive_point *b = &search->passive->points[pair.b];
@@ -102,7 +102,8 @@ static void score_pairs(struct rho_passive_search *search, const uint16_t *index
         for (unsigned j = 0; j < count; j++) {
             struct pair pair = {index[i], index[j]};
             float state_m[RHO_PASSIVE_STATES];
-            if (passive->points[pair.b].scan >= scan_min && connect(search, pair, state_m)) {
+            if (passive->points[pair.b].scan >= scan_min &&
+                connect_crossings(search, pair, state_m)) {
                 list_pair(best, rho_passive_agreement(search, state_m, least_agreement(best)),
                           pair);
                 passive->work.hypotheses = rho_count(passive->work.hypotheses, 1);
@@ -111,7 +112,7 @@ static void score_pairs(struct rho_passive_search *search, const uint16_t *index
     }
 }
 
-static struct rho_passive_fitted *fitted_entry(struct rho_passive *passive, struct pair pair)
+static struct rho_passive_fitted *fitted_pair_entry(struct rho_passive *passive, struct pair pair)
 {
     return &passive->fitted[(pair.a * 61u + pair.b) % RHO_PASSIVE_PAIRS];
 }
@@ -122,7 +123,7 @@ static struct rho_passive_fitted *fitted_entry(struct rho_passive *passive, stru
  */
 static int was_fitted(const struct rho_passive_search *search, struct pair pair)
 {
-    const struct rho_passive_fitted *fitted = fitted_entry(search->passive, pair);
+    const struct rho_passive_fitted *fitted = fitted_pair_entry(search->passive, pair);
     return fitted->a == pair.a && fitted->b == pair.b &&
            (fitted->when == UINT16_MAX || fitted->when == search->candidates_removed);
 }
@@ -130,12 +131,12 @@ static int was_fitted(const struct rho_passive_search *search, struct pair pair)
 static void fit_pair(struct rho_passive_search *search, struct pair pair)
 {
     float state_m[RHO_PASSIVE_STATES];
-    if (was_fitted(search, pair) || !connect(search, pair, state_m)) {
+    if (was_fitted(search, pair) || !connect_crossings(search, pair, state_m)) {
         return;
     }
     rho_passive_fit_nearest(search, state_m, 0);
     int is_track = rho_passive_offer_candidate(search, state_m);
-    *fitted_entry(search->passive, pair) = (struct rho_passive_fitted){
+    *fitted_pair_entry(search->passive, pair) = (struct rho_passive_fitted){
         .a = pair.a, .b = pair.b, .when = is_track ? search->candidates_removed : UINT16_MAX};
 }
 
@@ -144,7 +145,7 @@ void rho_passive_fit_hypotheses(struct rho_passive_search *search,
 {
     uint16_t index[LINE_POINTS_MAX];
     struct best_pairs best = {.count = 0};
-    score_pairs(search, index, collect_points(search, line, index), &best);
+    score_pairs(search, index, collect_points_of_line(search, line, index), &best);
     for (unsigned i = 0; i < best.count; i++) {
         fit_pair(search, best.pair[i]);
     }

@@ -36,7 +36,7 @@ static void open_look(const struct rho_passive_search *search, const struct rho_
     }
 }
 
-static void assign(struct look_assignment *look, unsigned track, unsigned bearing)
+static void assign_bearing(struct look_assignment *look, unsigned track, unsigned bearing)
 {
     look->is_taken[look->claim[track]] = 0;
     look->claim[track] = (uint8_t)bearing;
@@ -72,39 +72,39 @@ static void assign_greedily(struct look_assignment *look)
         if (track == look->num_tracks) {
             return;
         }
-        assign(look, track, bearing);
+        assign_bearing(look, track, bearing);
     }
 }
 
 /*
- * The taker gets the bearing of the loser, which gets the best free bearing then. Undone and 0
- * where the total does not grow.
+ * The taker gets the loser's bearing, and the loser the best free one. Undone, and 0 returned,
+ * where the total of the gains does not grow.
  */
-static int exchange(struct look_assignment *look, unsigned taker, unsigned loser)
+static int take_over_bearing(struct look_assignment *look, unsigned taker, unsigned loser)
 {
     unsigned kept = look->claim[taker], wanted = look->claim[loser];
     float before_nat = look->gain_nat[taker][kept] + look->gain_nat[loser][wanted];
     if (!(look->gain_nat[taker][wanted] > 0.0f)) {
         return 0;
     }
-    assign(look, loser, 0);
-    assign(look, taker, wanted);
-    assign(look, loser, best_free_bearing(look, loser));
+    assign_bearing(look, loser, 0);
+    assign_bearing(look, taker, wanted);
+    assign_bearing(look, loser, best_free_bearing(look, loser));
     float after_nat = look->gain_nat[taker][wanted] + look->gain_nat[loser][look->claim[loser]];
     if (after_nat > before_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
         return 1;
     }
-    assign(look, loser, 0);
-    assign(look, taker, kept);
-    assign(look, loser, wanted);
+    assign_bearing(look, loser, 0);
+    assign_bearing(look, taker, kept);
+    assign_bearing(look, loser, wanted);
     return 0;
 }
 
-static int improve_by_exchange(struct look_assignment *look)
+static int improve_by_taking_over(struct look_assignment *look)
 {
     for (unsigned taker = 0; taker < look->num_tracks; taker++) {
         for (unsigned loser = 0; loser < look->num_tracks; loser++) {
-            if (taker != loser && look->claim[loser] > 0 && exchange(look, taker, loser)) {
+            if (taker != loser && look->claim[loser] > 0 && take_over_bearing(look, taker, loser)) {
                 return 1;
             }
         }
@@ -118,7 +118,7 @@ static void assign_look(const struct rho_passive_search *search, struct rho_pass
     struct look_assignment look;
     open_look(search, set, scan, sensor, &look);
     assign_greedily(&look);
-    for (unsigned i = 0; i < EXCHANGES_MAX && improve_by_exchange(&look); i++) {
+    for (unsigned i = 0; i < EXCHANGES_MAX && improve_by_taking_over(&look); i++) {
     }
     for (unsigned t = 0; t < set->num; t++) {
         set->tracks[t].claim[scan][sensor] = look.claim[t];
@@ -165,7 +165,7 @@ static void assign_and_fit(const struct rho_passive_search *search, struct rho_p
 }
 
 /* Drops the member with the lowest score that is no track. Returns whether there was one. */
-static int drop_worst(struct rho_passive_set *set)
+static int drop_worst_member(struct rho_passive_set *set)
 {
     unsigned worst = set->num;
     for (unsigned t = 0; t < set->num; t++) {
@@ -210,7 +210,7 @@ static void fit_until_all_are_tracks(const struct rho_passive_search *search,
 {
     do {
         assign_and_fit(search, set);
-    } while (drop_worst(set));
+    } while (drop_worst_member(set));
 }
 
 void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_claim *claims,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_lines: phase 2 of the search. The crossings vote_in_row for lines (rho, theta), and the
+ * passive_lines: phase 2 of the search. The crossings vote for lines (rho, theta), and the
  * lines with the most votes are taken one after the other.
  */
 #include <string.h>

@@ -34,14 +34,14 @@ static void list_alternatives(const struct rho_passive *passive,
         if (i == choice->count ||
             (!alternatives->without.is_out[i] && passive->shared[which][i] > 0)) {
             struct rho_passive_choice tried = alternatives->without;
-            rho_passive_include(&tried, i);
+            rho_passive_include_candidate(&tried, i);
             rho_passive_improve_choice(&tried);
             alternatives->total_nat[i] = tried.total_nat;
         }
     }
 }
 
-static unsigned find_best(const struct alternatives *alternatives)
+static unsigned find_best_alternative(const struct alternatives *alternatives)
 {
     unsigned best = 0;
     for (unsigned i = 1; i <= alternatives->without.count; i++) {
@@ -65,12 +65,12 @@ static float best_total_without(const struct rho_passive_search *search,
     struct alternatives alternatives;
     list_alternatives(passive, choice, which, &alternatives);
     for (unsigned n = 0; n < FITTED_MAX; n++) {
-        unsigned best = find_best(&alternatives);
+        unsigned best = find_best_alternative(&alternatives);
         if (alternatives.total_nat[best] < choice->total_nat - FITTED_WITHIN_NAT) {
             break;
         }
         struct rho_passive_choice tried = alternatives.without;
-        rho_passive_include(&tried, best);
+        rho_passive_include_candidate(&tried, best);
         rho_passive_improve_choice(&tried);
         rho_passive_fit_jointly(search, &tried, &passive->other);
         alternatives.total_nat[best] = NONE_NAT;
@@ -82,7 +82,7 @@ static float best_total_without(const struct rho_passive_search *search,
             return most_nat;
         }
     }
-    float unfitted_nat = alternatives.total_nat[find_best(&alternatives)] + fit_nat;
+    float unfitted_nat = alternatives.total_nat[find_best_alternative(&alternatives)] + fit_nat;
     return unfitted_nat > most_nat ? unfitted_nat : most_nat;
 }
 

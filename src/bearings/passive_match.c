@@ -27,9 +27,9 @@ static float floored_sigma_rad(const struct rho_passive_search *search,
     return bearing->sigma_rad > search->sigma_min_rad ? bearing->sigma_rad : search->sigma_min_rad;
 }
 
-struct rho_passive_offset rho_passive_offset_from(const struct rho_passive_search *search,
-                                                  unsigned scan, unsigned sensor,
-                                                  const float state_m[N])
+struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passive_search *search,
+                                                         unsigned scan, unsigned sensor,
+                                                         const float state_m[N])
 {
     float step = search->step[scan];
     return (struct rho_passive_offset){
@@ -100,10 +100,10 @@ static int has_bearing_near(const uint32_t *bins, struct rho_passive_offset offs
  * bearing's ray divided by the range, stands for the angle, so that no arctangent is needed; the
  * squares are compared, which needs no square root.
  */
-static struct rho_passive_match compare_bearings(const struct rho_passive_search *search,
-                                                 unsigned scan, unsigned sensor,
-                                                 struct rho_passive_offset offset,
-                                                 int include_claimed)
+static struct rho_passive_match find_nearest_bearing(const struct rho_passive_search *search,
+                                                     unsigned scan, unsigned sensor,
+                                                     struct rho_passive_offset offset,
+                                                     int include_claimed)
 {
     const struct rho_passive *passive = search->passive;
     const struct rho_batch_bearing *bearings = passive->batch.bearings[scan][sensor];
@@ -128,18 +128,20 @@ struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_sear
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[N], int include_claimed)
 {
-    struct rho_passive_offset offset = rho_passive_offset_from(search, scan, sensor, state_m);
+    struct rho_passive_offset offset =
+        rho_passive_offset_from_sensor(search, scan, sensor, state_m);
     if (!has_bearing_near(search->passive->directions[scan][sensor], offset)) {
         return (struct rho_passive_match){.bearing = -1};
     }
-    return compare_bearings(search, scan, sensor, offset, include_claimed);
+    return find_nearest_bearing(search, scan, sensor, offset, include_claimed);
 }
 
 struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[N], unsigned claim)
 {
-    struct rho_passive_offset offset = rho_passive_offset_from(search, scan, sensor, state_m);
+    struct rho_passive_offset offset =
+        rho_passive_offset_from_sensor(search, scan, sensor, state_m);
     if (claim == 0 || !(range2_m2(offset) > 1.0f)) {
         return (struct rho_passive_match){.bearing = -1};
     }
@@ -161,8 +163,8 @@ float rho_passive_normalised_residual(const struct rho_passive_match *match)
  * Number of looks that may have a bearing nearby; bit s of is_near[k] marks them. Stops as soon as
  * the number is `least` or less.
  */
-static unsigned mark_near(const struct rho_passive_search *search, const float state_m[N],
-                          float least, uint8_t is_near[RHO_MAX_PASSIVE_SCANS])
+static unsigned mark_near_looks(const struct rho_passive_search *search, const float state_m[N],
+                                float least, uint8_t is_near[RHO_MAX_PASSIVE_SCANS])
 {
     const struct rho_passive *passive = search->passive;
     unsigned num_sensors = passive->batch.num_sensors;
@@ -171,7 +173,7 @@ static unsigned mark_near(const struct rho_passive_search *search, const float s
         unsigned seen = 0;
         for (unsigned s = 0; s < num_sensors; s++) {
             unsigned is_seen = (unsigned)has_bearing_near(
-                passive->directions[k][s], rho_passive_offset_from(search, k, s, state_m));
+                passive->directions[k][s], rho_passive_offset_from_sensor(search, k, s, state_m));
             seen |= is_seen << s;
             left -= 1u - is_seen;
         }
@@ -180,7 +182,7 @@ static unsigned mark_near(const struct rho_passive_search *search, const float s
     return left;
 }
 
-/* Of one look: 0 .. 1. */
+/* How well the nearest bearing of one look agrees with the state: 0 .. 1. */
 static float look_agreement(const struct rho_passive_match *nearest)
 {
     float reach_m2 = range2_m2(nearest->offset) * square(NEAR_SIGMAS * nearest->sigma_rad);
@@ -194,13 +196,13 @@ float rho_passive_agreement(const struct rho_passive_search *search, const float
     const struct rho_passive *passive = search->passive;
     uint8_t is_near[RHO_MAX_PASSIVE_SCANS] = {0};
     /* upper bound: each marked look counts 1 until its bearings have been compared */
-    float most = (float)mark_near(search, state_m, least, is_near);
+    float most = (float)mark_near_looks(search, state_m, least, is_near);
     for (unsigned k = 0; k < passive->batch.num_scans && most > least; k++) {
         for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             if (is_near[k] >> s & 1u) {
-                struct rho_passive_match nearest =
-                    compare_bearings(search, k, s, rho_passive_offset_from(search, k, s, state_m),
-                                     !search->is_second);
+                struct rho_passive_match nearest = find_nearest_bearing(
+                    search, k, s, rho_passive_offset_from_sensor(search, k, s, state_m),
+                    !search->is_second);
                 most -= 1.0f - look_agreement(&nearest);
             }
         }

@@ -110,11 +110,11 @@ void rho_passive_fit_hypotheses(struct rho_passive_search *search,
 struct rho_passive_offset {
     float x_m, y_m;
 };
-struct rho_passive_offset rho_passive_offset_from(const struct rho_passive_search *search,
-                                                  unsigned scan, unsigned sensor,
-                                                  const float state_m[RHO_PASSIVE_STATES]);
+struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passive_search *search,
+                                                         unsigned scan, unsigned sensor,
+                                                         const float state_m[RHO_PASSIVE_STATES]);
 
-/* A bearing beside a state. */
+/* A bearing compared with a state. */
 struct rho_passive_match {
     int bearing; /* index among the bearings held, from 0; -1: none within nine sigmas */
     struct rho_passive_offset offset;
@@ -137,7 +137,7 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
 /* Measured minus predicted bearing, in sigmas. */
 float rho_passive_normalised_residual(const struct rho_passive_match *match);
 
-/* Marks the directions that have a bearing nearby; all of the following needs it. */
+/* Marks the directions that have a bearing nearby; all functions below need it. */
 void rho_passive_mark_directions(struct rho_passive_search *search);
 
 /*
@@ -232,7 +232,7 @@ void rho_passive_choose_candidates(const struct rho_passive_search *search,
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which);
 
 /* Adds a candidate (count: none), then further ones while the total grows. */
-void rho_passive_include(struct rho_passive_choice *choice, unsigned which);
+void rho_passive_include_candidate(struct rho_passive_choice *choice, unsigned which);
 
 /* Leaves one out and adds others instead, as long as the total grows. */
 void rho_passive_improve_choice(struct rho_passive_choice *choice);

@@ -20,7 +20,7 @@ void rho_passive_claim_best_set(struct rho_passive_search *search)
     }
 }
 
-static void set_scans(const struct rho_passive *passive, struct rho_passive_track *track)
+static void set_scans_of_claims(const struct rho_passive *passive, struct rho_passive_track *track)
 {
     track->scans = 0;
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
@@ -50,7 +50,7 @@ static void add_track(struct rho_passive_search *search, unsigned number, float 
     track->margin_mnat = mnat_of(margin_nat);
     track->chi2 = passive->best.chi2[number];
     track->hits = (uint16_t)from->hits;
-    set_scans(passive, track);
+    set_scans_of_claims(passive, track);
     passive->num_tracks++;
 }
 

@@ -10,7 +10,7 @@
 #define HEADING_SIGMAS 3.0f
 /* Velocities are so much better than filters that expect manoeuvres say: share of the variance. */
 #define TURNED_SHARE 0.3f
-/* An error of the heading is one for so many looks. */
+/* The heading's error stays the same for so many looks. */
 #define TURNED_LOOKS 10.0f
 /* Half the variance of a place's square, over the square of its variance: 0.4 if places are uniform
  * on the body, and half of that as most scatterers are the same ones from look to look. */
@@ -26,7 +26,7 @@
 #define WIDTH_PRIOR_WEIGHT 6.0f
 /* A body is usually so many times as long as wide, in the weight of its plots. */
 #define ASPECT_USUAL 4.0f
-/* It is never longer than so many times its width. */
+/* A body is never longer than so many times its width. */
 #define ASPECT_MAX 16.0f
 /*
  * Squares over what n plots have on average that a stray plot, or a wrong first heading, may add.
@@ -36,15 +36,15 @@
 #define SLOPE_WEIGHT 144.0f
 /* Few scatterers: a body that looks short is further off, in its length. */
 #define FEW_PLACES 8.4f
-/* So much of a plot tells the width at least. */
+/* Share of a plot that tells the body's width, at least. */
 #define LEAST_PLOTS 0.1f
 /* Counted plots stop there; so many tell the slope. */
 #define PLOTS_MOST 500.0f
 /* The least variance of a place on a body: 0.1 m of length. */
 #define LEAST_M2 1e-3f
 
-/* An axis that no plot has told yet. */
-static struct rho_body_side untold(float m2, float weight)
+/* An axis of the body of which no plot has told yet. */
+static struct rho_body_side unseen_side(float m2, float weight)
 {
     return (struct rho_body_side){m2, weight, 2.0f * m2 * m2 / weight, 1.0f};
 }
@@ -56,8 +56,8 @@ void rho_body_start(struct rho_body_filter *body, uint32_t track_id, float prior
         .along_m2 = prior_m2,
         .across_m2 = prior_m2,
         .prior_m2 = prior_m2,
-        .along = untold(prior_m2, PRIOR_WEIGHT),
-        .across = untold(prior_m2, WIDTH_PRIOR_WEIGHT),
+        .along = unseen_side(prior_m2, PRIOR_WEIGHT),
+        .across = unseen_side(prior_m2, WIDTH_PRIOR_WEIGHT),
         .cos_heading = 1.0f,
         .heading_sigma_rad = RHO_PI,
         .slope_weight = SLOPE_WEIGHT,
@@ -82,7 +82,7 @@ void rho_body_turn(struct rho_body_filter *body, const float velocity_mps[2],
     if (!body->has_heading) {
         const float width_m2 = body->prior_m2 / (ASPECT_PRIOR * ASPECT_PRIOR);
         body->across_m2 = width_m2;
-        body->across = untold(width_m2, WIDTH_PRIOR_WEIGHT);
+        body->across = unseen_side(width_m2, WIDTH_PRIOR_WEIGHT);
     }
     body->cos_heading = c;
     body->sin_heading = s;
@@ -113,7 +113,7 @@ void rho_body_spread(const struct rho_body_filter *body, float xx_yx_yy[3])
 }
 
 /* The share of the length that is taken for width: mean square of the heading's error. */
-static float turned_of(const struct rho_body_filter *body)
+static float heading_error_share(const struct rho_body_filter *body)
 {
     return TURNED_SHARE * body->heading_sigma_rad * body->heading_sigma_rad;
 }
@@ -138,7 +138,7 @@ float rho_body_missed_share(const struct rho_body_filter *body, unsigned n)
 }
 
 /* 2 / n times this is the variance of a mean square in n plots, over v^2: own noise beside v. */
-static float squares_of(float v_m2, float own_m2)
+static float relative_square_variance(float v_m2, float own_m2)
 {
     const float own = own_m2 / v_m2;
     return (own + 2.0f) * own + SQUARES_OF_BODY;
@@ -148,17 +148,19 @@ static float squares_of(float v_m2, float own_m2)
  * One axis: a variance seen in n plots, without what is not the body's. It counts as what n plots
  * tell of a body of the usual variance, whatever they say.
  */
-static void learn(struct rho_body_side *side, float usual_m2, float seen_m2, float own_m2, float n)
+static void learn_side(struct rho_body_side *side, float usual_m2, float seen_m2, float own_m2,
+                       float n)
 {
-    const float more = n / squares_of(usual_m2, own_m2);
+    const float more = n / relative_square_variance(usual_m2, own_m2);
     const float v_m2 = rho_larger(side->mean_m2, LEAST_M2);
     side->weight *= more < WEIGHT_MOST ? 1.0f - more / WEIGHT_MOST : 0.0f;
     side->weight += more;
     const float gain = more / side->weight;
     side->mean_m2 += gain * (seen_m2 - side->mean_m2);
     side->prior_share *= 1.0f - gain;
-    side->variance_m4 = (1.0f - gain) * (1.0f - gain) * side->variance_m4 +
-                        gain * gain * 2.0f / n * v_m2 * v_m2 * squares_of(v_m2, own_m2);
+    side->variance_m4 =
+        (1.0f - gain) * (1.0f - gain) * side->variance_m4 +
+        gain * gain * 2.0f / n * v_m2 * v_m2 * relative_square_variance(v_m2, own_m2);
 }
 
 /*
@@ -173,7 +175,7 @@ static void learn_across(struct rho_body_filter *body, const struct rho_body_loo
     const float along_m2 = rho_larger(look->along_m2, n * LEAST_M2);
     const float slope = look->cross_m2 / along_m2;
     const float slope_variance = (noise_m2 + missed * usual_m2) / along_m2;
-    const float turned = turned_of(body);
+    const float turned = heading_error_share(body);
     const float k = turned / (turned + slope_variance);
     const float off = slope - body->slope, left = (1.0f - k) * (1.0f - k) * turned;
     const float gone = 2.0f * k - k * k; /* plots that tell the turn alone */
@@ -183,8 +185,8 @@ static void learn_across(struct rho_body_filter *body, const struct rho_body_loo
     const float most_m2 = (n + STRAY_SQUARES) * (rho_larger(usual_m2, body->across_m2) + own_m2);
     const float sum_m2 = rho_smaller(squares_m2, most_m2) - (n - gone) * noise_m2;
     if (n - gone > LEAST_PLOTS) {
-        learn(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2, own_m2,
-              n - gone);
+        learn_side(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2,
+                   own_m2, n - gone);
     }
     const float more = 1.0f / (slope_variance + TURNED_LOOKS * turned);
     body->slope_weight *= 1.0f - rho_smaller(n / PLOTS_MOST, 1.0f);
@@ -201,8 +203,8 @@ void rho_body_add(struct rho_body_filter *body, const struct rho_body_look *look
     if (look->num_plots == 0 || !body->has_heading) {
         return;
     }
-    const float along_m2 = look->noise_along_m2 / n + turned_of(body) * body->across_m2;
-    learn(&body->along, usual_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
+    const float along_m2 = look->noise_along_m2 / n + heading_error_share(body) * body->across_m2;
+    learn_side(&body->along, usual_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
     body->along_m2 = rho_larger(body->along.mean_m2, LEAST_M2);
     learn_across(body, look, n);
     body->across_m2 = rho_larger(body->across.mean_m2, body->along_m2 / (ASPECT_MAX * ASPECT_MAX));
@@ -214,8 +216,8 @@ void rho_body_add(struct rho_body_filter *body, const struct rho_body_look *look
  * are, each anywhere in its part of the body, N are seen, whose own variance is off by a share of
  * 2 / N^1.5, however many looks there are. And what headings add lasts: turned_m2.
  */
-static float side_m(const struct rho_body_filter *body, const struct rho_body_side *side,
-                    float spread_m2, float turned_m2, float *sigma_m)
+static float side_length_m(const struct rho_body_filter *body, const struct rho_body_side *side,
+                           float spread_m2, float turned_m2, float *sigma_m)
 {
     const float length_m = rho_sqrt(12.0f * spread_m2);
     const float most = (float)body->most_plots;
@@ -239,10 +241,10 @@ void rho_body_shape(const struct rho_body_filter *body, struct rho_body *shape)
         .plots = body->plots,
     };
     /* a turn that slopes tell is off by as much as the slope is: (s + e)^2 - s^2 */
-    const float turned = rho_smaller(turned_of(body), 1.0f / body->slope_weight);
+    const float turned = rho_smaller(heading_error_share(body), 1.0f / body->slope_weight);
     const float off = rho_sqrt(turned * (turned + 4.0f * body->slope * body->slope));
-    shape->length_m = side_m(body, &body->along, body->along_m2, turned * body->across_m2,
-                             &shape->sigma_length_m);
-    shape->width_m =
-        side_m(body, &body->across, body->across_m2, off * body->along_m2, &shape->sigma_width_m);
+    shape->length_m = side_length_m(body, &body->along, body->along_m2, turned * body->across_m2,
+                                    &shape->sigma_length_m);
+    shape->width_m = side_length_m(body, &body->across, body->across_m2, off * body->along_m2,
+                                   &shape->sigma_width_m);
 }

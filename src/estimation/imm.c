@@ -290,12 +290,12 @@ static struct mixing_weights update_markov_chain(struct rho_imm *imm,
     };
 }
 
-static inline float mixed(const struct mixing *by, float own, float other, float product)
+static inline float mixed_moment(const struct mixing *by, float own, float other, float product)
 {
     return by->own * own + by->other * other + by->spread * product;
 }
 
-/* One axis of both. */
+/* Mixes one axis of both models. */
 static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct accel *more,
                             const struct mixing_weights *by)
 {
@@ -305,15 +305,15 @@ static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct 
     if (by->into_steady > 0.0f) {
         steady->p += by->into_steady * p;
         steady->v += by->into_steady * v;
-        steady->pp = mixed(s, was.pp, manoeuvre->pp, p * p);
-        steady->vp = mixed(s, was.vp, manoeuvre->vp, v * p);
-        steady->vv = mixed(s, was.vv, manoeuvre->vv, v * v);
+        steady->pp = mixed_moment(s, was.pp, manoeuvre->pp, p * p);
+        steady->vp = mixed_moment(s, was.vp, manoeuvre->vp, v * p);
+        steady->vv = mixed_moment(s, was.vv, manoeuvre->vv, v * v);
     }
     manoeuvre->p -= by->into_manoeuvre * p;
     manoeuvre->v -= by->into_manoeuvre * v;
-    manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, p * p);
-    manoeuvre->vp = mixed(m, manoeuvre->vp, was.vp, v * p);
-    manoeuvre->vv = mixed(m, manoeuvre->vv, was.vv, v * v);
+    manoeuvre->pp = mixed_moment(m, manoeuvre->pp, was.pp, p * p);
+    manoeuvre->vp = mixed_moment(m, manoeuvre->vp, was.vp, v * p);
+    manoeuvre->vv = mixed_moment(m, manoeuvre->vv, was.vv, v * v);
     more->a -= by->into_manoeuvre * a;
     more->ap = m->own * more->ap + m->spread * a * p;
     more->av = m->own * more->av + m->spread * a * v;
@@ -327,14 +327,14 @@ static inline void mix_pair(struct pair *steady, struct pair *manoeuvre,
 {
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
     const struct pair was = *steady;
-    steady->pp = mixed(s, was.pp, manoeuvre->pp, a->p * b->p);
-    steady->pv = mixed(s, was.pv, manoeuvre->pv, a->p * b->v);
-    steady->vp = mixed(s, was.vp, manoeuvre->vp, a->v * b->p);
-    steady->vv = mixed(s, was.vv, manoeuvre->vv, a->v * b->v);
-    manoeuvre->pp = mixed(m, manoeuvre->pp, was.pp, a->p * b->p);
-    manoeuvre->pv = mixed(m, manoeuvre->pv, was.pv, a->p * b->v);
-    manoeuvre->vp = mixed(m, manoeuvre->vp, was.vp, a->v * b->p);
-    manoeuvre->vv = mixed(m, manoeuvre->vv, was.vv, a->v * b->v);
+    steady->pp = mixed_moment(s, was.pp, manoeuvre->pp, a->p * b->p);
+    steady->pv = mixed_moment(s, was.pv, manoeuvre->pv, a->p * b->v);
+    steady->vp = mixed_moment(s, was.vp, manoeuvre->vp, a->v * b->p);
+    steady->vv = mixed_moment(s, was.vv, manoeuvre->vv, a->v * b->v);
+    manoeuvre->pp = mixed_moment(m, manoeuvre->pp, was.pp, a->p * b->p);
+    manoeuvre->pv = mixed_moment(m, manoeuvre->pv, was.pv, a->p * b->v);
+    manoeuvre->vp = mixed_moment(m, manoeuvre->vp, was.vp, a->v * b->p);
+    manoeuvre->vv = mixed_moment(m, manoeuvre->vv, was.vv, a->v * b->v);
     /* the steady model's acceleration is 0 with variance 0 */
     manoeuvre->pa = m->own * manoeuvre->pa + m->spread * a->p * b->a;
     manoeuvre->va = m->own * manoeuvre->va + m->spread * a->v * b->a;

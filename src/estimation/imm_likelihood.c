@@ -31,9 +31,9 @@ struct view {
 };
 
 /* Isotropic noise needs no line-of-sight frame. 0: the noise is not isotropic. */
-static int open_isotropic(struct rho_measurement *out, float covariance[6],
-                          const struct rho_plot *plot, uint32_t measures,
-                          const struct rho_sensor *sensor)
+static int open_isotropic_plot(struct rho_measurement *out, float covariance[6],
+                               const struct rho_plot *plot, uint32_t measures,
+                               const struct rho_sensor *sensor)
 {
     const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
     const int has_z = (measures & RHO_MEASURES_Z) != 0;
@@ -63,7 +63,7 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
     seen->measures = measures;
     seen->plot = plot;
     seen->sensor = sensor;
-    if (open_isotropic(&seen->position, seen->covariance, plot, measures, sensor)) {
+    if (open_isotropic_plot(&seen->position, seen->covariance, plot, measures, sensor)) {
         return;
     }
     rho_measurement_open(plot, measures, sensor, &seen->position);
@@ -166,7 +166,7 @@ static float rate_innovation(const struct view *view, const struct rho_imm_plot 
                                                 view->expected_mps);
 }
 
-/* After places and velocities. */
+/* Appends the range rate to the innovations of places and velocities. */
 static void add_range_rate(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
                            struct innovation *out)
 {
@@ -291,7 +291,7 @@ static int is_likelihood(float log_likelihood)
 /* Lower bound of a model's probability: rounding to 0 would exclude the model for good. */
 #define SHARE_MIN 1.0e-9f
 
-static inline float floored(float share)
+static inline float floored_probability(float share)
 {
     return share > SHARE_MIN ? share : SHARE_MIN;
 }
@@ -300,15 +300,16 @@ void rho_imm_update_probability(struct rho_imm *imm, const float off[2], const f
                                 float *gain_nat)
 {
     struct rho_imm_match match;
-    const float factor[2] = {floored(1.0f - imm->probability) * rho_inverse_sqrt(variance[0]),
-                             floored(imm->probability) * rho_inverse_sqrt(variance[1])};
+    const float factor[2] = {floored_probability(1.0f - imm->probability) *
+                                 rho_inverse_sqrt(variance[0]),
+                             floored_probability(imm->probability) * rho_inverse_sqrt(variance[1])};
     const float nis[2] = {off[0] * off[0] / variance[0], off[1] * off[1] / variance[1]};
     combine_models(factor, nis, 1, &match);
     imm->probability = match.probability;
     *gain_nat = match.log_likelihood;
 }
 
-/* Each case by the cheapest function. */
+/* The NIS of a plot under one model, each case by the cheapest function. */
 static void evaluate_model(struct view *view, const struct rho_imm *imm,
                            const struct rho_imm_plot *seen, const struct rho_imm_match *match)
 {
@@ -367,7 +368,7 @@ static inline float plane_nis(const struct view *view, const struct plane_plot *
         *factor = 0.0f;
         return NIS_BEYOND_ALL;
     }
-    *factor = floored(share) * rho_inverse_sqrt(det);
+    *factor = floored_probability(share) * rho_inverse_sqrt(det);
     return nis;
 }
 
@@ -496,7 +497,7 @@ int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_im
         open_view(&view, i, imm, rates, match->has_range_rate);
         evaluate_model(&view, imm, seen, match);
         nis[i] = view.counts ? view.nis : NIS_BEYOND_ALL;
-        factor[i] = view.counts ? floored(share[i]) * view.root : 0.0f;
+        factor[i] = view.counts ? floored_probability(share[i]) * view.root : 0.0f;
     }
     return combine_if_gated(factor, nis,
                             (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate,
@@ -505,8 +506,8 @@ int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_im
 
 /* ---- many plots of one noise ----------------------------------------------------------------- */
 
-static void open_model(struct rho_imm_gate *gate, int model, const float *state,
-                       const float *covariance, float variance_m2, float share)
+static void open_gate_of_model(struct rho_imm_gate *gate, int model, const float *state,
+                               const float *covariance, float variance_m2, float share)
 {
     float *centre_m = gate->centre_m[model], *inverse = gate->half_inverse[model];
     const float sx = covariance[RHO_XX] + variance_m2;
@@ -534,9 +535,10 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
         return 0;
     }
     gate->num_axes = has_z && is_open(imm, 2) ? 3 : 2;
-    open_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
-               floored(1.0f - imm->probability));
-    open_model(gate, 1, imm->state, imm->covariance, variance_m2, floored(imm->probability));
+    open_gate_of_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
+                       floored_probability(1.0f - imm->probability));
+    open_gate_of_model(gate, 1, imm->state, imm->covariance, variance_m2,
+                       floored_probability(imm->probability));
     return is_likelihood(gate->log_factor[0]) && is_likelihood(gate->log_factor[1]);
 }
 

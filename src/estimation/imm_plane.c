@@ -82,7 +82,7 @@ float rho_imm_plane_project_rate(int num_states, const float *restrict p, const 
            spread[PLANE_VY] * vy;
 }
 
-static inline float less(float variance, float taken)
+static inline float lowered_variance(float variance, float taken)
 {
     return variance * ROUNDING_ALLOWANCE - taken;
 }
@@ -92,16 +92,16 @@ static inline void lower_steady_covariance(float *restrict p, const float *restr
 {
     const float x = s[PLANE_X] * inverse, y = s[PLANE_Y] * inverse, vx = s[PLANE_VX] * inverse,
                 vy = s[PLANE_VY] * inverse;
-    p[RHO_XX] = less(p[RHO_XX], x * s[PLANE_X]);
+    p[RHO_XX] = lowered_variance(p[RHO_XX], x * s[PLANE_X]);
     p[RHO_YX] -= y * s[PLANE_X];
-    p[RHO_YY] = less(p[RHO_YY], y * s[PLANE_Y]);
+    p[RHO_YY] = lowered_variance(p[RHO_YY], y * s[PLANE_Y]);
     p[ROW_VX + RHO_X] -= vx * s[PLANE_X];
     p[ROW_VX + RHO_Y] -= vx * s[PLANE_Y];
-    p[ROW_VX + RHO_VX] = less(p[ROW_VX + RHO_VX], vx * s[PLANE_VX]);
+    p[ROW_VX + RHO_VX] = lowered_variance(p[ROW_VX + RHO_VX], vx * s[PLANE_VX]);
     p[ROW_VY + RHO_X] -= vy * s[PLANE_X];
     p[ROW_VY + RHO_Y] -= vy * s[PLANE_Y];
     p[ROW_VY + RHO_VX] -= vy * s[PLANE_VX];
-    p[ROW_VY + RHO_VY] = less(p[ROW_VY + RHO_VY], vy * s[PLANE_VY]);
+    p[ROW_VY + RHO_VY] = lowered_variance(p[ROW_VY + RHO_VY], vy * s[PLANE_VY]);
 }
 
 static inline void lower_acceleration_covariance(float *restrict p, const float *restrict s,
@@ -112,13 +112,13 @@ static inline void lower_acceleration_covariance(float *restrict p, const float 
     p[ROW_AX + RHO_Y] -= ax * s[PLANE_Y];
     p[ROW_AX + RHO_VX] -= ax * s[PLANE_VX];
     p[ROW_AX + RHO_VY] -= ax * s[PLANE_VY];
-    p[ROW_AX + RHO_AX] = less(p[ROW_AX + RHO_AX], ax * s[PLANE_AX]);
+    p[ROW_AX + RHO_AX] = lowered_variance(p[ROW_AX + RHO_AX], ax * s[PLANE_AX]);
     p[ROW_AY + RHO_X] -= ay * s[PLANE_X];
     p[ROW_AY + RHO_Y] -= ay * s[PLANE_Y];
     p[ROW_AY + RHO_VX] -= ay * s[PLANE_VX];
     p[ROW_AY + RHO_VY] -= ay * s[PLANE_VY];
     p[ROW_AY + RHO_AX] -= ay * s[PLANE_AX];
-    p[ROW_AY + RHO_AY] = less(p[ROW_AY + RHO_AY], ay * s[PLANE_AY]);
+    p[ROW_AY + RHO_AY] = lowered_variance(p[ROW_AY + RHO_AY], ay * s[PLANE_AY]);
 }
 
 static int is_finite(float v)

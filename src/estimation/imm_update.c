@@ -17,7 +17,7 @@ static int is_finite(float v)
 }
 
 /* No variance of an open axis falls below the floor: it would look closed. */
-static float at_least(float variance)
+static float at_least_floor(float variance)
 {
     return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
 }
@@ -29,7 +29,7 @@ struct divisor {
     float inverse, kept;
 };
 
-static inline struct divisor divide_by(float predicted, float variance)
+static inline struct divisor divisor_of(float predicted, float variance)
 {
     const float inverse = 1.0f / (predicted + variance);
     return (struct divisor){inverse, variance * inverse};
@@ -41,8 +41,8 @@ static inline void apply_position(struct axis *at, const struct divisor *by, flo
     const float gain_v = at->vp * by->inverse;
     at->p += at->pp * step;
     at->v += at->vp * step;
-    at->vv = at_least(at->vv * ROUNDING_ALLOWANCE - gain_v * at->vp);
-    at->pp = at_least(at->pp * by->kept);
+    at->vv = at_least_floor(at->vv * ROUNDING_ALLOWANCE - gain_v * at->vp);
+    at->pp = at_least_floor(at->pp * by->kept);
     at->vp *= by->kept;
 }
 
@@ -51,8 +51,8 @@ static inline void apply_velocity(struct axis *at, const struct divisor *by, flo
     const float gain_p = at->vp * by->inverse;
     at->p += at->vp * step;
     at->v += at->vv * step;
-    at->pp = at_least(at->pp * ROUNDING_ALLOWANCE - gain_p * at->vp);
-    at->vv = at_least(at->vv * by->kept);
+    at->pp = at_least_floor(at->pp * ROUNDING_ALLOWANCE - gain_p * at->vp);
+    at->vv = at_least_floor(at->vv * by->kept);
     at->vp *= by->kept;
 }
 
@@ -66,7 +66,7 @@ static inline void update_acceleration(struct accel *at, float *with_seen, float
     const float gain = *with_seen * by->inverse;
     at->a += *with_seen * step;
     *with_other -= gain * vp;
-    at->aa = at_least(at->aa * ROUNDING_ALLOWANCE - gain * *with_seen);
+    at->aa = at_least_floor(at->aa * ROUNDING_ALLOWANCE - gain * *with_seen);
     *with_seen *= by->kept;
 }
 
@@ -77,7 +77,7 @@ static inline void update_acceleration(struct accel *at, float *with_seen, float
 static inline float update_axis_position(struct axis *at, struct accel *more, float place_m,
                                          float variance)
 {
-    const struct divisor by = divide_by(at->pp, variance);
+    const struct divisor by = divisor_of(at->pp, variance);
     const float off = place_m - at->p, step = off * by.inverse;
     const float check = at->pp >= 0.0f ? off * step + at->pp : FLT_MAX + FLT_MAX;
     if (more) {
@@ -87,11 +87,11 @@ static inline float update_axis_position(struct axis *at, struct accel *more, fl
     return check + at->p + at->v;
 }
 
-/* The same by its velocity. */
+/* Scalar update of one axis by its velocity. */
 static inline float update_axis_velocity(struct axis *at, struct accel *more, float speed_mps,
                                          float variance)
 {
-    const struct divisor by = divide_by(at->vv, variance);
+    const struct divisor by = divisor_of(at->vv, variance);
     const float off = speed_mps - at->v, step = off * by.inverse;
     const float check = at->vv >= 0.0f ? off * step + at->vv : FLT_MAX + FLT_MAX;
     if (more) {
@@ -104,7 +104,7 @@ static inline float update_axis_velocity(struct axis *at, struct accel *more, fl
 static float update_positions(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
 {
     struct rho_kalman *kalman = &imm->steady;
-    const float variance = at_least(seen->position.variance_m2[0]);
+    const float variance = at_least_floor(seen->position.variance_m2[0]);
     float check = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
         const float place_m = seen->position.place_m[axis];
@@ -123,7 +123,7 @@ static float update_positions(struct rho_imm *imm, int num_axes, const struct rh
 static float update_velocities(struct rho_imm *imm, int num_axes, const struct rho_imm_plot *seen)
 {
     struct rho_kalman *kalman = &imm->steady;
-    const float variance = at_least(seen->plot->sigma_mps * seen->plot->sigma_mps);
+    const float variance = at_least_floor(seen->plot->sigma_mps * seen->plot->sigma_mps);
     float check = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
         const float speed_mps = plot_velocity(seen->plot, axis);
@@ -171,7 +171,7 @@ static enum rho_status update_along(struct rho_imm *imm, const float direction[3
                                     const float place_m[3], float variance)
 {
     float row[RHO_KALMAN_STATES] = {direction[0], direction[1], direction[2], 0.0f, 0.0f, 0.0f};
-    float innovation_m[3], noise = at_least(variance);
+    float innovation_m[3], noise = at_least_floor(variance);
     for (int i = 0; i < 3; i++) {
         innovation_m[i] = place_m[i] - imm->steady.state[i];
     }
@@ -187,10 +187,10 @@ static enum rho_status update_along(struct rho_imm *imm, const float direction[3
                                    dot(direction, innovation_m), noise);
 }
 
-/* One element of the state, the same in both models. */
+/* Updates both models by one element of the state. */
 static enum rho_status update_element(struct rho_imm *imm, int element, float value, float variance)
 {
-    float noise = at_least(variance);
+    float noise = at_least_floor(variance);
     enum rho_status status = rho_kalman_update(&imm->steady, element, value, noise, 0);
     return status == RHO_OK ? rho_linalg_update_at(RHO_IMM_STATES, imm->state, imm->covariance,
                                                    element, value - imm->state[element], noise)
@@ -239,7 +239,7 @@ static enum rho_status update_range_rate(struct rho_imm *imm, const struct rho_i
 {
     const float rate_mps = seen->plot->range_rate_mps;
     const float variance =
-        at_least(seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps);
+        at_least_floor(seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps);
     struct rho_kalman at;
     struct rho_kalman_row rate;
     load_kinematics(&at, imm->state, imm->covariance);
@@ -281,7 +281,7 @@ static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
 static enum rho_status update_plane_along(struct rho_imm *imm, float x, float y,
                                           const float place_m[3], float variance)
 {
-    const float noise = at_least(variance);
+    const float noise = at_least_floor(variance);
     float *steady = imm->steady.state, *state = imm->state, spread[RHO_PLANE_MANOEUVRE];
     float predicted = rho_imm_plane_project(RHO_PLANE_STEADY, imm->steady.covariance, x, y, spread);
     enum rho_status status = rho_imm_plane_update(
@@ -307,7 +307,7 @@ static enum rho_status update_plane_rate(int num_states, float *state, float *co
         return RHO_OK;
     }
     const float predicted = rho_imm_plane_project_rate(num_states, covariance, rate.row, spread);
-    const float variance = at_least(sigma_mps * sigma_mps) + rate.nonlinearity;
+    const float variance = at_least_floor(sigma_mps * sigma_mps) + rate.nonlinearity;
     float off_mps = seen->plot->range_rate_mps - rate.expected_mps;
     if (rho_measurement_has_span(seen->sensor)) {
         if (!rho_measurement_is_range_rate_clear(seen->sensor, predicted + variance)) {
@@ -349,17 +349,17 @@ static enum rho_status open_height(struct rho_imm *imm, const struct rho_imm_mod
 {
     const float noise = seen->covariance[RHO_ZZ];
     enum rho_status status =
-        rho_kalman_open_axis(&imm->steady, RHO_Z, seen->position.place_m[2], at_least(noise),
+        rho_kalman_open_axis(&imm->steady, RHO_Z, seen->position.place_m[2], at_least_floor(noise),
                              model->speed_sigma_mps * model->speed_sigma_mps);
     if (status != RHO_OK) {
         return status;
     }
     imm->state[RHO_Z] = seen->position.place_m[2];
-    imm->covariance[COVARIANCE_AT(RHO_Z, 0, RHO_Z, 0)] = at_least(noise);
+    imm->covariance[COVARIANCE_AT(RHO_Z, 0, RHO_Z, 0)] = at_least_floor(noise);
     imm->covariance[COVARIANCE_AT(RHO_Z, 1, RHO_Z, 1)] =
         model->speed_sigma_mps * model->speed_sigma_mps;
     imm->covariance[COVARIANCE_AT(RHO_Z, 2, RHO_Z, 2)] =
-        at_least(model->accel_sigma_mps2 * model->accel_sigma_mps2);
+        at_least_floor(model->accel_sigma_mps2 * model->accel_sigma_mps2);
     return RHO_OK;
 }
 

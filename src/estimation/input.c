@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "input_columns.h"
+#include "input_estimation_columns.h"
 #include "rhotrack/detail/approx.h"
 
 #define SIGMA_MIN_MPS2 1.0e-3f
@@ -50,7 +50,7 @@ void rho_input_config_default(struct rho_input_config *config)
     }
 }
 
-static int is_noise(float sigma)
+static int is_noise_sigma(float sigma)
 {
     return sigma >= 0.0f && sigma <= NOISE_MAX;
 }
@@ -61,8 +61,9 @@ int rho_input_is_usable(const struct rho_input_config *config)
            config->sigma_mps2 >= SIGMA_MIN_MPS2 && config->sigma_mps2 <= SIGMA_MAX_MPS2 &&
            config->threshold > 0.0f && config->threshold <= FLT_MAX && config->gamma > 0.0f &&
            config->gamma <= 1.0f && config->noise_density >= 0.0f &&
-           config->noise_density <= FLT_MAX && is_noise(config->noise_m) &&
-           is_noise(config->noise_mps) && config->velocity_variance >= RHO_KALMAN_VARIANCE_MIN &&
+           config->noise_density <= FLT_MAX && is_noise_sigma(config->noise_m) &&
+           is_noise_sigma(config->noise_mps) &&
+           config->velocity_variance >= RHO_KALMAN_VARIANCE_MIN &&
            config->velocity_variance <= RHO_KALMAN_VARIANCE_MAX &&
            config->initial_variance >= 0.0f &&
            config->initial_variance <= RHO_KALMAN_VARIANCE_MAX &&
@@ -85,7 +86,7 @@ static void add_correlated_inputs(struct rho_kalman *estimate, const struct rho_
         const float *m = input->sensitivity[a];
         const float pivot = v[RHO_AT(a, a)];
 
-        if (!is_in(axes, a)) {
+        if (!has_axis(axes, a)) {
             continue;
         }
         add_column(estimate, m, a, input->input_mps2[a], 0.0f);
@@ -94,7 +95,7 @@ static void add_correlated_inputs(struct rho_kalman *estimate, const struct rho_
         }
         memcpy(column, m, sizeof column);
         for (int b = a + 1; b < NUM_AXES; b++) {
-            const float share = is_in(axes, b) ? v[RHO_AT(b, a)] / pivot : 0.0f;
+            const float share = has_axis(axes, b) ? v[RHO_AT(b, a)] / pivot : 0.0f;
 
             for (int i = 0; i < NUM_STATES; i++) {
                 column[i] += share * input->sensitivity[b][i];
@@ -107,7 +108,8 @@ static void add_correlated_inputs(struct rho_kalman *estimate, const struct rho_
     }
 }
 
-static void add_inputs(struct rho_kalman *estimate, const struct rho_input *input, uint32_t axes)
+static void add_input_effects(struct rho_kalman *estimate, const struct rho_input *input,
+                              uint32_t axes)
 {
     static const uint8_t diagonal[NUM_AXES] = {RHO_XX, RHO_YY, RHO_ZZ};
 
@@ -116,7 +118,7 @@ static void add_inputs(struct rho_kalman *estimate, const struct rho_input *inpu
         return;
     }
     for (int a = 0; a < NUM_AXES; a++) {
-        if (is_in(axes, a)) {
+        if (has_axis(axes, a)) {
             add_column(estimate, input->sensitivity[a], a, input->input_mps2[a],
                        input->variance[diagonal[a]]);
         }
@@ -126,13 +128,13 @@ static void add_inputs(struct rho_kalman *estimate, const struct rho_input *inpu
 void rho_input_estimate(const struct rho_input *input, struct rho_kalman *estimate)
 {
     *estimate = input->bare;
-    add_inputs(estimate, input, input->present);
+    add_input_effects(estimate, input, input->present);
 }
 
 void rho_input_expect(const struct rho_input *input, struct rho_kalman *estimate)
 {
     *estimate = input->bare;
-    add_inputs(estimate, input, INPUT_ALL_PRESENT);
+    add_input_effects(estimate, input, INPUT_ALL_PRESENT);
 }
 
 /* ---- start and prediction -------------------------------------------------------------------- */
@@ -192,7 +194,7 @@ static void grow_input_variance(struct rho_input *input, const struct rho_input_
         const float wider = before / config->gamma;
         const float after = wider < most ? wider : most;
 
-        if (!is_in(input->present, a) || !(after > before)) {
+        if (!has_axis(input->present, a) || !(after > before)) {
             continue;
         }
         v[RHO_AT(a, a)] = after;

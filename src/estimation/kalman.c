@@ -90,7 +90,7 @@ static inline void predict_pair(float *p, int a, int b, float dt_s)
     p[VELOCITY_POSITION(b, a)] = mixed_ba + moved;
 }
 
-static inline void accept_axis(struct rho_kalman *kalman, int axis, const struct prediction *next)
+static inline void store_axis(struct rho_kalman *kalman, int axis, const struct prediction *next)
 {
     kalman->state[axis] = next->position_m;
     kalman->covariance[DIAGONAL(axis)] = next->position_variance;
@@ -186,13 +186,13 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
     }
     RHO_UNROLL
     for (int axis = 0; axis < NUM_AXES; ++axis) {
-        accept_axis(kalman, axis, &next[axis]);
+        store_axis(kalman, axis, &next[axis]);
     }
     return RHO_OK;
 }
 
-/* False for NaN, and beyond the limit. */
-static int may_grow(float variance, float by)
+/* The variance plus `by` is within the limit. False for NaN. */
+static int can_add_variance(float variance, float by)
 {
     return variance + by <= RHO_KALMAN_VARIANCE_MAX;
 }
@@ -209,8 +209,8 @@ enum rho_status rho_kalman_add_noise(struct rho_kalman *kalman, float position_v
         return RHO_ERROR_VALUE;
     }
     for (axis = 0; axis < NUM_AXES; ++axis) {
-        if (!may_grow(kalman->covariance[DIAGONAL(axis)], position_variance) ||
-            !may_grow(kalman->covariance[DIAGONAL(NUM_AXES + axis)], velocity_variance)) {
+        if (!can_add_variance(kalman->covariance[DIAGONAL(axis)], position_variance) ||
+            !can_add_variance(kalman->covariance[DIAGONAL(NUM_AXES + axis)], velocity_variance)) {
             return RHO_ERROR_VALUE;
         }
     }
@@ -277,7 +277,7 @@ static void rotate_vector(float v[3], int a, int b, float c, float s)
 }
 
 /* Rotates the frame of the estimate in the plane of axes a and b. */
-static void rotate(struct rho_kalman *kalman, int a, int b, float c, float s)
+static void rotate_estimate(struct rho_kalman *kalman, int a, int b, float c, float s)
 {
     rotate_vector(&kalman->state[0], a, b, c, s);
     rotate_vector(&kalman->state[NUM_AXES], a, b, c, s);
@@ -286,8 +286,8 @@ static void rotate(struct rho_kalman *kalman, int a, int b, float c, float s)
 }
 
 /* Opens or updates one axis. */
-static enum rho_status measure_axis(struct rho_kalman *kalman, int axis, float place_m,
-                                    float variance, float velocity_variance)
+static enum rho_status open_or_update_axis(struct rho_kalman *kalman, int axis, float place_m,
+                                           float variance, float velocity_variance)
 {
     if (!rho_kalman_is_open(kalman, axis)) {
         return rho_kalman_open_axis(kalman, axis, place_m, variance, velocity_variance);
@@ -295,14 +295,16 @@ static enum rho_status measure_axis(struct rho_kalman *kalman, int axis, float p
     return rho_kalman_update(kalman, axis, place_m, variance, NULL);
 }
 
-static enum rho_status measure_axes(struct rho_kalman *kalman, int num_axes, const float place_m[3],
-                                    const float variance[3], float velocity_variance)
+static enum rho_status open_or_update_axes(struct rho_kalman *kalman, int num_axes,
+                                           const float place_m[3], const float variance[3],
+                                           float velocity_variance)
 {
     enum rho_status status = RHO_OK;
     int axis;
 
     for (axis = 0; axis < num_axes && status == RHO_OK; ++axis) {
-        status = measure_axis(kalman, axis, place_m[axis], variance[axis], velocity_variance);
+        status =
+            open_or_update_axis(kalman, axis, place_m[axis], variance[axis], velocity_variance);
     }
     return status;
 }
@@ -311,8 +313,9 @@ static enum rho_status measure_axes(struct rho_kalman *kalman, int num_axes, con
  * Updates in the frame of the noise; its axes are all open, or all closed. The estimate is taken
  * relative to the plot: rotating a position far from the origin would cost digits.
  */
-static enum rho_status measure_in_frame(struct rho_kalman *kalman, int num_axes,
-                                        const struct rho_measurement *seen, float velocity_variance)
+static enum rho_status update_in_noise_frame(struct rho_kalman *kalman, int num_axes,
+                                             const struct rho_measurement *seen,
+                                             float velocity_variance)
 {
     static const float here_m[3] = {0.0f, 0.0f, 0.0f};
     const int has_elevation = num_axes == NUM_AXES;
@@ -322,15 +325,15 @@ static enum rho_status measure_in_frame(struct rho_kalman *kalman, int num_axes,
     for (axis = 0; axis < num_axes; ++axis) {
         kalman->state[axis] -= seen->place_m[axis];
     }
-    rotate(kalman, RHO_X, RHO_Y, seen->cos_azimuth, seen->sin_azimuth);
+    rotate_estimate(kalman, RHO_X, RHO_Y, seen->cos_azimuth, seen->sin_azimuth);
     if (has_elevation) {
-        rotate(kalman, RHO_X, RHO_Z, seen->cos_elevation, seen->sin_elevation);
+        rotate_estimate(kalman, RHO_X, RHO_Z, seen->cos_elevation, seen->sin_elevation);
     }
-    status = measure_axes(kalman, num_axes, here_m, seen->variance_m2, velocity_variance);
+    status = open_or_update_axes(kalman, num_axes, here_m, seen->variance_m2, velocity_variance);
     if (has_elevation) {
-        rotate(kalman, RHO_X, RHO_Z, seen->cos_elevation, -seen->sin_elevation);
+        rotate_estimate(kalman, RHO_X, RHO_Z, seen->cos_elevation, -seen->sin_elevation);
     }
-    rotate(kalman, RHO_X, RHO_Y, seen->cos_azimuth, -seen->sin_azimuth);
+    rotate_estimate(kalman, RHO_X, RHO_Y, seen->cos_azimuth, -seen->sin_azimuth);
     for (axis = 0; axis < num_axes; ++axis) {
         kalman->state[axis] += seen->place_m[axis];
     }
@@ -338,9 +341,9 @@ static enum rho_status measure_in_frame(struct rho_kalman *kalman, int num_axes,
 }
 
 /* If only one of (x, y) and z is open, z is updated by itself, with its own noise variance. */
-static enum rho_status measure_height_apart(struct rho_kalman *kalman,
-                                            const struct rho_measurement *seen,
-                                            float velocity_variance)
+static enum rho_status update_height_apart(struct rho_kalman *kalman,
+                                           const struct rho_measurement *seen,
+                                           float velocity_variance)
 {
     struct rho_measurement level = *seen;
     float covariance[6];
@@ -350,10 +353,10 @@ static enum rho_status measure_height_apart(struct rho_kalman *kalman,
     level.variance_m2[0] = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
                            seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
     level.has_z = 0;
-    status = measure_in_frame(kalman, 2, &level, velocity_variance);
+    status = update_in_noise_frame(kalman, 2, &level, velocity_variance);
     if (status == RHO_OK) {
-        status =
-            measure_axis(kalman, RHO_Z, seen->place_m[2], covariance[RHO_ZZ], velocity_variance);
+        status = open_or_update_axis(kalman, RHO_Z, seen->place_m[2], covariance[RHO_ZZ],
+                                     velocity_variance);
     }
     return status;
 }
@@ -377,17 +380,17 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
         return RHO_ERROR_VALUE;
     }
     if (measurement->is_isotropic) {
-        return measure_axes(kalman, num_axes, measurement->place_m, measurement->variance_m2,
-                            velocity_variance);
+        return open_or_update_axes(kalman, num_axes, measurement->place_m, measurement->variance_m2,
+                                   velocity_variance);
     }
     if (rho_kalman_is_open(kalman, RHO_X) != rho_kalman_is_open(kalman, RHO_Y)) {
         return RHO_ERROR_VALUE;
     }
     if (measurement->has_z &&
         rho_kalman_is_open(kalman, RHO_X) != rho_kalman_is_open(kalman, RHO_Z)) {
-        return measure_height_apart(kalman, measurement, velocity_variance);
+        return update_height_apart(kalman, measurement, velocity_variance);
     }
-    return measure_in_frame(kalman, num_axes, measurement, velocity_variance);
+    return update_in_noise_frame(kalman, num_axes, measurement, velocity_variance);
 }
 
 /*

@@ -51,7 +51,7 @@ static void subtract_row(struct decorrelated *decorrelated, int i, int k, float 
  * Row i of L^-1, and D_i, by elimination of the rows before. covariance: of the elements that are
  * used; it turns into L row by row.
  */
-static int decorrelate(struct decorrelated *decorrelated, int i, float covariance[])
+static int decorrelate_row(struct decorrelated *decorrelated, int i, float covariance[])
 {
     const float own = covariance[RHO_AT(i, i)];
     float pivot = own;
@@ -92,7 +92,7 @@ static int decorrelate_all(const struct rho_kalman *kalman, int num, const int e
         }
     }
     for (int i = 0; i < decorrelated->num; i++) {
-        if (!decorrelate(decorrelated, i, kept)) {
+        if (!decorrelate_row(decorrelated, i, kept)) {
             return 0;
         }
     }

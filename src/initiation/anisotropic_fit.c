@@ -164,7 +164,7 @@ static void add_equation(const struct equation *equation, int unknowns, float *n
 }
 
 /* Prior variance of an acceleration, in the units of the unknowns. */
-static float turn_variance(const struct regression *of)
+static float acceleration_variance(const struct regression *of)
 {
     float turn_m = of->search->turn_mps2 * of->unit_s * of->unit_s;
     return turn_m * turn_m;
@@ -174,7 +174,7 @@ static float turn_variance(const struct regression *of)
 #define SOLVE_UNITS 50u
 
 /* Solves for the unknowns. 0 where the plots do not determine them. */
-static int solve(struct regression *of)
+static int solve_unknowns(struct regression *of)
 {
     rho_initiator_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
     float *normal = of->factor, right[UNKNOWNS_MAX] = {0.0f}; /* the factor takes its place */
@@ -183,7 +183,7 @@ static int solve(struct regression *of)
         normal[i] = 0.0f;
     }
     for (int i = 2 * of->axes; i < unknowns; i++) {
-        normal[RHO_AT(i, i)] = 1.0f / turn_variance(of);
+        normal[RHO_AT(i, i)] = 1.0f / acceleration_variance(of);
     }
     for (unsigned m = 0; m < of->search->num_scans; m++) {
         struct equation equations[ROWS_MAX];
@@ -247,12 +247,12 @@ static float residual2(const struct regression *of, const struct equation *equat
     return residual * residual / equation->variance;
 }
 
-/* chi2 of the acceleration against its prior. */
-static float turn_chi2(const struct regression *of)
+/* chi2 of the fitted acceleration against its prior. */
+static float acceleration_chi2(const struct regression *of)
 {
     float sum = 0.0f;
     for (int i = 2 * of->axes; i < of->unknowns; i++) {
-        sum += of->unknown[i] * of->unknown[i] / turn_variance(of);
+        sum += of->unknown[i] * of->unknown[i] / acceleration_variance(of);
     }
     return sum;
 }
@@ -260,7 +260,7 @@ static float turn_chi2(const struct regression *of)
 /* ---- ambiguous range rates ------------------------------------------------------------------- */
 
 /* The scan whose range rate has the fewest aliases; RHO_MAX_SCANS where none is ambiguous. */
-static unsigned widest_span(const struct regression *of)
+static unsigned scan_with_widest_span(const struct regression *of)
 {
     unsigned widest = RHO_MAX_SCANS;
     float most_mps = 0.0f;
@@ -314,7 +314,7 @@ static int predict_rate(const struct regression *of, unsigned m, struct first_ra
 static float chi2_of(const struct regression *of)
 {
     struct equation equations[ROWS_MAX];
-    float chi2 = turn_chi2(of);
+    float chi2 = acceleration_chi2(of);
     for (unsigned m = 0; m < of->search->num_scans; m++) {
         int count = of->set->mask >> m & 1u ? equations_of(of, m, equations) : 0;
         for (int i = 0; i < count; i++) {
@@ -339,7 +339,7 @@ static int solve_with_rate(struct regression *of, const float *places,
     for (int k = 0; k < of->unknowns; k++) {
         of->unknown[k] = places[k] + first->gain[k] * (error_mps / first->variance);
     }
-    return solve(of);
+    return solve_unknowns(of);
 }
 
 /*
@@ -353,7 +353,7 @@ static int solve_aliases(struct regression *of, unsigned widest)
     float least = FLT_MAX, best_mps = 0.0f;
     of->has_point = 1;
     if (!predict_rate(of, widest, &first)) {
-        return solve(of);
+        return solve_unknowns(of);
     }
     float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * first.variance);
     if (reach_mps > (float)ALIASES_MAX * first.span_mps) {
@@ -383,12 +383,12 @@ static int regress(struct regression *of)
 {
     int rounds = choose_unknowns(of);
     const unsigned widest =
-        RHO_AMBIGUOUS_RANGE_RATES && rounds > 1 ? widest_span(of) : RHO_MAX_SCANS;
+        RHO_AMBIGUOUS_RANGE_RATES && rounds > 1 ? scan_with_widest_span(of) : RHO_MAX_SCANS;
     if (widest < RHO_MAX_SCANS) {
-        return solve(of) && solve_aliases(of, widest);
+        return solve_unknowns(of) && solve_aliases(of, widest);
     }
     for (int i = 0; i < rounds; i++) {
-        if (!solve(of)) {
+        if (!solve_unknowns(of)) {
             return 0;
         }
         of->has_point = 1;
@@ -443,9 +443,9 @@ int rho_initiator_likelihood_anisotropic(const struct search *search, const stru
     if (!regress(&of)) {
         return 0;
     }
-    score->chi2 = turn_chi2(&of);
+    score->chi2 = acceleration_chi2(&of);
     for (int i = 2 * of.axes; i < of.unknowns; i++) {
-        log_noise += rho_log(turn_variance(&of));
+        log_noise += rho_log(acceleration_variance(&of));
     }
     for (unsigned m = 0; m < search->num_scans; m++) {
         struct equation equations[ROWS_MAX];

@@ -23,7 +23,7 @@
 
 /* ---- exclusive selection --------------------------------------------------------------------- */
 
-static unsigned shared_plots(const struct rho_candidate *a, const struct rho_candidate *b)
+static unsigned count_shared_plots(const struct rho_candidate *a, const struct rho_candidate *b)
 {
     unsigned common = (unsigned)a->mask & b->mask, shared = 0;
     for (unsigned m = 0; m < RHO_MAX_SCANS; m++) {
@@ -32,18 +32,18 @@ static unsigned shared_plots(const struct rho_candidate *a, const struct rho_can
     return shared;
 }
 
-static int conflicts(const struct rho_initiator *initiator, unsigned accepted,
-                     const struct rho_candidate *candidate)
+static int conflicts_with_accepted(const struct rho_initiator *initiator, unsigned accepted,
+                                   const struct rho_candidate *candidate)
 {
     for (unsigned i = 0; i < accepted; i++) {
-        if (shared_plots(&initiator->candidates[i], candidate) > SHARED_PLOTS_MAX) {
+        if (count_shared_plots(&initiator->candidates[i], candidate) > SHARED_PLOTS_MAX) {
             return 1;
         }
     }
     return 0;
 }
 
-static void mark_taken(struct search *search, const struct rho_candidate *candidate)
+static void mark_taken_plots(struct search *search, const struct rho_candidate *candidate)
 {
     for (unsigned m = 0; m < search->num_scans; m++) {
         if ((unsigned)candidate->mask >> m & 1u) {
@@ -53,7 +53,7 @@ static void mark_taken(struct search *search, const struct rho_candidate *candid
     }
 }
 
-static void clear_taken(struct search *search)
+static void clear_taken_plots(struct search *search)
 {
     for (unsigned i = 0; i < search->initiator->num_candidates; i++) {
         const struct rho_candidate *candidate = &search->initiator->candidates[i];
@@ -76,7 +76,7 @@ static int associate_rest(struct search *search, struct rho_candidate *candidate
         return 0;
     }
     search->skip_flags = (uint16_t)(skip | RHO_WINDOW_TAKEN);
-    rho_initiator_associate(search, &fit, SECOND_GATE_FACTOR, &set);
+    rho_initiator_associate_plots(search, &fit, SECOND_GATE_FACTOR, &set);
     int found =
         set.hits >= search->min_scans && rho_initiator_make_candidate(search, &set, candidate);
     search->skip_flags = skip;
@@ -135,15 +135,15 @@ static int charge_choice(struct search *search, unsigned accepted)
  * Best first. Accepted candidates are at the head of the list, by their scores when accepted. The
  * worst are dropped where the work ends.
  */
-void rho_initiator_select(struct search *search)
+void rho_initiator_select_candidates(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     unsigned accepted = 0;
     while (accepted < initiator->num_candidates && charge_choice(search, accepted)) {
         bring_best_forward(initiator, accepted);
         struct rho_candidate candidate = initiator->candidates[accepted];
-        if (!conflicts(initiator, accepted, &candidate)) {
-            mark_taken(search, &candidate);
+        if (!conflicts_with_accepted(initiator, accepted, &candidate)) {
+            mark_taken_plots(search, &candidate);
             accepted++;
         } else if (associate_rest(search, &candidate)) {
             initiator->candidates[accepted] = candidate;
@@ -152,7 +152,7 @@ void rho_initiator_select(struct search *search)
             initiator->candidates[accepted] = initiator->candidates[initiator->num_candidates];
         }
     }
-    clear_taken(search);
+    clear_taken_plots(search);
     sort_candidates(initiator); /* a second association may have raised a score */
     rho_initiator_assume_turns(search, 0);
 }
@@ -169,7 +169,7 @@ static float mark_likely_targets(struct search *search)
     unsigned likely = 0, hits = 0;
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         if (initiator->candidates[i].score_mnat >= LIKELY_MNAT) {
-            mark_taken(search, &initiator->candidates[i]);
+            mark_taken_plots(search, &initiator->candidates[i]);
             hits += initiator->candidates[i].hits;
             likely++;
         }
@@ -177,14 +177,14 @@ static float mark_likely_targets(struct search *search)
     return likely ? (float)hits / (float)likely : 0.0f;
 }
 
-static int rescore_one(struct search *search, struct rho_candidate *candidate)
+static int rescore_candidate(struct search *search, struct rho_candidate *candidate)
 {
     struct plot_set set;
     struct line_fit fit;
     struct set_score score;
     search->is_left_out = candidate->score_mnat >= LIKELY_MNAT;
     if (!rho_initiator_open_candidate(search, candidate, &set, &fit) ||
-        set.hits < search->min_scans || !rho_initiator_score(search, &set, &fit, &score)) {
+        set.hits < search->min_scans || !rho_initiator_score_set(search, &set, &fit, &score)) {
         return 0;
     }
     candidate->score_mnat = score.mnat;
@@ -192,7 +192,7 @@ static int rescore_one(struct search *search, struct rho_candidate *candidate)
 }
 
 /* Scores the accepted candidates again, against clutter without the likely targets. */
-void rho_initiator_rescore(struct search *search)
+void rho_initiator_rescore_candidates(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     float more_plots = mark_likely_targets(search);
@@ -200,12 +200,12 @@ void rho_initiator_rescore(struct search *search)
         return; /* nothing that would not count as clutter: the scores stand */
     }
     rho_initiator_measure_density(search, RHO_WINDOW_INITIATED | RHO_WINDOW_TAKEN, more_plots);
-    clear_taken(search);
+    clear_taken_plots(search);
     rho_initiator_update_thresholds(search);
     unsigned kept = 0;
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         struct rho_candidate candidate = initiator->candidates[i];
-        if (rescore_one(search, &candidate)) {
+        if (rescore_candidate(search, &candidate)) {
             initiator->candidates[kept++] = candidate;
         }
     }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* candidates: the bounded list of candidate tracks. */
+/* candidates: the initiator's bounded list of sets of plots that may be tracks. */
 #include "search.h"
 
-static int is_known(struct search *search, const struct rho_candidate *candidate)
+static int is_listed(struct search *search, const struct rho_candidate *candidate)
 {
     struct rho_initiator *initiator = search->initiator;
     rho_initiator_charge(search, initiator->num_candidates / COMPARED_IN_UNIT);
@@ -38,8 +38,8 @@ int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
 {
     struct line_fit fit;
     struct set_score score;
-    if (!rho_initiator_refine(search, set, &fit) ||
-        !rho_initiator_score(search, set, &fit, &score) ||
+    if (!rho_initiator_refine_set(search, set, &fit) ||
+        !rho_initiator_score_set(search, set, &fit, &score) ||
         !rho_initiator_is_good_enough(search, &score)) {
         return 0;
     }
@@ -59,10 +59,10 @@ int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
     for (unsigned m = 0; m < search->num_scans; m++) {
         candidate->plot[m] = set->plot[m];
     }
-    return !is_known(search, candidate);
+    return !is_listed(search, candidate);
 }
 
-static unsigned lowest(const struct rho_initiator *initiator)
+static unsigned lowest_candidate(const struct rho_initiator *initiator)
 {
     unsigned low = 0;
     for (unsigned i = 1; i < initiator->num_candidates; i++) {
@@ -85,7 +85,7 @@ void rho_initiator_add_candidate(struct search *search, struct plot_set *set)
         return;
     }
     initiator->work.candidates_dropped = rho_count(initiator->work.candidates_dropped, 1);
-    unsigned low = lowest(initiator);
+    unsigned low = lowest_candidate(initiator);
     rho_initiator_charge(search, initiator->num_candidates / PASSED_IN_UNIT);
     if (initiator->candidates[low].score_mnat < candidate.score_mnat) {
         initiator->candidates[low] = candidate;

@@ -81,7 +81,7 @@ static unsigned map_cell(const struct rho_density_map *map, float x_m, float y_m
            cell_at(u, map->u0, map->width, map->columns);
 }
 
-/* Constant 0 in a build with one map. */
+/* Whether radars have a density map each; constant 0 in a build with one map. */
 static int has_several_maps(const struct rho_initiator *initiator)
 {
     return RHO_MAX_DENSITY_MAPS > 1 && initiator->num_maps > 1;
@@ -154,7 +154,7 @@ struct view {
     struct rho_extent extent;
 };
 
-static void add_to_view(struct view *view, float dx_m, float dy_m, int has_middle)
+static void add_to_polar_view(struct view *view, float dx_m, float dy_m, int has_middle)
 {
     if (has_middle) {
         float off_rad = rho_angle_difference(rho_atan2(dy_m, dx_m), view->middle_rad);
@@ -174,7 +174,7 @@ static void add_to_view(struct view *view, float dx_m, float dy_m, int has_middl
     view->plots += 1.0f;
 }
 
-static struct view view_of(const struct search *search, const struct rho_sensor *radar)
+static struct view polar_view_of(const struct search *search, const struct rho_sensor *radar)
 {
     struct rho_window *window = &search->initiator->window;
     struct view view = {.plots = 0.0f, .extent = {1.0f, 0.0f, 1.0f, 0.0f}};
@@ -185,7 +185,8 @@ static struct view view_of(const struct search *search, const struct rho_sensor 
             for (unsigned i = 0; i < scan->num_plots && scan->sensor.sensor_id == radar->sensor_id;
                  i++) {
                 const struct rho_window_plot *plot = &scan->plots[i];
-                add_to_view(&view, plot->x_m - radar->x_m, plot->y_m - radar->y_m, has_middle);
+                add_to_polar_view(&view, plot->x_m - radar->x_m, plot->y_m - radar->y_m,
+                                  has_middle);
                 rho_extent_add(&view.extent, plot->x_m, plot->y_m);
             }
         }
@@ -225,7 +226,7 @@ static void lay_over_sector(const struct rho_sensor *radar, const struct view *v
 static int lay_polar(const struct search *search, const struct rho_sensor *radar, int is_alone,
                      struct rho_density_map *map)
 {
-    struct view view = view_of(search, radar);
+    struct view view = polar_view_of(search, radar);
     float area_m2 = is_alone ? rho_initiator_area_m2(search->initiator)
                              : rho_extent_area_m2(&view.extent, 1.0f);
     if (view.plots < POLAR_PLOTS_MIN) {
@@ -311,7 +312,7 @@ static float mean_cell_count(const struct rho_density_map *map)
  * Weight of the mean against the count of a cell (empirical Bayes, gamma prior): mean^2 / (variance
  * - mean) over the cells. Poisson counts give the mean all weight, patchy clutter the cells.
  */
-static float prior_plots(const struct rho_density_map *map)
+static float weight_of_mean(const struct rho_density_map *map)
 {
     unsigned cells = (unsigned)map->columns * map->rows;
     float mean = mean_cell_count(map), variance = 0.0f;
@@ -337,8 +338,8 @@ static float mean_density(const struct search *search, float plots, float scans,
  * Plots a scan of each scan's sensor over the mean of all sensors. One scan of mean density is
  * added to the sensor's own. 1 where there is one sensor, or each has its map.
  */
-static void measure_sensors(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
-                            uint32_t plots)
+static void find_sensor_ratios(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
+                               uint32_t plots)
 {
     struct rho_initiator *initiator = search->initiator;
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -359,8 +360,8 @@ static void measure_sensors(struct search *search, const uint32_t by_scan[RHO_MA
 }
 
 /* Fills a map with the plots of its scans. */
-static void measure_map(struct search *search, struct rho_density_map *map, uint16_t skip_flags,
-                        const uint32_t by_scan[RHO_MAX_SCANS], float more_plots)
+static void fill_map(struct search *search, struct rho_density_map *map, uint16_t skip_flags,
+                     const uint32_t by_scan[RHO_MAX_SCANS], float more_plots)
 {
     struct rho_initiator *initiator = search->initiator;
     float scans = 0.0f, all = (float)search->num_scans;
@@ -380,7 +381,7 @@ static void measure_map(struct search *search, struct rho_density_map *map, uint
             (void)count_plots(initiator, m, skip_flags, map);
         }
     }
-    map->prior_plots = prior_plots(map);
+    map->prior_plots = weight_of_mean(map);
 }
 
 /* Counts plots that are not skipped, and more_plots besides, in the maps as laid. */
@@ -396,9 +397,9 @@ void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, f
     initiator->density_per_m2 = mean_density(search, (float)plots + more_plots, search->scans_seen,
                                              rho_initiator_area_m2(initiator));
     for (unsigned i = 0; i < initiator->num_maps; i++) {
-        measure_map(search, &initiator->density[i], skip_flags, by_scan, more_plots);
+        fill_map(search, &initiator->density[i], skip_flags, by_scan, more_plots);
     }
-    measure_sensors(search, by_scan, plots);
+    find_sensor_ratios(search, by_scan, plots);
 }
 
 void rho_initiator_prepare_density(struct search *search)
@@ -423,30 +424,30 @@ static float density_of(const struct rho_density_map *map, float count)
 }
 
 /* A radar has no clutter beyond its range. */
-static int is_out_of_range(const struct rho_density_map *map, float x_m, float y_m)
+static int is_beyond_range(const struct rho_density_map *map, float x_m, float y_m)
 {
     return map->is_polar &&
            distance_m(x_m - map->sensor_x_m, y_m - map->sensor_y_m) > map->u0 + map->width;
 }
 
 /* Density at a place in the scans of one map. */
-static float density_in(const struct rho_density_map *map, float x_m, float y_m)
+static float density_in_map(const struct rho_density_map *map, float x_m, float y_m)
 {
     float per_m2;
     unsigned cell = map_cell(map, x_m, y_m, &per_m2);
     return density_of(map, (float)map->count[cell]) * per_m2;
 }
 
-/* The same in the mean of all scans held, without the memory of clutter. */
+/* Density at a place, mean of all scans held, without the memory of clutter. */
 static float held_density(const struct rho_initiator *initiator, float x_m, float y_m)
 {
-    float sum = 0.0f, scans = 0.0f, first = density_in(&initiator->density[0], x_m, y_m);
+    float sum = 0.0f, scans = 0.0f, first = density_in_map(&initiator->density[0], x_m, y_m);
     if (!has_several_maps(initiator)) {
         return first;
     }
     for (unsigned i = 0; i < initiator->num_maps; i++) {
         const struct rho_density_map *map = &initiator->density[i];
-        sum += is_out_of_range(map, x_m, y_m) ? 0.0f : map->scans * density_in(map, x_m, y_m);
+        sum += is_beyond_range(map, x_m, y_m) ? 0.0f : map->scans * density_in_map(map, x_m, y_m);
         scans += map->scans;
     }
     return sum > 0.0f ? sum / scans : first;
@@ -478,7 +479,7 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
         return 0.0f;
     }
     if (has_several_maps(initiator) && map->sensor_id == sensor_id) {
-        return remembered_in_map(initiator, x_m, y_m, density_in(map, x_m, y_m));
+        return remembered_in_map(initiator, x_m, y_m, density_in_map(map, x_m, y_m));
     }
     for (unsigned m = 0; m < RHO_MAX_SCANS; m++) {
         if (initiator->sensor_ratio[m] > 0.0f && initiator->sensor_id[m] == sensor_id) {

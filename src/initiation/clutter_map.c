@@ -116,8 +116,9 @@ float rho_clutter_map_remaining(float share)
     return 1.0f - share / TURNS_REMEMBERED;
 }
 
-/* *to = keep *to + *from */
-static void add_table(struct rho_echo_returns *to, float keep, const struct rho_echo_returns *from)
+/* Adds one table of looks and returns to another: *to = keep *to + *from. */
+static void add_returns_table(struct rho_echo_returns *to, float keep,
+                              const struct rho_echo_returns *from)
 {
     for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
         for (unsigned g = 0; g < RHO_ECHO_GAP_CLASSES; g++) {
@@ -130,7 +131,7 @@ static void add_table(struct rho_echo_returns *to, float keep, const struct rho_
 static void advance_blocks(struct rho_clutter_map *map)
 {
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        add_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
+        add_returns_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
     }
     memcpy(map->tables[2], map->tables[1], sizeof map->tables[2]);
     memset(map->tables[1], 0, sizeof map->tables[1]);
@@ -140,7 +141,7 @@ void rho_clutter_map_age(struct rho_clutter_map *map, float share)
 {
     static const struct rho_echo_returns none;
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        add_table(&map->tables[0][r], rho_clutter_map_remaining(share), &none);
+        add_returns_table(&map->tables[0][r], rho_clutter_map_remaining(share), &none);
     }
     map->scans_to_blocks -= share;
     if (!(map->scans_to_blocks > 0.0f)) {
@@ -170,7 +171,7 @@ float rho_clutter_map_direction(const struct echo_view *view)
     return (rho_atan2(view->along_y, view->along_x) + RHO_PI) / RHO_TWO_PI;
 }
 
-static unsigned cell_of(float share)
+static unsigned region_index(float share)
 {
     const float cell = share * (float)RHO_ECHO_REGIONS;
     return cell > 0.0f ? cell < (float)RHO_ECHO_REGIONS ? (unsigned)cell : RHO_ECHO_REGIONS - 1u
@@ -181,8 +182,8 @@ uint8_t rho_clutter_map_region(const struct rho_sensor *sensor, float range_max_
                                float y_m)
 {
     const struct echo_view view = rho_clutter_map_view(sensor, x_m, y_m);
-    return (uint8_t)(cell_of(rho_clutter_map_direction(&view)) * RHO_ECHO_REGIONS +
-                     cell_of(rho_sqrt(view.range_m / range_max_m)));
+    return (uint8_t)(region_index(rho_clutter_map_direction(&view)) * RHO_ECHO_REGIONS +
+                     region_index(rho_sqrt(view.range_m / range_max_m)));
 }
 
 static void predict_axis(float axis[3], float dt_s)

@@ -37,7 +37,7 @@ static int is_outside(const struct rho_clutter_memory *memory, const struct rho_
            height_m > TOO_WIDE * rho_extent_height_m(extent, 1.0f);
 }
 
-static void place_cells(struct rho_clutter_memory *memory, const struct rho_extent *extent)
+static void lay_cells(struct rho_clutter_memory *memory, const struct rho_extent *extent)
 {
     const float width_m = rho_extent_width_m(extent, 1.0f);
     const float height_m = rho_extent_height_m(extent, 1.0f);
@@ -48,20 +48,20 @@ static void place_cells(struct rho_clutter_memory *memory, const struct rho_exte
     memory->rows_per_m = (float)RHO_MAX_CLUTTER_CELLS / ((1.0f + 2.0f * MARGIN_SHARE) * height_m);
 }
 
-static int index_of(float cells)
+static int cell_index(float cells)
 {
     return cells >= 0.0f && cells < (float)RHO_MAX_CLUTTER_CELLS ? (int)cells : -1;
 }
 
-/* -1: not on the map. */
+/* Cell of the memory at a place; -1: outside. */
 static int cell_of(const struct rho_clutter_memory *memory, float x_m, float y_m)
 {
-    const int column = index_of((x_m - memory->x_min_m) * memory->columns_per_m);
-    const int row = index_of((y_m - memory->y_min_m) * memory->rows_per_m);
+    const int column = cell_index((x_m - memory->x_min_m) * memory->columns_per_m);
+    const int row = cell_index((y_m - memory->y_min_m) * memory->rows_per_m);
     return column < 0 || row < 0 ? -1 : row * RHO_MAX_CLUTTER_CELLS + column;
 }
 
-static void halve(struct rho_clutter_memory *memory)
+static void halve_counts(struct rho_clutter_memory *memory)
 {
     for (unsigned c = 0; c < RHO_CLUTTER_MEMORY_CELLS; c++) {
         memory->count[c] /= 2;
@@ -74,10 +74,10 @@ void rho_initiator_add_to_memory(struct rho_initiator *initiator)
     struct rho_clutter_memory *memory = &initiator->memory;
     const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, 0);
     if (memory->num_scans == 0 || is_outside(memory, &initiator->window.extent)) {
-        place_cells(memory, &initiator->window.extent);
+        lay_cells(memory, &initiator->window.extent);
     }
     if (memory->num_scans == SCANS_MAX) {
-        halve(memory);
+        halve_counts(memory);
     }
     memory->num_scans++;
     for (unsigned i = 0; i < scan->num_plots; i++) {
@@ -86,7 +86,7 @@ void rho_initiator_add_to_memory(struct rho_initiator *initiator)
             continue;
         }
         if (memory->count[cell] == UINT16_MAX) {
-            halve(memory); /* the others keep their proportion */
+            halve_counts(memory); /* the others keep their proportion */
         }
         memory->count[cell]++;
     }

@@ -65,7 +65,7 @@ static int are_alike(const struct place_class *a, const struct place_class *b)
            is_close(a->log_range_rate, b->log_range_rate);
 }
 
-static void add_class(struct false_tracks *model, const struct place_class *place)
+static void add_place_class(struct false_tracks *model, const struct place_class *place)
 {
     for (unsigned i = 0; i < model->num_classes; i++) {
         if (are_alike(&model->classes[i], place)) {
@@ -94,7 +94,7 @@ static void sample_places(struct false_tracks *model)
         for (unsigned i = 0; i < scan->num_plots; i++, passed++) {
             if (passed % stride == stride / 2u) {
                 struct place_class place = class_of(model, scan, i);
-                add_class(model, &place);
+                add_place_class(model, &place);
             }
         }
     }
@@ -157,7 +157,7 @@ static float share_left_by(float width_m, float height_m, float dx_m, float dy_m
  * it span_s later: there are no plots outside. Mean over rings of equal content and directions of a
  * quadrant.
  */
-static float share_inside(const struct search *search, float span_s)
+static float share_still_inside(const struct search *search, float span_s)
 {
     static const float directions[4][2] = {{0.98078528f, 0.19509032f},
                                            {0.83146961f, 0.55557023f},
@@ -182,7 +182,7 @@ static float share_inside(const struct search *search, float span_s)
     return share > SHARE_MIN ? share : SHARE_MIN;
 }
 
-/* ln of the aliases of this number of range rates. */
+/* ln of how many aliases this number of ambiguous range rates has. */
 static float log_aliases_of(const struct false_tracks *model, float hits)
 {
     return hits * model->log_aliases;
@@ -229,9 +229,10 @@ static float half_dimensions(const struct false_tracks *model, unsigned hits)
     return 0.5f * ((float)hits * dimensions_of_hit(model) - (model->has_z ? 6.0f : 4.0f));
 }
 
-/* The score of a perfect fit: rho_initiator_score with chi2 = 0. */
-static float best_score(const struct false_tracks *model, const struct place_class *place,
-                        unsigned first, unsigned hits, float spread_s2)
+/* The score of a perfect fit: rho_initiator_score_set with chi2 = 0. */
+static float best_score_of_pattern(const struct false_tracks *model,
+                                   const struct place_class *place, unsigned first, unsigned hits,
+                                   float spread_s2)
 {
     const struct search *search = model->search;
     float h = (float)hits;
@@ -261,7 +262,7 @@ static void add_pattern(struct false_tracks *model, unsigned first, unsigned hit
                        rho_initiator_log_factorial(hits - 2u) -
                        rho_initiator_log_factorial(between + 2u - hits),
         .spread_s2 = mean_spread_s2(search, first, hits),
-        .inside = share_inside(search, search->time_s[newest] - search->time_s[first]),
+        .inside = share_still_inside(search, search->time_s[newest] - search->time_s[first]),
         .half_dimensions = half,
         .most = chi2_half_limit(half),
     };
@@ -304,8 +305,9 @@ static float log_widened_by_shapes(float log_sigma_m, float bend_m2, unsigned di
  * hits from `first` on. For anisotropic noise the score takes process noise as independent from
  * plot to plot: all dimensions are alike.
  */
-static struct place_class widened(const struct false_tracks *model, const struct place_class *place,
-                                  unsigned first, unsigned hits)
+static struct place_class widened_by_bend(const struct false_tracks *model,
+                                          const struct place_class *place, unsigned first,
+                                          unsigned hits)
 {
     struct place_class wide = *place;
     if (!(model->search->fit_process_m2 > 0.0f)) {
@@ -331,9 +333,9 @@ static struct pattern_score score_pattern(const struct false_tracks *model,
 {
     const struct search *search = model->search;
     unsigned first = pattern->first, hits = pattern->hits;
-    struct place_class wide = widened(model, place, first, hits);
-    struct pattern_score score = {.best_nat =
-                                      best_score(model, &wide, first, hits, pattern->spread_s2)};
+    struct place_class wide = widened_by_bend(model, place, first, hits);
+    struct pattern_score score = {
+        .best_nat = best_score_of_pattern(model, &wide, first, hits, pattern->spread_s2)};
     score.weight = 0.5f * place->share * pattern->inside *
                    rho_exp(log_hits_and_misses(search, first, hits) + pattern->log_choices -
                            score.best_nat - log_gamma(pattern->half_dimensions));
@@ -420,8 +422,8 @@ static float score_margin_before(const struct false_tracks *model, unsigned plac
  * dimensions of one hit fewer, that is 1 - k q^(k - 1) + (k - 1) q^k, q = before / y. Computed
  * without logarithms, as it is called often: k is a multiple of a half.
  */
-static float sets_in(const struct false_tracks *model, unsigned place, unsigned k, float s_nat,
-                     float start_nat)
+static float sets_in_class(const struct false_tracks *model, unsigned place, unsigned k,
+                           float s_nat, float start_nat)
 {
     const struct pattern *pattern = &model->patterns[k];
     const struct pattern_score *score = &model->scores[place][k];
@@ -445,14 +447,15 @@ static float sets_in(const struct false_tracks *model, unsigned place, unsigned 
     return score->weight * (content * y) * share;
 }
 
-static float sets_of(const struct false_tracks *model, unsigned k, float s_nat, float start_nat)
+static float sets_of_pattern(const struct false_tracks *model, unsigned k, float s_nat,
+                             float start_nat)
 {
     float sum = 0.0f;
     if (model->patterns[k].hits < model->least_hits) {
         return 0.0f;
     }
     for (unsigned i = 0; i < model->num_classes; i++) {
-        sum += sets_in(model, i, k, s_nat, start_nat);
+        sum += sets_in_class(model, i, k, s_nat, start_nat);
     }
     return sum;
 }
@@ -462,23 +465,23 @@ float rho_initiator_false_sets_above(const struct false_tracks *model, float s_n
 {
     float sum = 0.0f;
     for (unsigned k = 0; k < model->num_patterns && sum <= enough; k++) {
-        sum += sets_of(model, k, s_nat, start_nat);
+        sum += sets_of_pattern(model, k, s_nat, start_nat);
     }
     return sum;
 }
 
-float rho_initiator_stay_inside(const struct false_tracks *model, float start_nat)
+float rho_initiator_share_staying_inside(const struct false_tracks *model, float start_nat)
 {
     const struct search *search = model->search;
     unsigned newest = search->num_scans - 1u;
     float stay[RHO_MAX_SCANS], sum = 0.0f, all = 0.0f;
     for (unsigned first = 0; first + 3u <= search->num_scans; first++) {
         float span_s = search->time_s[newest] - search->time_s[first];
-        stay[first] =
-            share_inside(search, span_s + search->interval_s) / share_inside(search, span_s);
+        stay[first] = share_still_inside(search, span_s + search->interval_s) /
+                      share_still_inside(search, span_s);
     }
     for (unsigned k = 0; k < model->num_patterns; k++) {
-        float sets = sets_of(model, k, start_nat, start_nat);
+        float sets = sets_of_pattern(model, k, start_nat, start_nat);
         sum += sets * stay[model->patterns[k].first];
         all += sets;
     }
@@ -491,7 +494,7 @@ float rho_initiator_gain_of_hit(const struct false_tracks *model)
     float least = FLT_MAX;
     for (unsigned i = 0; i < model->num_classes; i++) {
         const struct place_class wide =
-            widened(model, &model->classes[i], search->num_scans - 3u, 3);
+            widened_by_bend(model, &model->classes[i], search->num_scans - 3u, 3);
         float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
                      0.5f * dimensions_of_hit(model) * LOG_TWO_PI - log_noise(model, &wide) -
                      rho_log(PREDICTION_SPREAD) +
@@ -514,7 +517,7 @@ static float best_in_any_class(const struct false_tracks *model, unsigned k)
 }
 
 /* The chi2 / 2 of targets has mean k: half of them are lost where the margin is smaller. */
-int rho_initiator_allows_targets(const struct false_tracks *model, float start_nat)
+int rho_initiator_lets_targets_start(const struct false_tracks *model, float start_nat)
 {
     for (unsigned k = 0; k < model->num_patterns; k++) {
         const struct pattern *pattern = &model->patterns[k];
@@ -539,7 +542,7 @@ unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigne
     return model->search->num_scans + 1u;
 }
 
-float rho_initiator_thin_clutter(const struct false_tracks *model)
+float rho_initiator_thinnest_clutter(const struct false_tracks *model)
 {
     float least = 0.0f;
     for (unsigned i = 0; i < model->num_classes; i++) {

@@ -24,8 +24,8 @@
 
 struct place_class {
     float log_density;                                  /* of the clutter there */
-    float log_range, log_cross, log_up, log_range_rate; /* of the sigmas */
-    float share;                                        /* of the area */
+    float log_range, log_cross, log_up, log_range_rate; /* ln of the sigmas */
+    float share;                                        /* its share of the area */
 };
 
 /* Sets with the same number of hits, from the same first scan. */
@@ -44,7 +44,7 @@ struct pattern_score {
     float best_nat; /* c */
 };
 
-/* The model of a window. */
+/* The model of the false tracks that clutter makes in a window. */
 struct false_tracks {
     const struct search *search;
     int has_z, has_range_rate;
@@ -70,7 +70,7 @@ float rho_initiator_false_sets_above(const struct false_tracks *model, float s_n
                                      float enough);
 
 /* Share of the false tracks started at start_nat whose next place is still in the area. */
-float rho_initiator_stay_inside(const struct false_tracks *model, float start_nat);
+float rho_initiator_share_staying_inside(const struct false_tracks *model, float start_nat);
 
 /*
  * Score that one more perfect hit adds to a tentative track, in the class with the most clutter per
@@ -86,9 +86,9 @@ unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigne
                                        float start_nat);
 
 /* Clutter plots in the noise of a plot, in the class with the least. */
-float rho_initiator_thin_clutter(const struct false_tracks *model);
+float rho_initiator_thinnest_clutter(const struct false_tracks *model);
 
 /* True where targets with the least number of hits reach the threshold in spite of their chi2. */
-int rho_initiator_allows_targets(const struct false_tracks *model, float start_nat);
+int rho_initiator_lets_targets_start(const struct false_tracks *model, float start_nat);
 
 #endif

@@ -81,7 +81,7 @@ static int is_other_area(const struct rho_extent *a, const struct rho_extent *b)
            !rho_is_within(a->y_max_m, b->y_max_m, b->y_max_m);
 }
 
-/* The window's size, and what it is spread over. */
+/* Another size of the window, or another area. */
 static int has_other_window(const struct rho_initiator_config *a,
                             const struct rho_initiator_config *b)
 {
@@ -148,7 +148,7 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
 
 /* ---- the window as a search sees it ---------------------------------------------------------- */
 
-static int has_more(const struct search *search)
+static int measures_heights_or_rates(const struct search *search)
 {
     uint32_t measures = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -157,8 +157,8 @@ static int has_more(const struct search *search)
     return (measures & (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE)) != 0;
 }
 
-/* Noise of one axis in every scan, and nothing else measured. */
-static int has_one_noise(const struct search *search)
+/* Every plot has the same noise on both axes, and no height or range rate. */
+static int has_isotropic_noise(const struct search *search)
 {
     for (unsigned m = 0; m < search->num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
@@ -194,7 +194,7 @@ static float usual_interval_s(const struct search *search)
  * Times relative to the newest scan. An area that is not given has at least the travel of targets
  * within the window as its sides.
  */
-static void set_times(struct search *search)
+static void set_scan_times(struct search *search)
 {
     struct rho_window *window = &search->initiator->window;
     int64_t newest_us = rho_window_scan_at(window, search->num_scans - 1u)->time_us;
@@ -209,7 +209,7 @@ static void set_times(struct search *search)
 }
 
 /* The share of a revolution that the newest scan has seen, against the widest of the window's. */
-static float share_of_newest(struct search *search)
+static float turn_share_of_newest(struct search *search)
 {
     float newest_rad = 0.0f, widest_rad = 0.0f;
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -225,7 +225,7 @@ static void open_revolution(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     const int is_newest = search->kind == RHO_SEARCH_NEWEST;
-    search->scans_seen = (float)(search->num_scans - 1u) + share_of_newest(search);
+    search->scans_seen = (float)(search->num_scans - 1u) + turn_share_of_newest(search);
     search->is_continued = is_newest && initiator->window.is_continued && initiator->has_revolution;
     initiator->has_revolution = (uint16_t)is_newest;
     if (is_newest && (search->is_continued || !initiator->window.is_continued)) {
@@ -237,20 +237,20 @@ static void open_window(struct search *search)
 {
     search->wanted_mask = search->kind == RHO_SEARCH_NEWEST ? 1u << (search->num_scans - 1u) : 0u;
     search->scans_seen = (float)search->num_scans;
-    search->has_more = has_more(search);
+    search->has_more = measures_heights_or_rates(search);
     search->gate_chi2 = search->has_more ? RHO_GATE_CHI2_4D : RHO_GATE_CHI2_2D;
-    search->has_one_noise = has_one_noise(search);
+    search->has_one_noise = has_isotropic_noise(search);
     rho_initiator_assume_turns(search, 0);
     if (RHO_SECTORS) {
         open_revolution(search);
     }
-    set_times(search);
+    set_scan_times(search);
 }
 
 /* ---- search ---------------------------------------------------------------------------------- */
 
 /* Kernels of turning targets get work that those of straight ones have left. */
-static void try_turns(struct search *search)
+static void try_turning_targets(struct search *search)
 {
     const unsigned min_scans = search->min_scans;
     if (search->kind != RHO_SEARCH_NEWEST || !(search->initiator->config.turn_mps2 > 0.0f) ||
@@ -303,10 +303,10 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
     rho_initiator_set_thresholds(&search);
     if (search.num_scans >= 3 && search.num_scans >= search.min_scans) {
         rho_initiator_try_kernels(&search);
-        try_turns(&search);
-        rho_initiator_select(&search);
+        try_turning_targets(&search);
+        rho_initiator_select_candidates(&search);
         if (search.keeps_rate) {
-            rho_initiator_rescore(&search);
+            rho_initiator_rescore_candidates(&search);
         }
     }
     rho_initiator_close_budget(&search);

@@ -50,7 +50,7 @@ static struct moments moments_of(const struct search *search, const struct plot_
     return sum;
 }
 
-/* 0 where the plots do not determine a line. */
+/* Fits a line to a set of plots. 0 where they do not determine one. */
 int rho_initiator_fit_isotropic(const struct search *search, const struct plot_set *set,
                                 struct line_fit *fit)
 {

@@ -30,12 +30,12 @@
 
 /* ---- spans ----------------------------------------------------------------------------------- */
 
-static float spread_s(const struct rho_window_scan *scan)
+static float time_spread_s(const struct rho_window_scan *scan)
 {
     return scan->offset_max_s - scan->offset_min_s;
 }
 
-static float ends_m2(const struct span *span, float al)
+static float noise_of_ends_m2(const struct span *span, float al)
 {
     float from_m = (1.0f - al) * span->scan_a->sigma_max_m, to_m = al * span->scan_b->sigma_max_m;
     return from_m * from_m + to_m * to_m;
@@ -50,10 +50,10 @@ static struct voter voter_of(const struct search *search, const struct span *spa
     struct voter voter = {0.0f, 0.0f};
     float sigma_m = rho_window_scan_at(&search->initiator->window, m)->sigma_max_m;
     float al = (search->time_s[m] - search->time_s[span->a]) / span->gap_s;
-    float slack = (spread_s(span->scan_a) + spread_s(span->scan_b)) / span->gap_s;
-    float low_m2 = ends_m2(span, al - slack), high_m2 = ends_m2(span, al + slack);
+    float slack = (time_spread_s(span->scan_a) + time_spread_s(span->scan_b)) / span->gap_s;
+    float low_m2 = noise_of_ends_m2(span, al - slack), high_m2 = noise_of_ends_m2(span, al + slack);
     if (search->fit_process_m2 > 0.0f) {
-        voter.process_m2 = rho_initiator_process_gap_m2(search, span->a, m, span->b);
+        voter.process_m2 = rho_initiator_process_variance_m2(search, span->a, m, span->b);
     }
     float bend_m = 0.5f * search->turn_mps2 * (search->time_s[m] - search->time_s[span->a]) *
                    (search->time_s[span->b] - search->time_s[m]);
@@ -161,8 +161,8 @@ static int is_in_box(const struct rho_window_plot *plot, const struct box *box)
            plot->y_m <= box->y1_m;
 }
 
-static struct rho_window_bins bins_under(struct search *search, const struct rho_window_scan *scan,
-                                         const struct box *box)
+static struct rho_window_bins
+bins_under_box(struct search *search, const struct rho_window_scan *scan, const struct box *box)
 {
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box->x0_m, box->x1_m, box->y0_m, box->y1_m);
@@ -170,11 +170,11 @@ static struct rho_window_bins bins_under(struct search *search, const struct rho
     return bins;
 }
 
-/* Plots in the bins under it. */
-static unsigned count_in(struct search *search, const struct rho_window_scan *scan,
-                         const struct box *box)
+/* Number of plots in the bins under the box. */
+static unsigned count_plots_in_box(struct search *search, const struct rho_window_scan *scan,
+                                   const struct box *box)
 {
-    struct rho_window_bins bins = bins_under(search, scan, box);
+    struct rho_window_bins bins = bins_under_box(search, scan, box);
     unsigned count = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
@@ -202,7 +202,7 @@ static void try_pair(struct search *search, const struct span *span, const struc
     struct plot_set set;
     int next = 0;
     do {
-        if (rho_initiator_vote(search, span, ending, first, i, &next, &set)) {
+        if (rho_initiator_vote_for_kernel(search, span, ending, first, i, &next, &set)) {
             rho_initiator_add_candidate(search, &set);
         }
     } while (next > 0);
@@ -214,7 +214,7 @@ static int try_pairs(struct search *search, const struct span *span, const struc
     const struct rho_window_scan *scan = span->scan_a;
     struct box box =
         box_about(ending->plot, travel_max_m(search, ending, span->b, span->a) + span->slack_m);
-    struct rho_window_bins bins = bins_under(search, scan, &box);
+    struct rho_window_bins bins = bins_under_box(search, scan, &box);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
@@ -265,8 +265,8 @@ struct third {
  * Makes room for the plots' own times, which spread over this share of the way to the third plot,
  * and cuts off where no target can have come from. At least an edge is left.
  */
-static struct box fit_box(const struct box *box, const struct ending *ending,
-                          const struct third *third, float spread, float far_m)
+static struct box widen_and_clip_box(const struct box *box, const struct ending *ending,
+                                     const struct third *third, float spread, float far_m)
 {
     const struct box all = box_about(ending->plot, far_m);
     if (!(third->per_s > 0.0f)) {
@@ -299,8 +299,8 @@ static struct box predict_box(const struct rho_window_scan *scan, const struct e
         scan->offset_min_s >= scan->offset_max_s) {
         return box;
     }
-    return fit_box(&box, ending, third, (scan->offset_max_s - scan->offset_min_s) * third->per_s,
-                   way->far_m);
+    return widen_and_clip_box(&box, ending, third,
+                              (scan->offset_max_s - scan->offset_min_s) * third->per_s, way->far_m);
 }
 
 /* Tries the kernels of the span that begin in that box. Returns the units that the box takes. */
@@ -326,10 +326,10 @@ static uint32_t try_first_plots(struct search *search, const struct span *span,
     return passed;
 }
 
-/* True where a plot of the scan before the third plot may vote for kernels with this one. */
-static int may_vote_next(const struct rho_window_scan *scan, const struct ending *ending,
-                         const struct third *third, const struct way *way, float own_m,
-                         uint32_t *passed)
+/* True where a plot of the scan before the third plot's may vote for its kernels. */
+static int can_previous_scan_vote(const struct rho_window_scan *scan, const struct ending *ending,
+                                  const struct third *third, const struct way *way, float own_m,
+                                  uint32_t *passed)
 {
     const struct box box = predict_box(scan, ending, third, way, own_m);
     const struct rho_window_bins bins =
@@ -410,7 +410,7 @@ static int try_third_plots(struct search *search, const struct fan *fan,
     const float far_m = open_ways(search, fan, ending, spans, gap, ways) + ending->rounding_m +
                         GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);
     struct box box = box_about(ending->plot, far_m);
-    struct rho_window_bins bins = bins_under(search, scan, &box);
+    struct rho_window_bins bins = bins_under_box(search, scan, &box);
     const float gap_s = search->time_s[b] - search->time_s[b - gap] + ending->plot->offset_s;
     /* spans without further misses: where the next scan has no vote there is no kernel of them */
     const unsigned full = !HAS_SPAN_HITS || ending->is_clear
@@ -444,7 +444,7 @@ static int try_third_plots(struct search *search, const struct fan *fan,
             third.first.index = k;
             unsigned tried = spans;
             if ((full & (full - 1u)) != 0 &&
-                !may_vote_next(next, ending, &third, &next_way, own_m, &passed)) {
+                !can_previous_scan_vote(next, ending, &third, &next_way, own_m, &passed)) {
                 tried &= ~full;
             }
             for (unsigned n = 0; tried >> n; n++) {
@@ -487,8 +487,8 @@ static int votes_are_cheaper(struct search *search, const struct span *span,
     struct box gate = box_about(ending->plot, gate_radius_m), firsts;
     firsts = box_about(ending->plot, rho_smaller(gate_radius_m * ratio,
                                                  travel_max_m(search, ending, span->b, span->a)));
-    float lookup = LOOKUP_PLOTS + (float)count_in(search, before, &gate);
-    float found = (float)count_in(search, span->scan_a, &firsts), by_votes = 0.0f;
+    float lookup = LOOKUP_PLOTS + (float)count_plots_in_box(search, before, &gate);
+    float found = (float)count_plots_in_box(search, span->scan_a, &firsts), by_votes = 0.0f;
     float in_gate = SHARE_IN_GATE * ending->along_share / ending->gate_share;
     for (unsigned gap = 1; gap <= gaps; gap++) {
         float kernel = KERNEL_PLOTS + (float)(gap + 1u) * lookup;
@@ -503,7 +503,7 @@ static int votes_are_cheaper(struct search *search, const struct span *span,
  * Where the box has many rows of bins, all plots of these rows count: their number is known at
  * once.
  */
-unsigned rho_initiator_count_near(struct search *search, const struct fan *fan, unsigned j)
+unsigned rho_initiator_count_plots_near(struct search *search, const struct fan *fan, unsigned j)
 {
     const struct span *widest = &fan->spans[0];
     const struct ending ending = {.plot = &widest->scan_b->plots[j]};
@@ -515,7 +515,7 @@ unsigned rho_initiator_count_near(struct search *search, const struct fan *fan, 
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
     if (bins.row_last - bins.row_first < NEAR_ROWS) {
-        return count_in(search, scan, &box);
+        return count_plots_in_box(search, scan, &box);
     }
     rho_initiator_charge(search, 1);
     return (unsigned)(scan->bin_start[(bins.row_last + 1) * scan->bins_x] -
@@ -531,7 +531,7 @@ static void count_reachable(struct search *search, const struct fan *fan,
         struct box box = box_about(ending->plot, travel_max_m(search, ending, b, b - gap));
         const struct rho_window_scan *scan =
             rho_window_scan_at(&search->initiator->window, b - gap);
-        counts[gap] = counts[gap - 1u] + count_in(search, scan, &box);
+        counts[gap] = counts[gap - 1u] + count_plots_in_box(search, scan, &box);
     }
 }
 
@@ -539,7 +539,7 @@ static void count_reachable(struct search *search, const struct fan *fan,
  * True where clutter is thinner than at the sampled places: sets that end here may start tracks
  * with fewer hits than their spans want elsewhere.
  */
-static int is_clear(const struct search *search, const struct rho_window_plot *plot)
+static int is_in_thin_clutter(const struct search *search, const struct rho_window_plot *plot)
 {
     const struct rho_initiator *initiator = search->initiator;
     return rho_initiator_mean_density(initiator, plot->x_m, plot->y_m) *
@@ -564,7 +564,8 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
     rho_initiator_find_vote_gate(search, far_m + widest->slack_m + widest->voters[0].gate_radius_m,
                                  &ending);
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
-    ending.is_clear = !HAS_SPAN_HITS || !fan->has_span_hits || is_clear(search, ending.plot);
+    ending.is_clear =
+        !HAS_SPAN_HITS || !fan->has_span_hits || is_in_thin_clutter(search, ending.plot);
     count_reachable(search, fan, &ending, counts);
     for (unsigned n = 0; n < fan->num_spans; n++) {
         if (rho_initiator_misses_max(&fan->spans[n], &ending) < 0) {

@@ -36,8 +36,8 @@ struct round {
     struct rho_initiator_resume next;
 };
 
-/* Classes by octaves and half octaves from 8 near plots on. */
-static unsigned class_of(unsigned near)
+/* Cost class by the number of near plots: octaves and half octaves from 8 on. */
+static unsigned cost_class_of(unsigned near)
 {
     unsigned class = near < 8u ? near : 8u;
     for (; near >= 16u && class + 2u < CLASSES; near /= 2u) {
@@ -47,7 +47,7 @@ static unsigned class_of(unsigned near)
 }
 
 /* Plots of earlier sectors of the revolution were the ends of kernels when they came. */
-static int is_new(const struct search *search, const struct rho_window_plot *plot)
+static int is_of_newest_sector(const struct search *search, const struct rho_window_plot *plot)
 {
     return !search->newest || plot->offset_s >= search->newest->offset_min_s;
 }
@@ -59,8 +59,9 @@ static unsigned sort_endings(struct search *search, const struct fan *fan)
     unsigned count = 0;
     for (unsigned j = 0; j < scan->num_plots; j++) {
         unsigned class = CLASSES;
-        if (!(scan->marks[j] & search->skip_flags) && is_new(search, &scan->plots[j])) {
-            class = class_of(rho_initiator_count_near(search, fan, j));
+        if (!(scan->marks[j] & search->skip_flags) &&
+            is_of_newest_sector(search, &scan->plots[j])) {
+            class = cost_class_of(rho_initiator_count_plots_near(search, fan, j));
             count++;
         }
         search->initiator->cost_class[j] = (uint8_t) class;
@@ -72,7 +73,8 @@ static unsigned sort_endings(struct search *search, const struct fan *fan)
  * The next pass begins with the first plot left out, or the one behind it where that was the first
  * of this pass.
  */
-static void try_plot(struct search *search, const struct fan *fan, unsigned j, struct round *round)
+static void try_kernels_of_plot(struct search *search, const struct fan *fan, unsigned j,
+                                struct round *round)
 {
     int is_done = rho_initiator_try_kernels_to(search, fan, j);
     if (!is_done) {
@@ -92,7 +94,8 @@ static void try_plot(struct search *search, const struct fan *fan, unsigned j, s
  * Limit of the work after a plot: the share of each plot that waits is not touched, and it takes a
  * part of the rest.
  */
-static uint32_t limit_of(const struct search *search, const struct round *round, uint32_t end_units)
+static uint32_t work_limit_of(const struct search *search, const struct round *round,
+                              uint32_t end_units)
 {
     if (end_units == UINT32_MAX) {
         return UINT32_MAX; /* no limit */
@@ -104,23 +107,23 @@ static uint32_t limit_of(const struct search *search, const struct round *round,
 }
 
 /* The plots of a class from `first` to before `end`. */
-static void try_class(struct search *search, const struct fan *fan, unsigned class, unsigned first,
-                      unsigned end, struct round *round)
+static void try_kernels_of_class(struct search *search, const struct fan *fan, unsigned class,
+                                 unsigned first, unsigned end, struct round *round)
 {
     const uint32_t end_units = search->limit_units;
     for (unsigned j = first; j < end; j++) {
         if (search->initiator->cost_class[j] == class) {
             round->waiting--;
-            search->limit_units = limit_of(search, round, end_units);
-            try_plot(search, fan, j, round);
+            search->limit_units = work_limit_of(search, round, end_units);
+            try_kernels_of_plot(search, fan, j, round);
         }
     }
     search->limit_units = end_units;
 }
 
 /* All kernels that end in scan b, those of the cheapest plots first, from `begin` on. */
-static void try_scan(struct search *search, unsigned b, uint32_t units,
-                     const struct rho_initiator_resume *begin)
+static void try_kernels_of_scan(struct search *search, unsigned b, uint32_t units,
+                                const struct rho_initiator_resume *begin)
 {
     struct fan fan;
     rho_initiator_open_fan(search, b, &fan);
@@ -131,11 +134,11 @@ static void try_scan(struct search *search, unsigned b, uint32_t units,
     struct round round = {.waiting = sort_endings(search, &fan)};
     unsigned first = begin->plot < num_plots ? begin->plot : num_plots;
     round.kept_units = round.waiting > 0 ? units / (KEPT_SHARE * round.waiting) : 0u;
-    try_class(search, &fan, begin->cost_class, first, num_plots, &round);
+    try_kernels_of_class(search, &fan, begin->cost_class, first, num_plots, &round);
     for (unsigned i = 1; i < CLASSES; i++) {
-        try_class(search, &fan, (begin->cost_class + i) % CLASSES, 0, num_plots, &round);
+        try_kernels_of_class(search, &fan, (begin->cost_class + i) % CLASSES, 0, num_plots, &round);
     }
-    try_class(search, &fan, begin->cost_class, 0, first, &round);
+    try_kernels_of_class(search, &fan, begin->cost_class, 0, first, &round);
     search->next = round.is_found || (search->is_partial && round.tried > 1u)
                        ? round.next
                        : (struct rho_initiator_resume){0, 0};
@@ -153,7 +156,7 @@ void rho_initiator_try_kernels(struct search *search)
     for (unsigned b = is_batch ? search->min_scans - 1u : last; b <= last; b++) {
         search->limit_units = work_max > 0 ? end_units + units : UINT32_MAX;
         end_units = rho_count(end_units, work_max);
-        try_scan(search, b, units, is_batch ? &cheapest : &initiator->budget.resume);
+        try_kernels_of_scan(search, b, units, is_batch ? &cheapest : &initiator->budget.resume);
     }
     search->limit_units = work_max > 0 ? end_units : UINT32_MAX;
 }
@@ -175,7 +178,7 @@ void rho_initiator_try_turning_kernels(struct search *search)
     const uint32_t most = share > TURN_UNITS_MIN ? share : TURN_UNITS_MIN;
     units = units < most ? units : most;
     search->limit_units = rho_count(spent, units);
-    try_scan(search, search->num_scans - 1u, units, &cheapest);
+    try_kernels_of_scan(search, search->num_scans - 1u, units, &cheapest);
     search->limit_units = end_units;
     search->next = next;
     search->is_partial = 0;

@@ -6,7 +6,7 @@
 #include "rhotrack/detail/approx.h"
 #include "search.h"
 
-/* One pair of plots. */
+/* A pair of plots, for which the scans between vote. */
 struct kernel {
     const struct rho_window_plot *from, *to;
     float dx_m, dy_m;
@@ -108,7 +108,8 @@ static int vote_anisotropic(struct search *search, const struct span *span, unsi
 /*
  * The voter's plot nearest to the predicted place, in the gate of the three plots' noise; -1: none.
  */
-static int vote(struct search *search, const struct span *span, unsigned m, struct kernel *kernel)
+static int vote_of_scan(struct search *search, const struct span *span, unsigned m,
+                        struct kernel *kernel)
 {
     if (!rho_initiator_is_isotropic(search)) {
         return vote_anisotropic(search, span, m, kernel);
@@ -134,7 +135,7 @@ static void add_vote(struct plot_set *set, unsigned m, int plot)
 }
 
 /*
- * True where `first` is the vote nearest to the end of the kernel. Other kernels are tried with
+ * True where vote `first` is the one nearest to the end of the kernel. Other kernels are tried with
  * their own first vote.
  */
 static int has_first_vote(struct search *search, const struct span *span,
@@ -142,12 +143,12 @@ static int has_first_vote(struct search *search, const struct span *span,
                           struct plot_set *set)
 {
     unsigned m = span->b - first->gap;
-    if (vote(search, span, m, kernel) != (int)first->index) {
+    if (vote_of_scan(search, span, m, kernel) != (int)first->index) {
         return 0;
     }
     add_vote(set, m, (int)first->index);
     while (++m < span->b) {
-        if (vote(search, span, m, kernel) >= 0) {
+        if (vote_of_scan(search, span, m, kernel) >= 0) {
             return 0;
         }
     }
@@ -176,7 +177,7 @@ static int collect_votes(struct search *search, const struct span *span,
         if (m + first->gap >= span->b && first->gap > 0) {
             continue;
         }
-        int plot = vote(search, span, m, kernel);
+        int plot = vote_of_scan(search, span, m, kernel);
         if (plot >= 0) {
             add_vote(set, m, plot);
         } else if (++misses > kernel->misses_max) {
@@ -288,8 +289,9 @@ static int may_have_first_vote(const struct search *search, const struct span *s
            along_m * along_m <= along_max_m * along_max_m;
 }
 
-int rho_initiator_vote(struct search *search, const struct span *span, const struct ending *ending,
-                       const struct first_vote *first, unsigned i, int *next, struct plot_set *set)
+int rho_initiator_vote_for_kernel(struct search *search, const struct span *span,
+                                  const struct ending *ending, const struct first_vote *first,
+                                  unsigned i, int *next, struct plot_set *set)
 {
     const struct rho_window_plot *from = &span->scan_a->plots[i], *to = ending->plot;
     struct kernel kernel;

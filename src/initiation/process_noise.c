@@ -68,7 +68,8 @@ void rho_initiator_prepare_process_noise(struct search *search)
 }
 
 /* Variance by process noise of the place in scan m between the places in scans a and b. */
-float rho_initiator_process_gap_m2(const struct search *search, unsigned a, unsigned m, unsigned b)
+float rho_initiator_process_variance_m2(const struct search *search, unsigned a, unsigned m,
+                                        unsigned b)
 {
     float al = (search->time_s[m] - search->time_s[a]) / (search->time_s[b] - search->time_s[a]);
     const unsigned scan[3] = {a, m, b};

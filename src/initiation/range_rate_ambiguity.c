@@ -10,8 +10,8 @@
 /* Sums of a few such products are rounded to 1e-6 in float32. */
 #define LESS_THAN_ALL (1.0f - 4.0e-6f)
 
-/* Whole number of spans. */
-static int whole(float spans)
+/* The nearest whole number of ambiguity spans. */
+static int whole_spans(float spans)
 {
     return spans < (float)ALIASES_MAX ? (int)spans : ALIASES_MAX;
 }
@@ -27,8 +27,8 @@ int rho_initiator_open_aliases(const struct rho_window_scan *scan,
     aliases->span_mps = scan->sensor.range_rate_span_mps;
     float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * aliases->seen.variance);
     float error_mps = aliases->seen.error_mps; /* in the gate, or nearly: one alias at least */
-    aliases->last = whole(rho_larger(reach_mps - error_mps, 0.0f) / aliases->span_mps);
-    aliases->first = -whole(rho_larger(reach_mps + error_mps, 0.0f) / aliases->span_mps);
+    aliases->last = whole_spans(rho_larger(reach_mps - error_mps, 0.0f) / aliases->span_mps);
+    aliases->first = -whole_spans(rho_larger(reach_mps + error_mps, 0.0f) / aliases->span_mps);
     return 1;
 }
 

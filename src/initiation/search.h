@@ -142,7 +142,8 @@ void rho_initiator_prepare_process_noise(struct search *search);
  */
 float rho_initiator_bend_m2(const struct search *search, unsigned first, float *sum_m2);
 /* Variance of the place in scan m between the places in scans a and b. */
-float rho_initiator_process_gap_m2(const struct search *search, unsigned a, unsigned m, unsigned b);
+float rho_initiator_process_variance_m2(const struct search *search, unsigned a, unsigned m,
+                                        unsigned b);
 
 /* prior.c */
 void rho_initiator_prepare_prior(struct search *search);
@@ -256,13 +257,14 @@ void rho_initiator_apply_alias(const struct aliases *aliases, int i,
  * they are too few. An ambiguous range rate makes several kernels of one pair: *next, 0 at first,
  * tells where to continue, and is 0 after the last.
  */
-int rho_initiator_vote(struct search *search, const struct span *span, const struct ending *ending,
-                       const struct first_vote *first, unsigned i, int *next, struct plot_set *set);
+int rho_initiator_vote_for_kernel(struct search *search, const struct span *span,
+                                  const struct ending *ending, const struct first_vote *first,
+                                  unsigned i, int *next, struct plot_set *set);
 
 /* kernel_enumeration.c: the spans that end in scan b */
 void rho_initiator_open_fan(struct search *search, unsigned b, struct fan *fan);
 /* Plots of the scan before that a target in plot j may have come from: what its kernels cost. */
-unsigned rho_initiator_count_near(struct search *search, const struct fan *fan, unsigned j);
+unsigned rho_initiator_count_plots_near(struct search *search, const struct fan *fan, unsigned j);
 /* Tries all kernels that end in plot j; 0 where the limit on work stopped that. */
 int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, unsigned j);
 
@@ -277,12 +279,12 @@ int32_t rho_initiator_mnat(float nat);
 int rho_initiator_fit(const struct search *search, const struct plot_set *set,
                       struct line_fit *fit);
 /* The plots nearest to the fitted track; factor widens the gate's variance. */
-void rho_initiator_associate(struct search *search, const struct line_fit *fit, float factor,
-                             struct plot_set *set);
+void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit, float factor,
+                                   struct plot_set *set);
 /* Fit and association in turns; 0 where too few scans vote, or no target is so fast. */
-int rho_initiator_refine(struct search *search, struct plot_set *set, struct line_fit *fit);
-int rho_initiator_score(const struct search *search, const struct plot_set *set,
-                        const struct line_fit *fit, struct set_score *score);
+int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct line_fit *fit);
+int rho_initiator_score_set(const struct search *search, const struct plot_set *set,
+                            const struct line_fit *fit, struct set_score *score);
 
 /*
  * isotropic_fit.c and anisotropic_fit.c: the arithmetic of track_fit.c for the two kinds of noise
@@ -314,8 +316,8 @@ int rho_initiator_open_candidate(struct search *search, const struct rho_candida
                                  struct plot_set *set, struct line_fit *fit);
 
 /* candidate_selection.c: no two candidates share plots; then the score against clutter alone */
-void rho_initiator_select(struct search *search);
-void rho_initiator_rescore(struct search *search);
+void rho_initiator_select_candidates(struct search *search);
+void rho_initiator_rescore_candidates(struct search *search);
 
 /* initiator.c: every field within its range */
 int rho_initiator_is_usable(const struct rho_initiator_config *config);

@@ -144,7 +144,7 @@ static struct clutter_gain gain_by_clutter(const struct false_tracks *model, flo
     struct clutter_gain gain = {.gain_nat = rho_initiator_gain_of_hit(model),
                                 .gains = (unsigned)(0.5f * RHO_GATE_CHI2_2D / CLIMB_STEP),
                                 .miss_nat = -search->log_miss[newest]};
-    gain.each = rho_initiator_stay_inside(model, start_nat) * CLIMB_STEP *
+    gain.each = rho_initiator_share_staying_inside(model, start_nat) * CLIMB_STEP *
                 rho_exp(search->log_pd[newest] - gain.gain_nat);
     if (gain.each * (float)gain.gains > 1.0f) {
         /* clutter in every gate: the track takes one of several plots */
@@ -180,8 +180,8 @@ static void solve_climbs(struct climbs *climbs, const struct false_tracks *model
  * sets that start below, from start_nat on, and climb. The sets not yet summed, up to at_start,
  * climb with a smaller probability than those summed so far: mostly that decides early.
  */
-static int confirms_more_than(const struct climbs *climbs, const struct false_tracks *model,
-                              float s_nat, float start_nat, float at_start, float wanted)
+static int clutter_confirms_more_than(const struct climbs *climbs, const struct false_tracks *model,
+                                      float s_nat, float start_nat, float at_start, float wanted)
 {
     float above = rho_initiator_false_sets_above(model, s_nat, start_nat, FLT_MAX), sum = above;
     float lowest = s_nat - start_nat < CLIMB_STEP * (float)CLIMBS
@@ -231,7 +231,7 @@ static float confirm_threshold(const struct false_tracks *model, float wanted, f
     solve_climbs(&climbs, model, start_nat);
     for (int i = 0; i < BISECTIONS; i++) {
         float middle = 0.5f * (low + high);
-        if (confirms_more_than(&climbs, model, middle, start_nat, at_start, wanted)) {
+        if (clutter_confirms_more_than(&climbs, model, middle, start_nat, at_start, wanted)) {
             low = middle;
         } else {
             high = middle;
@@ -252,7 +252,7 @@ static unsigned choose_least_hits(struct false_tracks *model, float *start_nat)
     for (model->least_hits = wanted > 3u ? wanted : 3u; model->least_hits <= num_scans;
          model->least_hits++) {
         *start_nat = start_threshold(model);
-        if (model->num_classes == 0 || rho_initiator_allows_targets(model, *start_nat)) {
+        if (model->num_classes == 0 || rho_initiator_lets_targets_start(model, *start_nat)) {
             return model->least_hits;
         }
     }
@@ -266,7 +266,7 @@ static unsigned choose_least_hits(struct false_tracks *model, float *start_nat)
 static void find_span_hits(struct rho_initiator *initiator, const struct false_tracks *model,
                            float start_nat)
 {
-    initiator->thin_clutter = THIN_SHARE * rho_initiator_thin_clutter(model);
+    initiator->thin_clutter = THIN_SHARE * rho_initiator_thinnest_clutter(model);
     for (unsigned first = 0; first < RHO_MAX_SCANS; first++) {
         initiator->span_hits[first] =
             (uint8_t)rho_initiator_least_hits_from(model, first, start_nat);
@@ -321,7 +321,7 @@ void rho_initiator_set_thresholds(struct search *search)
     initiator->min_scans = (uint16_t)search->min_scans;
 }
 
-/* The same against the density as it was measured last. */
+/* Sets the thresholds anew, for the density as it was measured last. */
 void rho_initiator_update_thresholds(struct search *search)
 {
     struct thresholds thresholds;

@@ -21,7 +21,7 @@
 
 /* ---- fit ------------------------------------------------------------------------------------- */
 
-/* 0 where the plots do not determine a line. */
+/* Fits a track to a set. 0 where the plots do not determine a line. */
 int rho_initiator_fit(const struct search *search, const struct plot_set *set, struct line_fit *fit)
 {
     return rho_initiator_is_isotropic(search) ? rho_initiator_fit_isotropic(search, set, fit)
@@ -29,8 +29,8 @@ int rho_initiator_fit(const struct search *search, const struct plot_set *set, s
 }
 
 /* The plot nearest to the fitted track in every scan. factor widens the gate's variance. */
-void rho_initiator_associate(struct search *search, const struct line_fit *fit, float factor,
-                             struct plot_set *set)
+void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit, float factor,
+                                   struct plot_set *set)
 {
     set->mask = set->hits = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -65,7 +65,7 @@ static int has_enough_votes(const struct search *search, const struct plot_set *
            (set->mask & search->wanted_mask) == search->wanted_mask;
 }
 
-static int is_fast_enough(const struct search *search, const struct line_fit *fit)
+static int has_target_speed(const struct search *search, const struct line_fit *fit)
 {
     const struct rho_initiator_config *config = &search->initiator->config;
     float speed2 = fit->vx_mps * fit->vx_mps + fit->vy_mps * fit->vy_mps;
@@ -77,7 +77,7 @@ static int is_fast_enough(const struct search *search, const struct line_fit *fi
  * Fits the set and associates every scan with the fit until nothing changes (FIT_ROUNDS times at
  * most). 0 where too few scans have a plot, or the speed is not in the limits.
  */
-int rho_initiator_refine(struct search *search, struct plot_set *set, struct line_fit *fit)
+int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct line_fit *fit)
 {
     const float factor = search->turn_mps2 > 0.0f ? TURN_GATE_FACTOR : FIT_GATE_FACTOR;
     search->initiator->work.fits = rho_count(search->initiator->work.fits, 1);
@@ -86,7 +86,7 @@ int rho_initiator_refine(struct search *search, struct plot_set *set, struct lin
     }
     for (int round = 0; round < FIT_ROUNDS; round++) {
         struct plot_set before = *set;
-        rho_initiator_associate(search, fit, factor, set);
+        rho_initiator_associate_plots(search, fit, factor, set);
         if (!has_enough_votes(search, set)) {
             return 0;
         }
@@ -97,7 +97,7 @@ int rho_initiator_refine(struct search *search, struct plot_set *set, struct lin
             return 0;
         }
     }
-    return is_fast_enough(search, fit);
+    return has_target_speed(search, fit);
 }
 
 /* ---- score ----------------------------------------------------------------------------------- */
@@ -126,8 +126,8 @@ static int was_covered(const struct search *search, const struct line_fit *fit, 
  * ln of the pattern of hits and misses, each hit over the clutter density there. A track may have
  * been born within the window: in the search after every scan, misses count from its first hit on.
  */
-static float log_pattern(const struct search *search, const struct plot_set *set,
-                         const struct line_fit *fit)
+static float log_detections(const struct search *search, const struct plot_set *set,
+                            const struct line_fit *fit)
 {
     float sum = 0.0f;
     int is_born = search->kind == RHO_SEARCH_BATCH;
@@ -146,8 +146,8 @@ static float log_pattern(const struct search *search, const struct plot_set *set
  * ln [ P(plots | one target) / P(plots | clutter) ]. Returns 0 where the plots do not determine a
  * line.
  */
-int rho_initiator_score(const struct search *search, const struct plot_set *set,
-                        const struct line_fit *fit, struct set_score *score)
+int rho_initiator_score_set(const struct search *search, const struct plot_set *set,
+                            const struct line_fit *fit, struct set_score *score)
 {
     float nat;
     const int is_line = rho_initiator_is_isotropic(search)
@@ -157,6 +157,6 @@ int rho_initiator_score(const struct search *search, const struct plot_set *set,
         return 0;
     }
     score->mnat = rho_initiator_mnat(search->log_prior + search->log_turn +
-                                     log_pattern(search, set, fit) + nat);
+                                     log_detections(search, set, fit) + nat);
     return 1;
 }

@@ -21,7 +21,7 @@ static int has_one_sensor(const struct search *search)
  * Raises sigma_per_m to the largest noise over range of the plots of a scan with noise above
  * sigma_near_m.
  */
-static void widen_noise(struct search *search, const struct rho_window_scan *scan)
+static void raise_noise_per_range(struct search *search, const struct rho_window_scan *scan)
 {
     float per2 = search->sigma_per_m * search->sigma_per_m;
     for (unsigned i = 0; i < scan->num_plots; i++) {
@@ -59,7 +59,7 @@ void rho_initiator_prepare_vote_gates(struct search *search)
         }
     }
     for (unsigned m = 0; m < search->num_scans; m++) {
-        widen_noise(search, rho_window_scan_at(&search->initiator->window, m));
+        raise_noise_per_range(search, rho_window_scan_at(&search->initiator->window, m));
     }
 }
 

@@ -64,7 +64,7 @@ static struct angles angles_of(const struct rho_crossing_base *base, float beari
  * B sin(beta), as the one sensor's distance from the other's line of sight: no angle of the base to
  * round.
  */
-static float offset_m(const struct rho_crossing_base *base, float bearing_rad)
+static float distance_to_sight_m(const struct rho_crossing_base *base, float bearing_rad)
 {
     float dx_m = base->x_b_m - base->x_a_m, dy_m = base->y_b_m - base->y_a_m;
     return without_sign(dx_m * rho_sin(bearing_rad) - dy_m * rho_cos(bearing_rad));
@@ -81,8 +81,8 @@ float rho_crossing_delta_rad(const struct rho_crossing_base *base, float bearing
  * From the sensor that is nearer: its error of range, of one rounding of sin(delta), moves the
  * place less.
  */
-static void place(const struct rho_crossing_base *base, float bearing_a_rad, float bearing_b_rad,
-                  struct rho_crossing *crossing)
+static void place_crossing(const struct rho_crossing_base *base, float bearing_a_rad,
+                           float bearing_b_rad, struct rho_crossing *crossing)
 {
     int from_a = crossing->range_a_m <= crossing->range_b_m;
     float bearing_rad = from_a ? bearing_a_rad : bearing_b_rad;
@@ -103,15 +103,15 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
         return RHO_CROSSING_APART;
     }
     float sine = rho_sin(angles.delta_rad);
-    float over_a_m = offset_m(base, bearing_b_rad);
-    float over_b_m = offset_m(base, bearing_a_rad);
+    float over_a_m = distance_to_sight_m(base, bearing_b_rad);
+    float over_b_m = distance_to_sight_m(base, bearing_a_rad);
     if (!(over_a_m <= range_max_m * sine && over_b_m <= range_max_m * sine)) {
         return RHO_CROSSING_RANGE;
     }
     crossing->delta_rad = angles.delta_rad;
     crossing->range_a_m = over_a_m / sine;
     crossing->range_b_m = over_b_m / sine;
-    place(base, bearing_a_rad, bearing_b_rad, crossing);
+    place_crossing(base, bearing_a_rad, bearing_b_rad, crossing);
     return RHO_CROSSING_MEETS;
 }
 

@@ -60,7 +60,7 @@ int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
 }
 
 /* 0, or within its limits where the build has ambiguous range rates. */
-static int is_span(float span_mps)
+static int is_ambiguity_span(float span_mps)
 {
     return rho_is_within(span_mps, 0.0f, 0.0f) ||
            (RHO_AMBIGUOUS_RANGE_RATES &&
@@ -69,7 +69,7 @@ static int is_span(float span_mps)
 
 int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 {
-    return is_span(sensor->range_rate_span_mps) && rho_is_coordinate(sensor->x_m) &&
+    return is_ambiguity_span(sensor->range_rate_span_mps) && rho_is_coordinate(sensor->x_m) &&
            rho_is_coordinate(sensor->y_m) && rho_is_coordinate(sensor->z_m) &&
            rho_is_within(sensor->range_bias_m, -RHO_LIMIT_BIAS_M, RHO_LIMIT_BIAS_M) &&
            rho_is_within(sensor->azimuth_bias_rad, -RHO_LIMIT_BIAS_RAD, RHO_LIMIT_BIAS_RAD) &&
@@ -138,7 +138,7 @@ static float root_sum(float a, float b)
 }
 
 /* Limits a derived sigma: near the sensor the metres across vanish. */
-static float within_limits(float sigma_m)
+static float sigma_within_limits(float sigma_m)
 {
     if (!(sigma_m > RHO_LIMIT_SIGMA_MIN)) {
         return RHO_LIMIT_SIGMA_MIN;
@@ -146,8 +146,8 @@ static float within_limits(float sigma_m)
     return sigma_m < RHO_LIMIT_SIGMA_MAX ? sigma_m : RHO_LIMIT_SIGMA_MAX;
 }
 
-static void convert(const struct sighting *seen, const struct rho_polar_plot *polar,
-                    uint32_t measures, struct rho_plot *plot)
+static void convert_polar(const struct sighting *seen, const struct rho_polar_plot *polar,
+                          uint32_t measures, struct rho_plot *plot)
 {
     int z = (measures & RHO_MEASURES_Z) != 0;
     float cos_elevation = rho_cos(seen->elevation_rad);
@@ -168,15 +168,15 @@ static void convert(const struct sighting *seen, const struct rho_polar_plot *po
         .x_m = seen->x_m + ground_m * rho_cos(seen->azimuth_rad),
         .y_m = seen->y_m + ground_m * rho_sin(seen->azimuth_rad),
         .range_rate_mps = (measures & RHO_MEASURES_RANGE_RATE) ? polar->range_rate_mps : 0.0f,
-        .sigma_range_m = within_limits(root_sum(polar->sigma_range_m, spread_m)),
-        .sigma_cross_m = within_limits(level_m * polar->sigma_azimuth_rad),
+        .sigma_range_m = sigma_within_limits(root_sum(polar->sigma_range_m, spread_m)),
+        .sigma_cross_m = sigma_within_limits(level_m * polar->sigma_azimuth_rad),
         .sigma_range_rate_mps =
             (measures & RHO_MEASURES_RANGE_RATE) ? polar->sigma_range_rate_mps : 0.0f,
         .snr_db = polar->snr_db,
     };
     if (z) {
         plot->z_m = seen->z_m + seen->range_m * elevation_gain * rho_sin(seen->elevation_rad);
-        plot->sigma_up_m = within_limits(seen->range_m * polar->sigma_elevation_rad);
+        plot->sigma_up_m = sigma_within_limits(seen->range_m * polar->sigma_elevation_rad);
     }
 }
 
@@ -194,7 +194,7 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
     if (!(seen.range_m > 0.0f && seen.range_m <= RANGE_MAX_M) || !is_offset(seen.offset_us)) {
         return RHO_ERROR_VALUE;
     }
-    convert(&seen, polar, measures, &converted);
+    convert_polar(&seen, polar, measures, &converted);
     if (!rho_measurement_is_valid(&converted, measures & ~RHO_MEASURES_VELOCITY)) {
         return RHO_ERROR_VALUE;
     }
@@ -205,8 +205,9 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
 /* ---- the frame of the noise ------------------------------------------------------------------ */
 
 /* Without a line of sight: one variance for all axes. */
-static void open_without_sight(const struct rho_plot *plot, const struct rho_sigma_factors *factors,
-                               struct rho_measurement *out)
+static void open_without_line_of_sight(const struct rho_plot *plot,
+                                       const struct rho_sigma_factors *factors,
+                                       struct rho_measurement *out)
 {
     float sigma_m = rho_plot_sigma_m(plot);
     if (out->has_z) {
@@ -231,13 +232,13 @@ static int are_equal(float a, float b)
     return a <= b && a >= b;
 }
 
-static float squared_share(float sigma_m, float factor)
+static float scaled_variance(float sigma_m, float factor)
 {
     return sigma_m * sigma_m * (factor * factor);
 }
 
 /* No factor is learned for heights: they take the part on which range and azimuth agree. */
-static float up_factor(const struct rho_sigma_factors *factors)
+static float height_factor(const struct rho_sigma_factors *factors)
 {
     const float least = factors->range < factors->cross ? factors->range : factors->cross;
     const float most = rho_larger(factors->range, factors->cross);
@@ -282,7 +283,7 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
     out->place_m[2] = out->has_z ? plot->z_m : 0.0f;
     if (!(ground_m >= RANGE_LEAST_M)) {
         if (!out->has_z || !(root_sum(ground_m, dz_m) >= RANGE_LEAST_M)) {
-            open_without_sight(plot, &factors, out);
+            open_without_line_of_sight(plot, &factors, out);
             return;
         }
         ground_m = dx_m = RHO_LIMIT_SIGMA_MIN; /* overhead: any azimuth will do */
@@ -291,9 +292,10 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
     out->cos_azimuth = dx_m / ground_m;
     out->sin_azimuth = dy_m / ground_m;
     open_elevation(ground_m, dz_m, out);
-    out->variance_m2[0] = squared_share(plot->sigma_range_m, factors.range);
-    out->variance_m2[1] = squared_share(plot->sigma_cross_m, factors.cross);
-    out->variance_m2[2] = out->has_z ? squared_share(plot->sigma_up_m, up_factor(&factors)) : 0.0f;
+    out->variance_m2[0] = scaled_variance(plot->sigma_range_m, factors.range);
+    out->variance_m2[1] = scaled_variance(plot->sigma_cross_m, factors.cross);
+    out->variance_m2[2] =
+        out->has_z ? scaled_variance(plot->sigma_up_m, height_factor(&factors)) : 0.0f;
     out->is_isotropic = are_equal(out->variance_m2[0], out->variance_m2[1]) &&
                         (!out->has_z || are_equal(out->variance_m2[0], out->variance_m2[2]));
 }

@@ -13,7 +13,7 @@
 
 /* Blind zones farther than this from the expected range rate do not count. */
 #define ZONE_SIGMAS 4.0f
-/* Where more zones are within that, all range rates are as likely. */
+/* With more blind zones within reach, all range rates are taken as equally likely. */
 #define ZONES_MAX 9
 #define NUMBER_MAX 1.0e6f
 
@@ -76,7 +76,7 @@ static void add_zone(struct blind *sum, float from, float to)
     sum->second += share + from * at_from - to * at_to;
 }
 
-static struct blind blind_of(const struct rho_sensor *sensor, float mean_mps, float sigma_mps)
+static struct blind blind_moments(const struct rho_sensor *sensor, float mean_mps, float sigma_mps)
 {
     struct blind sum = {0.0f, 0.0f, 0.0f};
     const float per_sigma = 1.0f / sigma_mps, blind_mps = sensor->blind_speed_mps;
@@ -130,13 +130,13 @@ float rho_notch_share(const struct rho_sensor *sensor, const float *state, const
 {
     struct view view;
     return view_range_rate(sensor, state, covariance, &view)
-               ? blind_of(sensor, view.mean, rho_sqrt(view.variance)).share
+               ? blind_moments(sensor, view.mean, rho_sqrt(view.variance)).share
                : 0.0f;
 }
 
-/* Moves the mean of what is seen, and gives it another variance; all else follows. */
-static void move(const struct view *view, float off, float variance, int num_states, float *state,
-                 float *covariance)
+/* Gives what is seen another mean and variance; the rest of the estimate follows. */
+static void set_moments(const struct view *view, float off, float variance, int num_states,
+                        float *state, float *covariance)
 {
     const float per_variance = 1.0f / view->variance;
     const float taken = (view->variance - variance) * per_variance * per_variance;
@@ -164,8 +164,8 @@ static void move(const struct view *view, float off, float variance, int num_sta
  * A target in the notch that crosses the line of sight no faster than one that stands may seem to
  * stands: its speed across is measured as 0, as well as the notch knows the other one.
  */
-static void stand(const struct view *rate, float notch_mps, int num_states, float *state,
-                  float *covariance)
+static void assume_standing(const struct view *rate, float notch_mps, int num_states, float *state,
+                            float *covariance)
 {
     struct view across = {.row = {0.0f, 0.0f, 0.0f, -rate->row[4], rate->row[3], 0.0f}};
     float projected[6];
@@ -176,8 +176,8 @@ static void stand(const struct view *rate, float notch_mps, int num_states, floa
         across.mean * across.mean <
             STAND_SIGMAS * STAND_SIGMAS * across.variance + most_mps * most_mps) {
         const float kept = notch_mps * notch_mps / (across.variance + notch_mps * notch_mps);
-        move(&across, across.mean * (kept - 1.0f), across.variance * kept, num_states, state,
-             covariance);
+        set_moments(&across, across.mean * (kept - 1.0f), across.variance * kept, num_states, state,
+                    covariance);
     }
 }
 
@@ -189,16 +189,16 @@ float rho_notch_miss(const struct rho_sensor *sensor, const struct rho_notch_loo
         return 1.0f - look->pd;
     }
     const float sigma = rho_sqrt(rate.variance), seen = 1.0f - look->pd;
-    const struct blind blind = blind_of(sensor, rate.mean, sigma);
+    const struct blind blind = blind_moments(sensor, rate.mean, sigma);
     const float missed = seen + look->pd * blind.share;
     const float off = look->pd * blind.first / missed;
     float kept = (seen + look->pd * blind.second) / missed - off * off;
     kept = kept > KEPT_MIN ? kept < KEPT_MAX ? kept : KEPT_MAX : KEPT_MIN;
     if (blind.share > 0.0f) {
-        move(&rate, off * sigma, rate.variance * kept, num_states, state, covariance);
+        set_moments(&rate, off * sigma, rate.variance * kept, num_states, state, covariance);
     }
     if (look->may_stand && blind.share > STAND_SHARE * missed) {
-        stand(&rate, sensor->notch_mps, num_states, state, covariance);
+        assume_standing(&rate, sensor->notch_mps, num_states, state, covariance);
     }
     return missed;
 }

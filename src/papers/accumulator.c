@@ -94,7 +94,7 @@ enum rho_status rho_accumulator_check(const struct rho_accumulator_points *point
 /*
  * Square of the distance from the origin within which points are inside all rows; 0: there is none.
  */
-static float inside2_m2(const struct rho_accumulator *accumulator)
+static float inner_radius2_m2(const struct rho_accumulator *accumulator)
 {
     const struct rho_accumulator_config *config = &accumulator->config;
     float last_m = (float)accumulator->rho_cells * config->rho_cell_m - config->rho_max_m;
@@ -107,7 +107,7 @@ static float inside2_m2(const struct rho_accumulator *accumulator)
 static unsigned scans_outside(const struct rho_accumulator_pass *pass)
 {
     const struct rho_accumulator_points *points = pass->points;
-    float inside2 = inside2_m2(pass->accumulator);
+    float inside2 = inner_radius2_m2(pass->accumulator);
     unsigned i = 0, scans = 0;
     for (unsigned scan = 0; scan < points->num_scans; scan++) {
         float farthest2 = 0.0f;
@@ -135,7 +135,7 @@ static void choose_rows(struct rho_accumulator_pass *pass)
 }
 
 /* Sparse rows are cleared by the list of touched cells, which is empty at first. */
-static void empty(struct rho_accumulator_pass *pass)
+static void empty_rows(struct rho_accumulator_pass *pass)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     size_t cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
@@ -175,7 +175,7 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
                                         .neighbours = accumulator->config.neighbours};
     choose_rows(&pass);
     if (pass.is_sparse) {
-        empty(&pass);
+        empty_rows(&pass);
     } else {
         memset(accumulator->room.scan, 0, sizeof accumulator->room.scan);
     }

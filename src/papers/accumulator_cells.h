@@ -5,7 +5,7 @@
  * -O3 vectorises them.
  */
 
-/* Four at a time: the stores are the limit, not the loop. */
+/* Sets the scan's bit in the points' cells, four at a time: stores are the limit. */
 static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n, CELL bit)
 {
     unsigned i = 0;

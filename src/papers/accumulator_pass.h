@@ -34,7 +34,7 @@ struct rho_accumulator_projection {
 struct rho_accumulator_projection
 rho_accumulator_projection(const struct rho_accumulator *accumulator, unsigned theta_cell);
 
-/* Cells of n points. */
+/* The cells in which n points vote. */
 void rho_accumulator_project(const float *restrict x_m, const float *restrict y_m, unsigned n,
                              struct rho_accumulator_projection place, int32_t *restrict cells);
 

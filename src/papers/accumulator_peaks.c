@@ -19,7 +19,7 @@ static int is_better(const struct rho_accumulator_peak *a, const struct rho_accu
 }
 
 /* Lets the peak at `place` of a heap of n sink below those that are lower. */
-static void sink(struct rho_accumulator_peak *heap, uint32_t n, uint32_t place)
+static void sink_peak(struct rho_accumulator_peak *heap, uint32_t n, uint32_t place)
 {
     struct rho_accumulator_peak peak = heap[place];
     for (uint32_t child = 2u * place + 1u; child < n; child = 2u * place + 1u) {
@@ -33,7 +33,7 @@ static void sink(struct rho_accumulator_peak *heap, uint32_t n, uint32_t place)
     heap[place] = peak;
 }
 
-static void rise(struct rho_accumulator_peak *heap, uint32_t place)
+static void raise_peak(struct rho_accumulator_peak *heap, uint32_t place)
 {
     struct rho_accumulator_peak peak = heap[place];
     while (place > 0 && is_better(&heap[(place - 1u) / 2u], &peak)) {
@@ -47,7 +47,7 @@ static void rise(struct rho_accumulator_peak *heap, uint32_t place)
  * Smallest whole number of votes that is at least min_share of votes_max; limited to votes_max, as
  * float may round up.
  */
-static uint32_t least_share(const struct rho_peak_list *list)
+static uint32_t least_votes(const struct rho_peak_list *list)
 {
     float share = list->min_share * (float)list->votes_max;
     uint32_t least = share < 4294967296.0f ? (uint32_t)share : list->votes_max;
@@ -55,10 +55,10 @@ static uint32_t least_share(const struct rho_peak_list *list)
     return least < list->votes_max ? least : list->votes_max;
 }
 
-static void note_most(struct rho_peak_list *list, uint32_t votes)
+static void note_most_votes(struct rho_peak_list *list, uint32_t votes)
 {
     list->votes_max = votes;
-    uint32_t least = least_share(list);
+    uint32_t least = least_votes(list);
     list->min_votes = least > list->min_votes ? least : list->min_votes;
 }
 
@@ -68,22 +68,22 @@ void rho_peak_list_add(struct rho_peak_list *list, struct rho_accumulator_peak p
         return;
     }
     if (peak.votes > list->votes_max) {
-        note_most(list, peak.votes);
+        note_most_votes(list, peak.votes);
     }
     if (list->num_peaks < list->max_peaks) {
         list->peaks[list->num_peaks] = peak;
-        rise(list->peaks, list->num_peaks++);
+        raise_peak(list->peaks, list->num_peaks++);
         return;
     }
     list->peaks_dropped = rho_count(list->peaks_dropped, 1);
     if (list->max_peaks > 0 && is_better(&peak, &list->peaks[0])) {
         list->peaks[0] = peak;
-        sink(list->peaks, list->num_peaks, 0);
+        sink_peak(list->peaks, list->num_peaks, 0);
     }
 }
 
 /* Drops the peaks below the final threshold. Returns how many stay, no longer a heap. */
-static uint32_t cut(const struct rho_peak_list *list)
+static uint32_t drop_below_threshold(const struct rho_peak_list *list)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < list->num_peaks; i++) {
@@ -95,27 +95,27 @@ static uint32_t cut(const struct rho_peak_list *list)
 }
 
 /* Heap sort, best first. */
-static void sort(struct rho_accumulator_peak *heap, uint32_t n)
+static void sort_peaks(struct rho_accumulator_peak *heap, uint32_t n)
 {
     while (n > 1) {
         struct rho_accumulator_peak lowest = heap[0];
         heap[0] = heap[--n];
         heap[n] = lowest;
-        sink(heap, n, 0);
+        sink_peak(heap, n, 0);
     }
 }
 
 void rho_peak_list_finish(struct rho_peak_list *list)
 {
-    uint32_t n = cut(list);
+    uint32_t n = drop_below_threshold(list);
     if (n < list->num_peaks) {
         list->num_peaks = n;
         list->peaks_dropped = 0; /* all dropped peaks are below the threshold */
         for (uint32_t i = n / 2u; i > 0; i--) {
-            sink(list->peaks, n, i - 1u);
+            sink_peak(list->peaks, n, i - 1u);
         }
     }
-    sort(list->peaks, n);
+    sort_peaks(list->peaks, n);
 }
 
 /* ---- suppression ----------------------------------------------------------------------------- */
@@ -142,14 +142,14 @@ static int32_t block_of(int32_t cell, unsigned reach)
     return cell >= 0 ? cell / size : -1;
 }
 
-static uint32_t hash(int32_t theta_block, int32_t rho_block)
+static uint32_t hash_block(int32_t theta_block, int32_t rho_block)
 {
     uint32_t key = (uint32_t)theta_block * 0x9e3779b1u ^ (uint32_t)rho_block * 0x85ebca77u;
     return key ^ key >> 15;
 }
 
-static int is_near(const struct rho_accumulator_peak *peak, struct place place,
-                   const struct rho_peak_distance *distance)
+static int is_peak_near(const struct rho_accumulator_peak *peak, struct place place,
+                        const struct rho_peak_distance *distance)
 {
     int32_t theta = (int32_t)peak->theta_cell - place.theta;
     int32_t rho = (int32_t)peak->rho_cell - place.rho;
@@ -165,20 +165,20 @@ static int is_in_block(const struct kept *kept, uint32_t number, int32_t theta_b
            block_of(peak->rho_cell, kept->distance->rho) == rho_block;
 }
 
-static int block_has_near(const struct kept *kept, struct place place, int32_t theta_block,
-                          int32_t rho_block)
+static int has_peak_near_in_block(const struct kept *kept, struct place place, int32_t theta_block,
+                                  int32_t rho_block)
 {
-    uint32_t at = hash(theta_block, rho_block), number;
+    uint32_t at = hash_block(theta_block, rho_block), number;
     while ((number = kept->table[at & (kept->size - 1u)]) != 0) {
         if (is_in_block(kept, number, theta_block, rho_block)) {
-            return is_near(&kept->peaks[number - 1u], place, kept->distance);
+            return is_peak_near(&kept->peaks[number - 1u], place, kept->distance);
         }
         at++;
     }
     return 0;
 }
 
-static int has_near_listed(const struct kept *kept, struct place place)
+static int has_listed_peak_near(const struct kept *kept, struct place place)
 {
     const struct rho_peak_distance *distance = kept->distance;
     int32_t theta_last = block_of(place.theta + distance->theta, distance->theta);
@@ -187,7 +187,7 @@ static int has_near_listed(const struct kept *kept, struct place place)
     int32_t rho_first = block_of(place.rho - distance->rho, distance->rho);
     for (int32_t theta = theta_first < 0 ? 0 : theta_first; theta <= theta_last; theta++) {
         for (int32_t rho = rho_first < 0 ? 0 : rho_first; rho <= rho_last; rho++) {
-            if (block_has_near(kept, place, theta, rho)) {
+            if (has_peak_near_in_block(kept, place, theta, rho)) {
                 return 1;
             }
         }
@@ -195,40 +195,40 @@ static int has_near_listed(const struct kept *kept, struct place place)
     return 0;
 }
 
-static int has_near(const struct kept *kept, struct place place)
+static int has_kept_peak_near(const struct kept *kept, struct place place)
 {
-    if (kept->size > 0 && has_near_listed(kept, place)) {
+    if (kept->size > 0 && has_listed_peak_near(kept, place)) {
         return 1;
     }
     for (uint32_t i = kept->num_listed; i < kept->num_peaks; i++) {
-        if (is_near(&kept->peaks[i], place, kept->distance)) {
+        if (is_peak_near(&kept->peaks[i], place, kept->distance)) {
             return 1;
         }
     }
     return 0;
 }
 
-/* Whether a kept peak is near, also across the ends of theta. */
+/* Whether a better peak that is kept is near, also across the ends of theta. */
 static int is_suppressed(const struct kept *kept, const struct rho_accumulator_peak *peak)
 {
     int32_t theta = peak->theta_cell, num_theta = kept->distance->theta_cells;
     int32_t rho = peak->rho_cell, turned = (int32_t)kept->distance->rho_cells - 1 - rho;
     int32_t reach = kept->distance->theta;
-    return has_near(kept, (struct place){theta, rho}) ||
-           (theta < reach && has_near(kept, (struct place){theta + num_theta, turned})) ||
+    return has_kept_peak_near(kept, (struct place){theta, rho}) ||
+           (theta < reach && has_kept_peak_near(kept, (struct place){theta + num_theta, turned})) ||
            (theta + reach >= num_theta &&
-            has_near(kept, (struct place){theta - num_theta, turned}));
+            has_kept_peak_near(kept, (struct place){theta - num_theta, turned}));
 }
 
 /* A third of the table stays free, so that searches are short. */
-static void list_last(struct kept *kept)
+static void list_last_kept(struct kept *kept)
 {
     const struct rho_accumulator_peak *peak = &kept->peaks[kept->num_peaks - 1u];
     if (kept->num_listed + 1u < kept->num_peaks || 3u * (kept->num_listed + 1u) > 2u * kept->size) {
         return;
     }
-    uint32_t at = hash(block_of(peak->theta_cell, kept->distance->theta),
-                       block_of(peak->rho_cell, kept->distance->rho));
+    uint32_t at = hash_block(block_of(peak->theta_cell, kept->distance->theta),
+                             block_of(peak->rho_cell, kept->distance->rho));
     while (kept->table[at & (kept->size - 1u)] != 0) {
         at++;
     }
@@ -248,7 +248,7 @@ uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num
     for (uint32_t i = 0; i < num_peaks; i++) {
         if (!is_suppressed(&kept, &peaks[i])) {
             peaks[kept.num_peaks++] = peaks[i];
-            list_last(&kept);
+            list_last_kept(&kept);
         }
     }
     return kept.num_peaks;

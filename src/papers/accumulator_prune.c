@@ -19,7 +19,7 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define ROWS_START 16u /* of the first interval */
+#define ROWS_START 16u /* length of the first interval */
 #define ROWS_MAX 1024u
 #define ROWS_LEAST 2u     /* shortest interval that is pruned */
 #define ROWS_UNPRUNED 32u /* rows without pruning, doubled each time */
@@ -88,7 +88,7 @@ static void copy_points(struct prune *prune)
     }
 }
 
-static void range_of(const float *values, unsigned n, float *middle, float *half)
+static void middle_and_half(const float *values, unsigned n, float *middle, float *half)
 {
     float low = values[0], high = values[0];
     for (unsigned i = 1; i < n; i++) {
@@ -104,8 +104,8 @@ static void enclose_points(struct prune *prune)
     const struct rho_accumulator_points *points = prune->pass->points;
     unsigned n = prune->pass->num_points;
     float half_x_m, half_y_m, farthest2 = 0.0f;
-    range_of(points->x_m, n, &prune->centre_x_m, &half_x_m);
-    range_of(points->y_m, n, &prune->centre_y_m, &half_y_m);
+    middle_and_half(points->x_m, n, &prune->centre_x_m, &half_x_m);
+    middle_and_half(points->y_m, n, &prune->centre_y_m, &half_y_m);
     for (unsigned i = 0; i < n; i++) {
         float x_m = points->x_m[i] - prune->centre_x_m, y_m = points->y_m[i] - prune->centre_y_m;
         float range2 = x_m * x_m + y_m * y_m;
@@ -225,7 +225,7 @@ static void prepare_row(struct prune *prune, unsigned row)
     }
 }
 
-static void add_row(struct prune *prune, unsigned row, unsigned num_points)
+static void fill_row(struct prune *prune, unsigned row, unsigned num_points)
 {
     prepare_row(prune, row);
     if (num_points == prune->pass->num_points) {
@@ -245,11 +245,11 @@ static unsigned work_unpruned(const struct prune *prune, unsigned num_rows)
     return num_rows * (WORK_ROW + prune->pass->num_points * 3u / 2u);
 }
 
-static void add_rows(struct prune *prune, struct interval of)
+static void fill_rows(struct prune *prune, struct interval of)
 {
     prune->work += of.num_rows * (WORK_ROW + WORK_POINT * of.num_points);
     for (unsigned row = of.first; row < of.first + of.num_rows; row++) {
-        add_row(prune, row, of.num_points);
+        fill_row(prune, row, of.num_points);
     }
 }
 
@@ -279,7 +279,7 @@ static unsigned search_halves(struct prune *prune, struct interval whole)
                 (struct interval){of.first + num_left, of.num_rows - num_left, of.num_points};
             stack[depth++] = (struct interval){of.first, num_left, of.num_points};
         } else if (of.num_points > 0) {
-            add_rows(prune, of);
+            fill_rows(prune, of);
         }
     }
     return num_kept;
@@ -300,7 +300,7 @@ static void search_next(struct prune *prune, unsigned rows_left)
     struct interval of = {prune->next_row, num_rows, n};
     prune->next_row += num_rows;
     if (!is_pruned) {
-        add_rows(prune, of);
+        fill_rows(prune, of);
         prune->num_rows = ROWS_LEAST;
         prune->num_unpruned += prune->num_unpruned < ROWS_MAX ? prune->num_unpruned : 0u;
         return;

@@ -129,8 +129,9 @@ static void reverse_row(const struct rho_accumulator_pass *pass, void *row)
 
 /* ---- sparse rows ----------------------------------------------------------------------------- */
 
-static unsigned vote_few(const struct rho_accumulator_pass *pass, void *row, const int32_t *cells,
-                         unsigned n, unsigned scan, uint16_t *reached)
+static unsigned vote_in_sparse_row(const struct rho_accumulator_pass *pass, void *row,
+                                   const int32_t *cells, unsigned n, unsigned scan,
+                                   uint16_t *reached)
 {
     unsigned bit = pass->counts_points ? 0u : 1u << scan;
     if (bit && scan + 1u < pass->list.min_votes) {
@@ -146,7 +147,7 @@ static unsigned vote_few(const struct rho_accumulator_pass *pass, void *row, con
                            : vote_few_wide(pass, row, cells, n, (uint16_t)bit, reached);
 }
 
-static void clear_few(struct rho_accumulator_pass *pass, unsigned slot)
+static void clear_sparse_row(struct rho_accumulator_pass *pass, unsigned slot)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     const int32_t *cells = accumulator->touched[slot];
@@ -160,19 +161,19 @@ static void clear_few(struct rho_accumulator_pass *pass, unsigned slot)
     }
 }
 
-static void fill_few(struct rho_accumulator_pass *pass, unsigned slot,
-                     struct rho_accumulator_projection place, int is_turned)
+static void fill_sparse_row(struct rho_accumulator_pass *pass, unsigned slot,
+                            struct rho_accumulator_projection place, int is_turned)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     int32_t *cells = accumulator->touched[slot];
     void *row = accumulator->rows[slot];
     unsigned num_reached = 0;
-    clear_few(pass, slot);
+    clear_sparse_row(pass, slot);
     project_points(pass, ~0u, 0, pass->num_points, place, cells);
     for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
         unsigned from = scan_start(pass, scan), n = pass->points->scan_end[scan] - from;
-        num_reached +=
-            vote_few(pass, row, cells + from, n, scan, accumulator->reached[slot] + num_reached);
+        num_reached += vote_in_sparse_row(pass, row, cells + from, n, scan,
+                                          accumulator->reached[slot] + num_reached);
     }
     accumulator->num_touched[slot] = (uint16_t)pass->num_points;
     accumulator->num_reached[slot] = (uint16_t)num_reached;
@@ -193,7 +194,7 @@ void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsig
     const uint16_t *bits = accumulator->room.few.bits;
     void *row = accumulator->rows[slot];
     uint16_t *reached = accumulator->reached[slot];
-    clear_few(pass, slot);
+    clear_sparse_row(pass, slot);
     rho_accumulator_project(accumulator->room.few.x_m, accumulator->room.few.y_m, num_kept,
                             rho_accumulator_projection(accumulator, theta_cell), cells);
     unsigned num_reached = pass->is_narrow
@@ -205,14 +206,14 @@ void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsig
 
 void rho_accumulator_clear_row(struct rho_accumulator_pass *pass, unsigned slot)
 {
-    clear_few(pass, slot);
+    clear_sparse_row(pass, slot);
     pass->accumulator->num_touched[slot] = pass->accumulator->num_reached[slot] = 0;
 }
 
 /* ---- dense rows ------------------------------------------------------------------------------ */
 
-static void vote_many(const struct rho_accumulator_pass *pass, void *row, const int32_t *cells,
-                      unsigned n, unsigned scan)
+static void vote_in_dense_row(const struct rho_accumulator_pass *pass, void *row,
+                              const int32_t *cells, unsigned n, unsigned scan)
 {
     void *apart = pass->accumulator->room.scan;
     unsigned num_cells = pass->accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
@@ -240,12 +241,12 @@ static void vote_chunks(struct rho_accumulator_pass *pass, void *row,
     for (unsigned from = scan_start(pass, scan); from < end; from += most) {
         unsigned n = end - from < most ? end - from : most;
         project_points(pass, 1u << scan, from, n, place, cells);
-        vote_many(pass, row, cells, n, scan);
+        vote_in_dense_row(pass, row, cells, n, scan);
     }
 }
 
-static void fill_many(struct rho_accumulator_pass *pass, unsigned slot,
-                      struct rho_accumulator_projection place, int is_turned)
+static void fill_dense_row(struct rho_accumulator_pass *pass, unsigned slot,
+                           struct rho_accumulator_projection place, int is_turned)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     void *row = accumulator->rows[slot];
@@ -269,9 +270,9 @@ void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, 
         rho_accumulator_projection(pass->accumulator, theta_cell);
     uint32_t votes = pass->votes;
     if (pass->is_sparse) {
-        fill_few(pass, slot, place, is_turned);
+        fill_sparse_row(pass, slot, place, is_turned);
     } else {
-        fill_many(pass, slot, place, is_turned);
+        fill_dense_row(pass, slot, place, is_turned);
     }
     if (is_turned) {
         pass->votes = votes; /* the row is filled twice, and counts once */

@@ -25,7 +25,7 @@ static int is_finite(float v)
     return v >= -FLT_MAX && v <= FLT_MAX;
 }
 
-static float size_of(float v)
+static float magnitude(float v)
 {
     return v < 0.0f ? -v : v;
 }
@@ -56,7 +56,7 @@ static int32_t nearest_cell(float theta_rad, float theta_cell_rad, int32_t num)
     } else if (cell > 0 && theta_rad - (float)cell * theta_cell_rad < TIE_RAD) {
         cell -= 1;
     }
-    const float off_rad = size_of(centre_rad(cell, theta_cell_rad) - theta_rad);
+    const float off_rad = magnitude(centre_rad(cell, theta_cell_rad) - theta_rad);
     const float first_rad = centre_rad(0, theta_cell_rad) + RHO_PI - theta_rad;
     const float last_rad = theta_rad + RHO_PI - centre_rad(num - 1, theta_cell_rad);
     if (first_rad < off_rad + TIE_RAD) {
@@ -123,7 +123,7 @@ enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes
 /* A plane that is not used has cosine and sine 0. */
 static float off_in_plane(const struct rho_gate_hough *hough, int plane, float a_mps, float b_mps)
 {
-    return size_of(a_mps * hough->cos_theta[plane] + b_mps * hough->sin_theta[plane]);
+    return magnitude(a_mps * hough->cos_theta[plane] + b_mps * hough->sin_theta[plane]);
 }
 
 float rho_gate_hough_residual_mps(const struct rho_gate_hough *hough, const float velocity_mps[3])

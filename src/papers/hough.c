@@ -39,7 +39,7 @@ void rho_hough_config_default(struct rho_hough_config *config, enum rho_hough_me
                                         .tau = 0.5f};
 }
 
-static struct rho_accumulator_config plane_of(const struct rho_hough_config *config)
+static struct rho_accumulator_config plane_config_of(const struct rho_hough_config *config)
 {
     return (struct rho_accumulator_config){.rho_max_m = config->rho_max_m,
                                            .rho_cell_m = config->rho_cell_m,
@@ -50,7 +50,7 @@ static struct rho_accumulator_config plane_of(const struct rho_hough_config *con
 }
 
 /* Number of cells within 2 eps, with 1/100 for rounding. */
-static float reach_of(float eps, float cell)
+static float reach_in_cells(float eps, float cell)
 {
     return 2.0f * eps / cell + 0.01f;
 }
@@ -68,8 +68,9 @@ static int is_usable(const struct rho_hough_config *config)
     return (unsigned)config->method <= RHO_HOUGH_NHT_C && are_thresholds_usable(config) &&
            rho_is_within(config->eps_rho_m, EPS_RHO_MIN_M, RHO_LIMIT_POSITION_M) &&
            rho_is_within(config->eps_theta_rad, EPS_THETA_MIN_RAD, EPS_THETA_MAX_RAD) &&
-           reach_of(config->eps_rho_m, config->rho_cell_m) < RHO_HOUGH_REACH_MAX + 1.0f &&
-           reach_of(config->eps_theta_rad, config->theta_cell_rad) < RHO_HOUGH_REACH_MAX + 1.0f &&
+           reach_in_cells(config->eps_rho_m, config->rho_cell_m) < RHO_HOUGH_REACH_MAX + 1.0f &&
+           reach_in_cells(config->eps_theta_rad, config->theta_cell_rad) <
+               RHO_HOUGH_REACH_MAX + 1.0f &&
            rho_is_within(config->v_max_mps, 0.0f, RHO_LIMIT_SPEED_MPS) &&
            rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
            config->v_min_mps < config->v_max_mps;
@@ -84,7 +85,7 @@ enum rho_status rho_hough_init(struct rho_hough *hough, size_t size,
     if (size != sizeof *hough) {
         return RHO_ERROR_SIZE;
     }
-    struct rho_accumulator_config plane = plane_of(config);
+    struct rho_accumulator_config plane = plane_config_of(config);
     uint16_t theta_cells, rho_cells;
     if (rho_accumulator_plane(&plane, &theta_cells, &rho_cells) != RHO_OK || !is_usable(config)) {
         return RHO_ERROR_CONFIG;
@@ -92,8 +93,8 @@ enum rho_status rho_hough_init(struct rho_hough *hough, size_t size,
     hough->config = *config;
     hough->theta_cells = theta_cells;
     hough->rho_cells = rho_cells;
-    hough->theta_reach = (uint16_t)reach_of(config->eps_theta_rad, config->theta_cell_rad);
-    hough->rho_reach = (uint16_t)reach_of(config->eps_rho_m, config->rho_cell_m);
+    hough->theta_reach = (uint16_t)reach_in_cells(config->eps_theta_rad, config->theta_cell_rad);
+    hough->rho_reach = (uint16_t)reach_in_cells(config->eps_rho_m, config->rho_cell_m);
     hough->magic = HOUGH_MAGIC;
     return RHO_OK;
 }
@@ -105,7 +106,8 @@ static uint32_t count_points(const struct rho_hough_points *points)
     return rho_hough_scan_start(points, points->at.num_scans);
 }
 
-static enum rho_status check(const struct rho_hough *hough, const struct rho_hough_points *points)
+static enum rho_status check_points(const struct rho_hough *hough,
+                                    const struct rho_hough_points *points)
 {
     if (!hough || !points) {
         return RHO_ERROR_NULL;
@@ -162,8 +164,8 @@ void rho_hough_count_pairs(const struct rho_hough *hough, const struct rho_hough
     }
 }
 
-/* Rounded up, at least 1. */
-static uint32_t whole(float votes)
+/* Whole number of votes, rounded up, at least 1. */
+static uint32_t whole_votes(float votes)
 {
     uint32_t below = (uint32_t)votes;
     uint32_t whole = (float)below < votes ? below + 1u : below;
@@ -174,8 +176,8 @@ static uint32_t whole(float votes)
 
 static enum rho_status start_accumulator(struct rho_hough *hough)
 {
-    struct rho_accumulator_config plane = plane_of(&hough->config);
-    plane.min_votes = (uint16_t)whole(hough->config.votes_min);
+    struct rho_accumulator_config plane = plane_config_of(&hough->config);
+    plane.min_votes = (uint16_t)whole_votes(hough->config.votes_min);
     return rho_accumulator_init(&hough->work.accumulator, sizeof hough->work.accumulator, &plane);
 }
 
@@ -206,8 +208,8 @@ static enum rho_status find_lines(struct rho_hough *hough, const struct rho_houg
 
 /* ---- pairs, in as many passes as it takes ---------------------------------------------------- */
 
-static struct rho_hough_rows widened(const struct rho_hough *hough, struct rho_hough_rows rows,
-                                     int32_t by)
+static struct rho_hough_rows widened_rows(const struct rho_hough *hough, struct rho_hough_rows rows,
+                                          int32_t by)
 {
     int32_t all = hough->theta_cells, first = rows.first - by;
     if (rows.count + 2 * by >= all) {
@@ -257,17 +259,17 @@ static struct rho_hough_pass pass_over(struct rho_hough *hough,
                                   .table_size = table_size(count_all_pairs(points)),
                                   .stops_when_full = count > 1};
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
-    pass.voting = widened(hough, pass.wanted, is_spread ? hough->theta_reach : 0);
+    pass.voting = widened_rows(hough, pass.wanted, is_spread ? hough->theta_reach : 0);
     /*
      * two rows more: for a part of a cell in 2 eps, and for the last row, which is not a whole one
      */
-    pass.held =
-        widened(hough, pass.voting, rho_hough_uses_kernels(hough) ? hough->theta_reach + 2 : 0);
+    pass.held = widened_rows(hough, pass.voting,
+                             rho_hough_uses_kernels(hough) ? hough->theta_reach + 2 : 0);
     set_borders(&pass);
     return pass;
 }
 
-static void add_pass(struct rho_hough_result *result, const struct rho_hough_result *pass)
+static void add_pass_results(struct rho_hough_result *result, const struct rho_hough_result *pass)
 {
     result->candidates = pass->candidates; /* the same in every pass */
     result->votes = rho_count(result->votes, pass->votes);
@@ -284,7 +286,7 @@ static int32_t rows_after(const struct rho_hough_pass *pass, int32_t rows)
     return has_room && rows < pass->hough->theta_cells ? 2 * rows : rows;
 }
 
-/* Into the list, or where there is none into the plane. */
+/* Votes of all rows, into the list of peaks, or without one into the plane. */
 static void vote_all_rows(struct rho_hough *hough, const struct rho_hough_points *points,
                           enum rho_hough_component component, struct rho_plane *plane,
                           struct rho_peak_list *list, struct rho_hough_result *result)
@@ -300,8 +302,8 @@ static void vote_all_rows(struct rho_hough *hough, const struct rho_hough_points
             rows = count / 2;
             continue;
         }
-        rho_hough_collect(&pass, list);
-        add_pass(result, &pass.found);
+        rho_hough_collect_cells(&pass, list);
+        add_pass_results(result, &pass.found);
         result->passes++;
         first += count;
         rows = rows_after(&pass, rows);
@@ -320,8 +322,8 @@ static void find_pairs(struct rho_hough *hough, const struct rho_hough_points *p
 
 /* ---- public ---------------------------------------------------------------------------------- */
 
-static uint32_t suppress(struct rho_hough *hough, struct rho_accumulator_peak *peaks,
-                         uint32_t num_peaks)
+static uint32_t suppress_near_peaks(struct rho_hough *hough, struct rho_accumulator_peak *peaks,
+                                    uint32_t num_peaks)
 {
     const struct rho_peak_distance distance = {.theta_cells = hough->theta_cells,
                                                .rho_cells = hough->rho_cells,
@@ -335,7 +337,7 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
                                struct rho_accumulator_peak *peaks, uint32_t max_peaks,
                                struct rho_hough_result *result)
 {
-    enum rho_status status = check(hough, points);
+    enum rho_status status = check_points(hough, points);
     if (status != RHO_OK) {
         return status;
     }
@@ -345,15 +347,15 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
     if (hough->config.method == RHO_HOUGH_HT) {
         status = find_lines(hough, points, peaks, max_peaks, result);
     } else {
-        struct rho_peak_list list = {.peaks = peaks,
-                                     .max_peaks = max_peaks,
-                                     .min_votes =
-                                         whole(hough->config.votes_min * (float)RHO_HOUGH_VOTE),
-                                     .min_share = hough->config.tau};
+        struct rho_peak_list list = {
+            .peaks = peaks,
+            .max_peaks = max_peaks,
+            .min_votes = whole_votes(hough->config.votes_min * (float)RHO_HOUGH_VOTE),
+            .min_share = hough->config.tau};
         find_pairs(hough, points, &list, result);
     }
     if (status == RHO_OK && !hough->config.keeps_all_cells) {
-        result->num_peaks = suppress(hough, peaks, result->num_peaks);
+        result->num_peaks = suppress_near_peaks(hough, peaks, result->num_peaks);
     }
     return status;
 }
@@ -376,7 +378,7 @@ static void vote_row(const struct rho_hough *hough, const struct rho_hough_point
     }
 }
 
-/* HT: each row by itself. */
+/* HT: notes the votes of each row of theta in the plane. */
 static enum rho_status note_lines(struct rho_hough *hough, const struct rho_hough_points *points,
                                   struct rho_plane *plane)
 {
@@ -397,7 +399,7 @@ enum rho_status rho_hough_plane(struct rho_hough *hough, const struct rho_hough_
                                 enum rho_hough_component component, struct rho_plane *plane)
 {
     struct rho_hough_result result;
-    enum rho_status status = check(hough, points);
+    enum rho_status status = check_points(hough, points);
     if (status != RHO_OK) {
         return status;
     }
@@ -428,7 +430,7 @@ enum rho_status rho_hough_vote(const struct rho_hough *hough, const struct rho_h
                                uint32_t first, uint32_t second,
                                struct rho_hough_memberships *memberships)
 {
-    const enum rho_status status = check(hough, points);
+    const enum rho_status status = check_points(hough, points);
     if (status != RHO_OK) {
         return status;
     }
@@ -448,7 +450,7 @@ enum rho_status rho_hough_track(struct rho_hough *hough, const struct rho_hough_
                                 unsigned theta_cell, unsigned rho_cell, float at_s,
                                 struct rho_hough_track *track)
 {
-    enum rho_status status = check(hough, points);
+    enum rho_status status = check_points(hough, points);
     if (status != RHO_OK) {
         return status;
     }

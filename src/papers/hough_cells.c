@@ -14,12 +14,12 @@ static uint32_t key_of(int32_t row, int32_t column)
     return (uint32_t)row << 16 | (uint32_t)column;
 }
 
-static int32_t row_of(uint32_t key)
+static int32_t row_of_key(uint32_t key)
 {
     return (int32_t)(key >> 16);
 }
 
-static int32_t column_of(uint32_t key)
+static int32_t column_of_key(uint32_t key)
 {
     return (int32_t)(key & 0xffffu);
 }
@@ -32,7 +32,7 @@ void rho_hough_clear_cells(struct rho_hough_pass *pass)
 }
 
 /* The cell of a key, or the free slot where it is inserted. */
-static struct rho_hough_cell *cell_at(struct rho_hough_pass *pass, uint32_t key)
+static struct rho_hough_cell *cell_of_key(struct rho_hough_pass *pass, uint32_t key)
 {
     struct rho_hough_cell *cells = pass->hough->work.sparse.cells;
     uint32_t hash = key * 0x9e3779b1u, at = (hash ^ hash >> 15) & (pass->table_size - 1u);
@@ -64,7 +64,7 @@ void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint
     if (column < 0) {
         return;
     }
-    struct rho_hough_cell *cell = cell_at(pass, key_of(row, column));
+    struct rho_hough_cell *cell = cell_of_key(pass, key_of(row, column));
     int is_new = cell->votes == 0;
     if (is_new && pass->num_cells >= pass->table_size - pass->table_size / 8u) {
         pass->found.votes_dropped = rho_count(pass->found.votes_dropped, 1);
@@ -82,7 +82,7 @@ void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint
 /* ---- order ----------------------------------------------------------------------------------- */
 
 /* Moves the cells with votes to the front of the table. Returns how many. */
-static uint32_t gather(struct rho_hough_cell *cells, uint32_t size)
+static uint32_t gather_voted_cells(struct rho_hough_cell *cells, uint32_t size)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < size; i++) {
@@ -93,7 +93,7 @@ static uint32_t gather(struct rho_hough_cell *cells, uint32_t size)
     return n;
 }
 
-static void sink(struct rho_hough_cell *heap, uint32_t n, uint32_t place)
+static void sink_cell(struct rho_hough_cell *heap, uint32_t n, uint32_t place)
 {
     struct rho_hough_cell cell = heap[place];
     for (uint32_t child = 2u * place + 1u; child < n; child = 2u * place + 1u) {
@@ -108,16 +108,16 @@ static void sink(struct rho_hough_cell *heap, uint32_t n, uint32_t place)
 }
 
 /* Heap sort by theta, then rho: it needs no memory. */
-static void sort(struct rho_hough_cell *cells, uint32_t n)
+static void sort_cells(struct rho_hough_cell *cells, uint32_t n)
 {
     for (uint32_t i = n / 2u; i > 0; i--) {
-        sink(cells, n, i - 1u);
+        sink_cell(cells, n, i - 1u);
     }
     while (n > 1) {
         struct rho_hough_cell last = cells[0];
         cells[0] = cells[--n];
         cells[n] = last;
-        sink(cells, n, 0);
+        sink_cell(cells, n, 0);
     }
 }
 
@@ -148,8 +148,8 @@ static struct passing passing_at(const struct band *band, int32_t place)
     const struct rho_hough *hough = band->pass->hough;
     int32_t lap = place < 0 ? -1 : place >= band->length ? 1 : 0;
     const struct rho_hough_cell *cell = &band->cells[place - lap * band->length];
-    int32_t column = column_of(cell->key);
-    return (struct passing){.row = row_of(cell->key) + lap * hough->theta_cells,
+    int32_t column = column_of_key(cell->key);
+    return (struct passing){.row = row_of_key(cell->key) + lap * hough->theta_cells,
                             .column = lap == 0 ? column : hough->rho_cells - 1 - column,
                             .votes = cell->votes};
 }
@@ -163,13 +163,13 @@ void rho_hough_spread_weights(uint32_t shares[RHO_HOUGH_REACH_MAX + 1], unsigned
     }
 }
 
-uint32_t rho_hough_scale(uint32_t votes, uint32_t share)
+uint32_t rho_hough_scale_votes(uint32_t votes, uint32_t share)
 {
     return (uint32_t)(((uint64_t)votes * share + RHO_HOUGH_VOTE / 2u) / RHO_HOUGH_VOTE);
 }
 
-/* Moves the window to the next row. */
-static void move_to(struct band *band, int32_t row)
+/* Moves the band of sorted cells within reach to the next row of theta. */
+static void move_band_to(struct band *band, int32_t row)
 {
     int32_t reach = band->pass->hough->theta_reach;
     while (band->end < 2 * band->length && passing_at(band, band->end).row <= row + reach) {
@@ -184,21 +184,21 @@ struct columns {
     int32_t from, to;
 };
 
-static struct columns columns_of(const struct band *band, struct passing cell)
+static struct columns reached_columns(const struct band *band, struct passing cell)
 {
     int32_t reach = band->pass->hough->rho_reach, last = band->pass->hough->rho_cells - 1;
     return (struct columns){cell.column > reach ? cell.column - reach : 0,
                             cell.column + reach < last ? cell.column + reach : last};
 }
 
-static void spread(const struct band *band, int32_t row, struct passing cell, uint32_t *sums)
+static void spread_cell(const struct band *band, int32_t row, struct passing cell, uint32_t *sums)
 {
-    struct columns columns = columns_of(band, cell);
+    struct columns columns = reached_columns(band, cell);
     int32_t away = row < cell.row ? cell.row - row : row - cell.row;
-    uint32_t votes = rho_hough_scale(cell.votes, band->theta_shares[away]);
+    uint32_t votes = rho_hough_scale_votes(cell.votes, band->theta_shares[away]);
     for (int32_t i = columns.from; i <= columns.to; i++) {
         uint32_t share = band->rho_shares[i < cell.column ? cell.column - i : i - cell.column];
-        uint32_t sum = sums[i] + rho_hough_scale(votes, share);
+        uint32_t sum = sums[i] + rho_hough_scale_votes(votes, share);
         sums[i] = sum < sums[i] ? UINT32_MAX : sum;
     }
 }
@@ -219,7 +219,7 @@ static void list_cell(const struct rho_hough_pass *pass, struct rho_peak_list *l
 static void collect_spread(const struct band *band, int32_t row, struct passing cell,
                            uint32_t *sums, struct rho_peak_list *list)
 {
-    struct columns columns = columns_of(band, cell);
+    struct columns columns = reached_columns(band, cell);
     for (int32_t i = columns.from; i <= columns.to; i++) {
         if (sums[i] > 0) {
             band->pass->found.cells = rho_count(band->pass->found.cells, 1);
@@ -232,9 +232,9 @@ static void collect_spread(const struct band *band, int32_t row, struct passing 
 static void collect_row(struct band *band, int32_t row, struct rho_peak_list *list)
 {
     uint32_t *sums = band->pass->hough->work.sparse.step.row;
-    move_to(band, row);
+    move_band_to(band, row);
     for (int32_t place = band->first; place < band->end; place++) {
-        spread(band, row, passing_at(band, place), sums);
+        spread_cell(band, row, passing_at(band, place), sums);
     }
     for (int32_t place = band->first; place < band->end; place++) {
         collect_spread(band, row, passing_at(band, place), sums, list);
@@ -264,17 +264,18 @@ static void collect_rows(struct rho_hough_pass *pass, uint32_t num_cells,
 
 /* ---- collecting ------------------------------------------------------------------------------ */
 
-void rho_hough_collect(struct rho_hough_pass *pass, struct rho_peak_list *list)
+void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *list)
 {
     struct rho_hough_cell *cells = pass->hough->work.sparse.cells;
-    uint32_t num_cells = gather(cells, pass->table_size);
+    uint32_t num_cells = gather_voted_cells(cells, pass->table_size);
     if (pass->hough->config.method == RHO_HOUGH_NHT_C) {
-        sort(cells, num_cells);
+        sort_cells(cells, num_cells);
         collect_rows(pass, num_cells, list);
         return;
     }
     for (uint32_t i = 0; i < num_cells; i++) {
-        list_cell(pass, list, row_of(cells[i].key), column_of(cells[i].key), cells[i].votes);
+        list_cell(pass, list, row_of_key(cells[i].key), column_of_key(cells[i].key),
+                  cells[i].votes);
     }
     pass->found.cells = num_cells;
 }

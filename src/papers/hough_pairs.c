@@ -55,8 +55,8 @@ static float line_distance2(const struct rho_hough *hough, struct rho_line a, st
 }
 
 /* Smaller distance; of equal ones the lower first plot, then the lower second plot. */
-static int comes_before(float distance2, struct rho_hough_pair pair, float other_distance2,
-                        struct rho_hough_pair other)
+static int is_nearer_pair(float distance2, struct rho_hough_pair pair, float other_distance2,
+                          struct rho_hough_pair other)
 {
     if (distance2 < other_distance2 || distance2 > other_distance2) {
         return distance2 < other_distance2;
@@ -73,8 +73,8 @@ void rho_hough_compare_kernel(const struct rho_hough *hough, struct rho_line lin
         return;
     }
     uint32_t rank = nearest->count;
-    while (rank > 0 &&
-           comes_before(distance2, pair, nearest->distance2[rank - 1u], nearest->pair[rank - 1u])) {
+    while (rank > 0 && is_nearer_pair(distance2, pair, nearest->distance2[rank - 1u],
+                                      nearest->pair[rank - 1u])) {
         rank--;
     }
     if (rank == 0) {
@@ -106,7 +106,7 @@ static float indeterminacy(const struct rho_hough *hough, const struct rho_hough
     return distance2 < 0.0f ? 0.0f : rho_exp(-0.5f * distance2);
 }
 
-static uint32_t parts_of(float membership)
+static uint32_t membership_parts(float membership)
 {
     return (uint32_t)(membership * (float)RHO_HOUGH_VOTE + 0.5f);
 }
@@ -123,9 +123,9 @@ struct rho_hough_memberships rho_hough_memberships_of(const struct rho_hough *ho
 {
     const float f = falsity(hough);
     return (struct rho_hough_memberships){
-        .truth = nearest->count > 0 ? parts_of(rho_exp(-0.5f * nearest->distance2[0])) : 0,
-        .indeterminacy = parts_of(indeterminacy(hough, points, line, nearest)),
-        .falsity = parts_of(f < 1.0f ? f : 1.0f)};
+        .truth = nearest->count > 0 ? membership_parts(rho_exp(-0.5f * nearest->distance2[0])) : 0,
+        .indeterminacy = membership_parts(indeterminacy(hough, points, line, nearest)),
+        .falsity = membership_parts(f < 1.0f ? f : 1.0f)};
 }
 
 uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
@@ -140,7 +140,7 @@ uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_h
         float i = indeterminacy(hough, points, line, nearest);
         vote = i > vote ? i : vote;
     }
-    return falsity(hough) > vote ? 0 : parts_of(vote);
+    return falsity(hough) > vote ? 0 : membership_parts(vote);
 }
 
 /* ---- kernels --------------------------------------------------------------------------------- */
@@ -178,8 +178,8 @@ static uint16_t *chain_of(struct rho_hough *hough, struct bin bin)
     return &hough->work.sparse.step.kernels.heads[(key ^ key >> 16) % RHO_HOUGH_CHAINS];
 }
 
-static void hold(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
-                 struct rho_hough_pair pair)
+static void hold_kernel(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
+                        struct rho_hough_pair pair)
 {
     uint32_t *count = &pass->num_kernels[scan & 1u];
     if (*count == RHO_MAX_HOUGH_KERNELS) {
@@ -218,8 +218,9 @@ static void chain_kernels(struct rho_hough_pass *pass, unsigned scan)
 }
 
 /* Compares the kernels of one bin; the chain may hold kernels of other bins too. */
-static void look_in_bin(const struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
-                        struct bin bin, struct rho_hough_nearest *nearest)
+static void compare_kernels_in_bin(const struct rho_hough_pass *pass, unsigned scan,
+                                   struct rho_line line, struct bin bin,
+                                   struct rho_hough_nearest *nearest)
 {
     struct rho_hough *hough = pass->hough;
     const struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
@@ -247,7 +248,7 @@ static struct rho_hough_nearest nearest_kernels(const struct rho_hough_pass *pas
         int32_t rho = rho_bin(pass->hough, is_turned ? -line.rho_m : line.rho_m);
         for (int32_t i = rho - 1; i <= rho + 1; i++) {
             struct bin bin = {theta < 0 ? bins - 1 : theta < bins ? theta : 0, i};
-            look_in_bin(pass, scan, line, bin, &nearest);
+            compare_kernels_in_bin(pass, scan, line, bin, &nearest);
         }
     }
     return nearest;
@@ -255,7 +256,7 @@ static struct rho_hough_nearest nearest_kernels(const struct rho_hough_pass *pas
 
 /* ---- votes ----------------------------------------------------------------------------------- */
 
-static int is_held(const struct rho_hough_pass *pass, float dx_m, float dy_m)
+static int may_cross_held_rows(const struct rho_hough_pass *pass, float dx_m, float dy_m)
 {
     float from = pass->from_x * dx_m + pass->from_y * dy_m;
     float to = pass->to_x * dx_m + pass->to_y * dy_m;
@@ -296,7 +297,7 @@ static void vote_kernels(struct rho_hough_pass *pass, unsigned scan, struct rho_
         }
     }
     if (scan + 1u < pass->points->at.num_scans && rho_hough_has_row(hough, pass->held, row)) {
-        hold(pass, scan, line, pair);
+        hold_kernel(pass, scan, line, pair);
     }
 }
 
@@ -305,7 +306,7 @@ static void vote_pair(struct rho_hough_pass *pass, unsigned scan, struct rho_hou
     const struct rho_hough_points *points = pass->points;
     float dx_m = points->at.x_m[pair.second] - points->at.x_m[pair.first];
     float dy_m = points->at.y_m[pair.second] - points->at.y_m[pair.first];
-    if (!is_held(pass, dx_m, dy_m)) {
+    if (!may_cross_held_rows(pass, dx_m, dy_m)) {
         return;
     }
     struct rho_line line = rho_hough_line(points, pair);
@@ -318,7 +319,7 @@ static void vote_pair(struct rho_hough_pass *pass, unsigned scan, struct rho_hou
 }
 
 /* Pairs of one plot with all plots of the next scan. */
-static void vote_from(struct rho_hough_pass *pass, unsigned scan, uint32_t first)
+static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint32_t first)
 {
     const struct rho_hough *hough = pass->hough;
     uint32_t start = rho_hough_scan_start(pass->points, scan);
@@ -344,7 +345,7 @@ void rho_hough_vote_pairs(struct rho_hough_pass *pass)
             chain_kernels(pass, scan);
         }
         for (uint32_t i = rho_hough_scan_start(points, scan - 1u); i < end; i++) {
-            vote_from(pass, scan, i);
+            vote_pairs_of_plot(pass, scan, i);
             if (pass->is_full && pass->stops_when_full) {
                 return;
             }

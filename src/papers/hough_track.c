@@ -25,8 +25,8 @@ struct target {
  * Whether a line within rho_m and theta_rad of the given one can go through a plot: the plot is at
  * most rho_m off, plus the effect of the angle at its range.
  */
-static int is_on(const struct rho_hough_points *points, uint32_t i, struct rho_line line,
-                 float rho_m, float theta_rad)
+static int may_be_on_line(const struct rho_hough_points *points, uint32_t i, struct rho_line line,
+                          float rho_m, float theta_rad)
 {
     float x_m = points->at.x_m[i], y_m = points->at.y_m[i];
     float off_m = x_m * rho_cos(line.theta_rad) + y_m * rho_sin(line.theta_rad) - line.rho_m;
@@ -37,23 +37,24 @@ static int is_on(const struct rho_hough_points *points, uint32_t i, struct rho_l
 
 static int is_on_target(const struct target *target, uint32_t i)
 {
-    return is_on(target->points, i, target->line, target->rho_m, target->theta_rad);
+    return may_be_on_line(target->points, i, target->line, target->rho_m, target->theta_rad);
 }
 
 /* ---- votes of a pair for the cell ------------------------------------------------------------ */
 
 /* The nearest kernels of a line between a scan and the scan before. */
-static struct rho_hough_nearest kernels_of(const struct rho_hough *hough,
-                                           const struct rho_hough_points *points, unsigned scan,
-                                           struct rho_line line)
+static struct rho_hough_nearest nearest_kernels_of(const struct rho_hough *hough,
+                                                   const struct rho_hough_points *points,
+                                                   unsigned scan, struct rho_line line)
 {
     float rho_m = 2.0f * hough->config.eps_rho_m, theta_rad = 2.0f * hough->config.eps_theta_rad;
     struct rho_hough_nearest nearest = {.count = 0};
     uint32_t middle = rho_hough_scan_start(points, scan - 1u), end = points->at.scan_end[scan - 1u];
     for (uint32_t i = rho_hough_scan_start(points, scan - 2u); i < middle; i++) {
-        for (uint32_t j = middle; j < end && is_on(points, i, line, rho_m, theta_rad); j++) {
+        for (uint32_t j = middle; j < end && may_be_on_line(points, i, line, rho_m, theta_rad);
+             j++) {
             struct rho_hough_pair pair = {i, j};
-            if (is_on(points, j, line, rho_m, theta_rad) &&
+            if (may_be_on_line(points, j, line, rho_m, theta_rad) &&
                 rho_hough_speed(hough, points, pair) == RHO_SPEED_WITHIN) {
                 rho_hough_compare_kernel(hough, line, rho_hough_line(points, pair), pair, &nearest);
             }
@@ -62,7 +63,7 @@ static struct rho_hough_nearest kernels_of(const struct rho_hough *hough,
     return nearest;
 }
 
-/* Of a candidate pair. */
+/* The vote of a candidate pair. */
 struct vote {
     uint32_t weight; /* what the method counts */
     struct rho_hough_memberships of;
@@ -74,7 +75,8 @@ static struct vote own_vote(const struct target *target, unsigned scan, struct r
     if (!rho_hough_uses_kernels(target->hough)) {
         vote.weight = RHO_HOUGH_VOTE;
     } else if (scan >= 2) {
-        struct rho_hough_nearest nearest = kernels_of(target->hough, target->points, scan, line);
+        struct rho_hough_nearest nearest =
+            nearest_kernels_of(target->hough, target->points, scan, line);
         vote.weight = rho_hough_vote_weight(target->hough, target->points, line, &nearest);
         vote.of = rho_hough_memberships_of(target->hough, target->points, line, &nearest);
     }
@@ -90,7 +92,7 @@ struct rho_hough_memberships rho_hough_pair_memberships(const struct rho_hough *
         return (struct rho_hough_memberships){0};
     }
     struct rho_line line = rho_hough_line(points, pair);
-    struct rho_hough_nearest nearest = kernels_of(hough, points, scan, line);
+    struct rho_hough_nearest nearest = nearest_kernels_of(hough, points, scan, line);
     return rho_hough_memberships_of(hough, points, line, &nearest);
 }
 
@@ -114,8 +116,9 @@ static void scale_vote(const struct target *target, int32_t rows, int32_t column
     uint32_t *parts[] = {&vote->weight, &vote->of.truth, &vote->of.indeterminacy,
                          &vote->of.falsity};
     for (unsigned i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-        *parts[i] = rho_hough_scale(rho_hough_scale(*parts[i], target->theta_shares[rows]),
-                                    target->rho_shares[columns]);
+        *parts[i] =
+            rho_hough_scale_votes(rho_hough_scale_votes(*parts[i], target->theta_shares[rows]),
+                                  target->rho_shares[columns]);
     }
 }
 
@@ -203,7 +206,7 @@ static void add_plot(const struct target *target, unsigned scan, uint32_t i, str
     track->mask = (uint16_t)(track->mask | 1u << scan);
 }
 
-static void fit(const struct sums *sums, float at_s, struct rho_hough_track *track)
+static void fit_motion(const struct sums *sums, float at_s, struct rho_hough_track *track)
 {
     float divisor = sums->n * sums->tt - sums->t * sums->t;
     float n = sums->n > 0.0f ? sums->n : 1.0f, ahead_s = at_s - sums->t0_s - sums->t / n;
@@ -248,7 +251,8 @@ static int votes_in_pair(const struct target *target, unsigned scan, uint32_t i,
                           votes_with(target, scan, i, 1, &behind) > 0);
 }
 
-static void look_at_plots(const struct target *target, float at_s, struct rho_hough_track *track)
+static void find_voting_plots(const struct target *target, float at_s,
+                              struct rho_hough_track *track)
 {
     const struct rho_hough_points *points = target->points;
     int is_alone = target->hough->config.method == RHO_HOUGH_HT;
@@ -262,7 +266,7 @@ static void look_at_plots(const struct target *target, float at_s, struct rho_ho
             }
         }
     }
-    fit(&sums, at_s, track);
+    fit_motion(&sums, at_s, track);
 }
 
 void rho_hough_find_voters(struct rho_hough *hough, const struct rho_hough_points *points,
@@ -288,5 +292,5 @@ void rho_hough_find_voters(struct rho_hough *hough, const struct rho_hough_point
         rho_hough_spread_weights(target.rho_shares, hough->rho_reach, config->rho_cell_m,
                                  config->eps_rho_m);
     }
-    look_at_plots(&target, at_s, track);
+    find_voting_plots(&target, at_s, track);
 }

@@ -99,10 +99,10 @@ void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint
 /* Weights by distance in rows or columns, in units of 1 / RHO_HOUGH_VOTE. */
 void rho_hough_spread_weights(uint32_t shares[RHO_HOUGH_REACH_MAX + 1], unsigned reach, float cell,
                               float eps);
-uint32_t rho_hough_scale(uint32_t votes, uint32_t share);
+uint32_t rho_hough_scale_votes(uint32_t votes, uint32_t share);
 
 /* Lists the cells of the wanted rows with all their votes; NULL: notes them in the pass' plane. */
-void rho_hough_collect(struct rho_hough_pass *pass, struct rho_peak_list *list);
+void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *list);
 
 /* ---- voters ---- */
 

@@ -158,8 +158,8 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
         return RHO_OK;
     }
     set_times(&search);
-    rho_passive_paper_vote(&search);
-    rho_passive_paper_choose(&search);
-    rho_passive_paper_fit(&search);
+    rho_passive_paper_vote_for_cells(&search);
+    rho_passive_paper_choose_lines(&search);
+    rho_passive_paper_fit_lines(&search);
     return RHO_OK;
 }

@@ -25,7 +25,7 @@ static struct cell wrapped_cell(const struct rho_passive_paper_search *search, i
     return cell;
 }
 
-static unsigned height_at(const struct rho_passive_paper_search *search, int row, int column)
+static unsigned votes_at(const struct rho_passive_paper_search *search, int row, int column)
 {
     struct cell cell = wrapped_cell(search, row, column);
     return column >= 0 && column < search->columns ? search->paper->cells[cell.row][cell.column]
@@ -56,7 +56,7 @@ static struct cell plateau_middle(const struct rho_passive_paper_search *search,
     for (int i = -2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i <= 2 * RHO_PASSIVE_PAPER_NEAR_ROWS; i++) {
         for (int j = -2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS; j <= 2 * RHO_PASSIVE_PAPER_NEAR_COLUMNS;
              j++) {
-            if (height_at(search, from.row + i, from.column + j) == height) {
+            if (votes_at(search, from.row + i, from.column + j) == height) {
                 sum_row += i;
                 sum_column += j;
                 count++;
@@ -68,7 +68,7 @@ static struct cell plateau_middle(const struct rho_passive_paper_search *search,
              j++) {
             int off_row = i * count - sum_row, off_column = j * count - sum_column;
             int off = off_row * off_row + off_column * off_column;
-            if (height_at(search, from.row + i, from.column + j) == height && off < least) {
+            if (votes_at(search, from.row + i, from.column + j) == height && off < least) {
                 least = off;
                 best = wrapped_cell(search, from.row + i, from.column + j);
             }
@@ -120,7 +120,7 @@ static void count_cells(struct rho_passive_paper_search *search)
     }
 }
 
-void rho_passive_paper_choose(struct rho_passive_paper_search *search)
+void rho_passive_paper_choose_lines(struct rho_passive_paper_search *search)
 {
     struct cell at = {0, 0};
     unsigned height;
@@ -228,12 +228,12 @@ static void finish_fit(const struct rho_passive_paper_search *search,
     line->velocity_m2ps2 = axis_m2 / (spread * search->half_s * search->half_s);
 }
 
-void rho_passive_paper_fit(struct rho_passive_paper_search *search)
+void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
     for (unsigned i = 0; paper->num_lines > 0 && i + 1u < search->num_sensors; i++) {
         for (unsigned j = i + 1u; j < search->num_sensors; j++) {
-            rho_passive_paper_cross(search, search->sensors[i], search->sensors[j]);
+            rho_passive_paper_cross_sensors(search, search->sensors[i], search->sensors[j]);
             for (unsigned line = 0; line < paper->num_lines; line++) {
                 add_pair(search, line);
             }

@@ -59,29 +59,31 @@ int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
 struct rho_passive_paper_bearings {
     float a_rad[RHO_MAX_BEARINGS], b_rad[RHO_MAX_BEARINGS];
 };
-int rho_passive_paper_prune(const struct rho_passive_paper_config *config,
-                            const struct rho_batch *batch, const struct rho_crossing_base *base,
-                            unsigned scan, struct rho_passive_paper_pair pair,
-                            struct rho_passive_paper_bearings *bearings,
-                            struct rho_ghost_matrix *matrix);
+int rho_passive_paper_prune_ghosts(const struct rho_passive_paper_config *config,
+                                   const struct rho_batch *batch,
+                                   const struct rho_crossing_base *base, unsigned scan,
+                                   struct rho_passive_paper_pair pair,
+                                   struct rho_passive_paper_bearings *bearings,
+                                   struct rho_ghost_matrix *matrix);
 
 /* Crossings of two sensors, pruned, into paper->points. */
-void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b);
+void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, unsigned a,
+                                     unsigned b);
 
 /* The column in which a crossing votes, or -1. */
 int rho_passive_paper_column(const struct rho_passive_paper_search *search,
                              struct rho_passive_paper_direction direction,
                              const struct rho_passive_paper_point *point);
 
-/* Votes of the crossings in a row. */
+/* Votes of the crossings for the cells of a row of theta. */
 void rho_passive_paper_vote_row(const struct rho_passive_paper_search *search, int row,
                                 uint8_t counts[RHO_PAPER_RHO_CELLS]);
 
 /* Votes of all pairs into paper->cells. */
-void rho_passive_paper_vote(struct rho_passive_paper_search *search);
+void rho_passive_paper_vote_for_cells(struct rho_passive_paper_search *search);
 
 /* Chooses lines from the cells, and fits their states. */
-void rho_passive_paper_choose(struct rho_passive_paper_search *search);
-void rho_passive_paper_fit(struct rho_passive_paper_search *search);
+void rho_passive_paper_choose_lines(struct rho_passive_paper_search *search);
+void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search);
 
 #endif

@@ -64,8 +64,8 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
     }
     rho_passive_paper_set_sensors(&paper->batch, &search);
     return rho_passive_paper_set_base(&search, &paper->batch, pair->a, pair->b, &base) &&
-                   rho_passive_paper_prune(&paper->config, &paper->batch, &base, scan, *pair,
-                                           &bearings, matrix)
+                   rho_passive_paper_prune_ghosts(&paper->config, &paper->batch, &base, scan, *pair,
+                                                  &bearings, matrix)
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
@@ -109,7 +109,7 @@ static void note_pair(struct rho_passive_paper_search *search,
                       const struct rho_passive_paper_pair *pair, struct rho_plane *plane)
 {
     uint8_t *counts = search->paper->rows[0];
-    rho_passive_paper_cross(search, pair->a, pair->b);
+    rho_passive_paper_cross_sensors(search, pair->a, pair->b);
     for (int row = 0; row < search->rows; row++) {
         rho_passive_paper_vote_row(search, row, counts);
         note_row(search, row, counts, 0, plane);
@@ -119,7 +119,7 @@ static void note_pair(struct rho_passive_paper_search *search,
 static void note_all_pairs(struct rho_passive_paper_search *search, struct rho_plane *plane)
 {
     const struct rho_passive_paper_work work = search->paper->work;
-    rho_passive_paper_vote(search);
+    rho_passive_paper_vote_for_cells(search);
     search->paper->work = work;
     for (int row = 0; row < search->rows; row++) {
         note_row(search, row, search->paper->cells[row], 1, plane);
@@ -164,8 +164,8 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
 
 /* ---- cells of a pair ------------------------------------------------------------------------- */
 
-/* The scans whose crossings voted for a cell. */
-static uint32_t mask_of(const struct rho_passive_paper_search *search, int row, int column)
+/* Bit mask of the scans whose crossings voted for a cell. */
+static uint32_t scans_voting_for(const struct rho_passive_paper_search *search, int row, int column)
 {
     const struct rho_passive_paper *paper = search->paper;
     const struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
@@ -213,11 +213,11 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
                                            .rho_cells = (uint16_t)search.columns,
                                            .theta = RHO_PASSIVE_PAPER_NEAR_ROWS,
                                            .rho = RHO_PASSIVE_PAPER_NEAR_COLUMNS};
-    rho_passive_paper_cross(&search, pair->a, pair->b);
+    rho_passive_paper_cross_sensors(&search, pair->a, pair->b);
     list_cells(&search, &list);
     *num_peaks = rho_peak_list_suppress(peaks, list.num_peaks, &near, NULL, 0);
     for (uint32_t i = 0; i < *num_peaks; i++) {
-        peaks[i].mask = mask_of(&search, peaks[i].theta_cell, peaks[i].rho_cell);
+        peaks[i].mask = scans_voting_for(&search, peaks[i].theta_cell, peaks[i].rho_cell);
     }
     return RHO_OK;
 }

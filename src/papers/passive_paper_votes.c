@@ -32,11 +32,12 @@ static void add_point(struct rho_passive_paper_search *search, unsigned scan,
         (struct rho_passive_paper_point){.x_m = crossing->x_m, .y_m = crossing->y_m};
 }
 
-int rho_passive_paper_prune(const struct rho_passive_paper_config *config,
-                            const struct rho_batch *batch, const struct rho_crossing_base *base,
-                            unsigned scan, struct rho_passive_paper_pair pair,
-                            struct rho_passive_paper_bearings *bearings,
-                            struct rho_ghost_matrix *matrix)
+int rho_passive_paper_prune_ghosts(const struct rho_passive_paper_config *config,
+                                   const struct rho_batch *batch,
+                                   const struct rho_crossing_base *base, unsigned scan,
+                                   struct rho_passive_paper_pair pair,
+                                   struct rho_passive_paper_bearings *bearings,
+                                   struct rho_ghost_matrix *matrix)
 {
     memset(bearings, 0, sizeof *bearings);
     unsigned num_a = collect_bearings(batch, scan, pair.a, bearings->a_rad);
@@ -56,8 +57,8 @@ static void cross_scan(struct rho_passive_paper_search *search,
     const struct rho_passive_paper *paper = search->paper;
     struct rho_ghost_matrix matrix;
     struct rho_passive_paper_bearings bearings;
-    if (!rho_passive_paper_prune(&paper->config, &paper->batch, base, scan, pair, &bearings,
-                                 &matrix)) {
+    if (!rho_passive_paper_prune_ghosts(&paper->config, &paper->batch, base, scan, pair, &bearings,
+                                        &matrix)) {
         return;
     }
     for (unsigned i = 0; i < matrix.rows; i++) {
@@ -87,7 +88,8 @@ int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
                sensor_b->x_m - search->middle_x_m, sensor_b->y_m - search->middle_y_m) == RHO_OK;
 }
 
-void rho_passive_paper_cross(struct rho_passive_paper_search *search, unsigned a, unsigned b)
+void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, unsigned a,
+                                     unsigned b)
 {
     struct rho_passive_paper *paper = search->paper;
     const struct rho_passive_paper_pair pair = {(uint8_t)a, (uint8_t)b};
@@ -202,12 +204,12 @@ static void count_work(struct rho_passive_paper_search *search)
                                              (unsigned)search->rows);
 }
 
-void rho_passive_paper_vote(struct rho_passive_paper_search *search)
+void rho_passive_paper_vote_for_cells(struct rho_passive_paper_search *search)
 {
     int is_first = 1;
     for (unsigned i = 0; i + 1u < search->num_sensors; i++) {
         for (unsigned j = i + 1u; j < search->num_sensors; j++) {
-            rho_passive_paper_cross(search, search->sensors[i], search->sensors[j]);
+            rho_passive_paper_cross_sensors(search, search->sensors[i], search->sensors[j]);
             count_work(search);
             vote_pair(search, is_first);
             is_first = 0;

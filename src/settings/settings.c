@@ -52,38 +52,38 @@ static int is_below(struct rho_settings_fault *fault, const char *field, float v
     return is_within(fault, field, value, min, max) && value < max;
 }
 
-static int is_length(struct rho_settings_fault *fault, const char *field, float sigma)
+static int is_length_sigma(struct rho_settings_fault *fault, const char *field, float sigma)
 {
     return is_within(fault, field, sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
 }
 
-static int is_angle(struct rho_settings_fault *fault, const char *field, float sigma_rad)
+static int is_angle_sigma(struct rho_settings_fault *fault, const char *field, float sigma_rad)
 {
     return is_within(fault, field, sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
 }
 
-static int are_targets(const struct rho_settings *settings, struct rho_settings_fault *fault)
+static int has_usable_targets(const struct rho_settings *settings, struct rho_settings_fault *fault)
 {
     return is_within(fault, "v_max_mps", settings->v_max_mps, 1.0f, RHO_LIMIT_SPEED_MPS) &&
            is_below(fault, "v_min_mps", settings->v_min_mps, 0.0f, settings->v_max_mps) &&
            is_within(fault, "accel_max_mps2", settings->accel_max_mps2, 0.0f, 1000.0f);
 }
 
-static int is_sensor(const struct rho_settings *settings, struct rho_settings_fault *fault)
+static int has_usable_sensor(const struct rho_settings *settings, struct rho_settings_fault *fault)
 {
     return is_within(fault, "pd", settings->pd, 0.01f, 0.999f) &&
            is_within(fault, "scan_interval_s", settings->scan_interval_s, 1e-3f, 3600.0f) &&
-           is_length(fault, "sigma_range_m", settings->sigma_range_m) &&
-           is_angle(fault, "sigma_azimuth_rad", settings->sigma_azimuth_rad) &&
-           is_angle(fault, "sigma_elevation_rad", settings->sigma_elevation_rad) &&
-           is_length(fault, "sigma_range_rate_mps", settings->sigma_range_rate_mps) &&
-           is_angle(fault, "sigma_rad", settings->sigma_rad) &&
+           is_length_sigma(fault, "sigma_range_m", settings->sigma_range_m) &&
+           is_angle_sigma(fault, "sigma_azimuth_rad", settings->sigma_azimuth_rad) &&
+           is_angle_sigma(fault, "sigma_elevation_rad", settings->sigma_elevation_rad) &&
+           is_length_sigma(fault, "sigma_range_rate_mps", settings->sigma_range_rate_mps) &&
+           is_angle_sigma(fault, "sigma_rad", settings->sigma_rad) &&
            is_within(fault, "range_max_m", settings->range_max_m, 1.0f,
                      2.0f * RHO_LIMIT_POSITION_M) &&
            is_below(fault, "range_min_m", settings->range_min_m, 0.0f, settings->range_max_m);
 }
 
-static int is_area(const struct rho_settings *settings, struct rho_settings_fault *fault)
+static int has_usable_area(const struct rho_settings *settings, struct rho_settings_fault *fault)
 {
     const struct rho_extent *area = &settings->area;
     const float limit_m = RHO_LIMIT_POSITION_M;
@@ -94,7 +94,8 @@ static int is_area(const struct rho_settings *settings, struct rho_settings_faul
             is_below(fault, "area.y_min_m", area->y_min_m, -limit_m, area->y_max_m));
 }
 
-static int are_decisions(const struct rho_settings *settings, struct rho_settings_fault *fault)
+static int has_usable_decisions(const struct rho_settings *settings,
+                                struct rho_settings_fault *fault)
 {
     const float scans = settings->scans;
     return is_within(fault, "false_tracks_per_hour", settings->false_tracks_per_hour, 1e-6f,
@@ -114,8 +115,8 @@ enum rho_status rho_settings_check(const struct rho_settings *settings,
     if (!settings) {
         return RHO_ERROR_NULL;
     }
-    if (are_targets(settings, &first) && is_sensor(settings, &first) && is_area(settings, &first) &&
-        are_decisions(settings, &first)) {
+    if (has_usable_targets(settings, &first) && has_usable_sensor(settings, &first) &&
+        has_usable_area(settings, &first) && has_usable_decisions(settings, &first)) {
         return RHO_OK;
     }
     if (fault) {

@@ -152,7 +152,7 @@ static const uint32_t facts[] = {
     PLACE(rho_learned_reflector, witnesses),
 };
 
-static uint32_t layout(void)
+static uint32_t layout_hash(void)
 {
     return add_to_crc(0, (const uint8_t *)facts, sizeof facts);
 }
@@ -160,7 +160,7 @@ static uint32_t layout(void)
 /* ---- kinds ----------------------------------------------------------------------------------- */
 
 /* 0: there is no such kind. */
-static size_t size_of(uint32_t kind)
+static size_t size_of_kind(uint32_t kind)
 {
     switch (kind) {
     case RHO_SNAPSHOT_TRACKER:
@@ -216,10 +216,10 @@ static enum rho_status check_parts(const struct rho_snapshot_part *parts, unsign
         if (!parts[i].object) {
             return RHO_ERROR_NULL;
         }
-        if (size_of((uint32_t)parts[i].kind) == 0) {
+        if (size_of_kind((uint32_t)parts[i].kind) == 0) {
             return RHO_ERROR_VALUE;
         }
-        if (size_of((uint32_t)parts[i].kind) != parts[i].size) {
+        if (size_of_kind((uint32_t)parts[i].kind) != parts[i].size) {
             return RHO_ERROR_SIZE;
         }
     }
@@ -250,7 +250,7 @@ struct writer {
     int has_crc; /* asked for: the window holds it */
 };
 
-static void put(struct writer *writer, const void *data, size_t size)
+static void put_bytes(struct writer *writer, const void *data, size_t size)
 {
     const uint8_t *bytes = data;
     const size_t at = writer->at;
@@ -271,25 +271,25 @@ static void put_head(struct writer *writer, const struct rho_snapshot_part *part
     uint8_t bytes[HEADER_BYTES];
     memcpy(bytes + MAGIC_AT, magic, sizeof magic);
     put_u32(bytes + VERSION_AT, RHO_SNAPSHOT_VERSION);
-    put_u32(bytes + LAYOUT_AT, layout());
+    put_u32(bytes + LAYOUT_AT, layout_hash());
     put_u32(bytes + SIZE_AT, (uint32_t)image_size(parts, num_parts));
     put_u32(bytes + NUM_PARTS_AT, num_parts);
-    put(writer, bytes, HEADER_BYTES);
+    put_bytes(writer, bytes, HEADER_BYTES);
     for (unsigned i = 0; i < num_parts; i++) {
         put_u32(bytes, (uint32_t)parts[i].kind);
         put_u32(bytes + 4, (uint32_t)parts[i].id);
         put_u32(bytes + 8, (uint32_t)parts[i].size);
         put_u32(bytes + 12, 0);
-        put(writer, bytes, PART_BYTES);
+        put_bytes(writer, bytes, PART_BYTES);
     }
 }
 
 static void put_end(struct writer *writer)
 {
     uint8_t bytes[4] = {0};
-    put(writer, bytes, sizeof bytes);
+    put_bytes(writer, bytes, sizeof bytes);
     put_u32(bytes, ~writer->crc);
-    put(writer, bytes, sizeof bytes);
+    put_bytes(writer, bytes, sizeof bytes);
 }
 
 static int are_all_sound(const struct rho_snapshot_part *parts, unsigned num_parts)
@@ -323,8 +323,8 @@ enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigne
     writer.buffer = buffer;
     put_head(&writer, parts, num_parts);
     for (unsigned i = 0; i < num_parts; i++) {
-        put(&writer, parts[i].object, parts[i].size);
-        put(&writer, zeros, padding_of(parts[i].size));
+        put_bytes(&writer, parts[i].object, parts[i].size);
+        put_bytes(&writer, zeros, padding_of(parts[i].size));
     }
     put_end(&writer);
     return RHO_OK;
@@ -337,8 +337,8 @@ static uint32_t part_field(const uint8_t *image, unsigned part, unsigned field)
     return get_u32(image + HEADER_BYTES + (size_t)part * PART_BYTES + 4u * field);
 }
 
-/* The stated sizes of the parts are the kinds' sizes, and fill the image. */
-static int fits(const uint8_t *image, uint32_t size, uint32_t num_parts)
+/* The parts' stated sizes are those of their kinds, and fill the image. */
+static int is_filled_by_parts(const uint8_t *image, uint32_t size, uint32_t num_parts)
 {
     size_t left = size - HEADER_BYTES - END_BYTES;
     if (num_parts > left / PART_BYTES) {
@@ -346,7 +346,7 @@ static int fits(const uint8_t *image, uint32_t size, uint32_t num_parts)
     }
     left -= num_parts * PART_BYTES;
     for (unsigned i = 0; i < num_parts; i++) {
-        const size_t bytes = size_of(part_field(image, i, 0));
+        const size_t bytes = size_of_kind(part_field(image, i, 0));
         if (bytes == 0 || part_field(image, i, 2) != bytes || bytes + padding_of(bytes) > left) {
             return 0;
         }
@@ -371,7 +371,7 @@ static enum rho_status check_image(const uint8_t *image, size_t size)
         get_u32(image + VERSION_AT) != RHO_SNAPSHOT_VERSION) {
         return RHO_ERROR_TYPE;
     }
-    if (get_u32(image + LAYOUT_AT) != layout()) {
+    if (get_u32(image + LAYOUT_AT) != layout_hash()) {
         return RHO_ERROR_SIZE;
     }
     const uint32_t said = get_u32(image + SIZE_AT);
@@ -380,7 +380,7 @@ static enum rho_status check_image(const uint8_t *image, size_t size)
     }
     if (said < HEADER_BYTES + END_BYTES ||
         ~add_to_crc(UINT32_MAX, image, said - 4u) != get_u32(image + said - 4u) ||
-        !fits(image, said, get_u32(image + NUM_PARTS_AT))) {
+        !is_filled_by_parts(image, said, get_u32(image + NUM_PARTS_AT))) {
         return RHO_ERROR_VALUE;
     }
     return RHO_OK;
@@ -406,8 +406,8 @@ enum rho_status rho_snapshot_list(const void *image, size_t size, struct rho_sna
     return RHO_OK;
 }
 
-static int are_those_of(const struct rho_snapshot_part *parts, unsigned num_parts,
-                        const uint8_t *image)
+static int are_parts_of_image(const struct rho_snapshot_part *parts, unsigned num_parts,
+                              const uint8_t *image)
 {
     if (get_u32(image + NUM_PARTS_AT) != num_parts) {
         return 0;
@@ -422,8 +422,8 @@ static int are_those_of(const struct rho_snapshot_part *parts, unsigned num_part
 }
 
 /* Checks the image's objects, or copies them. */
-static int go_through(const struct rho_snapshot_part *parts, unsigned num_parts,
-                      const uint8_t *image, int takes)
+static int check_or_copy_objects(const struct rho_snapshot_part *parts, unsigned num_parts,
+                                 const uint8_t *image, int takes)
 {
     const uint8_t *object = image + HEADER_BYTES + (size_t)num_parts * PART_BYTES;
     for (unsigned i = 0; i < num_parts; i++) {
@@ -448,19 +448,19 @@ enum rho_status rho_snapshot_load(const struct rho_snapshot_part *parts, unsigne
     if (status != RHO_OK) {
         return status;
     }
-    if (!are_those_of(parts, num_parts, bytes)) {
+    if (!are_parts_of_image(parts, num_parts, bytes)) {
         return RHO_ERROR_COUNT;
     }
-    if (!go_through(parts, num_parts, bytes, 0)) {
+    if (!check_or_copy_objects(parts, num_parts, bytes, 0)) {
         return RHO_ERROR_VALUE;
     }
-    (void)go_through(parts, num_parts, bytes, 1);
+    (void)check_or_copy_objects(parts, num_parts, bytes, 1);
     return RHO_OK;
 }
 
 /* ---- load in pieces -------------------------------------------------------------------------- */
 
-static size_t least(size_t a, size_t b)
+static size_t smaller_size(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
@@ -473,7 +473,7 @@ static enum rho_status compare_head(const struct rho_snapshot_loader *loader, co
     for (size_t i = 0; i < size; i++) {
         const size_t at = loader->at + i;
         if (i % PART_BYTES == 0) {
-            struct writer writer = {.from = at, .end = at + least(PART_BYTES, size - i)};
+            struct writer writer = {.from = at, .end = at + smaller_size(PART_BYTES, size - i)};
             writer.buffer = expected;
             put_head(&writer, loader->parts, loader->num_parts);
         }
@@ -493,7 +493,7 @@ static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *
     for (unsigned i = 0; i < loader->num_parts; i++) {
         const struct rho_snapshot_part *part = &loader->parts[i];
         const size_t from = first > loader->at ? first : loader->at;
-        const size_t end = least(first + part->size, loader->at + size);
+        const size_t end = smaller_size(first + part->size, loader->at + size);
         if (from < end) {
             memcpy((uint8_t *)part->object + (from - first), bytes + (from - loader->at),
                    end - from);
@@ -502,7 +502,7 @@ static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *
     }
 }
 
-/* The image has passed once. */
+/* Ends a pass over the image: the first checks, the second copies. */
 static enum rho_status end_pass(struct rho_snapshot_loader *loader)
 {
     int is_whole = loader->crc == CRC_OF_ALL;
@@ -542,9 +542,9 @@ enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loader, const uint
     }
     const size_t all = image_size(loader->parts, loader->num_parts);
     const size_t head = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
-    const size_t taken = least(size, all - loader->at);
+    const size_t taken = smaller_size(size, all - loader->at);
     if (loader->passes == 0 && loader->at < head) {
-        status = compare_head(loader, bytes, least(taken, head - loader->at));
+        status = compare_head(loader, bytes, smaller_size(taken, head - loader->at));
     }
     if (loader->passes == 1) {
         copy_piece(loader, bytes, taken);

@@ -59,7 +59,7 @@ static float log_density(const struct step *step, const struct rho_bearing_scan 
     return rho_log((unclaimed > 1.0f ? unclaimed : 1.0f) / view_rad);
 }
 
-/* The bearings of a sensor that was described are in its sector. */
+/* Whether a bearing is in its sensor's sector, where that was described. */
 static int is_covered(struct step *step, const struct look *look, uint32_t i)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
@@ -91,7 +91,7 @@ static struct look open_look(struct step *step, const struct rho_bearing_scan *s
     return look;
 }
 
-/* Frozen tracks stay as they are. */
+/* Whether a frame may update the track: frozen tracks stay as they are. */
 static int takes_part(const struct rho_track *track)
 {
     return track->status != RHO_TRACK_FREE && !rho_tracker_is_frozen(track);
@@ -107,8 +107,8 @@ static int64_t time_of(const struct look *look, uint32_t i)
 /*
  * ln of pd times the bearing's density as the track's over that of a false one. 0: not in the gate.
  */
-static int gain_of(const struct step *step, const struct look *look, const struct rho_track *track,
-                   uint32_t i, float *gain_nat)
+static int gain_of_bearing(const struct step *step, const struct look *look,
+                           const struct rho_track *track, uint32_t i, float *gain_nat)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
@@ -124,13 +124,13 @@ static int gain_of(const struct step *step, const struct look *look, const struc
     return 1;
 }
 
-static void gate_bearings(struct step *step, const struct look *look, unsigned row)
+static void offer_gated_bearings(struct step *step, const struct look *look, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
     float gain_nat;
     for (uint32_t i = 0; i < look->num; i++) {
         if (look->fates[i] == RHO_FATE_HELD &&
-            gain_of(step, look, &tracker->tracks[row], i, &gain_nat)) {
+            gain_of_bearing(step, look, &tracker->tracks[row], i, &gain_nat)) {
             rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
         }
     }
@@ -143,7 +143,7 @@ static void claim_look(struct step *step, const struct look *look)
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         if (takes_part(&tracker->tracks[row])) {
-            gate_bearings(step, look, row);
+            offer_gated_bearings(step, look, row);
         }
     }
     rho_tracker_assign(step);
@@ -163,7 +163,7 @@ static int update_track(struct step *step, const struct look *look, struct rho_t
         .sigma_rad = bearing->sigma_rad,
         .row = (int16_t)i,
     };
-    if (!gain_of(step, look, track, i, &gain_nat) ||
+    if (!gain_of_bearing(step, look, track, i, &gain_nat) ||
         rho_track_update_bearing(track, &seen, &step->model, rho_tracker_mnat(gain_nat)) !=
             RHO_OK) {
         step->tracker->counters.updates_refused =
@@ -176,7 +176,7 @@ static int update_track(struct step *step, const struct look *look, struct rho_t
 
 /* A sensor that looked where the track is and missed it is evidence against it, whatever other
  * sensors saw. */
-static void update_look(struct step *step, const struct look *look)
+static void update_by_look(struct step *step, const struct look *look)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
@@ -193,13 +193,13 @@ static void update_look(struct step *step, const struct look *look)
     }
 }
 
-static void learn_unclaimed(struct step *step, const struct look *look)
+static void learn_unclaimed_bearings(struct step *step, const struct look *look)
 {
     float unclaimed = 0.0f;
     for (uint32_t i = 0; i < look->num; i++) {
         unclaimed += look->fates[i] == RHO_FATE_HELD ? 1.0f : 0.0f;
     }
-    rho_tracker_smooth(&step->tracker->unclaimed_bearings, unclaimed);
+    rho_tracker_smooth_mean(&step->tracker->unclaimed_bearings, unclaimed);
 }
 
 /* ---- the phases ------------------------------------------------------------------------------ */
@@ -220,7 +220,7 @@ static void predict(struct step *step)
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         tracker->tracks[i].plot = -1;
         if (RHO_SECTORS) {
-            rho_tracker_note_ahead(&tracker->tracks[i]);
+            rho_tracker_note_time_ahead(&tracker->tracks[i]);
         }
         if (!rho_tracker_is_frozen(&tracker->tracks[i])) {
             rho_tracker_predict_track(step, &tracker->tracks[i]);
@@ -241,8 +241,8 @@ static void claim_and_update(struct step *step)
         step->sensor = &look.sensor;
         rho_tracker_set_pd(step);
         claim_look(step, &look);
-        update_look(step, &look);
-        learn_unclaimed(step, &look);
+        update_by_look(step, &look);
+        learn_unclaimed_bearings(step, &look);
         step->sensor = 0;
         first = rho_count(first, scan->num_bearings);
     }
@@ -262,7 +262,7 @@ static int is_looked_at(struct step *step, const struct rho_track *track)
 }
 
 /*
- * A frame without a bearing of a track is one miss, however many sensors looked; update_look has
+ * A frame without a bearing of a track is one miss, however many sensors looked; update_by_look has
  * taken the losses from the score.
  */
 static void age(struct step *step)
@@ -288,11 +288,11 @@ static void age(struct step *step)
 
 /* ---- the step -------------------------------------------------------------------------------- */
 
-static int is_look(const struct rho_frame *frame, const struct rho_bearing_scan *scan)
+static int is_usable_look(const struct rho_frame *frame, const struct rho_bearing_scan *scan)
 {
     return rho_is_coordinate(scan->x_m) && rho_is_coordinate(scan->y_m) &&
            rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) &&
-           rho_tracker_is_time(scan->time_us) &&
+           rho_tracker_is_usable_time(scan->time_us) &&
            scan->time_us - frame->time_us <= RHO_LIMIT_OFFSET_US &&
            scan->time_us - frame->time_us >= -RHO_LIMIT_OFFSET_US;
 }
@@ -302,14 +302,14 @@ static enum rho_status check_frame(const struct rho_frame *frame)
     if (frame->num_scans > 0 && !frame->scans) {
         return RHO_ERROR_NULL;
     }
-    if (!rho_tracker_is_time(frame->time_us)) {
+    if (!rho_tracker_is_usable_time(frame->time_us)) {
         return RHO_ERROR_VALUE;
     }
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         if (frame->scans[i].num_bearings > 0 && !frame->scans[i].bearings) {
             return RHO_ERROR_NULL;
         }
-        if (!is_look(frame, &frame->scans[i])) {
+        if (!is_usable_look(frame, &frame->scans[i])) {
             return RHO_ERROR_VALUE;
         }
     }
@@ -364,7 +364,7 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
         .time_us = frame->time_us,
         .num_inputs = count_bearings(frame),
     };
-    if (rho_tracker_begin(&step)) {
+    if (rho_tracker_begin_step(&step)) {
         open_frame(&step);
         predict(&step);
         claim_and_update(&step);

@@ -100,7 +100,7 @@ void rho_tracker_return_fates(const struct step *step, struct held_frame *held)
     move_fates(step, held, 1);
 }
 
-static void push(struct step *step)
+static void push_frame(struct step *step)
 {
     struct held_frame held;
     rho_tracker_hold_frame(step, &held);
@@ -123,7 +123,7 @@ static void fill_estimate(const struct rho_passive_track *found, struct rho_kalm
     }
 }
 
-/* One of the sensors that saw it last. */
+/* One of the sensors that saw the found track last. */
 static int32_t last_sensor(const struct rho_passive *passive, const struct rho_passive_track *found)
 {
     int32_t sensor_id = passive->batch.sensors[0].sensor_id;
@@ -146,7 +146,7 @@ static void start_track(struct step *step, const struct rho_passive_track *found
                                  last_sensor(step->passive, found),
                                  (uint16_t)rho_count_bits(found->scans), &step->model,
                                  found->score_mnat) == RHO_OK &&
-        rho_tracker_admit(step, &track, limits)) {
+        rho_tracker_admit_track(step, &track, limits)) {
         tracker->counters.plots_initiated =
             rho_count(tracker->counters.plots_initiated, rho_passive_consume(step->passive, found));
     }
@@ -169,7 +169,7 @@ void rho_tracker_initiate_passive(struct step *step)
         rho_tracker_refuse_unclaimed(step);
         return;
     }
-    push(step);
+    push_frame(step);
     mark_ghosts(step);
     step->tracker->counters.plots_clutter =
         rho_count(step->tracker->counters.plots_clutter, passive->batch.num_left);

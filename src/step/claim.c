@@ -22,7 +22,7 @@
 /* ---- the plots of the scan ------------------------------------------------------------------- */
 
 /* Bounds of noise and own time, for the boxes that gates search. */
-static void note_widest(struct step *step, const struct rho_plot *plot)
+static void note_widest_noise(struct step *step, const struct rho_plot *plot)
 {
     float offset_s = (float)plot->offset_us * 1e-6f;
     const float factor = rho_measurement_widest_factor(step->sensor);
@@ -47,7 +47,7 @@ static void validate_plots(struct step *step)
         step->report->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (valid) {
             rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
-            note_widest(step, plot);
+            note_widest_noise(step, plot);
         }
     }
 }
@@ -55,8 +55,8 @@ static void validate_plots(struct step *step)
 /* ---- tracks with a Kalman filter ------------------------------------------------------------- */
 
 /* Opens the Hough gate by the velocities of the track's last two estimates. */
-static int opens_hough(const struct step *step, const struct rho_track *track,
-                       struct rho_gate_hough *hough)
+static int open_hough_gate(const struct step *step, const struct rho_track *track,
+                           struct rho_gate_hough *hough)
 {
     const struct rho_tracker_config *config = &step->tracker->config;
     uint8_t planes = config->planes;
@@ -70,9 +70,9 @@ static int opens_hough(const struct step *step, const struct rho_track *track,
                                track->newest_mps) == RHO_OK;
 }
 
-/* Without a measured velocity: the one that brings the target from its last plot to this one. */
-static void velocity_of(const struct step *step, const struct rho_track *track,
-                        const struct rho_plot *plot, float velocity_mps[3])
+/* Of the plot; where none is measured, that which brings the target from its last plot here. */
+static void velocity_by_plot(const struct step *step, const struct rho_track *track,
+                             const struct rho_plot *plot, float velocity_mps[3])
 {
     const float measured_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
@@ -101,7 +101,7 @@ static float hough_gain(const struct step *step, const struct rho_track *track,
                         const struct rho_gate_hough *hough, const struct rho_plot *plot)
 {
     float velocity_mps[3];
-    velocity_of(step, track, plot, velocity_mps);
+    velocity_by_plot(step, track, plot, velocity_mps);
     return (track->status == RHO_TRACK_TENTATIVE ? HOUGH_TENTATIVE_NAT : HOUGH_CONFIRMED_NAT) *
            (HOUGH_GAIN_MAX -
             rho_log(HOUGH_RESIDUAL_MIN_MPS + rho_gate_hough_residual_mps(hough, velocity_mps)));
@@ -142,8 +142,8 @@ static void offer_gated_plots(struct step *step, unsigned row)
     struct rho_gate_result result;
     float half_m[2];
     const float log_miss = rho_tracker_detection(step, track).log_miss;
-    const float log_density = rho_tracker_log_density(step, track);
-    const int by_hough = opens_hough(step, track, &hough);
+    const float log_density = rho_tracker_log_clutter_density(step, track);
+    const int by_hough = open_hough_gate(step, track, &hough);
     const int has_window = by_hough && (step->scan->measures & RHO_MEASURES_VELOCITY);
     rho_tracker_open_gate(step, track, step->scan->measures, &gate);
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
@@ -155,14 +155,14 @@ static void offer_gated_plots(struct step *step, unsigned row)
         gate.predicted.state[1] - half_m[1], gate.predicted.state[1] + half_m[1]);
     struct plots_near counted = near;
     struct plot_choice choice = rho_tracker_choose_plots(step, track);
-    for (uint32_t i; choice.most < rho_tracker_most_near(step, &near) &&
-                     rho_tracker_next_plot(step, &counted, &i);) {
+    for (uint32_t i; choice.most < rho_tracker_max_plots_near(step, &near) &&
+                     rho_tracker_next_plot_near(step, &counted, &i);) {
         if (is_in_box(step, &gate, half_m, i)) {
             rho_tracker_note_choice(&choice, track, &step->scan->plots[i]);
         }
     }
     rho_tracker_end_choice(step, &choice);
-    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
+    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         if (is_in_box(step, &gate, half_m, i) &&
             rho_tracker_is_chosen(step, &choice, track, plot) &&
@@ -199,7 +199,7 @@ void rho_tracker_claim(struct step *step)
     validate_plots(step);
     rho_tracker_sort_plots(step);
     if (RHO_CLAIMS_BEYOND && step->first_row > 0) {
-        rho_tracker_measure_part(step);
+        rho_tracker_measure_part_density(step);
     } else if (RHO_MAX_ECHOES > 0) {
         rho_tracker_look_at_clutter(step);
     }

@@ -6,7 +6,8 @@
 
 /* A better candidate of this search has started with the newest plot. If there is another target,
  * the next scan will show it. */
-static int is_doubled(struct rho_initiator *initiator, const struct rho_candidate *candidate)
+static int is_newest_plot_used(struct rho_initiator *initiator,
+                               const struct rho_candidate *candidate)
 {
     const unsigned newest = initiator->window.num_scans - 1u;
     const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, newest);
@@ -26,12 +27,12 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
         return;
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_note_start(step, candidate, &track);
+        rho_tracker_note_start_echoes(step, candidate, &track);
     }
     if (RHO_SECTORS) {
         rho_tracker_note_sight(step, &track);
     }
-    if (rho_tracker_admit(step, &track, limits)) {
+    if (rho_tracker_admit_track(step, &track, limits)) {
         tracker->counters.plots_initiated = rho_count(
             tracker->counters.plots_initiated, rho_initiator_consume(step->initiator, candidate));
         if (RHO_MAX_ECHOES > 0) {
@@ -56,7 +57,7 @@ static void search_newest(struct step *step)
  * Pointers were checked before the step began. The plots with a place in the report are offered;
  * the search uses the pd that was learned.
  */
-static void push(struct step *step)
+static void push_scan(struct step *step)
 {
     struct rho_scan held = *step->scan;
     struct rho_sensor sensor;
@@ -73,7 +74,7 @@ static void start_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_initiator *initiator = step->initiator;
-    push(step);
+    push_scan(step);
     if (RHO_MAX_ECHOES > 0) {
         rho_tracker_keep_repeats(step);
     }
@@ -89,7 +90,7 @@ static void start_tracks(struct step *step)
     rho_tracker_begin_share(step, RHO_WORK_STARTS_SHARE);
     /* what a suspect sensor alone sees is no target */
     for (unsigned i = 0; i < initiator->num_candidates && !step->is_suspect; i++) {
-        if (!is_doubled(initiator, &initiator->candidates[i])) {
+        if (!is_newest_plot_used(initiator, &initiator->candidates[i])) {
             start_track(step, &initiator->candidates[i], &limits);
         }
     }

@@ -55,7 +55,7 @@ static int may_be_merged(const struct rho_track *track)
     return track->was_confirmed && track->hits >= HITS_MIN && track->plot < 0;
 }
 
-/* Along the line of sight, and across it. */
+/* Turns a distance in x and y into one along the line of sight and one across it. */
 static void along_and_across(const struct rho_measurement *seen, const float at_m[2],
                              float turned_m[2])
 {
@@ -63,7 +63,7 @@ static void along_and_across(const struct rho_measurement *seen, const float at_
     turned_m[1] = seen->cos_azimuth * at_m[1] - seen->sin_azimuth * at_m[0];
 }
 
-/* Of the place on the ground. */
+/* Variances of a track's place on the ground, along the line of sight and across it. */
 static void variances_along(const struct rho_measurement *seen, const struct rho_track *track,
                             float turned_m2[2])
 {
@@ -123,8 +123,8 @@ static float rates_apart_mps(const struct step *step, const struct pair *pair)
  * From where the track expects its target to the plot, along and across: at the plot's own time.
  * The way from one target to the other is taken to be the same then.
  */
-static void from_track(const struct step *step, const struct pair *pair,
-                       const struct rho_track *track, float from_m[2])
+static void offset_from_track(const struct step *step, const struct pair *pair,
+                              const struct rho_track *track, float from_m[2])
 {
     const struct rho_plot *plot = &step->scan->plots[pair->plot];
     const float after_s = (float)plot->offset_us * 1e-6f, *state = track->kalman.state;
@@ -134,7 +134,7 @@ static void from_track(const struct step *step, const struct pair *pair,
 }
 
 /* One axis of the probability that both are not resolved. */
-static float unresolved(float near2, float apart, float variance)
+static float unresolved_probability(float near2, float apart, float variance)
 {
     const float spread2 = near2 + variance;
     return rho_sqrt(near2 / spread2) * rho_exp(-0.5f * apart * apart / spread2);
@@ -145,13 +145,15 @@ static float unresolved_by_rate(const struct step *step, const struct pair *pair
     const float near_mps2 = rho_tracker_rate_cell_mps2(step->sensor);
     const float first_mps = rho_track_sigma_mps(pair->first),
                 second_mps = rho_track_sigma_mps(pair->second);
-    return near_mps2 > 0.0f ? unresolved(near_mps2, rates_apart_mps(step, pair),
-                                         first_mps * first_mps + second_mps * second_mps)
-                            : 1.0f;
+    return near_mps2 > 0.0f
+               ? unresolved_probability(near_mps2, rates_apart_mps(step, pair),
+                                        first_mps * first_mps + second_mps * second_mps)
+               : 1.0f;
 }
 
-/* What the pair says of the resolution cell, as likely as the plot is of both. */
-static void teach(struct step *step, const struct pair *pair, const float both_m2[2], float is_one)
+/* Teaches the resolution cell by the pair, with the probability that the plot is of both. */
+static void teach_resolution_cell(struct step *step, const struct pair *pair,
+                                  const float both_m2[2], float is_one)
 {
     struct apart apart = {.is_one = is_one};
     for (int axis = 0; axis < 2; axis++) {
@@ -173,13 +175,13 @@ static int is_merged(struct step *step, const struct pair *pair, float *gain_nat
 {
     float from_m[2], first_m2[2], second_m2[2], both_m2[2];
     float merged = unresolved_by_rate(step, pair), ratio_nat = 0.0f;
-    from_track(step, pair, pair->first, from_m);
+    offset_from_track(step, pair, pair->first, from_m);
     variances_along(&pair->seen, pair->first, first_m2);
     variances_along(&pair->seen, pair->second, second_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float half_m = pair->half_m[axis];
         both_m2[axis] = first_m2[axis] + second_m2[axis];
-        merged *= unresolved(pair->near_m2[axis], 2.0f * half_m, both_m2[axis]);
+        merged *= unresolved_probability(pair->near_m2[axis], 2.0f * half_m, both_m2[axis]);
         /* |z - first|^2 less |z - middle|^2 */
         ratio_nat += half_m * (from_m[axis] - 0.5f * half_m) /
                      (pair->seen.variance_m2[axis] + first_m2[axis]);
@@ -187,19 +189,19 @@ static int is_merged(struct step *step, const struct pair *pair, float *gain_nat
     const float log_miss = rho_tracker_detection(step, pair->second).log_miss;
     *gain_nat = rho_larger(log_miss, rho_smaller(ratio_nat, GAIN_MAX_NAT));
     const float one = merged * rho_exp(ratio_nat), two = (1.0f - merged) * rho_exp(log_miss);
-    teach(step, pair, both_m2, one / (one + two));
+    teach_resolution_cell(step, pair, both_m2, one / (one + two));
     return one > two;
 }
 
 /* The merged plot as one of this track, which is the other one's pair. */
-static struct rho_track_plot part_of(const struct step *step, const struct pair *pair,
-                                     const struct rho_track *other)
+static struct rho_track_plot part_of_plot(const struct step *step, const struct pair *pair,
+                                          const struct rho_track *other)
 {
     struct rho_track_plot part = rho_tracker_plot_of(step, pair->plot);
     const float c = pair->seen.cos_azimuth, s = pair->seen.sin_azimuth;
     const float half_mps = 0.5f * rates_apart_mps(step, pair);
     float from_m[2], other_m2[2], farther_m[2], wider[2];
-    from_track(step, pair, other, from_m);
+    offset_from_track(step, pair, other, from_m);
     variances_along(&pair->seen, other, other_m2);
     for (int axis = 0; axis < 2; axis++) {
         const float noise_m2 =
@@ -219,8 +221,8 @@ static struct rho_track_plot part_of(const struct step *step, const struct pair 
     return part;
 }
 
-static int take_part(struct step *step, struct rho_track *track, const struct rho_track_plot *part,
-                     float gain_nat)
+static int take_plot_part(struct step *step, struct rho_track *track,
+                          const struct rho_track_plot *part, float gain_nat)
 {
     if (rho_track_update(track, part, &step->model, rho_tracker_mnat(gain_nat)) != RHO_OK) {
         return 0;
@@ -230,16 +232,18 @@ static int take_part(struct step *step, struct rho_track *track, const struct rh
     return 1;
 }
 
-static void share(struct step *step, const struct pair *pair, float gain_nat)
+static void share_plot(struct step *step, const struct pair *pair, float gain_nat)
 {
     /* the older one gains as from a plot of its own */
     const int second_is_older = pair->second < pair->first;
-    const struct rho_track_plot of_first = part_of(step, pair, pair->second),
-                                of_second = part_of(step, pair, pair->first);
+    const struct rho_track_plot of_first = part_of_plot(step, pair, pair->second),
+                                of_second = part_of_plot(step, pair, pair->first);
     /* a track that refuses goes on as without a pair */
-    if (take_part(step, pair->second, &of_second, second_is_older ? pair->gain_nat : gain_nat)) {
+    if (take_plot_part(step, pair->second, &of_second,
+                       second_is_older ? pair->gain_nat : gain_nat)) {
         step->report->fates[pair->plot] = RHO_FATE_CLAIMED;
-        (void)!take_part(step, pair->first, &of_first, second_is_older ? gain_nat : pair->gain_nat);
+        (void)!take_plot_part(step, pair->first, &of_first,
+                              second_is_older ? gain_nat : pair->gain_nat);
     }
 }
 
@@ -262,7 +266,7 @@ static void note_resolved(struct step *step, unsigned row)
         rho_measurement_open(from, 0, step->sensor, &pair.seen);
         along_and_across(&pair.seen, half_m, pair.half_m);
         rho_tracker_cell_at(step, from, &pair.seen, pair.near_m2);
-        teach(step, &pair, none_m2, 0.0f);
+        teach_resolution_cell(step, &pair, none_m2, 0.0f);
     }
 }
 
@@ -284,7 +288,7 @@ void rho_tracker_share_merged_plots(struct step *step)
         if (has_own) {
             note_resolved(step, row);
         } else if (find_pair(step, row, &pair) && is_merged(step, &pair, &gain_nat)) {
-            share(step, &pair, gain_nat);
+            share_plot(step, &pair, gain_nat);
         }
     }
 }

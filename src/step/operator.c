@@ -7,7 +7,7 @@
 #include "phases.h"
 
 /* Row of a live track; num_tracks: there is none. */
-static unsigned row_of(const struct rho_tracker *tracker, uint32_t track_id)
+static unsigned row_of_track(const struct rho_tracker *tracker, uint32_t track_id)
 {
     unsigned row = 0;
     while (row < tracker->num_tracks && tracker->tracks[row].track_id != track_id) {
@@ -16,7 +16,7 @@ static unsigned row_of(const struct rho_tracker *tracker, uint32_t track_id)
     return row;
 }
 
-/* The same, and the track of that row. */
+/* Finds a live track, and resumes the newest step for it. */
 static enum rho_status find_track(struct rho_tracker *tracker, uint32_t track_id,
                                   struct rho_report *report, struct step *step,
                                   struct rho_track **track)
@@ -24,11 +24,11 @@ static enum rho_status find_track(struct rho_tracker *tracker, uint32_t track_id
     if (!tracker || !report) {
         return RHO_ERROR_NULL;
     }
-    const enum rho_status status = rho_tracker_resume(tracker, report, step);
+    const enum rho_status status = rho_tracker_resume_step(tracker, report, step);
     if (status != RHO_OK) {
         return status;
     }
-    const unsigned row = row_of(tracker, track_id);
+    const unsigned row = row_of_track(tracker, track_id);
     *track = &tracker->tracks[row < tracker->num_tracks ? row : 0];
     return row < tracker->num_tracks ? RHO_OK : RHO_ERROR_VALUE;
 }
@@ -112,7 +112,7 @@ static void swap_tracks(struct rho_tracker *tracker, unsigned row, unsigned othe
 }
 
 /* Tracks stay in the order of their identities; of those that move, no evidence is known. */
-static void move_track(struct rho_tracker *tracker, unsigned row)
+static void move_to_identity_order(struct rho_tracker *tracker, unsigned row)
 {
     const uint32_t track_id = tracker->tracks[row].track_id;
     unsigned to = row;
@@ -130,8 +130,8 @@ static void move_track(struct rho_tracker *tracker, unsigned row)
     }
 }
 
-/* An identity that the report says has ended goes on. */
-static void live_again(struct rho_report *report, uint32_t track_id)
+/* Takes an identity off the report's list of ended tracks: it goes on. */
+static void withdraw_end(struct rho_report *report, uint32_t track_id)
 {
     uint16_t kept = 0;
     for (unsigned i = 0; i < report->num_ended; i++) {
@@ -152,13 +152,13 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         return status;
     }
     if (new_id < 1 || new_id > RHO_LIMIT_TRACK_ID ||
-        row_of(tracker, new_id) < tracker->num_tracks) {
+        row_of_track(tracker, new_id) < tracker->num_tracks) {
         return RHO_ERROR_VALUE;
     }
     if (!has_room(report)) {
         return RHO_ERROR_CAPACITY;
     }
-    live_again(report, new_id);
+    withdraw_end(report, new_id);
     if (track->was_confirmed) {
         report->ended[report->num_ended++] = track_id;
     }
@@ -171,7 +171,7 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         struct rho_track *other = &tracker->tracks[i];
         other->older_id = other->older_id == track_id ? new_id : other->older_id;
     }
-    move_track(tracker, (unsigned)(track - tracker->tracks));
+    move_to_identity_order(tracker, (unsigned)(track - tracker->tracks));
     tracker->next_track_id = tracker->next_track_id > new_id ? tracker->next_track_id : new_id + 1u;
     rho_tracker_report_tracks(&step);
     return RHO_OK;

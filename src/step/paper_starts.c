@@ -81,7 +81,7 @@ static int has_stepped(const struct rho_tracker *tracker)
 }
 
 /* The step counted inputs that nobody held. They are held now. */
-static void count_held(const struct step *step, uint32_t held)
+static void recount_as_held(const struct step *step, uint32_t held)
 {
     uint32_t *fates = step->tracker->counters.fates;
     step->report->fates_total[RHO_FATE_NO_ROOM] -= held;
@@ -91,14 +91,14 @@ static void count_held(const struct step *step, uint32_t held)
 }
 
 /* Inputs that no track has claimed are offered to the window or the batch. */
-static void offer(uint8_t *fates, uint32_t num)
+static void offer_unclaimed(uint8_t *fates, uint32_t num)
 {
     for (uint32_t i = 0; i < num; i++) {
         fates[i] = fates[i] == RHO_FATE_NO_ROOM ? (uint8_t)RHO_FATE_HELD : fates[i];
     }
 }
 
-static uint32_t count_of(const uint8_t *fates, uint32_t num, enum rho_fate fate)
+static uint32_t count_fate(const uint8_t *fates, uint32_t num, enum rho_fate fate)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < num; i++) {
@@ -116,11 +116,11 @@ static enum rho_status keep_plots(struct rho_paper_starts *starts, const struct 
     struct rho_scan held = *scan;
     uint8_t *fates = step->report->fates;
     held.num_plots = held.num_plots < step->num_gated ? held.num_plots : step->num_gated;
-    const uint32_t before = count_of(fates, held.num_plots, RHO_FATE_NO_ROOM);
-    offer(fates, held.num_plots);
+    const uint32_t before = count_fate(fates, held.num_plots, RHO_FATE_NO_ROOM);
+    offer_unclaimed(fates, held.num_plots);
     enum rho_status status = rho_window_push(&starts->window, &held, sensor, fates,
                                              &step->tracker->counters.plots_clutter);
-    count_held(step, before - count_of(fates, held.num_plots, RHO_FATE_NO_ROOM));
+    recount_as_held(step, before - count_fate(fates, held.num_plots, RHO_FATE_NO_ROOM));
     return status;
 }
 
@@ -153,8 +153,9 @@ static struct rho_hough_points gather_points(struct rho_paper_starts *starts)
 }
 
 /* The plots of a line: of each scan the nearest to the motion that was fitted to its voters. */
-static unsigned find_plots(struct rho_paper_starts *starts, const struct rho_hough_track *line,
-                           struct rho_candidate *candidate)
+static unsigned find_plots_of_line(struct rho_paper_starts *starts,
+                                   const struct rho_hough_track *line,
+                                   struct rho_candidate *candidate)
 {
     struct rho_window *window = &starts->window;
     const struct rho_window_scan *newest = rho_window_scan_at(window, window->num_scans - 1u);
@@ -192,8 +193,8 @@ static int is_fresh(unsigned mask, unsigned num_scans)
 }
 
 /* The plots will start no other track. */
-static void use_plots(struct rho_paper_starts *starts, const struct rho_candidate *candidate,
-                      struct rho_tracker_counters *counters)
+static void mark_plots_used(struct rho_paper_starts *starts, const struct rho_candidate *candidate,
+                            struct rho_tracker_counters *counters)
 {
     for (unsigned m = 0; m < starts->window.num_scans; m++) {
         if ((unsigned)candidate->mask >> m & 1u) {
@@ -211,14 +212,15 @@ static uint32_t newest_track_id(const struct rho_tracker *tracker)
     return tracker->tracks[tracker->num_tracks - 1u].track_id;
 }
 
-static void start_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
-                       struct rho_paper_line *peak, unsigned scans_min, struct rho_report *report)
+static void start_track_of_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
+                                struct rho_paper_line *peak, unsigned scans_min,
+                                struct rho_report *report)
 {
     const struct rho_hough_track *line = &peak->line;
     struct rho_candidate candidate;
     struct rho_track_plot plots[RHO_MAX_SCANS];
     peak->track_id = 0;
-    if (!line->has_velocity || find_plots(starts, line, &candidate) < scans_min ||
+    if (!line->has_velocity || find_plots_of_line(starts, line, &candidate) < scans_min ||
         !is_fresh(candidate.mask, starts->window.num_scans)) {
         starts->work.short_lines = rho_count(starts->work.short_lines, 1);
         return;
@@ -226,7 +228,7 @@ static void start_line(struct rho_paper_starts *starts, struct rho_tracker *trac
     const unsigned num = rho_tracker_gather_plots(&starts->window, &candidate, plots);
     if (rho_tracker_start_track(tracker, plots, num, 0, report) == RHO_OK) {
         peak->track_id = newest_track_id(tracker);
-        use_plots(starts, &candidate, &tracker->counters);
+        mark_plots_used(starts, &candidate, &tracker->counters);
         starts->work.started = rho_count(starts->work.started, 1);
     } else {
         starts->work.refused = rho_count(starts->work.refused, 1);
@@ -267,7 +269,7 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
         status = rho_hough_track(&starts->hough, &points, starts->peaks[i].theta_cell,
                                  starts->peaks[i].rho_cell, 0.0f, &starts->lines[i].line);
         if (status == RHO_OK) {
-            start_line(starts, tracker, &starts->lines[i], scans_min, report);
+            start_track_of_line(starts, tracker, &starts->lines[i], scans_min, report);
         }
     }
     starts->has_searched = status == RHO_OK;
@@ -292,8 +294,8 @@ static struct rho_kalman estimate_of(const struct rho_passive_paper_line *line)
     return estimate;
 }
 
-static void start_lines(struct rho_passive_paper *paper, struct rho_tracker *tracker,
-                        struct rho_report *report)
+static void start_tracks_of_lines(struct rho_passive_paper *paper, struct rho_tracker *tracker,
+                                  struct rho_report *report)
 {
     for (unsigned i = 0; i < paper->num_lines; i++) {
         struct rho_passive_paper_line *line = &paper->lines[i];
@@ -309,7 +311,7 @@ static void start_lines(struct rho_passive_paper *paper, struct rho_tracker *tra
     }
 }
 
-static uint32_t num_in(const struct held_frame *held)
+static uint32_t num_bearings_in(const struct held_frame *held)
 {
     uint32_t num = 0;
     for (uint32_t i = 0; i < held->frame.num_scans; i++) {
@@ -334,19 +336,19 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
         return RHO_OK;
     }
     rho_tracker_hold_frame(&step, &held);
-    const uint32_t num = num_in(&held);
-    const uint32_t before = count_of(held.fates, num, RHO_FATE_NO_ROOM);
-    offer(held.fates, num);
+    const uint32_t num = num_bearings_in(&held);
+    const uint32_t before = count_fate(held.fates, num, RHO_FATE_NO_ROOM);
+    offer_unclaimed(held.fates, num);
     enum rho_status status = rho_passive_paper_push(paper, &held.frame, held.fates);
     if (status != RHO_OK) {
         return status;
     }
     rho_tracker_return_fates(&step, &held);
-    count_held(&step, before - count_of(held.fates, num, RHO_FATE_NO_ROOM));
+    recount_as_held(&step, before - count_fate(held.fates, num, RHO_FATE_NO_ROOM));
     if (paper->batch.num_scans == paper->batch.scans_max) {
         status = rho_passive_paper_search(paper);
         if (status == RHO_OK) {
-            start_lines(paper, tracker, report);
+            start_tracks_of_lines(paper, tracker, report);
         }
     }
     return status;

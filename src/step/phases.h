@@ -13,12 +13,12 @@
  * step_begin.c: the report begins; 0 where the inputs are too late for the tracker and have their
  * fates. rho_tracker_report ends the step in either case.
  */
-int rho_tracker_begin(struct step *step);
+int rho_tracker_begin_step(struct step *step);
 /* Sets how targets may move, and the filter of new tracks. */
 void rho_tracker_set_model(struct step *step);
 /* Uses the pd of step->sensor. */
 void rho_tracker_set_pd(struct step *step);
-int rho_tracker_is_time(int64_t time_us);
+int rho_tracker_is_usable_time(int64_t time_us);
 int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
 
 /* predict.c: the tracks that the scan can see; one track */
@@ -58,14 +58,14 @@ void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan);
  * track_starts.c: a started track of any initiator joins the others where there is room; else it
  * ends, and 0. rho_tracker_start_track does the same between two steps.
  */
-int rho_tracker_admit(struct step *step, struct rho_track *track,
-                      const struct rho_track_limits *limits);
+int rho_tracker_admit_track(struct step *step, struct rho_track *track,
+                            const struct rho_track_limits *limits);
 /*
  * What is done between two steps goes on from the newest one, whose report it still is; STATE where
  * there is none.
  */
-enum rho_status rho_tracker_resume(struct rho_tracker *tracker, struct rho_report *report,
-                                   struct step *step);
+enum rho_status rho_tracker_resume_step(struct rho_tracker *tracker, struct rho_report *report,
+                                        struct step *step);
 /* The candidate's plots in the order of their scans; returns how many. */
 unsigned rho_tracker_gather_plots(struct rho_window *window, const struct rho_candidate *candidate,
                                   struct rho_track_plot *plots);

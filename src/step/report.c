@@ -31,8 +31,8 @@ static void move_estimate(struct rho_track *at, float dt_s, float noise_density)
 }
 
 /* The track at the step's time: itself, or a copy moved there in *at. */
-static const struct rho_track *at_step(const struct step *step, const struct rho_track *track,
-                                       struct rho_track *at)
+static const struct rho_track *
+track_at_step_time(const struct step *step, const struct rho_track *track, struct rho_track *at)
 {
     if (track->time_us == step->time_us) {
         return track;
@@ -53,7 +53,7 @@ static void report_track(const struct step *step, const struct rho_track *track,
 {
     int64_t age_us = step->time_us - track->updated_us;
     struct rho_track moved;
-    const struct rho_track *at = at_step(step, track, &moved);
+    const struct rho_track *at = track_at_step_time(step, track, &moved);
     *out = (struct rho_track_report){
         .track_id = track->track_id,
         .status = (enum rho_track_status)track->status,

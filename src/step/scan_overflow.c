@@ -11,7 +11,7 @@
 
 #include "phases.h"
 
-/* Rows that a track can tell. */
+/* Largest row that a track's int16_t holds. */
 #define ROWS_MAX ((uint32_t)INT16_MAX)
 
 static void open_part(struct step *step, struct rho_scan *part, const struct rho_scan *whole,

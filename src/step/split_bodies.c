@@ -61,9 +61,10 @@ static int find_sides(const struct step *step, const struct rho_scan *scan, unsi
     return sides[0].plots > 0 && sides[1].plots > 0;
 }
 
-/* The track as if it had been that side's from the start. */
-static enum rho_status start_side(const struct step *step, const struct rho_track *track,
-                                  uint32_t track_id, const struct side *side, struct rho_track *out)
+/* Starts a track with that side's plots and the old track's velocity. */
+static enum rho_status start_track_of_side(const struct step *step, const struct rho_track *track,
+                                           uint32_t track_id, const struct side *side,
+                                           struct rho_track *out)
 {
     const float mean_m2 = rho_tracker_body_prior_m2(step->tracker) / (float)side->plots;
     struct rho_kalman there = track->kalman;
@@ -85,13 +86,13 @@ static void start_body(const struct step *step, unsigned row)
 }
 
 /* 0: there is no room for another track. */
-static int split(struct step *step, unsigned row, const struct side sides[2])
+static int split_track(struct step *step, unsigned row, const struct side sides[2])
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
     struct rho_track stays, leaves;
     if (tracker->num_tracks == RHO_MAX_TRACKS ||
-        start_side(step, track, track->track_id, &sides[0], &stays) != RHO_OK) {
+        start_track_of_side(step, track, track->track_id, &sides[0], &stays) != RHO_OK) {
         return 0;
     }
     const struct rho_track was = *track;
@@ -100,7 +101,7 @@ static int split(struct step *step, unsigned row, const struct side sides[2])
     track->slot = stays.slot;
     track->kalman = stays.kalman;
     track->input = stays.input;
-    if (start_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
+    if (start_track_of_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
         const struct rho_track_limits limits = rho_tracker_limits(step);
         /* its own hits are not known: it may still be an image in a wall (reflectors.h) */
         if (leaves.hits >= RHO_ESTABLISHED_HITS) {
@@ -108,7 +109,7 @@ static int split(struct step *step, unsigned row, const struct side sides[2])
         }
         leaves.status = was.status;
         leaves.was_confirmed = was.was_confirmed;
-        (void)!rho_tracker_admit(step, &leaves, &limits);
+        (void)!rho_tracker_admit_track(step, &leaves, &limits);
     }
     return 1;
 }
@@ -120,7 +121,7 @@ void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan)
         const unsigned num_tracks = tracker->num_tracks;
         struct side sides[2] = {{0}, {0}};
         if (tracker->tracks[row].plot >= 0 && is_too_wide(step, row) &&
-            find_sides(step, scan, row, sides) && split(step, row, sides)) {
+            find_sides(step, scan, row, sides) && split_track(step, row, sides)) {
             start_body(step, row);
             if (tracker->num_tracks > num_tracks) {
                 rho_tracker_align_bodies(step);

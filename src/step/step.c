@@ -21,7 +21,7 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
         return RHO_ERROR_CONFIG;
     }
     if (!rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) ||
-        !rho_tracker_is_time(scan->time_us)) {
+        !rho_tracker_is_usable_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }
     /* an out-of-sequence scan is not pushed, but the density is asked for */
@@ -79,7 +79,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
                         .report = report,
                         .time_us = scan->time_us,
                         .num_inputs = scan->num_plots};
-    if (rho_tracker_begin(&step)) {
+    if (rho_tracker_begin_step(&step)) {
         open_scan(&step);
         rho_tracker_predict(&step);
         if (rho_notch_has(step.sensor)) {
@@ -87,7 +87,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         }
         struct rho_scan grouped;
         if (rho_tracker_has_bodies(tracker)) {
-            rho_tracker_group(&step, &grouped);
+            rho_tracker_group_plots(&step, &grouped);
         }
         if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
             rho_tracker_claim_parts(&step); /* claims and updates, part by part */
@@ -109,20 +109,20 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         if (starts_tracks(&step)) {
             rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {
-            rho_tracker_refuse_stale(&step);
+            rho_tracker_refuse_stale_plots(&step);
         }
         if (has_images && !step.is_late) {
             rho_tracker_end_images(&step);
         }
         if (RHO_SECTORS && step.is_late) {
-            rho_tracker_end_late(&step);
+            rho_tracker_end_late_scan(&step);
         } else {
             rho_tracker_merge_estimates(&step);
         }
         if (rho_tracker_has_bodies(tracker)) {
             rho_tracker_update_bodies(&step, scan);
             rho_tracker_split_bodies(&step, scan);
-            rho_tracker_ungroup(&step, scan);
+            rho_tracker_ungroup_plots(&step, scan);
         }
         rho_tracker_end_work(&step);
     }

@@ -16,7 +16,7 @@ int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us)
     return tracker->has_time && time_us < tracker->time_us;
 }
 
-int rho_tracker_is_time(int64_t time_us)
+int rho_tracker_is_usable_time(int64_t time_us)
 {
     return time_us <= RHO_LIMIT_TIME_US && time_us >= -RHO_LIMIT_TIME_US;
 }
@@ -51,7 +51,7 @@ static void refuse_late(struct step *step)
     step->tracker->counters.scans_late = rho_count(step->tracker->counters.scans_late, 1);
 }
 
-int rho_tracker_begin(struct step *step)
+int rho_tracker_begin_step(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_report *report = step->report;
@@ -61,13 +61,13 @@ int rho_tracker_begin(struct step *step)
     report->num_plots = step->num_inputs;
     rho_tracker_set_model(step);
     step->is_late = rho_tracker_is_late(tracker, step->time_us);
-    if (step->is_late && !(RHO_SECTORS && rho_tracker_takes_late(step))) {
+    if (step->is_late && !(RHO_SECTORS && rho_tracker_takes_late_scan(step))) {
         refuse_late(step);
         return 0;
     }
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);
     if (RHO_SECTORS && step->is_late) {
-        rho_tracker_count_late(step);
+        rho_tracker_count_late_scan(step);
         return 1;
     }
     rho_tracker_reset_manoeuvre_interval(tracker, step->time_us);

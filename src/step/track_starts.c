@@ -9,8 +9,8 @@
 #include "rhotrack/detail/measurement.h"
 
 /* The row of a held plot in its scan; -1: it came with an earlier sector. */
-static int16_t row_of(const struct rho_window *window, const struct rho_window_scan *scan,
-                      unsigned m, unsigned plot)
+static int16_t row_of_plot(const struct rho_window *window, const struct rho_window_scan *scan,
+                           unsigned m, unsigned plot)
 {
     if (RHO_SECTORS && m + 1u == window->num_scans &&
         rho_tracker_is_of_earlier_sector(window, scan, plot)) {
@@ -33,7 +33,7 @@ unsigned rho_tracker_gather_plots(struct rho_window *window, const struct rho_ca
                 .sensor_id = scan->sensor.sensor_id,
                 .sensor = &scan->sensor,
                 .plot = plot,
-                .row = row_of(window, scan, m, candidate->plot[m]),
+                .row = row_of_plot(window, scan, m, candidate->plot[m]),
             };
         }
     }
@@ -71,13 +71,13 @@ static int make_room(struct step *step, int32_t score_mnat)
     memmove(&tracker->tracks[lowest], &tracker->tracks[lowest + 1],
             (tracker->num_tracks - lowest) * sizeof tracker->tracks[0]);
     if (RHO_KEEPS_OFFERS) {
-        rho_tracker_close_row(tracker, lowest);
+        rho_tracker_remove_offer_row(tracker, lowest);
     }
     return 1;
 }
 
-int rho_tracker_admit(struct step *step, struct rho_track *track,
-                      const struct rho_track_limits *limits)
+int rho_tracker_admit_track(struct step *step, struct rho_track *track,
+                            const struct rho_track_limits *limits)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!make_room(step, track->score_mnat)) {
@@ -85,10 +85,10 @@ int rho_tracker_admit(struct step *step, struct rho_track *track,
         return 0;
     }
     if (RHO_MAX_ECHOES > 0) {
-        rho_tracker_note_place(track);
+        rho_tracker_note_start_place(track);
     }
     if (RHO_SECTORS) {
-        rho_tracker_note_ahead(track);
+        rho_tracker_note_time_ahead(track);
     }
     track->seen_us = step->time_us;
     rho_tracker_apply_thresholds(step, track, limits);
@@ -99,8 +99,8 @@ int rho_tracker_admit(struct step *step, struct rho_track *track,
 }
 
 /* Each is valid, and has a time that a plot of the last step or of one before can have. */
-static int are_usable(const struct rho_tracker *tracker, const struct rho_report *report,
-                      const struct rho_track_plot *plots, unsigned num_plots)
+static int are_usable_plots(const struct rho_tracker *tracker, const struct rho_report *report,
+                            const struct rho_track_plot *plots, unsigned num_plots)
 {
     for (unsigned i = 0; i < num_plots; i++) {
         if (!rho_is_stored_time(plots[i].time_us) ||
@@ -114,8 +114,8 @@ static int are_usable(const struct rho_tracker *tracker, const struct rho_report
     return 1;
 }
 
-enum rho_status rho_tracker_resume(struct rho_tracker *tracker, struct rho_report *report,
-                                   struct step *step)
+enum rho_status rho_tracker_resume_step(struct rho_tracker *tracker, struct rho_report *report,
+                                        struct step *step)
 {
     if (!rho_tracker_is_ready(tracker) || !tracker->has_time ||
         report->time_us != tracker->time_us) {
@@ -126,11 +126,11 @@ enum rho_status rho_tracker_resume(struct rho_tracker *tracker, struct rho_repor
     return RHO_OK;
 }
 
-/* The same, for a start with this score. */
-static enum rho_status resume(struct rho_tracker *tracker, struct rho_report *report,
-                              int32_t score_mnat, struct step *step)
+/* Resumes the newest step for a start with this score. */
+static enum rho_status resume_for_start(struct rho_tracker *tracker, struct rho_report *report,
+                                        int32_t score_mnat, struct step *step)
 {
-    const enum rho_status status = rho_tracker_resume(tracker, report, step);
+    const enum rho_status status = rho_tracker_resume_step(tracker, report, step);
     if (status != RHO_OK) {
         return status;
     }
@@ -149,7 +149,7 @@ static enum rho_status admit_between_steps(struct step *step, struct rho_track *
     if (!has_room) {
         rho_track_end(track, &step->model);
     }
-    if (!has_room || !rho_tracker_admit(step, track, &limits)) {
+    if (!has_room || !rho_tracker_admit_track(step, track, &limits)) {
         return RHO_ERROR_CAPACITY;
     }
     rho_tracker_merge_estimates(step);
@@ -166,11 +166,11 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
     if (!tracker || !plots || !report) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = resume(tracker, report, score_mnat, &step);
+    enum rho_status status = resume_for_start(tracker, report, score_mnat, &step);
     if (status != RHO_OK) {
         return status;
     }
-    if (num_plots < 1 || !are_usable(tracker, report, plots, num_plots)) {
+    if (num_plots < 1 || !are_usable_plots(tracker, report, plots, num_plots)) {
         return RHO_ERROR_VALUE;
     }
     const struct rho_scan scan = {.time_us = tracker->time_us,
@@ -199,7 +199,7 @@ enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
     if (!tracker || !estimate || !report) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = resume(tracker, report, score_mnat, &step);
+    enum rho_status status = resume_for_start(tracker, report, score_mnat, &step);
     if (status == RHO_OK) {
         status = rho_track_start_estimate(&track, tracker->next_track_id, estimate, step.time_us,
                                           sensor_id, hits, &step.model, score_mnat);

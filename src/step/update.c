@@ -8,7 +8,7 @@
 /* ---- tracks with a Kalman filter ------------------------------------------------------------- */
 
 /* 0 where the plot is not in the gate that the update meets. */
-static int32_t gain_of(const struct step *step, const struct rho_track *track, uint32_t plot)
+static int32_t gain_of_plot(const struct step *step, const struct rho_track *track, uint32_t plot)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
@@ -16,14 +16,14 @@ static int32_t gain_of(const struct step *step, const struct rho_track *track, u
     if (!rho_gate_test(&gate, &step->scan->plots[plot], &result)) {
         return 0;
     }
-    return rho_tracker_mnat(
-        rho_tracker_score_plot(step, track, &result, rho_tracker_log_density(step, track), plot));
+    return rho_tracker_mnat(rho_tracker_score_plot(
+        step, track, &result, rho_tracker_log_clutter_density(step, track), plot));
 }
 
 static void take_plot(struct step *step, struct rho_track *track, int plot)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
-    const int32_t gain = gain_of(step, track, (uint32_t)plot);
+    const int32_t gain = gain_of_plot(step, track, (uint32_t)plot);
     const struct rho_track_plot seen = rho_tracker_plot_of(step, plot);
     if (rho_track_update(track, &seen, &step->model, gain) == RHO_OK) {
         step->report->fates[plot] = RHO_FATE_CLAIMED;
@@ -38,7 +38,7 @@ static void take_plot(struct step *step, struct rho_track *track, int plot)
  * Each hypothesis lists its best plots only. Where other tracks were assigned some of them, plots
  * that are not on the list may be better than what is left, even the track's assigned one.
  */
-static int lacks_plots(const struct step *step, unsigned row)
+static int has_lost_listed_plots(const struct step *step, unsigned row)
 {
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
     const int16_t *claims = step->tracker->assignment.column_row;
@@ -92,7 +92,7 @@ static void take_scored_plots(struct step *step, unsigned row)
     if (!(log_miss < 0.0f) && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
         return;
     }
-    if (lacks_plots(step, row)) {
+    if (has_lost_listed_plots(step, row)) {
         score_free_plots(step, row);
     } else {
         rho_tracker_release_share(step);
@@ -118,7 +118,7 @@ void rho_tracker_update(struct step *step)
     if (RHO_SECTORS) {
         rho_tracker_update_sensor_health(step);
     }
-    rho_tracker_learn(step);
+    rho_tracker_learn_sensor(step);
     rho_tracker_begin_work(step);
     if (RHO_SHARES_PLOTS) {
         rho_tracker_share_merged_plots(step);

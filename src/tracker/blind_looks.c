@@ -28,7 +28,7 @@
 /* A target that stands has rather gone after so long. */
 #define BLIND_MAX_S 300.0f
 
-static float share_of(const struct step *step, const struct rho_track *track)
+static float blind_share_of(const struct step *step, const struct rho_track *track)
 {
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
     float sum = 0.0f, shares = 0.0f;
@@ -49,7 +49,7 @@ static uint8_t blind_percent_of(const struct step *step, const struct rho_track 
         rho_tracker_clutter_in_gate(step, track) > BLIND_CLUTTER_MAX) {
         return 0;
     }
-    const float percent = 100.0f * share_of(step, track);
+    const float percent = 100.0f * blind_share_of(step, track);
     return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
 }
 
@@ -75,7 +75,7 @@ void rho_tracker_forget_blind(struct step *step)
     }
 }
 
-static int stands(const struct step *step, const struct rho_track *track)
+static int seems_to_stand(const struct step *step, const struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float most_mps = RHO_NOTCH_STAND_WIDTHS * step->sensor->notch_mps;
@@ -90,7 +90,7 @@ struct detection rho_tracker_detection_beside_notch(const struct step *step,
     const float blind = 0.01f * (float)track->blind_percent;
     const float seen = rho_exp(rho_tracker_usual_detection(step, track).log_pd) * (1.0f - blind);
     return (struct detection){rho_log(seen + NOTCH_PD * blind),
-                              stands(step, track) ? STAND_MISS_NAT : rho_log(1.0f - seen)};
+                              seems_to_stand(step, track) ? STAND_MISS_NAT : rho_log(1.0f - seen)};
 }
 
 void rho_tracker_note_blind_look(const struct step *step, struct rho_track *track)

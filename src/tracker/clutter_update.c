@@ -126,8 +126,9 @@ static float rate_ratio(const struct step *step, const struct rho_echo *echo,
     return share * ratios.exact + (1.0f - share) * ratios.other;
 }
 
-/* An echo takes a plot: how likely its rate is just the echo's speed. */
-static void learn_rate(struct step *step, const struct rho_echo *echo, const struct rho_plot *plot)
+/* An echo takes a plot: learns how often its range rate is just the echo's speed. */
+static void learn_range_rate(struct step *step, const struct rho_echo *echo,
+                             const struct rho_plot *plot)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
@@ -145,9 +146,9 @@ static void learn_rate(struct step *step, const struct rho_echo *echo, const str
     map->exact_plots += exact / (exact + (1.0f - share) * ratios.other);
 }
 
-/* Density of the echo's next plot at this one, if it comes back; 0 beyond its gate. */
-static float density_at(const struct step *step, const struct rho_echo *echo,
-                        const struct echo_view *view, const struct rho_plot *plot)
+/* Density at a plot of the echo's next plot, if it comes back; 0 beyond its gate. */
+static float echo_density_at(const struct step *step, const struct rho_echo *echo,
+                             const struct echo_view *view, const struct rho_plot *plot)
 {
     const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
     const float along_m = dx_m * view->along_x + dy_m * view->along_y;
@@ -176,7 +177,7 @@ static void add_echo_density(struct step *step, unsigned place)
     const uint32_t units =
         ECHO_UNITS + (step->scan->measures & RHO_MEASURES_RANGE_RATE ? RATE_UNITS : 0u);
     uint32_t passed = 0;
-    for (uint32_t i; rho_tracker_next_plot(step, &near, &i); passed++) {
+    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i); passed++) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - echo->x_m, dy_m = plot->y_m - echo->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
@@ -189,7 +190,7 @@ static void add_echo_density(struct step *step, unsigned place)
                 rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen);
         }
         rho_tracker_spend(step, units);
-        const float density = probability * density_at(step, echo, &view, plot);
+        const float density = probability * echo_density_at(step, echo, &view, plot);
         if (!(density > 0.0f)) {
             continue;
         }
@@ -203,7 +204,7 @@ static void add_echo_density(struct step *step, unsigned place)
 }
 
 /* 1 where the scan may see the echo. Its scratch of the scan is cleared. */
-static int is_in_scan(const struct step *step, struct rho_echo *echo)
+static int is_echo_in_scan(const struct step *step, struct rho_echo *echo)
 {
     const struct rho_scan *scan = step->scan;
     echo->was_looked_at = 0;
@@ -244,7 +245,7 @@ static void add_echo_densities(struct step *step, float range_max_m)
     unsigned place = map->first_echo, left_out = 0;
     rho_tracker_begin_share(step, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
-        if (!is_in_scan(step, &map->echoes[place])) {
+        if (!is_echo_in_scan(step, &map->echoes[place])) {
             continue;
         }
         if (rho_tracker_is_spent(step)) {
@@ -274,7 +275,7 @@ static struct direction direction_of(const struct step *step, uint32_t row)
     return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
 }
 
-/* An eighth of the range. */
+/* In which eighth of the sensor's range a plot is. */
 static unsigned range_part(float range_m, float range_max_m)
 {
     const float eighth = STROBE_RANGES * range_m / range_max_m;
@@ -444,8 +445,8 @@ void rho_tracker_keep_repeats(struct step *step)
 
 /* ---- plots of targets ------------------------------------------------------------------------ */
 
-void rho_tracker_note_start(struct step *step, const struct rho_candidate *candidate,
-                            struct rho_track *track)
+void rho_tracker_note_start_echoes(struct step *step, const struct rho_candidate *candidate,
+                                   struct rho_track *track)
 {
     struct rho_window *window = &step->initiator->window;
     unsigned hits = 0;
@@ -462,7 +463,7 @@ void rho_tracker_note_start(struct step *step, const struct rho_candidate *candi
     }
 }
 
-void rho_tracker_note_place(struct rho_track *track)
+void rho_tracker_note_start_place(struct rho_track *track)
 {
     track->start_m[0] = track->kalman.state[0];
     track->start_m[1] = track->kalman.state[1];
@@ -509,13 +510,13 @@ static void take_back_returns(struct step *step, struct rho_track *track)
 
 /* ---- learn ----------------------------------------------------------------------------------- */
 
-static int is_of_target(const uint32_t *targets, uint32_t row)
+static int is_plot_of_target(const uint32_t *targets, uint32_t row)
 {
     return (targets[row / 32] >> row % 32 & 1u) != 0;
 }
 
-/* Counts what the echo will count for the track's plot. */
-static void note_return(const struct rho_clutter_map *map, struct rho_track *track)
+/* Notes in the track the return that the echo counts for its plot. */
+static void note_echo_return(const struct rho_clutter_map *map, struct rho_track *track)
 {
     if (map->best_per_m2[track->plot] > 0.0f) {
         const struct rho_echo *echo = &map->echoes[map->best_echo[track->plot]];
@@ -526,7 +527,7 @@ static void note_return(const struct rho_clutter_map *map, struct rho_track *tra
 }
 
 /* Rows of the plots that targets have. */
-static void find_targets(struct step *step, uint32_t *targets, float share)
+static void find_target_plots(struct step *step, uint32_t *targets, float share)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -541,7 +542,7 @@ static void find_targets(struct step *step, uint32_t *targets, float share)
             take_back_returns(step, track);
             targets[track->plot / 32] |= 1u << track->plot % 32;
         } else {
-            note_return(&tracker->clutter_map, track);
+            note_echo_return(&tracker->clutter_map, track);
         }
     }
 }
@@ -557,7 +558,7 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
     for (unsigned place = 0; place < RHO_ECHO_PLACES; place++) {
         struct rho_echo *echo = &map->echoes[place];
         const int is_seen = echo->hits > 0 && echo->was_looked_at && echo->plot >= 0;
-        const int by_target = is_seen && is_of_target(targets, (uint32_t)echo->plot);
+        const int by_target = is_seen && is_plot_of_target(targets, (uint32_t)echo->plot);
         if (echo->hits > 0 && echo->was_looked_at && !echo->is_target) {
             rho_clutter_map_count_look(map, echo);
             if (is_seen && !by_target) {
@@ -566,7 +567,7 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
         }
         if (is_seen && echo->weight > WEIGHT_MIN && !(by_target && !(v_min2 > 0.0f))) {
             if (!by_target && !echo->is_target) {
-                learn_rate(step, echo, &step->scan->plots[echo->plot]);
+                learn_range_rate(step, echo, &step->scan->plots[echo->plot]);
             }
             rho_clutter_map_update_echo(echo, step->sensor, &step->scan->plots[echo->plot]);
             echo->is_target |= (uint8_t)by_target;
@@ -584,8 +585,8 @@ static int becomes_echo(const struct step *step, const uint32_t *targets, const 
                         uint32_t row)
 {
     const int may_stand = !(step->tracker->clutter_map.v_min_mps > 0.0f);
-    return step->report->fates[row] != RHO_FATE_INVALID && !is_of_target(taken, row) &&
-           !(may_stand && is_of_target(targets, row));
+    return step->report->fates[row] != RHO_FATE_INVALID && !is_plot_of_target(taken, row) &&
+           !(may_stand && is_plot_of_target(targets, row));
 }
 
 static void add_echoes(struct step *step, const uint32_t *targets, const uint32_t *taken)
@@ -612,7 +613,7 @@ static void add_echoes(struct step *step, const uint32_t *targets, const uint32_
         const struct rho_plot *plot = &step->scan->plots[i];
         struct rho_echo *echo = &map->echoes[place];
         rho_clutter_map_start_echo(map, echo, step->scan->sensor_id, step->time_us, plot);
-        echo->is_target = (uint8_t)is_of_target(targets, i);
+        echo->is_target = (uint8_t)is_plot_of_target(targets, i);
         echo->region = rho_clutter_map_region(step->sensor, range_max_m, plot->x_m, plot->y_m);
     }
 }
@@ -626,8 +627,8 @@ static float share_of_turn(const struct step *step)
         const float silent_s = rho_seconds_between(tracker->paces[i].time_us, step->time_us);
         sensors += silent_s < SILENT_S ? 1.0f : 0.0f;
     }
-    return 1.0f /
-           ((RHO_SECTORS ? rho_tracker_turns(step) : 1.0f) * (sensors > 1.0f ? sensors : 1.0f));
+    return 1.0f / ((RHO_SECTORS ? rho_tracker_scans_a_turn(step) : 1.0f) *
+                   (sensors > 1.0f ? sensors : 1.0f));
 }
 
 void rho_tracker_learn_clutter(struct step *step)
@@ -637,7 +638,7 @@ void rho_tracker_learn_clutter(struct step *step)
         return;
     }
     const float share = share_of_turn(step);
-    find_targets(step, targets, share);
+    find_target_plots(step, targets, share);
     update_echoes(step, targets, taken);
     add_echoes(step, targets, taken);
     rho_clutter_map_age(&step->tracker->clutter_map, share);

@@ -124,7 +124,7 @@ int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float 
 int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track)
 {
     if (RHO_SECTORS) {
-        return !step->is_suspect && rho_tracker_has_passed(step, track);
+        return !step->is_suspect && rho_tracker_has_passed_gate(step, track);
     }
     return rho_tracker_looked_at(step, step->scan->sector_from_rad, step->scan->sector_to_rad,
                                  track);

@@ -7,7 +7,7 @@
 
 #define NAT_PER_MNAT 0.001f
 
-void rho_tracker_close_row(struct rho_tracker *tracker, unsigned row)
+void rho_tracker_remove_offer_row(struct rho_tracker *tracker, unsigned row)
 {
     struct rho_assignment *assignment = &tracker->assignment;
     for (unsigned from = row + 1u; from < assignment->num_rows; from++) {
@@ -35,7 +35,8 @@ static float likelihood(int32_t cost, int32_t least)
 }
 
 /* Likelihoods of all offers and of none, relative to the likeliest. */
-static float sum_of(const struct rho_assignment *assignment, unsigned row, int32_t least)
+static float sum_of_likelihoods(const struct rho_assignment *assignment, unsigned row,
+                                int32_t least)
 {
     float sum = likelihood(0, least);
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
@@ -47,8 +48,8 @@ static float sum_of(const struct rho_assignment *assignment, unsigned row, int32
 /*
  * How much likelier the column's plot is the row's than another one's: 1 where no other offers it.
  */
-static float share_of(const struct rho_assignment *assignment, unsigned row, int16_t column,
-                      int32_t cost)
+static float share_of_plot(const struct rho_assignment *assignment, unsigned row, int16_t column,
+                           int32_t cost)
 {
     float others = 0.0f;
     for (unsigned other = 0; other < assignment->num_rows; other++) {
@@ -74,12 +75,12 @@ int rho_tracker_evidence_of(const struct rho_tracker *tracker, unsigned track,
         return 0; /* it was not moved to the scan's time: out of the sensor's sight */
     }
     const int32_t least = least_cost(assignment, track);
-    const float sum = sum_of(assignment, track, least);
+    const float sum = sum_of_likelihoods(assignment, track, least);
     *evidence = (struct rho_tracker_evidence){.clutter = likelihood(0, least) / sum};
     for (unsigned i = 0; i < offers; i++) {
         const struct rho_assignment_pair *offer = &assignment->pairs[track][i];
         const float own = likelihood(offer->cost, least) / sum;
-        const float share = share_of(assignment, track, offer->column, offer->cost);
+        const float share = share_of_plot(assignment, track, offer->column, offer->cost);
         evidence->support += own * share;
         evidence->shared += own * (1.0f - share);
     }

@@ -18,7 +18,7 @@ static int is_usable(const struct rho_extent *area)
            area->x_min_m < area->x_max_m && area->y_min_m < area->y_max_m;
 }
 
-static int holds(const struct rho_extent *area, float x_m, float y_m)
+static int contains(const struct rho_extent *area, float x_m, float y_m)
 {
     return x_m >= area->x_min_m && x_m <= area->x_max_m && y_m >= area->y_min_m &&
            y_m <= area->y_max_m;
@@ -52,7 +52,7 @@ enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m
     }
     unsigned kept = 0;
     for (unsigned i = 0; i < tracker->num_excluded; i++) {
-        if (!holds(&tracker->excluded[i], x_m, y_m)) {
+        if (!contains(&tracker->excluded[i], x_m, y_m)) {
             tracker->excluded[kept++] = tracker->excluded[i];
         }
     }
@@ -80,7 +80,7 @@ int rho_tracker_lies_excluded(const struct step *step, uint32_t plot)
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_plot *at = &step->scan->plots[plot];
     unsigned k = 0;
-    while (k < tracker->num_excluded && !holds(&tracker->excluded[k], at->x_m, at->y_m)) {
+    while (k < tracker->num_excluded && !contains(&tracker->excluded[k], at->x_m, at->y_m)) {
         k++;
     }
     return k < tracker->num_excluded;

@@ -47,7 +47,7 @@ static float density_in_part(const struct step *step, float x_m, float y_m)
     return density;
 }
 
-float rho_tracker_log_density(const struct step *step, const struct rho_track *track)
+float rho_tracker_log_clutter_density(const struct step *step, const struct rho_track *track)
 {
     return rho_log(density_in_part(step, track->kalman.state[0], track->kalman.state[1]));
 }
@@ -66,7 +66,7 @@ float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_trac
  * The initiator has measured the first parts of earlier scans. A later part is as dense as its own
  * plots lie; where plots of all places are mixed, as the first part.
  */
-void rho_tracker_measure_part(struct step *step)
+void rho_tracker_measure_part_density(struct step *step)
 {
     struct rho_extent extent = {0.0f, 0.0f, 0.0f, 0.0f};
     float num = 0.0f;
@@ -84,7 +84,7 @@ void rho_tracker_measure_part(struct step *step)
     step->part_share = (float)step->num_inputs / (float)RHO_MAX_PLOTS;
 }
 
-void rho_tracker_smooth(float *mean, float newest)
+void rho_tracker_smooth_mean(float *mean, float newest)
 {
     *mean += CLUTTER_SMOOTHING * (newest - *mean);
 }
@@ -96,6 +96,6 @@ void rho_tracker_learn_unclaimed(struct step *step)
         uint8_t fate = step->report->fates[i];
         unclaimed += fate == RHO_FATE_HELD || fate == RHO_FATE_NO_ROOM ? 1.0f : 0.0f;
     }
-    rho_tracker_smooth(&step->tracker->unclaimed_plots,
-                       unclaimed * (RHO_SECTORS ? rho_tracker_turns(step) : 1.0f));
+    rho_tracker_smooth_mean(&step->tracker->unclaimed_plots,
+                            unclaimed * (RHO_SECTORS ? rho_tracker_scans_a_turn(step) : 1.0f));
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * life_cycle: the thresholds that confirm tracks and end them.
+ * life_cycle: the end of a track, and the thresholds that confirm and end tracks.
  */
 #include "rhotrack/detail/approx.h"
 #include "step.h"
@@ -52,7 +52,7 @@ void rho_tracker_remove_ended(struct rho_tracker *tracker)
 
 /* A miss of the best sensor: the scan of a weak sensor must not make earlier misses of a better one
  * count for more. */
-static float largest_loss(const struct step *step)
+static float largest_loss_of_miss(const struct step *step)
 {
     float loss = -step->log_miss;
     for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
@@ -69,14 +69,15 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
         .confirm_mnat = tracker->confirm_mnat,
         .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
-        .fall_mnat = rho_tracker_mnat(largest_loss(step) * (float)tracker->config.coast_scans_max *
-                                      (float)tracker->looks_max),
+        .fall_mnat =
+            rho_tracker_mnat(largest_loss_of_miss(step) * (float)tracker->config.coast_scans_max *
+                             (float)tracker->looks_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
     return limits;
 }
 
-static int may_hide(const struct step *step, const struct rho_track *track)
+static int may_be_hidden(const struct step *step, const struct rho_track *track)
 {
     return rho_tracker_is_established(track) &&
            (RHO_MAX_ECHOES == 0 || rho_tracker_has_moved(track)) &&
@@ -87,7 +88,7 @@ static int may_hide(const struct step *step, const struct rho_track *track)
  * A hidden track ends later, and its score falls no further than twice doubt_mnat: a hidden target
  * is missed for sure, and two plots that fit are to be enough when it is back.
  */
-static void let_hide(struct rho_track *track, struct rho_track_limits *limits)
+static void widen_limits_of_hidden(struct rho_track *track, struct rho_track_limits *limits)
 {
     const float misses = HIDE_SHARE * (float)limits->misses_in_row_max;
     const int32_t most_mnat = 2 * limits->doubt_mnat;
@@ -104,8 +105,8 @@ void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
     const int is_low = track->score_max_mnat - track->score_mnat > 2 * limits->doubt_mnat;
     const int is_late = track->misses_in_row >= limits->misses_in_row_max;
     struct rho_track_limits own = *limits;
-    if ((is_low || is_late) && may_hide(step, track)) {
-        let_hide(track, &own);
+    if ((is_low || is_late) && may_be_hidden(step, track)) {
+        widen_limits_of_hidden(track, &own);
     }
     if (is_late || rho_tracker_lacks_evidence(step, track)) {
         own.doubt_mnat = 0;

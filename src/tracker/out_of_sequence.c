@@ -12,12 +12,12 @@ void rho_tracker_set_late_default(struct rho_tracker_config *config)
     config->late_max_s = 20.0f;
 }
 
-int rho_tracker_is_late_usable(const struct rho_tracker_config *config)
+int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config)
 {
     return rho_is_within(config->late_max_s, 0.0f, LATE_LIMIT_S);
 }
 
-int rho_tracker_takes_late(const struct step *step)
+int rho_tracker_takes_late_scan(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_tracker_look *look =
@@ -27,13 +27,13 @@ int rho_tracker_takes_late(const struct step *step)
            rho_seconds_between(step->time_us, tracker->time_us) <= tracker->config.late_max_s;
 }
 
-void rho_tracker_count_late(struct step *step)
+void rho_tracker_count_late_scan(struct step *step)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     counters->scans_retrodicted = rho_count(counters->scans_retrodicted, 1);
 }
 
-void rho_tracker_note_ahead(struct rho_track *track)
+void rho_tracker_note_time_ahead(struct rho_track *track)
 {
     track->ahead_us = track->time_us;
 }
@@ -62,7 +62,7 @@ static int return_track(struct step *step, struct rho_track *track)
     return 1;
 }
 
-void rho_tracker_refuse_stale(struct step *step)
+void rho_tracker_refuse_stale_plots(struct step *step)
 {
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD) {
@@ -71,8 +71,8 @@ void rho_tracker_refuse_stale(struct step *step)
     }
 }
 
-/* The report is of the newest time. */
-void rho_tracker_end_late(struct step *step)
+/* Tracks return to the newest time, of which the report is. */
+void rho_tracker_end_late_scan(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {

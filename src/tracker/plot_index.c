@@ -11,7 +11,7 @@
 
 #include "step.h"
 
-/* Plots of any place, and limits of any size, have one. */
+/* The strip of x: plots of any place, and limits of any size, have one. */
 static unsigned strip_of(const struct rho_tracker_strips *strips, float x_m)
 {
     const float place = (x_m - strips->x_min_m) * strips->per_m;
@@ -21,7 +21,7 @@ static unsigned strip_of(const struct rho_tracker_strips *strips, float x_m)
     return place < (float)(RHO_PLOT_STRIPS - 1) ? (unsigned)place : RHO_PLOT_STRIPS - 1u;
 }
 
-/* As wide as the plots that count lie. */
+/* Lays the strips over the extent of the plots that count. */
 static void lay_strips(struct rho_tracker_strips *strips, const struct step *step)
 {
     float x_min_m = RHO_LIMIT_POSITION_M, x_max_m = -RHO_LIMIT_POSITION_M;
@@ -102,7 +102,7 @@ struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m,
     return near;
 }
 
-int rho_tracker_next_box(const struct step *step, struct plots_near *near)
+int rho_tracker_next_box_near(const struct step *step, struct plots_near *near)
 {
     const struct plot_box within = near->within;
     for (unsigned k = near->box; k < RHO_PLOT_BOXES; k++) {

@@ -135,8 +135,8 @@ static void choose_plots(struct step *step, const struct rho_track *track,
 {
     struct plots_near counted = scores->near;
     scores->choice = rho_tracker_choose_plots(step, track);
-    for (uint32_t i; scores->choice.most < rho_tracker_most_near(step, &scores->near) &&
-                     rho_tracker_next_plot(step, &counted, &i);) {
+    for (uint32_t i; scores->choice.most < rho_tracker_max_plots_near(step, &scores->near) &&
+                     rho_tracker_next_plot_near(step, &counted, &i);) {
         if (is_free_and_near(step, scores, i)) {
             rho_tracker_note_choice(&scores->choice, track, &step->scan->plots[i]);
         }
@@ -151,7 +151,7 @@ void rho_tracker_begin_scores(struct step *step, unsigned row, struct plot_score
     scores->track_row = row;
     scores->log_pd = rho_tracker_detection(step, track).log_pd;
     scores->clutter = (struct rho_hypotheses_clutter){
-        .log_per_m2 = rho_tracker_log_density(step, track),
+        .log_per_m2 = rho_tracker_log_clutter_density(step, track),
         .log_per_m = -step->log_height,
         .log_per_mps = -step->log_rates,
         .log_per_range_rate = -step->log_range_rates,
@@ -168,7 +168,7 @@ int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[scores->track_row];
     struct rho_imm_plot seen;
-    while (rho_tracker_next_plot(step, &scores->near, plot)) {
+    while (rho_tracker_next_plot_near(step, &scores->near, plot)) {
         const struct rho_plot *at = &step->scan->plots[*plot];
         if (!is_free_and_near(step, scores, *plot) ||
             !rho_tracker_is_chosen(step, &scores->choice, track, at)) {

@@ -95,7 +95,7 @@ static struct wall wall_of(const struct rho_reflector *reflector)
 }
 
 /* How far before the wall a place is, below 0 behind it; and how far along. */
-static float before(const struct wall *wall, float x_m, float y_m, float *along_m)
+static float distance_before(const struct wall *wall, float x_m, float y_m, float *along_m)
 {
     const float dx_m = x_m - wall->x_m, dy_m = y_m - wall->y_m;
     *along_m = dx_m * wall->along_x + dy_m * wall->along_y;
@@ -147,9 +147,10 @@ int rho_reflector_image(const struct rho_reflector *reflector, const struct rho_
     reflect(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
     image->state[RHO_X] += wall.x_m;
     image->state[RHO_Y] += wall.y_m;
-    const float sensor_m =
-        before(&wall, sensor ? sensor->x_m : 0.0f, sensor ? sensor->y_m : 0.0f, &sensor_along_m);
-    const float image_m = before(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
+    const float sensor_m = distance_before(&wall, sensor ? sensor->x_m : 0.0f,
+                                           sensor ? sensor->y_m : 0.0f, &sensor_along_m);
+    const float image_m =
+        distance_before(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
     if (!(sensor_m * image_m < 0.0f)) {
         return 0;
     }
@@ -162,7 +163,7 @@ int rho_reflector_image(const struct rho_reflector *reflector, const struct rho_
     return 1;
 }
 
-/* 0: none is seen. */
+/* The image of a track in a reflector. 0: the sensor sees none. */
 static int make_image(struct step *step, unsigned reflector, const struct rho_track *track,
                       struct rho_kalman *image)
 {
@@ -183,7 +184,7 @@ static int has_images(const struct step *step, unsigned row)
 
 /* ---- plots ----------------------------------------------------------------------------------- */
 
-static void mark_plots(struct step *step, const struct rho_kalman *image)
+static void mark_plots_of_image(struct step *step, const struct rho_kalman *image)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
@@ -193,7 +194,7 @@ static void mark_plots(struct step *step, const struct rho_kalman *image)
     struct plots_near near = rho_tracker_plots_near(
         step, image->state[RHO_X] - half_m[0], image->state[RHO_X] + half_m[0],
         image->state[RHO_Y] - half_m[1], image->state[RHO_Y] + half_m[1]);
-    for (uint32_t i; rho_tracker_next_plot(step, &near, &i) && !rho_tracker_is_spent(step);) {
+    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i) && !rho_tracker_is_spent(step);) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - image->state[RHO_X], dy_m = plot->y_m - image->state[RHO_Y];
         if (step->report->fates[i] == RHO_FATE_HELD && dx_m <= half_m[0] && dx_m >= -half_m[0] &&
@@ -217,7 +218,7 @@ void rho_tracker_mark_images(struct step *step)
                 return;
             }
             if (make_image(step, i, &step->tracker->tracks[row], &image)) {
-                mark_plots(step, &image);
+                mark_plots_of_image(step, &image);
             }
         }
     }
@@ -232,7 +233,7 @@ static int may_be_image(const struct step *step, const struct rho_track *track)
            (!rho_tracker_is_established(track) || (float)track->hits < IMAGE_SHARE * looks);
 }
 
-/* By place and velocity in the plane. */
+/* Whether a track has the place and velocity of the image, in the plane. */
 static int is_at_image(const struct rho_track *track, const struct rho_kalman *image)
 {
     static const uint8_t of[4] = {RHO_X, RHO_Y, RHO_VX, RHO_VY};

@@ -29,7 +29,7 @@
 #define WEIGHT_MAX 200.0f
 /* l moves so far in all: cells of 0.3 to 19 sigmas. */
 #define LOG_MAX 4.2f
-/* Of 1 - p, which rounding may leave 0. */
+/* Least 1 - p, the probability that two targets are resolved: rounding may leave 0. */
 #define RESOLVED_EPSILON 1e-3f
 
 static float learned_nat(const struct step *step, int axis)
@@ -69,7 +69,7 @@ float rho_tracker_rate_cell_mps2(const struct rho_sensor *sensor)
     return NEAR_OF_CELL * cell_mps * cell_mps;
 }
 
-int rho_tracker_is_cell(const struct rho_sensor *sensor)
+int rho_tracker_is_usable_cell(const struct rho_sensor *sensor)
 {
     return rho_is_within(sensor->resolution_range_m, 0.0f, RHO_LIMIT_POSITION_M) &&
            rho_is_within(sensor->resolution_azimuth_rad, 0.0f, 7.0f) &&

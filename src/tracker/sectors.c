@@ -22,7 +22,7 @@
 /* Standard deviations from a track's place to the end of where its plot is expected. */
 #define GATE_SIGMAS 3.0f
 
-/* num_looks where the sensor is not known. */
+/* Place of a sensor's record among the looks; num_looks where it is not known. */
 static unsigned place_of_look(const struct rho_tracker *tracker, int32_t sensor_id)
 {
     unsigned place = 0;
@@ -38,7 +38,7 @@ static struct rho_tracker_look *find_look(struct rho_tracker *tracker, int32_t s
     return place < tracker->num_looks ? &tracker->looks[place] : 0;
 }
 
-/* A sensor that comes back is counted anew. */
+/* Tracks forget that the sensor saw them: one that comes back is counted anew. */
 static void forget_sights(struct rho_tracker *tracker, int32_t sensor_id)
 {
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -134,14 +134,14 @@ void rho_tracker_note_thresholds(struct step *step)
     }
 }
 
-static int is_turning(const struct step *step)
+static int is_antenna_turning(const struct step *step)
 {
     return step->turning > 0.0f || step->turning < 0.0f;
 }
 
-int rho_tracker_was_seen(const struct step *step, const struct rho_track *track)
+int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rho_track *track)
 {
-    if (!is_turning(step)) {
+    if (!is_antenna_turning(step)) {
         return 0;
     }
     const uint16_t before = (uint16_t)(step->look == 1 ? UINT16_MAX : step->look - 1);
@@ -164,7 +164,7 @@ void rho_tracker_note_sight(const struct step *step, struct rho_track *track)
 }
 
 /* Is the gate's end in the sector that lies counter-clockwise (+1), or clockwise (-1)? */
-static int holds_end(const struct step *step, const struct rho_track *track, float way)
+static int holds_gate_end(const struct step *step, const struct rho_track *track, float way)
 {
     const struct rho_scan *scan = step->scan;
     const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
@@ -187,25 +187,26 @@ static int is_sector(const struct rho_scan *scan)
     return rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI;
 }
 
-int rho_tracker_has_passed(const struct step *step, const struct rho_track *track)
+int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track *track)
 {
     const struct rho_scan *scan = step->scan;
-    if (is_turning(step)) {
-        return holds_end(step, track, step->turning); /* the far one */
+    if (is_antenna_turning(step)) {
+        return holds_gate_end(step, track, step->turning); /* the far one */
     }
     if (step->is_late && is_sector(scan)) {
         /* the scan before or after may have had its plot */
-        return holds_end(step, track, 1.0f) && holds_end(step, track, -1.0f);
+        return holds_gate_end(step, track, 1.0f) && holds_gate_end(step, track, -1.0f);
     }
     return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
                                   track->kalman.state[0], track->kalman.state[1]);
 }
 
-float rho_tracker_turns(const struct step *step)
+float rho_tracker_scans_a_turn(const struct step *step)
 {
-    return is_turning(step) ? RHO_TWO_PI / rho_angle_sector_width(step->scan->sector_from_rad,
-                                                                  step->scan->sector_to_rad)
-                            : 1.0f;
+    return is_antenna_turning(step)
+               ? RHO_TWO_PI /
+                     rho_angle_sector_width(step->scan->sector_from_rad, step->scan->sector_to_rad)
+               : 1.0f;
 }
 
 int rho_tracker_saw_last(const struct rho_track *track, int32_t sensor_id)

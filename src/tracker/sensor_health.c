@@ -30,7 +30,7 @@
 #define COARSER 1.9f
 #define FACTOR_MAX 20.0f
 
-static void average(float *mean, float value, uint16_t *count)
+static void average_in(float *mean, float value, uint16_t *count)
 {
     *count = (uint16_t)(*count < COMPARED_MAX ? *count + 1u : COMPARED_MAX);
     *mean += (value - *mean) / (float)*count;
@@ -61,12 +61,12 @@ static void average_look(const struct step *step, struct rho_tracker_look *look,
     const struct rho_track *track = &tracker->tracks[row];
     const int plot = rho_assignment_column(&tracker->assignment, row);
     if (plot != RHO_ASSIGNMENT_NONE) {
-        average(&look->seen_share, 1.0f, &look->watched);
+        average_in(&look->seen_share, 1.0f, &look->watched);
         look->sigma_m = rho_plot_sigma_m(&step->scan->plots[plot]);
-        average(&look->distance2, chi2_of(step, track, plot), &look->watched_hits);
+        average_in(&look->distance2, chi2_of(step, track, plot), &look->watched_hits);
     } else if (!step->has_more_parts && !rho_tracker_is_blind(track) &&
-               rho_tracker_has_passed(step, track)) {
-        average(&look->seen_share, 0.0f, &look->watched);
+               rho_tracker_has_passed_gate(step, track)) {
+        average_in(&look->seen_share, 0.0f, &look->watched);
     }
 }
 
@@ -76,15 +76,15 @@ static float pd_of(const struct rho_tracker *tracker, int32_t sensor_id)
     return sensor ? sensor->pd : tracker->config.pd;
 }
 
-/* The sensor does not see the tracks that others see. */
-static int is_blind(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
+/* The sensor sees too few of the tracks that others see. */
+static int sees_too_few(const struct rho_tracker *tracker, const struct rho_tracker_look *look)
 {
     return look->watched >= COMPARED_MIN &&
            look->seen_share < SHARE_LOW * pd_of(tracker, look->sensor_id);
 }
 
-/* Its plots are elsewhere than the tracks. */
-static int is_off(const struct rho_tracker_look *look)
+/* The sensor's plots are elsewhere than the tracks. */
+static int is_biased(const struct rho_tracker_look *look)
 {
     return look->watched_hits >= COMPARED_MIN && look->distance2 > CHI2_HIGH;
 }
@@ -152,7 +152,7 @@ static struct witnesses find_witnesses(const struct step *step, const struct rho
  * One finer and one coarser are not enough: the finer may have pulled the tracks, and the coarser
  * cannot tell.
  */
-static int are_enough(const struct witnesses *witnesses)
+static int are_enough_witnesses(const struct witnesses *witnesses)
 {
     return witnesses->agreeing >= 2 || witnesses->equal >= 2 || witnesses->coarser >= 2;
 }
@@ -167,8 +167,8 @@ static void suspect_or_trust(struct step *step, struct rho_tracker_look *look)
     const struct witnesses witnesses = find_witnesses(step, look);
     if (look->is_suspect && (agrees(tracker, look) || witnesses.num == 0)) {
         look->is_suspect = 0;
-    } else if (!look->is_suspect && ((is_blind(tracker, look) && witnesses.num >= 1) ||
-                                     (is_off(look) && are_enough(&witnesses)))) {
+    } else if (!look->is_suspect && ((sees_too_few(tracker, look) && witnesses.num >= 1) ||
+                                     (is_biased(look) && are_enough_witnesses(&witnesses)))) {
         look->is_suspect = 1;
         tracker->counters.sensors_suspected = rho_count(tracker->counters.sensors_suspected, 1);
     }

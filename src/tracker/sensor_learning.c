@@ -83,14 +83,15 @@ enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 #define FORGOTTEN_MAX 3u /* notches: a sensor that is blind elsewhere would have one now and then */
 
 /* One Kalman filter takes manoeuvres for noise, and loses targets that are there. */
-static int learns(const struct rho_tracker_config *config)
+static int learns_sensors(const struct rho_tracker_config *config)
 {
     return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
 }
 
 static int learns_noise(const struct rho_tracker_config *config)
 {
-    return learns(config) && (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
+    return learns_sensors(config) &&
+           (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
 }
 
 /* ---- use of noise ---------------------------------------------------------------------------- */
@@ -188,7 +189,7 @@ static float note_excess(struct rho_track *track, int axis, const struct innovat
                                                                   : CUT2;
 }
 
-static int add(float *log_noise, float excess, float gain)
+static int add_excess(float *log_noise, float excess, float gain)
 {
     if (excess < 0.0f) {
         return 0;
@@ -229,13 +230,13 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
     const float across_excess = note_excess(track, 1, &across);
     const float gain = GAIN / (INNOVATIONS_PRIOR + (float)learned->innovations);
     const int is_round = along_m2 <= across_m2 && along_m2 >= across_m2;
-    int is_used = add(&learned->log_noise[0], along_excess, gain);
+    int is_used = add_excess(&learned->log_noise[0], along_excess, gain);
     if (is_round) {
         /* such plots have one noise, and one is learned */
-        is_used |= add(&learned->log_noise[0], across_excess, gain);
+        is_used |= add_excess(&learned->log_noise[0], across_excess, gain);
         learned->log_noise[1] = learned->log_noise[0];
     } else {
-        is_used |= add(&learned->log_noise[1], across_excess, gain);
+        is_used |= add_excess(&learned->log_noise[1], across_excess, gain);
     }
     track->has_shown |= HAS_INNOVATION;
     learned->innovations =
@@ -292,8 +293,8 @@ static float pd_at(const struct rho_tracker_config *config,
 
 /* ---- pd by range rate ------------------------------------------------------------------------ */
 
-/* Where so many intervals end. */
-static float end_of_rates(unsigned num_rates)
+/* The range rate at which so many intervals end. */
+static float end_of_rate_intervals(unsigned num_rates)
 {
     float end2 = RATE_MIN2;
     for (unsigned i = 1; i < num_rates; i++) {
@@ -305,7 +306,8 @@ static float end_of_rates(unsigned num_rates)
 /* The notch is none, or the one that was learned. */
 static int is_unstated(const struct rho_sensor *sensor, const struct rho_tracker_learned *learned)
 {
-    const float learned_mps = learned->used_rates > 0 ? end_of_rates(learned->used_rates) : 0.0f;
+    const float learned_mps =
+        learned->used_rates > 0 ? end_of_rate_intervals(learned->used_rates) : 0.0f;
     return !(sensor->notch_mps > 0.0f) ||
            (sensor->notch_mps >= learned_mps && sensor->notch_mps <= learned_mps);
 }
@@ -319,15 +321,15 @@ static int learns_rates(const struct step *step)
 void rho_tracker_use_notch(struct step *step)
 {
     struct rho_tracker_learned *learned = step->learned;
-    if (learned && learns(&step->tracker->config) && learns_rates(step)) {
+    if (learned && learns_sensors(&step->tracker->config) && learns_rates(step)) {
         learned->used_rates = learned->blind_rates;
         step->tracker->sensors[learned - step->tracker->learned].notch_mps =
-            learned->used_rates > 0 ? end_of_rates(learned->used_rates) : 0.0f;
+            learned->used_rates > 0 ? end_of_rate_intervals(learned->used_rates) : 0.0f;
     }
 }
 
 /* The interval of the track's range rate; the last one where it has none. */
-static unsigned rate_of(const struct rho_sensor *sensor, const struct rho_track *track)
+static unsigned rate_interval_of(const struct rho_sensor *sensor, const struct rho_track *track)
 {
     float row[6], rate_mps;
     if (!rho_measurement_range_rate(track->kalman.state, sensor,
@@ -345,8 +347,8 @@ static unsigned rate_of(const struct rho_sensor *sensor, const struct rho_track 
 }
 
 /* The notch that is used: as it is, narrower, or none. */
-static unsigned check_notch(unsigned used, float here, float seen, float looks, float hits,
-                            float pd)
+static unsigned check_used_notch(unsigned used, float here, float seen, float looks, float hits,
+                                 float pd)
 {
     if (hits > BLIND_SHARE * pd * looks) {
         return 0;
@@ -371,7 +373,7 @@ static unsigned find_blind_rates(const struct rho_tracker_learned *learned)
         const float here = (float)learned->rate_looks[i - 1u],
                     seen = (float)learned->rate_hits[i - 1u];
         if (i == used) {
-            return check_notch(used, here, seen, looks, hits, pd);
+            return check_used_notch(used, here, seen, looks, hits, pd);
         }
         if (faster >= FASTER_LOOKS && looks >= BLIND_LOOKS && seen < last * pd * here &&
             hits < BLIND_SHARE * pd * looks &&
@@ -403,11 +405,11 @@ static void learn_notch(struct rho_tracker_learned *learned)
     learned->blind_rates = found & 31u;
 }
 
-/* 1: the look is one of those that the rings learn from. */
-static int note_rate(struct step *step, const struct rho_track *track, unsigned is_seen)
+/* Counts a look in its interval of range rates. 1: not blind, the rings learn from it. */
+static int note_look_at_rate(struct step *step, const struct rho_track *track, unsigned is_seen)
 {
     struct rho_tracker_learned *learned = step->learned;
-    const unsigned rate = rate_of(step->sensor, track);
+    const unsigned rate = rate_interval_of(step->sensor, track);
     learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
     learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
     if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
@@ -422,15 +424,15 @@ static int note_rate(struct step *step, const struct rho_track *track, unsigned 
 
 /* ---- pd of a look ---------------------------------------------------------------------------- */
 
-static int is_lowered(const struct step *step)
+static int is_pd_lowered(const struct step *step)
 {
-    return learns(&step->tracker->config) && step->learned && step->learned->is_lowered;
+    return learns_sensors(&step->tracker->config) && step->learned && step->learned->is_lowered;
 }
 
 struct detection rho_tracker_usual_detection(const struct step *step, const struct rho_track *track)
 {
     const struct detection stated = {step->log_pd, step->log_miss};
-    if (!is_lowered(step)) {
+    if (!is_pd_lowered(step)) {
         return stated;
     }
     const unsigned ring = ring_of(step->sensor, track);
@@ -444,18 +446,18 @@ struct detection rho_tracker_usual_detection(const struct step *step, const stru
 float rho_tracker_mean_pd(const struct step *step)
 {
     const float stated = step->sensor->pd;
-    if (!is_lowered(step)) {
+    if (!is_pd_lowered(step)) {
         return stated;
     }
     const struct seen all = seen_at_all(step->learned, stated);
     return usable_pd(&step->tracker->config, &all, stated);
 }
 
-static void note_look(struct step *step, const struct rho_track *track, unsigned is_seen)
+static void note_look_in_ring(struct step *step, const struct rho_track *track, unsigned is_seen)
 {
     struct rho_tracker_learned *learned = step->learned;
     const unsigned ring = ring_of(step->sensor, track);
-    if (learns_rates(step) && !note_rate(step, track, is_seen)) {
+    if (learns_rates(step) && !note_look_at_rate(step, track, is_seen)) {
         return;
     }
     learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
@@ -472,19 +474,19 @@ static void learn_pd(struct step *step, struct rho_track *track, int is_seen)
     const int is_own = track->sensor_id == step->scan->sensor_id;
     if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
         if (is_own && learns_rates(step)) {
-            (void)note_rate(step, track, is_seen != 0);
+            (void)note_look_at_rate(step, track, is_seen != 0);
         }
         return;
     }
     if (is_seen && is_own) {
-        note_look(step, track, track->has_shown & IS_MISSED ? 0u : 1u);
+        note_look_in_ring(step, track, track->has_shown & IS_MISSED ? 0u : 1u);
     }
     track->has_shown &= (uint8_t)~IS_MISSED;
     track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
 }
 
-/* One ring a scan: little changes from one to the next. */
-static void find_lowered(struct step *step)
+/* Whether the learned pd is below the stated one: one ring of range a scan. */
+static void find_lowered_pd(struct step *step)
 {
     struct rho_tracker_learned *learned = step->learned;
     const float pd = pd_at(&step->tracker->config, learned, step->sensor->pd, learned->ring);
@@ -510,10 +512,11 @@ static int is_steady(const struct rho_track *track)
 
 static int can_learn(const struct step *step)
 {
-    return !step->is_suspect && !step->is_late && step->learned && learns(&step->tracker->config);
+    return !step->is_suspect && !step->is_late && step->learned &&
+           learns_sensors(&step->tracker->config);
 }
 
-void rho_tracker_learn(struct step *step)
+void rho_tracker_learn_sensor(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     /* a group's noise is mostly that of places on a body */
@@ -539,7 +542,7 @@ void rho_tracker_learn(struct step *step)
         }
     }
     if (has_pd && !step->has_more_parts) {
-        find_lowered(step);
+        find_lowered_pd(step);
     }
 }
 
@@ -582,7 +585,7 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
     const int is_blind =
         RHO_DOPPLER_NOTCH && learned->blind_rates > 0 && is_unstated(sensor, learned);
     *known = (struct rho_tracker_known){
-        .notch_mps = is_blind ? end_of_rates(learned->blind_rates) : 0.0f,
+        .notch_mps = is_blind ? end_of_rate_intervals(learned->blind_rates) : 0.0f,
         .range_factor = factor_of(tracker, learned, 0),
         .cross_factor = factor_of(tracker, learned, 1),
         .innovations = learned->innovations,

@@ -32,6 +32,6 @@ int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor)
            rho_is_within(sensor->range_max_m, 0.0f, 2.0f * RHO_LIMIT_POSITION_M) &&
            sensor->range_min_m < sensor->range_max_m &&
            (!RHO_DOPPLER_NOTCH || rho_notch_is_usable(sensor)) &&
-           (!RHO_SHARES_PLOTS || rho_tracker_is_cell(sensor)) &&
+           (!RHO_SHARES_PLOTS || rho_tracker_is_usable_cell(sensor)) &&
            rho_angle_is_sector(sensor->sector_from_rad, sensor->sector_to_rad);
 }

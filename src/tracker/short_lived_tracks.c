@@ -50,7 +50,7 @@
 #define PRIOR_HITS 9.0f
 #define PRIOR_MISSES 1.0f
 
-static float evidence(const struct step *step, const struct rho_track *track)
+static float evidence_of(const struct step *step, const struct rho_track *track)
 {
     return (float)track->hits * HIT_NAT - (float)track->misses * step->miss_nat;
 }
@@ -70,13 +70,13 @@ static float miss_nat(const struct rho_tracker *tracker)
 }
 
 /* Tracks that soon will be established: seen so often that they are of targets. */
-static float almost_established(const struct step *step)
+static float count_almost_established(const struct step *step)
 {
     float count = 0.0f;
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         const struct rho_track *track = &step->tracker->tracks[i];
         count +=
-            !rho_tracker_is_established(track) && evidence(step, track) >= ALMOST_ESTABLISHED_NAT
+            !rho_tracker_is_established(track) && evidence_of(step, track) >= ALMOST_ESTABLISHED_NAT
                 ? 1.0f
                 : 0.0f;
     }
@@ -108,7 +108,7 @@ void rho_tracker_find_evidence_needed(struct step *step)
         tracker->ended_early - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->ended_early);
     step->miss_nat = miss_nat(tracker);
     const float odds = TRUE_PER_FALSE * excess /
-                       (tracker->established + almost_established(step) + ESTABLISHED_PRIOR);
+                       (tracker->established + count_almost_established(step) + ESTABLISHED_PRIOR);
     /* where the threshold is set by hand, no rate of false tracks is wanted */
     step->needed_nat =
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;
@@ -117,7 +117,7 @@ void rho_tracker_find_evidence_needed(struct step *step)
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track)
 {
     return step->needed_nat > 0.0f && !rho_tracker_is_established(track) &&
-           evidence(step, track) < step->needed_nat;
+           evidence_of(step, track) < step->needed_nat;
 }
 
 void rho_tracker_note_established(struct step *step, const struct rho_track *track)
@@ -129,7 +129,7 @@ void rho_tracker_note_established(struct step *step, const struct rho_track *tra
 
 void rho_tracker_note_early_end(struct step *step, const struct rho_track *track)
 {
-    if (!rho_tracker_is_established(track) && evidence(step, track) < 0.0f &&
+    if (!rho_tracker_is_established(track) && evidence_of(step, track) < 0.0f &&
         track->score_max_mnat >= step->tracker->confirm_mnat) {
         step->tracker->ended_early += 1.0f;
     }

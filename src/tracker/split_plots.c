@@ -53,7 +53,7 @@ static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
 
 /* ---- learned rates --------------------------------------------------------------------------- */
 
-/* NULL: no room for another sensor. */
+/* A sensor's table of second plots. NULL: no room for another sensor. */
 static struct rho_second_plots *table_of(struct rho_tracker *tracker, int32_t sensor_id)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
@@ -69,7 +69,7 @@ static struct rho_second_plots *table_of(struct rho_tracker *tracker, int32_t se
     return 0;
 }
 
-/* Tables in use come first. */
+/* Frees a sensor's table; tables in use come first. */
 void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id)
 {
     struct rho_second_plots *tables = tracker->second_plots;
@@ -84,7 +84,7 @@ void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor
     }
 }
 
-static float rate_of(const struct rho_second_plots *table, const struct rho_track *track)
+static float second_plot_rate(const struct rho_second_plots *table, const struct rho_track *track)
 {
     const float rate =
         (table->plots + RATE_PRIOR_LOOKS * RATE_PRIOR) / (table->looks + RATE_PRIOR_LOOKS);
@@ -110,7 +110,7 @@ static float share_in(const struct rho_second_plots *table, const float *sums, u
            ((table->plots + BINS_PRIOR_PLOTS) * width);
 }
 
-/* Where another plot lies from a claimed one. */
+/* Where another plot lies from a claimed one, in bins. */
 struct offset {
     unsigned along, across; /* bins; RHO_SECOND_BINS: beyond them */
 };
@@ -133,9 +133,9 @@ static struct offset offset_of(const struct rho_sensor *sensor, const struct rho
     };
 }
 
-/* Density of a second plot there, 1/m^2, if there is one. */
-static float density_at(const struct rho_second_plots *table, struct offset offset,
-                        const struct rho_plot *first)
+/* Density of a target's second plot at an offset from its first, 1/m^2, if there is one. */
+static float second_plot_density(const struct rho_second_plots *table, struct offset offset,
+                                 const struct rho_plot *first)
 {
     return share_in(table, table->along, offset.along) *
            share_in(table, table->across, offset.across) /
@@ -164,7 +164,7 @@ static uint8_t repeats_with(uint8_t repeats, float ratio)
 
 /* ---- pairs of tracks ------------------------------------------------------------------------- */
 
-/* Tracks stand in the order of their identities. */
+/* The track of an identity, below row `end`; tracks are in the order of identities. */
 static struct rho_track *track_of(struct rho_tracker *tracker, uint32_t track_id, unsigned end)
 {
     unsigned first = 0;
@@ -210,7 +210,7 @@ static float two_plots_nat(const struct step *step, const struct rho_second_plot
         }
     }
     if (is_near(offset)) {
-        ratio = rate_of(table, older) * density_at(table, offset, first) *
+        ratio = second_plot_rate(table, older) * second_plot_density(table, offset, first) *
                 range_rate_ratio(step, step->scan->measures, first, second) /
                 rho_tracker_density_at_plot(step, second) *
                 rho_exp(-rho_tracker_repeats_nat(step, (uint32_t)track->plot));
@@ -227,7 +227,7 @@ static float one_plot_nat(const struct step *step, const struct rho_second_plots
     const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
     const int plot = older->plot >= 0 ? older->plot : track->plot;
-    float gain_nat = 0.0f, older_gain_nat = 0.0f, nat = -rate_of(table, older);
+    float gain_nat = 0.0f, older_gain_nat = 0.0f, nat = -second_plot_rate(table, older);
     if (older->plot == track->plot) {
         return SHARED_NAT;
     }
@@ -253,7 +253,7 @@ static float one_plot_nat(const struct step *step, const struct rho_second_plots
     return nat - rho_tracker_detection(step, track).log_miss - (is_in_olders_gate ? LOG_TWO : 0.0f);
 }
 
-static void add_nat(struct rho_track *track, float nat)
+static void add_one_target_nat(struct rho_track *track, float nat)
 {
     nat = nat < ONE_TARGET_STEP_NAT ? nat : ONE_TARGET_STEP_NAT;
     track->one_target_nat += nat > -ONE_TARGET_STEP_NAT ? nat : -ONE_TARGET_STEP_NAT;
@@ -282,7 +282,7 @@ static void decide_one_target(struct step *step, const struct rho_second_plots *
     const float nat = track->plot >= 0 && older->plot >= 0 && track->plot != older->plot
                           ? two_plots_nat(step, table, older_row, row)
                           : one_plot_nat(step, table, older_row, row);
-    add_nat(track, nat);
+    add_one_target_nat(track, nat);
     if (track->one_target_nat > ONE_TARGET_END_NAT) {
         track->one_target_nat = ONE_TARGET_END_NAT;
         if (older->plot >= 0) {
@@ -323,11 +323,11 @@ static float score_second_plot(struct step *step, const struct rho_second_plots 
         if (younger->older_id == 0 && younger->hits <= YOUNGER_HITS_MAX && track->was_confirmed) {
             younger->older_id = track->track_id;
             younger->one_target_nat = 0.0f;
-            add_nat(younger, two_plots_nat(step, table, row, (unsigned)owner));
+            add_one_target_nat(younger, two_plots_nat(step, table, row, (unsigned)owner));
         }
         share = younger->older_id == track->track_id ? probability_of_one_target(younger) : 0.0f;
     }
-    const float ratio = rate_of(table, track) * density_at(table, offset, first) *
+    const float ratio = second_plot_rate(table, track) * second_plot_density(table, offset, first) *
                         range_rate_ratio(step, step->scan->measures, first, second) /
                         rho_tracker_density_at_plot(step, second);
     float *denser = &tracker->clutter_map.denser[other];
@@ -347,7 +347,7 @@ static void score_plots_near(struct step *step, const struct rho_second_plots *t
     struct plots_near near = rho_tracker_plots_near(step, first->x_m - half_m, first->x_m + half_m,
                                                     first->y_m - half_m, first->y_m + half_m);
     uint32_t passed = 0;
-    for (uint32_t i; rho_tracker_next_plot(step, &near, &i); passed++) {
+    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i); passed++) {
         const struct rho_plot *plot = &step->scan->plots[i];
         const float dx_m = plot->x_m - first->x_m, dy_m = plot->y_m - first->y_m;
         if (dx_m > half_m || dx_m < -half_m || dy_m > half_m || dy_m < -half_m ||
@@ -459,7 +459,8 @@ static void score_window_plots_near(struct step *step, const struct rho_second_p
         const struct offset offset = offset_of(sensor, &first, &plot);
         rho_tracker_spend(step, PAIR_UNITS);
         if (is_near(offset)) {
-            const float ratio = rate_of(table, 0) * density_at(table, offset, &first) *
+            const float ratio = second_plot_rate(table, 0) *
+                                second_plot_density(table, offset, &first) *
                                 range_rate_ratio(step, scan->measures, &first, &plot) /
                                 rho_tracker_density_at_plot(step, &plot);
             scan->repeats[i] = repeats_with(scan->repeats[i], ratio);

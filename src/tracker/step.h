@@ -70,7 +70,7 @@ struct step {
     uint32_t plots_of_box;
     struct rho_track_model model;
     float log_pd;
-    float log_miss;                   /* ln(1 - pd) */
+    float log_miss;                   /* ln(1 - pd) of the scan's sensor */
     struct rho_notch_look notch_look; /* of the scan's sensor; 0 where it has no notch */
     float needed_nat;                 /* evidence that a new track needs to be confirmed; 0: none */
     float miss_nat;                   /* what a miss takes from it */
@@ -97,21 +97,21 @@ static inline int rho_tracker_is_score(int32_t mnat)
 
 /* out_of_sequence.c (RHO_SECTORS): scans older than the newest step that may still update tracks */
 void rho_tracker_set_late_default(struct rho_tracker_config *config);
-int rho_tracker_is_late_usable(const struct rho_tracker_config *config);
-int rho_tracker_takes_late(const struct step *step);
-void rho_tracker_count_late(struct step *step);
+int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config);
+int rho_tracker_takes_late_scan(const struct step *step);
+void rho_tracker_count_late_scan(struct step *step);
 /* Remembers the time that an out-of-sequence scan moves the track back from. */
-void rho_tracker_note_ahead(struct rho_track *track);
+void rho_tracker_note_time_ahead(struct rho_track *track);
 int rho_tracker_is_sound_ahead(const struct rho_track *track);
-/* Unclaimed plots of such a scan that start no track are stale. */
-void rho_tracker_refuse_stale(struct step *step);
-/* Ends such a scan: tracks return to the newest time. */
-void rho_tracker_end_late(struct step *step);
+/* Unclaimed plots of an out-of-sequence scan that start no track are stale. */
+void rho_tracker_refuse_stale_plots(struct step *step);
+/* Ends an out-of-sequence scan: tracks return to the newest time. */
+void rho_tracker_end_late_scan(struct step *step);
 
 /*
  * plot_index.c: the rows of the plots near a place. Those between these limits are among them:
  *     struct plots_near near = rho_tracker_plots_near(step, x_min_m, x_max_m, y_min_m, y_max_m);
- *     for (uint32_t row; rho_tracker_next_plot(step, &near, &row);)
+ *     for (uint32_t row; rho_tracker_next_plot_near(step, &near, &row);)
  */
 struct plots_near {
     uint32_t next, end; /* places in the order of the strip or box that is read */
@@ -122,12 +122,13 @@ struct plots_near {
 void rho_tracker_sort_plots(struct step *step);
 struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
                                          float y_min_m, float y_max_m);
-int rho_tracker_next_box(const struct step *step, struct plots_near *near);
+int rho_tracker_next_box_near(const struct step *step, struct plots_near *near);
 
-static inline int rho_tracker_next_plot(const struct step *step, struct plots_near *near,
-                                        uint32_t *row)
+static inline int rho_tracker_next_plot_near(const struct step *step, struct plots_near *near,
+                                             uint32_t *row)
 {
-    if (near->next >= near->end && (RHO_PLOT_STRIPS > 1 || !rho_tracker_next_box(step, near))) {
+    if (near->next >= near->end &&
+        (RHO_PLOT_STRIPS > 1 || !rho_tracker_next_box_near(step, near))) {
         return 0;
     }
     *row = RHO_PLOT_STRIPS > 1 ? step->tracker->strips.plots[near->next] : near->next;
@@ -135,8 +136,9 @@ static inline int rho_tracker_next_plot(const struct step *step, struct plots_ne
     return 1;
 }
 
-/* An upper bound of their number. */
-static inline uint32_t rho_tracker_most_near(const struct step *step, const struct plots_near *near)
+/* An upper bound of the number of those plots. */
+static inline uint32_t rho_tracker_max_plots_near(const struct step *step,
+                                                  const struct plots_near *near)
 {
     return RHO_PLOT_STRIPS > 1 ? near->end - near->next : step->num_gated;
 }
@@ -167,7 +169,7 @@ int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *
 
 /* sectors.c (RHO_SECTORS): how the sectors of one turn follow each other */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
-/* The record of the scan's sensor; NULL where there is none. */
+/* The record of looks of the scan's sensor; NULL where there is none. */
 struct rho_tracker_look *rho_tracker_own_look(struct step *step);
 void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_looks(const struct rho_tracker *tracker);
@@ -179,13 +181,13 @@ int rho_tracker_saw_last(const struct rho_track *track, int32_t sensor_id);
 /* The tracker's thresholds: the initiator's, and those of the other sensors'. */
 void rho_tracker_note_thresholds(struct step *step);
 /* The track took a plot in the sector before: the antenna is still at the same pass. */
-int rho_tracker_was_seen(const struct step *step, const struct rho_track *track);
+int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rho_track *track);
 /*
  * The antenna has passed all of the track's gate in this scan, or the sensor looked there at once.
  */
-int rho_tracker_has_passed(const struct step *step, const struct rho_track *track);
-/* How many such scans make a turn, where they do. */
-float rho_tracker_turns(const struct step *step);
+int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track *track);
+/* How many scans of this sector's width make a turn of the antenna; 1 where none do. */
+float rho_tracker_scans_a_turn(const struct step *step);
 /* A held plot came with an earlier sector of the turn that the window's scan is. */
 int rho_tracker_is_of_earlier_sector(const struct rho_window *window,
                                      const struct rho_window_scan *scan, unsigned plot);
@@ -212,7 +214,7 @@ void rho_tracker_set_noise(struct step *step, float suspicion);
 void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_sensor *sensor);
 /* (RHO_DOPPLER_NOTCH) Writes the learned notch into a sensor of which none was stated. */
 void rho_tracker_use_notch(struct step *step);
-void rho_tracker_learn(struct step *step);
+void rho_tracker_learn_sensor(struct step *step);
 int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
 /* Of the scan's sensor, for its initiator: over all ranges. */
 float rho_tracker_mean_pd(const struct step *step);
@@ -232,7 +234,7 @@ struct detection rho_tracker_usual_detection(const struct step *step,
  */
 void rho_tracker_find_blind(struct step *step);
 void rho_tracker_forget_blind(struct step *step);
-/* The same with the range rates that the sensor does not see. */
+/* Detection and miss of a track, with the range rates that the sensor does not see. */
 struct detection rho_tracker_detection_beside_notch(const struct step *step,
                                                     const struct rho_track *track);
 static inline struct detection rho_tracker_detection(const struct step *step,
@@ -279,7 +281,7 @@ static inline int rho_tracker_is_frozen(const struct rho_track *track)
 /* ---- resolution ------------------------------------------------------------------------------ */
 
 /* resolution_cell.c (RHO_SHARES_PLOTS): two targets of which a sensor makes one plot */
-int rho_tracker_is_cell(const struct rho_sensor *sensor);
+int rho_tracker_is_usable_cell(const struct rho_sensor *sensor);
 /* Variances of the distances at which it does, along the line of sight and across it. */
 void rho_tracker_cell_at(const struct step *step, const struct rho_plot *plot,
                          const struct rho_measurement *seen, float near_m2[2]);
@@ -307,13 +309,13 @@ static inline int rho_tracker_has_bodies(const struct rho_tracker *tracker)
     return RHO_BODIES && tracker->bodies.length_max_m > 0.0f;
 }
 /*
- * groups.c (RHO_BODIES): the scan becomes that of its groups, after the tracks were predicted; and
- * fates and rows become those of the scan's plots, before the report
+ * plot_groups.c (RHO_BODIES): the scan becomes that of its groups, after the tracks were predicted;
+ * and fates and rows become those of the scan's plots, before the report
  */
-void rho_tracker_group(struct step *step, struct rho_scan *grouped);
-void rho_tracker_ungroup(struct step *step, const struct rho_scan *scan);
-/* bodies.c (RHO_BODIES): bodies are in the order of the tracks; before rows become those of plots,
- * each learns from its track's plots */
+void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped);
+void rho_tracker_ungroup_plots(struct step *step, const struct rho_scan *scan);
+/* body_extents.c (RHO_BODIES): bodies are in the order of the tracks; before rows become those of
+ * plots, each learns from its track's plots */
 void rho_tracker_align_bodies(struct step *step);
 /* The heading of a track's body is that of its velocity. */
 void rho_tracker_turn_body(struct rho_tracker *tracker, unsigned row);
@@ -357,7 +359,7 @@ static inline void rho_tracker_spend(struct step *step, uint32_t units)
     step->work = rho_count(step->work, units);
 }
 
-/* One waiting track needs no share. */
+/* One waiting track gives up its reserved share of the work. */
 static inline void rho_tracker_release_share(struct step *step)
 {
     step->share.waiting -= step->share.waiting > 0 ? 1u : 0u;
@@ -383,29 +385,29 @@ void rho_tracker_end_work(struct step *step);
 
 /* expected_clutter.c: density of false plots, 1/m^2. Of clutter that does not come back */
 float rho_tracker_usual_density(const struct step *step, float x_m, float y_m);
-/* The same where a plot is, but never 0. */
+/* Density of false plots where a plot is, but never 0. */
 float rho_tracker_density_at_plot(const struct step *step, const struct rho_plot *plot);
 /* ln of the density where the track is, in the part of the scan that is claimed. */
-float rho_tracker_log_density(const struct step *step, const struct rho_track *track);
+float rho_tracker_log_clutter_density(const struct step *step, const struct rho_track *track);
 /* False plots expected within three standard deviations of the track's place; 0 in a frame. */
 float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track);
 /* Measures the density of a later part of the scan. */
-void rho_tracker_measure_part(struct step *step);
+void rho_tracker_measure_part_density(struct step *step);
 /* The smoothed number of unclaimed plots, after the starts; any such mean. */
 void rho_tracker_learn_unclaimed(struct step *step);
-void rho_tracker_smooth(float *mean, float newest);
+void rho_tracker_smooth_mean(float *mean, float newest);
 
 /* clutter_update.c (RHO_MAX_ECHOES): the map of clutter that comes back */
 void rho_tracker_open_clutter_map(struct rho_tracker *tracker);
 int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_returns(const struct rho_track *track);
-/* Before claims, of a whole scan or its first part. */
+/* Echoes' densities at the plots of a scan or its first part, before claims. */
 void rho_tracker_look_at_clutter(struct step *step);
 /* ln of how much denser clutter is at this plot than near it; 0 in later parts of a scan. */
 float rho_tracker_repeats_nat(const struct step *step, uint32_t row);
-/* The plots that are held for initiation keep it. */
+/* The window's plots keep that ratio until they start tracks. */
 void rho_tracker_keep_repeats(struct step *step);
-/* After starts. */
+/* The map learns from the scan's plots, after starts. */
 void rho_tracker_learn_clutter(struct step *step);
 /*
  * Likelihood of a range rate that differs so much from the expected one, over its likelihood as
@@ -413,10 +415,10 @@ void rho_tracker_learn_clutter(struct step *step);
  * the variance, and half are any.
  */
 float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance);
-/* Where a track starts; how far echoes explained its candidate's plots. */
-void rho_tracker_note_place(struct rho_track *track);
-void rho_tracker_note_start(struct step *step, const struct rho_candidate *candidate,
-                            struct rho_track *track);
+/* The place where a track starts; how far echoes explained its candidate's plots. */
+void rho_tracker_note_start_place(struct rho_track *track);
+void rho_tracker_note_start_echoes(struct step *step, const struct rho_candidate *candidate,
+                                   struct rho_track *track);
 /* The track has moved as targets do, and not only from echo to echo. */
 int rho_tracker_has_moved(const struct rho_track *track);
 
@@ -447,14 +449,14 @@ void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float g
 /* The gain of an offer over clutter, not over a miss; 0 where there was none, *gain_nat stays. */
 int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat);
 /* Tracks behind a row that is no track's any more have moved up by one: so do their offers. */
-void rho_tracker_close_row(struct rho_tracker *tracker, unsigned row);
+void rho_tracker_remove_offer_row(struct rho_tracker *tracker, unsigned row);
 
 /* Solves the assignment, and counts the plots that gates had no room for. */
 void rho_tracker_assign(struct step *step);
 
 /*
  * ln of how much likelier a plot is the track's than clutter. With a Kalman filter,
- * of a plot in its gate; log_density: rho_tracker_log_density
+ * of a plot in its gate; log_density: rho_tracker_log_clutter_density
  */
 float rho_tracker_score_plot(const struct step *step, const struct rho_track *track,
                              const struct rho_gate_result *result, float log_density, uint32_t row);
@@ -502,7 +504,7 @@ void rho_tracker_note_early_end(struct step *step, const struct rho_track *track
 
 /* manoeuvre_interval.c: mean time between manoeuvres; learned from established tracks over dt_s */
 void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
-/* After a silence it is the default again. */
+/* After a silence the mean time between manoeuvres is the default again. */
 void rho_tracker_reset_manoeuvre_interval(struct rho_tracker *tracker, int64_t time_us);
 
 /* unobserved_tracks.c: how often sensors look; 1 where a track was not observed for too long */

@@ -87,18 +87,18 @@ void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat)
     add_score(track, -loss_mnat);
 }
 
-/* How far the evidence has fallen since it was best. */
-static int32_t fall_of(const struct rho_track *track)
+/* How far the score has fallen since it was highest. */
+static int32_t fall_of_score(const struct rho_track *track)
 {
     return track->score_max_mnat - track->score_mnat;
 }
 
-static int has_ended(const struct rho_track *track, const struct rho_track_limits *limits)
+static int has_reached_end(const struct rho_track *track, const struct rho_track_limits *limits)
 {
     if (track->misses_in_row >= limits->misses_in_row_max) {
         return 1;
     }
-    return track->was_confirmed ? fall_of(track) >= limits->fall_mnat
+    return track->was_confirmed ? fall_of_score(track) >= limits->fall_mnat
                                 : track->score_mnat < limits->tentative_mnat;
 }
 
@@ -106,12 +106,12 @@ enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
                                                  const struct rho_track_limits *limits)
 {
     enum rho_track_event event = RHO_TRACK_DOUBT; /* of tracks that were never confirmed, too */
-    if (fall_of(track) < limits->doubt_mnat &&
+    if (fall_of_score(track) < limits->doubt_mnat &&
         (track->was_confirmed || track->score_mnat >= limits->confirm_mnat)) {
         event = RHO_TRACK_CONFIRM;
         track->was_confirmed = 1;
     }
-    apply_event(track, has_ended(track, limits) ? RHO_TRACK_DROP : event);
+    apply_event(track, has_reached_end(track, limits) ? RHO_TRACK_DROP : event);
     return (enum rho_track_status)track->status;
 }
 
@@ -142,8 +142,8 @@ float rho_track_sigma_mps(const struct rho_track *track)
 
 /* ---- a plain Kalman filter ------------------------------------------------------------------- */
 
-static enum rho_status measure_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
-                                        int has_z)
+static enum rho_status update_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
+                                       int has_z)
 {
     float variance = plot->sigma_mps * plot->sigma_mps;
     enum rho_status status = rho_kalman_update(kalman, 3, plot->vx_mps, variance, 0);
@@ -160,8 +160,8 @@ static enum rho_status measure_velocity(struct rho_kalman *kalman, const struct 
  * Takes all that a plot measures, at its own time; the range rate last, linearised at the position
  * found.
  */
-static enum rho_status measure(struct rho_kalman *kalman, const struct rho_track_plot *seen,
-                               const struct rho_track_model *model)
+static enum rho_status update_by_plot(struct rho_kalman *kalman, const struct rho_track_plot *seen,
+                                      const struct rho_track_model *model)
 {
     const struct rho_plot *plot = &seen->plot;
     struct rho_measurement measurement;
@@ -169,7 +169,7 @@ static enum rho_status measure(struct rho_kalman *kalman, const struct rho_track
     enum rho_status status = rho_kalman_update_position(
         kalman, &measurement, model->speed_sigma_mps * model->speed_sigma_mps);
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
-        status = measure_velocity(kalman, plot, measurement.has_z);
+        status = update_velocity(kalman, plot, measurement.has_z);
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status =
@@ -186,7 +186,7 @@ static enum rho_status update_kalman(struct rho_track *track, const struct rho_t
     enum rho_status status = rho_kalman_predict(
         &kalman, rho_seconds_between(track->time_us, seen->time_us), model->noise_density);
     if (status == RHO_OK) {
-        status = measure(&kalman, seen, model);
+        status = update_by_plot(&kalman, seen, model);
     }
     if (status == RHO_OK) {
         track->kalman = kalman;
@@ -197,7 +197,7 @@ static enum rho_status update_kalman(struct rho_track *track, const struct rho_t
 /* ---- with input estimation ------------------------------------------------------------------- */
 
 /* Copies the filter's estimate to the track. */
-static void show_input(struct rho_track *track)
+static void show_input_estimate(struct rho_track *track)
 {
     rho_input_estimate(&track->input, &track->kalman);
     for (int axis = 0; axis < 3; axis++) {
@@ -207,8 +207,9 @@ static void show_input(struct rho_track *track)
     track->maneuver_probability = track->input.present ? 1.0f : 0.0f;
 }
 
-static enum rho_status measure_input(struct rho_input *input, const struct rho_track_plot *seen,
-                                     const struct rho_input_config *config)
+static enum rho_status update_input_by_plot(struct rho_input *input,
+                                            const struct rho_track_plot *seen,
+                                            const struct rho_input_config *config)
 {
     const struct rho_plot *plot = &seen->plot;
     const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
@@ -235,23 +236,23 @@ static enum rho_status update_input(struct rho_track *track, const struct rho_tr
     enum rho_status status =
         rho_input_predict(&input, model->input, rho_seconds_between(track->time_us, seen->time_us));
     if (status == RHO_OK) {
-        status = measure_input(&input, seen, model->input);
+        status = update_input_by_plot(&input, seen, model->input);
     }
     if (status == RHO_OK) {
         rho_input_decide(&input, model->input);
         track->input = input;
         track->is_undecided = 0;
-        show_input(track);
+        show_input_estimate(track);
     }
     return status;
 }
 
 /* A bearing alone says nothing along its line: only those of all sensors show an input. */
-static void decide_on_bearings(struct rho_track *track, const struct rho_track_model *model)
+static void decide_inputs_by_bearings(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
         rho_input_decide(&track->input, model->input);
-        show_input(track);
+        show_input_estimate(track);
         track->is_undecided = 0;
     }
 }
@@ -274,7 +275,7 @@ void rho_track_merge_estimates(struct rho_track *track, int64_t time_us,
                                const struct rho_track_model *model)
 {
     struct rho_hypotheses_estimate estimate;
-    decide_on_bearings(track, model);
+    decide_inputs_by_bearings(track, model);
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) ||
         rho_hypotheses_estimate(model->hypotheses, track->slot, time_us, &estimate) != RHO_OK) {
         return;
@@ -362,7 +363,8 @@ static enum rho_status run_filter(struct rho_track *track, const struct rho_trac
 }
 
 /* Input estimation with a covariance of its own begins at the estimate of all plots. */
-static enum rho_status begin_paper(struct rho_track *track, const struct rho_track_model *model)
+static enum rho_status begin_input_of_paper(struct rho_track *track,
+                                            const struct rho_track_model *model)
 {
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) || !(model->input->initial_variance > 0.0f)) {
         return RHO_OK;
@@ -400,7 +402,7 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     start.time_us = plots[0].time_us;
     start.updated_us = last->time_us;
     rho_kalman_init(&start.kalman);
-    enum rho_status status = measure(&start.kalman, &plots[0], model);
+    enum rho_status status = update_by_plot(&start.kalman, &plots[0], model);
     if (status == RHO_OK) {
         status = open_filter(&start, model);
     }
@@ -409,7 +411,7 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     }
     status = run_filter(&start, plots, num_plots, model);
     if (status == RHO_OK) {
-        status = begin_paper(&start, model);
+        status = begin_input_of_paper(&start, model);
     }
     if (status != RHO_OK) {
         rho_track_end(&start, model);
@@ -444,7 +446,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     start.kalman = *estimate;
     enum rho_status status = open_filter(&start, model);
     if (status == RHO_OK) {
-        status = begin_paper(&start, model);
+        status = begin_input_of_paper(&start, model);
     }
     if (status != RHO_OK) {
         return status;
@@ -491,7 +493,7 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
                                rho_hypotheses_predict(model->hypotheses, track->slot, time_us));
     } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         status = rho_input_predict(&track->input, model->input, dt_s);
-        show_input(track);
+        show_input_estimate(track);
     } else {
         status = rho_kalman_predict(&track->kalman, dt_s, model->noise_density);
     }
@@ -618,7 +620,7 @@ static enum rho_status update_input_by_bearing(struct rho_track *track,
     if (status == RHO_OK) {
         track->input = input;
         track->is_undecided = 1;
-        show_input(track);
+        show_input_estimate(track);
     }
     return status;
 }

@@ -52,7 +52,7 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            rho_is_within(config->accel_max_mps2, 0.0f, 1000.0f) &&
            rho_is_within(config->steady_s, 0.0f, 1e5f) &&
            rho_is_within(config->v_min_mps, 0.0f, config->v_max_mps) &&
-           (!RHO_SECTORS || rho_tracker_is_late_usable(config)) &&
+           (!RHO_SECTORS || rho_tracker_is_late_max_usable(config)) &&
            rho_is_within(config->learn_noise_min, 0.1f, 1.0f) &&
            rho_is_within(config->learn_noise_max, 1.0f, 10.0f) &&
            rho_is_within(config->learn_pd_min, 0.1f, 1.0f) && config->coast_scans_max >= 1 &&

@@ -33,7 +33,7 @@
 /* After so many intervals without a look the sensor looks elsewhere. */
 #define INTERVALS_GONE 16.0f
 
-/* The same of hits of a track. */
+/* Smoothing of the interval between a track's hits. */
 #define SHORTER_SMOOTHING 0.5f
 #define LONGER_SMOOTHING 0.0625f
 
@@ -140,8 +140,8 @@ struct wait {
 };
 
 /* A sensor that was not described may see any place. */
-static int sees(const struct rho_tracker *tracker, const struct rho_tracker_pace *pace, float x_m,
-                float y_m)
+static int may_see(const struct rho_tracker *tracker, const struct rho_tracker_pace *pace,
+                   float x_m, float y_m)
 {
     const struct rho_sensor *known = rho_tracker_find_sensor(tracker, pace->sensor_id);
     if (!known) {
@@ -167,7 +167,7 @@ static struct wait wait_for(const struct step *step, const struct rho_track *tra
     struct wait wait = {0, track->seen_every_s, 0.0f};
     for (unsigned i = 0; i < tracker->num_paces; i++) {
         const struct rho_tracker_pace *pace = &tracker->paces[i];
-        const int is_seen = sees(tracker, pace, x_m, y_m);
+        const int is_seen = may_see(tracker, pace, x_m, y_m);
         const int is_last = saw_last(track, pace->sensor_id);
         const float interval_s =
             pace->interval_s > track->seen_every_s ? pace->interval_s : track->seen_every_s;

@@ -7,7 +7,7 @@
 #include "learned_line.h"
 #include "rhotrack/detail/approx.h"
 
-/* Of a step. */
+/* Pairs of tracks compared in a step, at most. */
 #define PAIRS_MAX 256u
 
 #define IMAGE_HITS 5   /* of one that may be an image */
@@ -85,7 +85,7 @@ static int may_be_image(const struct rho_sensor *sensor, const struct rho_track_
 }
 
 /* The line goes through the place, in the direction that two tracks say. */
-static int is_on(const struct rho_learned_reflector *line, const struct between *between)
+static int is_on_line(const struct rho_learned_reflector *line, const struct between *between)
 {
     float along_m;
     const float off_m = off_line_m(line, between->x_m, between->y_m, &along_m);
@@ -124,12 +124,12 @@ static void note_pair(struct rho_reflector_learning *learning, const struct betw
     struct rho_learned_reflector *least = 0;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
         struct rho_learned_reflector *line = &learning->lines[i];
-        if (line->is_taken && is_on(line, between)) {
+        if (line->is_taken && is_on_line(line, between)) {
             float along_m, across_m;
             to_frame(line, between->x_m, between->y_m, &along_m, &across_m);
-            refine(line, along_m, across_m, REPEATED * between->variance_m2);
+            refine_line(line, along_m, across_m, REPEATED * between->variance_m2);
             to_frame(line, between->crossing_x_m, between->crossing_y_m, &along_m, &across_m);
-            reach_to(line, along_m);
+            lengthen_line_to(line, along_m);
             line->pairs += 1.0f;
             return;
         }

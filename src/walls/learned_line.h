@@ -42,8 +42,8 @@ static inline float variance_at(const struct rho_learned_reflector *line, float 
 }
 
 /* A place half way between a target and its image; the line's frame has no error along it. */
-static inline void refine(struct rho_learned_reflector *line, float along_m, float across_m,
-                          float variance_m2)
+static inline void refine_line(struct rho_learned_reflector *line, float along_m, float across_m,
+                               float variance_m2)
 {
     float *p = line->variance;
     const float s = variance_at(line, along_m) + variance_m2;
@@ -59,7 +59,7 @@ static inline void refine(struct rho_learned_reflector *line, float along_m, flo
     p[2] -= to_slope * to_slope / s;
 }
 
-static inline void reach_to(struct rho_learned_reflector *line, float along_m)
+static inline void lengthen_line_to(struct rho_learned_reflector *line, float along_m)
 {
     line->from_m = rho_smaller(along_m, line->from_m);
     line->to_m = rho_larger(along_m, line->to_m);
@@ -72,7 +72,7 @@ static inline int is_target(const struct rho_track_report *track, const struct r
            track->status == RHO_TRACK_CONFIRMED && track->hits >= TARGET_HITS;
 }
 
-/* Of a covariance at x and y from `first` on, in a direction. */
+/* Variance in a direction, of a covariance whose x and y are from `first` on. */
 static inline float variance_along(const float *covariance, int first, float cos_along,
                                    float sin_along)
 {

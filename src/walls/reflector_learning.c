@@ -57,8 +57,8 @@ enum rho_status rho_reflector_learning_init(struct rho_reflector_learning *learn
 
 /* ---- places on a line ------------------------------------------------------------------------ */
 
-static void place_at(const struct rho_learned_reflector *line, float along_m, float *x_m,
-                     float *y_m)
+static void place_on_line(const struct rho_learned_reflector *line, float along_m, float *x_m,
+                          float *y_m)
 {
     const float across_m = across_at(line, along_m);
     *x_m = line->x_m + along_m * line->cos_along - across_m * line->sin_along;
@@ -66,7 +66,7 @@ static void place_at(const struct rho_learned_reflector *line, float along_m, fl
 }
 
 /* How much farther a wall reaches than a short line, on either end. */
-static float more_m_of(const struct rho_learned_reflector *line)
+static float reach_beyond_line_m(const struct rho_learned_reflector *line)
 {
     const float short_m = RHO_REFLECTOR_LEAST_M - (line->to_m - line->from_m);
     return short_m > 0.0f ? short_m : 0.0f;
@@ -75,9 +75,9 @@ static float more_m_of(const struct rho_learned_reflector *line)
 static struct rho_reflector wall_of(const struct rho_learned_reflector *line)
 {
     struct rho_reflector wall;
-    const float more_m = more_m_of(line);
-    place_at(line, line->from_m - more_m, &wall.from_x_m, &wall.from_y_m);
-    place_at(line, line->to_m + more_m, &wall.to_x_m, &wall.to_y_m);
+    const float more_m = reach_beyond_line_m(line);
+    place_on_line(line, line->from_m - more_m, &wall.from_x_m, &wall.from_y_m);
+    place_on_line(line, line->to_m + more_m, &wall.to_x_m, &wall.to_y_m);
     return wall;
 }
 
@@ -105,7 +105,8 @@ static int looked_at(const struct look *look, const struct rho_kalman *image)
 }
 
 /* The plot is the target's, or another one of its body. */
-static int is_own(const struct look *look, const struct rho_track_report *target, uint32_t plot)
+static int is_plot_of_target(const struct look *look, const struct rho_track_report *target,
+                             uint32_t plot)
 {
     const struct rho_groups *groups = &look->tracker->bodies.groups;
     return (int32_t)plot == target->plot ||
@@ -124,7 +125,8 @@ static int32_t nearest_plot(const struct look *look, const struct rho_kalman *im
     rho_gate_open(&gate, image, look->noise_density, look->sensor, look->scan->measures);
     for (uint32_t i = 0; i < look->scan->num_plots; i++) {
         const struct rho_plot *plot = &look->scan->plots[i];
-        if (!is_own(look, target, i) && rho_measurement_is_valid(plot, look->scan->measures) &&
+        if (!is_plot_of_target(look, target, i) &&
+            rho_measurement_is_valid(plot, look->scan->measures) &&
             rho_gate_test(&gate, plot, &result) && (nearest < 0 || result.distance2 < least)) {
             least = result.distance2;
             nearest = (int32_t)i;
@@ -134,7 +136,8 @@ static int32_t nearest_plot(const struct look *look, const struct rho_kalman *im
 }
 
 /* What is not known of the line widens the image's gate: twice its error, across it. */
-static void widen(const struct rho_learned_reflector *line, float along_m, struct rho_kalman *image)
+static void widen_image_gate(const struct rho_learned_reflector *line, float along_m,
+                             struct rho_kalman *image)
 {
     const float variance_m2 = 4.0f * variance_at(line, along_m);
     const float c = line->cos_along, s = line->sin_along;
@@ -160,8 +163,8 @@ static float learn_place(struct rho_learned_reflector *line, const struct look *
         0.25f * (variance_along(target->covariance, RHO_X, -line->sin_along, line->cos_along) +
                  variance_along(noise, RHO_X, -line->sin_along, line->cos_along));
     const float off_m = across_m - across_at(line, along_m);
-    refine(line, along_m, across_m, REPEATED * variance_m2);
-    reach_to(line, crossing_m);
+    refine_line(line, along_m, across_m, REPEATED * variance_m2);
+    lengthen_line_to(line, crossing_m);
     line->sigma_m += 0.05f * (target->sigma_m - line->sigma_m);
     return off_m;
 }
@@ -171,7 +174,7 @@ static int is_observed(const struct rho_learned_reflector *line)
     return line->is_taken && (line->is_used || line->pairs >= OBSERVED_PAIRS);
 }
 
-/* One more witness, of those that the memory still counts: where it passed, how far off it was. */
+/* Counts one more witness: where it passed, and how far its images were off. */
 static void note_distance(struct rho_learned_reflector *line, float distance_m, float off_m)
 {
     const float gain = 1.0f / (float)line->witnesses_for, more_m = distance_m - line->distance_m;
@@ -208,9 +211,10 @@ static int may_be_image_in_other(const struct rho_reflector_learning *learning,
     return 0;
 }
 
-static void judge(struct rho_reflector_learning *learning, struct rho_learned_reflector *line,
-                  const struct rho_sensor *sensor, const struct rho_reflector_witness *witness,
-                  const struct rho_track_report *target)
+static void judge_by_witness(struct rho_reflector_learning *learning,
+                             struct rho_learned_reflector *line, const struct rho_sensor *sensor,
+                             const struct rho_reflector_witness *witness,
+                             const struct rho_track_report *target)
 {
     if (witness->hits < FOR_HITS + HITS_OF_OTHER * witness->other) {
         line->witnesses_against =
@@ -250,7 +254,8 @@ static struct rho_reflector_witness *witness_of(struct rho_learned_reflector *li
     return found;
 }
 
-static void forget_ended(struct rho_learned_reflector *line, const struct rho_report *report)
+static void forget_ended_witnesses(struct rho_learned_reflector *line,
+                                   const struct rho_report *report)
 {
     for (unsigned i = 0; i < RHO_REFLECTOR_WITNESSES; i++) {
         struct rho_reflector_witness *witness = &line->witnesses[i];
@@ -265,8 +270,8 @@ static void forget_ended(struct rho_learned_reflector *line, const struct rho_re
 }
 
 /* How far the gate of the image reaches, with plots as uncertain as the target's own. */
-static float reach_of(const struct look *look, const struct rho_track_report *target,
-                      const struct rho_kalman *image)
+static float reach_of_gate(const struct look *look, const struct rho_track_report *target,
+                           const struct rho_kalman *image)
 {
     const float sigma_m = rho_plot_sigma_m(&look->scan->plots[target->plot]);
     struct rho_gate gate;
@@ -296,8 +301,9 @@ static int is_apart(const struct look *look, const struct rho_track_report *targ
 }
 
 /* Looks for a plot at the track's image, and once as far beside it as the gate does not reach. */
-static void observe(struct rho_reflector_learning *learning, struct rho_learned_reflector *line,
-                    struct look *look, const struct rho_track_report *target)
+static void look_at_image(struct rho_reflector_learning *learning,
+                          struct rho_learned_reflector *line, struct look *look,
+                          const struct rho_track_report *target)
 {
     const struct rho_reflector wall = wall_of(line);
     struct rho_kalman of, image;
@@ -309,8 +315,8 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
         !looked_at(look, &image)) {
         return;
     }
-    crossing_m += line->from_m - more_m_of(line);
-    widen(line, crossing_m, &image);
+    crossing_m += line->from_m - reach_beyond_line_m(line);
+    widen_image_gate(line, crossing_m, &image);
     struct rho_reflector_witness *witness = witness_of(line, target->track_id);
     if (!witness || !is_apart(look, target, &image)) {
         return;
@@ -327,7 +333,7 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
     if (witness->looks >= JUDGED_LOOKS || crossing_m < line->from_m || crossing_m > line->to_m) {
         return;
     }
-    const float reach_m = reach_of(look, target, &image);
+    const float reach_m = reach_of_gate(look, target, &image);
     const float beside_m = witness->looks % 2u ? 2.0f * reach_m : -2.0f * reach_m;
     image.state[RHO_X] += beside_m * line->cos_along;
     image.state[RHO_Y] += beside_m * line->sin_along;
@@ -336,7 +342,7 @@ static void observe(struct rho_reflector_learning *learning, struct rho_learned_
     witness->other = (uint16_t)(witness->other + (nearest_plot(look, &image, target) >= 0));
     witness->looks++;
     if (witness->looks == JUDGED_LOOKS) {
-        judge(learning, line, look->sensor, witness, target);
+        judge_by_witness(learning, line, look->sensor, witness, target);
     }
 }
 
@@ -349,11 +355,11 @@ static void look_at_images(struct rho_reflector_learning *learning, struct look 
         if (!is_observed(line)) {
             continue;
         }
-        forget_ended(line, report);
+        forget_ended_witnesses(line, report);
         for (unsigned i = 0; i < report->num_tracks && look->images_left > 0; i++) {
             const struct rho_track_report *target = &report->tracks[i];
             if (is_target(target, look->scan)) {
-                observe(learning, line, look, target);
+                look_at_image(learning, line, look, target);
             }
         }
     }
@@ -363,12 +369,13 @@ static void look_at_images(struct rho_reflector_learning *learning, struct look 
 /* ---- walls ----------------------------------------------------------------------------------- */
 
 /* The line lies on the wall, or makes it longer; behind a gap another one may follow. */
-static int is_same(const struct rho_learned_reflector *line, const struct rho_reflector *wall)
+static int is_on_known_wall(const struct rho_learned_reflector *line,
+                            const struct rho_reflector *wall)
 {
     const float limit_m = SAME_SIGMAS * line->sigma_m;
     float x_m[2], y_m[2], along_m[2];
-    place_at(line, line->from_m, &x_m[0], &y_m[0]);
-    place_at(line, line->to_m, &x_m[1], &y_m[1]);
+    place_on_line(line, line->from_m, &x_m[0], &y_m[0]);
+    place_on_line(line, line->to_m, &x_m[1], &y_m[1]);
     const float along_x_m = wall->to_x_m - wall->from_x_m,
                 along_y_m = wall->to_y_m - wall->from_y_m;
     const float length_m = rho_sqrt(along_x_m * along_x_m + along_y_m * along_y_m);
@@ -407,23 +414,23 @@ static int is_wall(const struct rho_learned_reflector *line)
            line->late_ones >= WALL_LATE_ONES && is_spread(line) && is_well_known(line);
 }
 
-static void forget(struct rho_learned_reflector *line)
+static void forget_line(struct rho_learned_reflector *line)
 {
     line->is_taken = line->is_used = 0;
     line->pairs = 0.0f;
 }
 
 /* Walls that the tracker knows already are not learned. */
-static void decide(struct rho_reflector_learning *learning, const struct rho_tracker *tracker,
-                   struct rho_learned_reflector *line)
+static void decide_on_line(struct rho_reflector_learning *learning,
+                           const struct rho_tracker *tracker, struct rho_learned_reflector *line)
 {
     if (line->witnesses_against > line->witnesses_for + 1) {
-        forget(line);
+        forget_line(line);
     } else if (line->is_taken && !line->is_used && is_wall(line)) {
         line->is_used = learning->num_told + learning->num_used < RHO_MAX_REFLECTORS;
         for (unsigned i = 0; i < tracker->num_reflectors; i++) {
-            if (is_same(line, &tracker->reflectors[i])) {
-                forget(line);
+            if (is_on_known_wall(line, &tracker->reflectors[i])) {
+                forget_line(line);
             }
         }
         learning->num_used = (uint16_t)(learning->num_used + line->is_used);
@@ -449,7 +456,8 @@ static int are_equal(const struct rho_reflector *a, const struct rho_reflector *
 }
 
 /* The tracker has the walls that set_walls gave it last. */
-static int are_set(const struct rho_reflector_learning *learning, const struct rho_tracker *tracker)
+static int are_walls_set(const struct rho_reflector_learning *learning,
+                         const struct rho_tracker *tracker)
 {
     const unsigned all = (unsigned)learning->num_told + learning->num_used;
     unsigned count = learning->num_told;
@@ -466,7 +474,7 @@ static int are_set(const struct rho_reflector_learning *learning, const struct r
     return count == all && tracker->num_reflectors == all;
 }
 
-/* Those that were told, and behind them those that are learned. */
+/* Gives the tracker the walls that were told, and behind them those learned. */
 static enum rho_status set_walls(struct rho_reflector_learning *learning,
                                  struct rho_tracker *tracker)
 {
@@ -500,7 +508,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     if (report->time_us != scan->time_us || report->num_tracks > RHO_MAX_TRACKS) {
         return RHO_ERROR_VALUE;
     }
-    if (!are_set(learning, tracker)) {
+    if (!are_walls_set(learning, tracker)) {
         learning->num_told = tracker->num_reflectors; /* others were told */
         learning->num_used = 0;
     }
@@ -516,7 +524,7 @@ enum rho_status rho_reflector_learning_step(struct rho_reflector_learning *learn
     rho_reflector_learning_note_pairs(learning, look.sensor, scan, report);
     look_at_images(learning, &look, report);
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
-        decide(learning, tracker, &learning->lines[i]);
+        decide_on_line(learning, tracker, &learning->lines[i]);
     }
     unsigned num_used = 0;
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {

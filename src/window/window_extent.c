@@ -57,7 +57,7 @@ struct plot_spread {
     struct rho_extent extent;
 };
 
-static int is_far(const struct plot_spread *spread, float x_m, float y_m)
+static int is_outlier(const struct plot_spread *spread, float x_m, float y_m)
 {
     float dx_m = x_m - spread->mean_m[0], dy_m = y_m - spread->mean_m[1];
     return spread->plots >= OUTLIER_PLOTS &&
@@ -65,12 +65,12 @@ static int is_far(const struct plot_spread *spread, float x_m, float y_m)
             dy_m * dy_m * spread->plots > OUTLIER_SIGMAS2 * spread->sum2_m2[1]);
 }
 
-/* Welford's running mean and sum of squares. */
+/* Adds a plot to the running mean and sum of squares (Welford). */
 static void add_plot(struct plot_spread *spread, const struct plot_spread *before, float x_m,
                      float y_m)
 {
     const float place_m[2] = {x_m, y_m};
-    if (is_far(before, x_m, y_m)) {
+    if (is_outlier(before, x_m, y_m)) {
         return;
     }
     spread->plots += 1.0f;
@@ -82,8 +82,8 @@ static void add_plot(struct plot_spread *spread, const struct plot_spread *befor
     rho_extent_add(&spread->extent, x_m, y_m);
 }
 
-static void add_all(struct plot_spread *spread, const struct plot_spread *before,
-                    struct rho_window *window)
+static void add_all_plots(struct plot_spread *spread, const struct plot_spread *before,
+                          struct rho_window *window)
 {
     *spread = (struct plot_spread){.extent = {1.0f, 0.0f, 1.0f, 0.0f}};
     for (unsigned m = 0; m < window->num_scans; m++) {
@@ -99,13 +99,13 @@ static float decayed(float was, float is, int is_wider)
     return is_wider ? is : was + EXTENT_DECAY * (is - was);
 }
 
-/* Without outliers, which would make clutter look thin everywhere. */
+/* The extent follows the plots without outliers, which make clutter look thin. */
 void rho_window_follow_extent(struct rho_window *window)
 {
     struct plot_spread spread = {0}, before;
     for (int round = 0; round < OUTLIER_ROUNDS; round++) {
         before = spread;
-        add_all(&spread, &before, window);
+        add_all_plots(&spread, &before, window);
     }
     struct rho_extent *was = &window->extent, is = spread.extent;
     if (spread.plots < 1.0f) {

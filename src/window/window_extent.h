@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where a window's plots lie. Private to src/initiation/window*.c. */
+/* Where a window's plots lie. Private to src/window/window*.c. */
 #ifndef RHOTRACK_WINDOW_EXTENT_H
 #define RHOTRACK_WINDOW_EXTENT_H
 

@@ -4,8 +4,8 @@
 
 #include "rhotrack/operator.h"
 
-static enum rho_status start(const struct rho_message_command *command, struct rho_tracker *tracker,
-                             struct rho_report *report)
+static enum rho_status start_by_command(const struct rho_message_command *command,
+                                        struct rho_tracker *tracker, struct rho_report *report)
 {
     const struct rho_operator_start at = {.x_m = command->x_m,
                                           .y_m = command->y_m,
@@ -16,8 +16,8 @@ static enum rho_status start(const struct rho_message_command *command, struct r
     return rho_tracker_start_at(tracker, &at, report);
 }
 
-static enum rho_status exclude(const struct rho_message_command *command,
-                               struct rho_tracker *tracker)
+static enum rho_status exclude_by_command(const struct rho_message_command *command,
+                                          struct rho_tracker *tracker)
 {
     const struct rho_extent area = {.x_min_m = command->x_m,
                                     .x_max_m = command->x_max_m,
@@ -26,13 +26,13 @@ static enum rho_status exclude(const struct rho_message_command *command,
     return rho_tracker_exclude_area(tracker, &area);
 }
 
-static enum rho_status run(const struct rho_message_command *command, struct rho_tracker *tracker,
-                           struct rho_report *report)
+static enum rho_status run_command(const struct rho_message_command *command,
+                                   struct rho_tracker *tracker, struct rho_report *report)
 {
     const uint32_t track_id = (uint32_t)command->track_id;
     switch (command->action) {
     case RHO_MESSAGE_COMMAND_START:
-        return start(command, tracker, report);
+        return start_by_command(command, tracker, report);
     case RHO_MESSAGE_COMMAND_DROP:
         return rho_tracker_drop_track(tracker, track_id, report);
     case RHO_MESSAGE_COMMAND_RENUMBER:
@@ -42,7 +42,7 @@ static enum rho_status run(const struct rho_message_command *command, struct rho
         return rho_tracker_freeze_track(tracker, track_id,
                                         command->action == RHO_MESSAGE_COMMAND_FREEZE, report);
     case RHO_MESSAGE_COMMAND_EXCLUDE:
-        return exclude(command, tracker);
+        return exclude_by_command(command, tracker);
     case RHO_MESSAGE_COMMAND_INCLUDE:
         return rho_tracker_include_place(tracker, command->x_m, command->y_m);
     default:
@@ -74,7 +74,7 @@ enum rho_status rho_command_run(const struct rho_message_command *command,
     if (!command || !tracker || !report || !answer) {
         return RHO_ERROR_NULL;
     }
-    const enum rho_status status = run(command, tracker, report);
+    const enum rho_status status = run_command(command, tracker, report);
     *answer = (struct rho_message_command_answer){
         .utime = report->time_us,
         .number = command->number,

@@ -77,7 +77,7 @@ enum rho_status rho_node_init(struct rho_node *node, size_t size,
 /* ---- Sensors ---- */
 
 /* An accepted scan of the sensor, of any kind, came in the last jump_max_us. */
-static int is_heard(const struct rho_node *node, int32_t sensor_id)
+static int is_sensor_heard(const struct rho_node *node, int32_t sensor_id)
 {
     const struct rho_scan_assembler *assembler = node->config.assembler;
 
@@ -100,7 +100,8 @@ static void forget_silent_sensors(struct rho_node *node)
     for (unsigned i = tracker->num_sensors; i-- > 0;) {
         int32_t sensor_id = tracker->sensors[i].sensor_id;
 
-        if (!is_heard(node, sensor_id) && rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {
+        if (!is_sensor_heard(node, sensor_id) &&
+            rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {
             node->counters.sensors_forgotten = rho_count(node->counters.sensors_forgotten, 1);
         }
     }
@@ -215,7 +216,7 @@ static int is_kept_out(struct rho_node *node, const struct rho_bearing_scan *sca
         int32_t sensor_id = frames->sensors[i].sensor_id;
 
         if (sensor_id == scan->sensor_id ? ++node->refused_scans[i] >= MOVED_SCANS
-                                         : !is_heard(node, sensor_id)) {
+                                         : !is_sensor_heard(node, sensor_id)) {
             return 1;
         }
     }
@@ -415,7 +416,7 @@ static int is_of_another_clock(const struct rho_node *node)
 }
 
 /* A scan that is due, or an open frame whose time has passed. Returns 0 where there is neither. */
-static int fetch(struct rho_node *node, int64_t now_us)
+static int fetch_due_item(struct rho_node *node, int64_t now_us)
 {
     struct rho_scan_assembler *assembler = node->config.assembler;
     const uint8_t room = node->is_making_room;
@@ -450,7 +451,7 @@ enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us)
         if (due == RHO_NODE_NOTHING && node->has_item) {
             due = take_item(node, now_us);
         } else if (due == RHO_NODE_NOTHING) {
-            has_more = fetch(node, now_us);
+            has_more = fetch_due_item(node, now_us);
         }
     }
     if (due != RHO_NODE_NOTHING) {
@@ -592,7 +593,7 @@ enum rho_status rho_node_publish(const struct rho_node *node, const struct rho_i
                              report->time_us, node->step, buffer, capacity, size);
 }
 
-static int32_t add(int32_t counter, uint32_t more)
+static int32_t add_to_counter(int32_t counter, uint32_t more)
 {
     uint32_t sum = rho_count((uint32_t)counter, more);
 
@@ -609,8 +610,8 @@ void rho_node_status(struct rho_node *node, const struct rho_initiator *initiato
                        status);
     status->scan = node->step;
     status->epoch = node->epoch;
-    status->plots_in = add(status->plots_in, node->counters.plots_refused);
-    status->inputs_no_room = add(status->inputs_no_room, node->counters.plots_refused);
+    status->plots_in = add_to_counter(status->plots_in, node->counters.plots_refused);
+    status->inputs_no_room = add_to_counter(status->inputs_no_room, node->counters.plots_refused);
     if (node->timing.steps > 0) {
         status->step_us = (float)node->timing.sum_us / (float)node->timing.steps;
         status->step_max_us = (float)node->timing.max_us;

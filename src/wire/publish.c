@@ -148,8 +148,8 @@ static enum rho_status add_candidates(const struct rho_initiator *initiator,
     return status;
 }
 
-static enum rho_status add_passive(const struct rho_passive *passive,
-                                   struct rho_message_writer *writer)
+static enum rho_status add_passive_tracks(const struct rho_passive *passive,
+                                          struct rho_message_writer *writer)
 {
     enum rho_status status = RHO_OK;
     struct rho_message_peak peak;
@@ -184,15 +184,15 @@ enum rho_status rho_publish_peaks(const struct rho_initiator *initiator,
         status = add_candidates(initiator, &writer);
     }
     if (status == RHO_OK && passive) {
-        status = add_passive(passive, &writer);
+        status = add_passive_tracks(passive, &writer);
     }
     return status == RHO_OK ? rho_message_end(&writer, size) : status;
 }
 
 /* ---- Status ---- */
 
-static void fill_assembler(const struct rho_scan_assembler_counters *assembler,
-                           struct rho_message_status *status)
+static void fill_assembler_counters(const struct rho_scan_assembler_counters *assembler,
+                                    struct rho_message_status *status)
 {
     status->scans_accepted = long_count(assembler->scans_accepted);
     status->scans_late = long_count(assembler->scans_late);
@@ -212,35 +212,38 @@ static void fill_assembler(const struct rho_scan_assembler_counters *assembler,
     status->inputs_no_room = long_count(assembler->plots_no_room);
 }
 
-static int32_t sum(int32_t counter, uint32_t more)
+static int32_t add_to_counter(int32_t counter, uint32_t more)
 {
     return long_count(rho_count((uint32_t)counter, more));
 }
 
-static void add_frames(const struct rho_frames_counters *frames, struct rho_message_status *status)
+static void add_frame_counters(const struct rho_frames_counters *frames,
+                               struct rho_message_status *status)
 {
     status->frames_incomplete = long_count(frames->frames_incomplete);
-    status->scans_late = sum(status->scans_late, frames->scans_late);
-    status->clock_jumps = sum(status->clock_jumps, frames->scans_off_clock);
-    status->plots_in = sum(status->plots_in, frames->bearings_no_room);
-    status->inputs_no_room = sum(status->inputs_no_room, frames->bearings_no_room);
+    status->scans_late = add_to_counter(status->scans_late, frames->scans_late);
+    status->clock_jumps = add_to_counter(status->clock_jumps, frames->scans_off_clock);
+    status->plots_in = add_to_counter(status->plots_in, frames->bearings_no_room);
+    status->inputs_no_room = add_to_counter(status->inputs_no_room, frames->bearings_no_room);
 }
 
-static void add_tracker(const struct rho_tracker *tracker, struct rho_message_status *status)
+static void add_tracker_counters(const struct rho_tracker *tracker,
+                                 struct rho_message_status *status)
 {
     const struct rho_tracker_counters *counters = &tracker->counters;
     uint32_t count[RHO_NUM_TRACK_STATUS] = {0};
 
     status->utime = tracker->time_us;
-    status->scans_late = sum(status->scans_late, counters->scans_late);
-    status->plots_in = sum(status->plots_in, counters->plots_in);
+    status->scans_late = add_to_counter(status->scans_late, counters->scans_late);
+    status->plots_in = add_to_counter(status->plots_in, counters->plots_in);
     status->plots_claimed = long_count(counters->fates[RHO_FATE_CLAIMED]);
     status->plots_held = long_count(counters->fates[RHO_FATE_HELD]);
     status->plots_initiated = long_count(counters->plots_initiated);
     status->plots_clutter = long_count(counters->plots_clutter);
     status->inputs_stale = long_count(counters->fates[RHO_FATE_STALE]);
     status->inputs_invalid = long_count(counters->fates[RHO_FATE_INVALID]);
-    status->inputs_no_room = sum(status->inputs_no_room, counters->fates[RHO_FATE_NO_ROOM]);
+    status->inputs_no_room =
+        add_to_counter(status->inputs_no_room, counters->fates[RHO_FATE_NO_ROOM]);
     status->ghosts_pruned = long_count(counters->fates[RHO_FATE_GHOST]);
     /* Behind the live tracks stand copies of some that have ended. */
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -262,13 +265,13 @@ void rho_publish_status(const struct rho_scan_assembler *assembler, const struct
     }
     *status = (struct rho_message_status){.utime = 0};
     if (assembler) {
-        fill_assembler(&assembler->counters, status);
+        fill_assembler_counters(&assembler->counters, status);
     }
     if (frames) {
-        add_frames(&frames->counters, status);
+        add_frame_counters(&frames->counters, status);
     }
     if (tracker) {
-        add_tracker(tracker, status);
+        add_tracker_counters(tracker, status);
     }
     if (initiator) {
         status->clutter_per_km2 = initiator->density_per_m2 * M2_PER_KM2;

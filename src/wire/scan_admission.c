@@ -11,7 +11,7 @@
 
 /* ---- Times ---- */
 
-static int is_near(int64_t a_us, int64_t b_us, int64_t most_us)
+static int are_near_times(int64_t a_us, int64_t b_us, int64_t most_us)
 {
     return rho_elapsed_us(a_us, b_us) <= (uint64_t)most_us &&
            rho_elapsed_us(b_us, a_us) <= (uint64_t)most_us;
@@ -52,7 +52,7 @@ static int32_t number_difference(int32_t scan, int32_t from)
 static int is_later(const struct rho_scan_assembler_config *config, int64_t time_us,
                     int64_t from_us)
 {
-    return time_us > from_us && is_near(time_us, from_us, config->jump_max_us);
+    return time_us > from_us && are_near_times(time_us, from_us, config->jump_max_us);
 }
 
 /* The scan may be the next one after that at `from`. */
@@ -122,7 +122,7 @@ static enum scan_verdict classify_number(const struct rho_scan_assembler_config 
     if (ahead < 0 && place->time_us > newest->time_us) {
         return SCAN_WRONG_NUMBER;
     }
-    if (!is_near(place->time_us, newest->time_us, config->jump_max_us)) {
+    if (!are_near_times(place->time_us, newest->time_us, config->jump_max_us)) {
         return SCAN_WRONG_TIME;
     }
     return source->seen >> -ahead & 1u ? SCAN_DUPLICATE : SCAN_TOO_LATE;
@@ -150,9 +150,9 @@ find_agreeing_stray(const struct rho_scan_assembler_config *config,
  * The sensor's numbers begin again: no older one is remembered, or the scan continues such a
  * series. Copies of single scans, by another way through the network, do neither.
  */
-static int begins_again(const struct rho_scan_assembler_config *config,
-                        const struct rho_scan_assembler_source *source,
-                        const struct rho_scan_assembler_place *place)
+static int restarts_numbers(const struct rho_scan_assembler_config *config,
+                            const struct rho_scan_assembler_source *source,
+                            const struct rho_scan_assembler_place *place)
 {
     int32_t behind = number_difference(source->place.scan, place->scan);
 
@@ -167,7 +167,7 @@ int rho_scan_assembler_is_stray(const struct rho_scan_assembler_config *config,
 {
     return verdict == SCAN_WRONG_NUMBER || verdict == SCAN_WRONG_TIME ||
            (FOLLOWS_REPEATS && (verdict == SCAN_DUPLICATE || verdict == SCAN_TOO_LATE) &&
-            begins_again(config, source, place));
+            restarts_numbers(config, source, place));
 }
 
 int rho_scan_assembler_is_usable_time(const struct rho_scan_assembler *assembler,
@@ -302,10 +302,10 @@ static void note_heard(const struct rho_scan_assembler_config *config,
     source->heard_us = now_us;
 }
 
-uint32_t rho_scan_assembler_advance_source(const struct rho_scan_assembler_config *config,
-                                           struct rho_scan_assembler_source *source,
-                                           const struct rho_scan_assembler_place *place,
-                                           enum scan_verdict verdict, int64_t now_us)
+uint32_t rho_scan_assembler_take_newest(const struct rho_scan_assembler_config *config,
+                                        struct rho_scan_assembler_source *source,
+                                        const struct rho_scan_assembler_place *place,
+                                        enum scan_verdict verdict, int64_t now_us)
 {
     const struct rho_scan_assembler_stray *stray =
         verdict == SCAN_RESTARTS_SENSOR ? find_agreeing_stray(config, source, place) : NULL;
@@ -529,8 +529,8 @@ static int has_majority(const struct rho_scan_assembler *assembler,
             with += !disagrees_on_time(&assembler->config, other, time_us, now_us);
         }
     }
-    return with > against || (with == against && is_near(time_us, now_us, offset_max_us) &&
-                              !is_near(assembler->clock_us, now_us, offset_max_us));
+    return with > against || (with == against && are_near_times(time_us, now_us, offset_max_us) &&
+                              !are_near_times(assembler->clock_us, now_us, offset_max_us));
 }
 
 /*
@@ -575,7 +575,7 @@ enum scan_clock rho_scan_assembler_check_clock(struct rho_scan_assembler *assemb
     enum scan_clock clock = CLOCK_COMMON;
 
     if (assembler->has_clock &&
-        (!is_near(time_us, assembler->clock_us, assembler->config.jump_max_us) ||
+        (!are_near_times(time_us, assembler->clock_us, assembler->config.jump_max_us) ||
          (HAS_OTHERS && is_contradicted(assembler, source, time_us, now_us)) ||
          (FOLLOWS_REPEATS && verdict == SCAN_RESTARTS_SENSOR &&
           is_set_back(assembler, source, time_us, now_us)))) {

@@ -37,7 +37,7 @@ static int is_sigma_rad(float sigma_rad)
     return rho_is_within(sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
 }
 
-static int is_noise(const struct rho_scan_assembler_noise *noise)
+static int is_usable_noise(const struct rho_scan_assembler_noise *noise)
 {
     return is_sigma(noise->sigma_m) && is_sigma(noise->sigma_mps) &&
            is_sigma(noise->sigma_range_m) && is_sigma(noise->sigma_range_rate_mps) &&
@@ -45,12 +45,12 @@ static int is_noise(const struct rho_scan_assembler_noise *noise)
            is_sigma_rad(noise->sigma_rad);
 }
 
-static int is_known(const struct rho_scan_assembler_sensor *known)
+static int is_usable_sensor(const struct rho_scan_assembler_sensor *known)
 {
-    return is_noise(&known->noise) && rho_measurement_is_sensor(&known->sensor);
+    return is_usable_noise(&known->noise) && rho_measurement_is_sensor(&known->sensor);
 }
 
-static int is_config(const struct rho_scan_assembler_config *config)
+static int is_usable_config(const struct rho_scan_assembler_config *config)
 {
     return config->hold_us >= 0 && config->hold_us <= HOLD_MAX_US && config->late_max_us >= 0 &&
            config->late_max_us <= LATE_MAX_US && config->jump_max_us >= JUMP_MIN_US &&
@@ -58,7 +58,7 @@ static int is_config(const struct rho_scan_assembler_config *config)
            config->flood_per_s <= FLOOD_MAX && config->follow_scans >= 2 &&
            config->follow_scans <= 255 && config->stranger_plots_per_s >= 1 &&
            config->stranger_plots_per_s <= FLOOD_MAX && config->num_allowed <= RHO_MAX_SENSORS &&
-           is_known(&config->other);
+           is_usable_sensor(&config->other);
 }
 
 void rho_scan_assembler_config_default(struct rho_scan_assembler_config *config)
@@ -90,7 +90,7 @@ enum rho_status rho_scan_assembler_init(struct rho_scan_assembler *assembler, si
     if (size != sizeof *assembler) {
         return RHO_ERROR_SIZE;
     }
-    if (!is_config(config)) {
+    if (!is_usable_config(config)) {
         return RHO_ERROR_CONFIG;
     }
     memset(assembler, 0, sizeof *assembler);
@@ -113,7 +113,7 @@ enum rho_status rho_scan_assembler_set_sensor(struct rho_scan_assembler *assembl
     if (!is_ready(assembler)) {
         return RHO_ERROR_STATE;
     }
-    if (!is_known(sensor)) {
+    if (!is_usable_sensor(sensor)) {
         return RHO_ERROR_CONFIG;
     }
     while (i < assembler->num_known &&
@@ -223,8 +223,9 @@ static struct rho_scan_assembler_source *find_source_room(struct rho_scan_assemb
 
 /* ---- A message of a scan ---- */
 
-static void refuse(struct rho_scan_assembler *assembler, struct rho_scan_assembler_source *source,
-                   enum scan_verdict verdict, const struct scan_heading *heading)
+static void refuse_scan(struct rho_scan_assembler *assembler,
+                        struct rho_scan_assembler_source *source, enum scan_verdict verdict,
+                        const struct scan_heading *heading)
 {
     if (FOLLOWS_REPEATS && (verdict == SCAN_DUPLICATE || verdict == SCAN_TOO_LATE) &&
         rho_scan_assembler_is_stray(&assembler->config, source, &heading->place, verdict)) {
@@ -278,8 +279,8 @@ static int is_of_other_kind(const struct rho_scan_assembler *assembler,
 }
 
 /* The config names it. */
-static int is_named(const struct rho_scan_assembler *assembler, const struct scan_heading *heading,
-                    int64_t now_us)
+static int is_named_in_config(const struct rho_scan_assembler *assembler,
+                              const struct scan_heading *heading, int64_t now_us)
 {
     return (assembler->config.num_allowed > 0 ||
             rho_scan_assembler_description_of(assembler, heading->sensor_id) !=
@@ -315,8 +316,8 @@ static void begin_scan(struct rho_scan_assembler *assembler,
     rho_scan_assembler_complete_open_scans(assembler, source, verdict == SCAN_RESTARTS_SENSOR);
     assembler->counters.scans_lost =
         rho_count(assembler->counters.scans_lost,
-                  rho_scan_assembler_advance_source(&assembler->config, source, &heading->place,
-                                                    verdict, now_us));
+                  rho_scan_assembler_take_newest(&assembler->config, source, &heading->place,
+                                                 verdict, now_us));
     if (verdict == SCAN_RESTARTS_SENSOR) {
         rho_scan_assembler_count_one(&assembler->counters.sensor_restarts);
     }
@@ -403,7 +404,7 @@ static enum rho_status take_part(struct rho_scan_assembler *assembler,
                      : SCAN_NEXT;
     if (verdict != SCAN_NEXT && verdict != SCAN_RESTARTS_SENSOR &&
         verdict != SCAN_OUT_OF_SEQUENCE) {
-        refuse(assembler, source, verdict, heading);
+        refuse_scan(assembler, source, verdict, heading);
         return RHO_OK;
     }
     if (verdict == SCAN_OUT_OF_SEQUENCE) {
@@ -427,7 +428,7 @@ static enum rho_status take_part(struct rho_scan_assembler *assembler,
     return RHO_OK;
 }
 
-static int is_allowed(const struct rho_scan_assembler_config *config, int16_t sensor_id)
+static int is_allowed_sensor(const struct rho_scan_assembler_config *config, int16_t sensor_id)
 {
     for (unsigned i = 0; i < config->num_allowed; i++) {
         if (config->allowed[i] == sensor_id) {
@@ -437,7 +438,7 @@ static int is_allowed(const struct rho_scan_assembler_config *config, int16_t se
     return config->num_allowed == 0;
 }
 
-static uint32_t check_of(const uint8_t *data, size_t size)
+static uint32_t checksum_of(const uint8_t *data, size_t size)
 {
     uint32_t check = CHECK_START;
 
@@ -468,7 +469,7 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
     if (!read_channel(channel, &kind, &sensor_id)) {
         return RHO_ERROR_TYPE;
     }
-    if (!is_allowed(&assembler->config, sensor_id)) {
+    if (!is_allowed_sensor(&assembler->config, sensor_id)) {
         rho_scan_assembler_count_one(&assembler->counters.messages_not_allowed);
         return RHO_OK;
     }
@@ -495,14 +496,14 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
         rho_scan_assembler_count_one(&assembler->counters.scans_bad);
         return RHO_OK;
     }
-    heading.is_new = (uint8_t)(is_new && !is_named(assembler, &heading, now_us));
+    heading.is_new = (uint8_t)(is_new && !is_named_in_config(assembler, &heading, now_us));
     if (heading.is_new &&
         !rho_scan_assembler_take_tokens(&assembler->stranger_plots, heading.num_inputs,
                                         assembler->config.stranger_plots_per_s, now_us)) {
         rho_scan_assembler_count_one(&assembler->counters.messages_flooded);
         return RHO_OK;
     }
-    heading.check = check_of(data, size);
+    heading.check = checksum_of(data, size);
     status = take_part(assembler, &heading, &message, source, is_new, now_us);
     if (status == RHO_ERROR_CAPACITY) { /* the caller gives the message again */
         bucket->left++;

@@ -70,10 +70,10 @@ void rho_scan_assembler_note_stray(const struct rho_scan_assembler_config *confi
                                    const struct rho_scan_assembler_place *place);
 
 /* The sensor's newest scan is this one. Returns how many numbers were skipped. */
-uint32_t rho_scan_assembler_advance_source(const struct rho_scan_assembler_config *config,
-                                           struct rho_scan_assembler_source *source,
-                                           const struct rho_scan_assembler_place *place,
-                                           enum scan_verdict verdict, int64_t now_us);
+uint32_t rho_scan_assembler_take_newest(const struct rho_scan_assembler_config *config,
+                                        struct rho_scan_assembler_source *source,
+                                        const struct rho_scan_assembler_place *place,
+                                        enum scan_verdict verdict, int64_t now_us);
 
 /* Nothing newer than this time has gone out, or a tracker still takes an out-of-sequence scan. */
 int rho_scan_assembler_is_usable_time(const struct rho_scan_assembler *assembler,

@@ -49,7 +49,7 @@ const char *rho_command_setting_name(int field)
     return found ? found->name : 0;
 }
 
-static int is_same(const char *a, const char *b)
+static int is_same_name(const char *a, const char *b)
 {
     while (*a && *a == *b) {
         a++;
@@ -58,10 +58,10 @@ static int is_same(const char *a, const char *b)
     return *a == *b;
 }
 
-static int16_t number_of(const char *name)
+static int16_t number_of_field(const char *name)
 {
     int16_t number = 1;
-    while (field_of(number) && !is_same(field_of(number)->name, name)) {
+    while (field_of(number) && !is_same_name(field_of(number)->name, name)) {
         number++;
     }
     return field_of(number) ? number : 0;
@@ -110,7 +110,7 @@ enum rho_status rho_command_set(const struct rho_message_setting *setting,
     if (status == RHO_OK) {
         *settings = changed;
     } else if (fault.field) {
-        answer->fault_field = number_of(fault.field);
+        answer->fault_field = number_of_field(fault.field);
         answer->value = answer->fault_field == setting->field ? setting->value : fault.value;
         answer->min = fault.min;
         answer->max = fault.max;

@@ -57,8 +57,8 @@ static void add_credit(struct rho_show_rate *rate, int64_t now_us)
 }
 
 /* So many messages are sent, which the rate has to pay for; the others are left out. */
-static void spend(const struct rho_show *show, struct rho_show_rate *rate, uint32_t sent,
-                  uint32_t all)
+static void spend_credit(const struct rho_show *show, struct rho_show_rate *rate, uint32_t sent,
+                         uint32_t all)
 {
     rate->left = sent;
     rate->at = 0;
@@ -97,11 +97,11 @@ void rho_show_begin(struct rho_show *show, const struct rho_show_source *source,
         }
         const uint32_t all = num_messages(show, source, kind);
         add_credit(rate, now_us);
-        spend(show, rate,
-              kind == RHO_SHOW_HYPOTHESES ? num_affordable(show, rate, all)
-              : rate->credit_us > 0       ? all
-                                          : 0,
-              all);
+        spend_credit(show, rate,
+                     kind == RHO_SHOW_HYPOTHESES ? num_affordable(show, rate, all)
+                     : rate->credit_us > 0       ? all
+                                                 : 0,
+                     all);
     }
 }
 

@@ -38,8 +38,8 @@ static int is_seen(const struct rho_batch *batch, const struct rho_passive_paper
  * The pair and part of a message. Returns 0 beyond the last one; *before are the messages of all
  * pairs then.
  */
-static int find(const struct rho_show_source *source, uint32_t number,
-                struct rho_passive_paper_pair *pair, unsigned *part, uint32_t *before)
+static int find_part(const struct rho_show_source *source, uint32_t number,
+                     struct rho_passive_paper_pair *pair, unsigned *part, uint32_t *before)
 {
     const struct rho_batch *batch = batch_of(source);
     *before = 0;
@@ -59,7 +59,7 @@ uint32_t rho_show_num_ghosts(const struct rho_show_source *source)
     struct rho_passive_paper_pair pair;
     uint32_t all;
     unsigned part;
-    (void)find(source, UINT32_MAX, &pair, &part, &all);
+    (void)find_part(source, UINT32_MAX, &pair, &part, &all);
     return all;
 }
 
@@ -137,7 +137,7 @@ const char *rho_show_write_ghosts(const struct rho_show_source *source, uint32_t
     struct rho_message_writer writer;
     uint32_t before;
     unsigned part;
-    if (!find(source, number, &pair, &part, &before) ||
+    if (!find_part(source, number, &pair, &part, &before) ||
         rho_passive_paper_ghosts(source->paper, &pair, source->paper->batch.num_scans - 1u,
                                  &matrix) != RHO_OK) {
         return NULL;

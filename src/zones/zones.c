@@ -227,7 +227,7 @@ static void leave(struct rho_zones *zones, struct rho_zone_visitor *visitor, uns
 }
 
 /* Its track is no longer reported. */
-static void end(struct rho_zones *zones, const struct rho_zone_visitor *visitor)
+static void end_visit(struct rho_zones *zones, const struct rho_zone_visitor *visitor)
 {
     for (unsigned place = 0; place < zones->num_zones; place++) {
         if (visitor->inside >> place & 1u) {
@@ -280,8 +280,8 @@ static void count_crowd(struct rho_zone_counts *counts, const struct crowd *crow
     counts->speed_mps = crowd->inside > 0 ? crowd->speed_sum_mps / (float)crowd->inside : 0.0f;
 }
 
-static void join(struct crowd *crowd, const struct rho_zone *zone, unsigned place,
-                 struct rho_zone_visitor *visitor, const struct sight *sight)
+static void join_zone(struct crowd *crowd, const struct rho_zone *zone, unsigned place,
+                      struct rho_zone_visitor *visitor, const struct sight *sight)
 {
     const uint32_t bit = (uint32_t)1 << place;
     const float limit_mps = (visitor->queued & bit ? QUEUE_LEFT : 1.0f) * zone->queue_mps;
@@ -307,7 +307,7 @@ static void visit_zone(struct rho_zones *zones, struct rho_zone_visitor *visitor
         leave(zones, visitor, place, sight);
     }
     if (visitor->inside >> place & 1u) {
-        join(crowd, zone, place, visitor, sight);
+        join_zone(crowd, zone, place, visitor, sight);
     }
 }
 
@@ -331,7 +331,7 @@ static void forget_visitors(struct rho_zones *zones, const struct rho_report *re
     for (unsigned i = 0; i < zones->num_visitors; i++) {
         const struct rho_zone_visitor *visitor = &zones->visitors[i];
         if (!find_track(report, visitor->track_id, &from)) {
-            end(zones, visitor);
+            end_visit(zones, visitor);
         } else if (visitor->inside != 0) {
             if (kept < i) {
                 zones->visitors[kept] = *visitor;
@@ -360,7 +360,7 @@ static struct rho_zone_visitor *visitor_of(struct rho_zones *zones, uint32_t tra
 }
 
 /* Tracks in the order of the report, each through all zones. */
-static void visit(struct rho_zones *zones, const struct rho_report *report)
+static void visit_zones(struct rho_zones *zones, const struct rho_report *report)
 {
     struct crowd crowds[RHO_MAX_ZONES] = {{0}};
     unsigned from = 0;
@@ -397,13 +397,13 @@ enum rho_status rho_zones_step(struct rho_zones *zones, const struct rho_report 
     zones->num_events = 0;
     if (report->time_us < zones->time_us) {
         for (unsigned i = 0; i < zones->num_visitors; i++) {
-            end(zones, &zones->visitors[i]);
+            end_visit(zones, &zones->visitors[i]);
         }
         zones->num_visitors = 0;
     }
     zones->time_us = report->time_us;
     forget_visitors(zones, report);
-    visit(zones, report);
+    visit_zones(zones, report);
     return RHO_OK;
 }
 

@@ -40,8 +40,8 @@ GUARD_MIN = 1e12
 # file: constants by which only the time or the stack of a call changes: cost models that choose
 # between two ways to the same result, and how many elements one pass takes
 ALIKE = {
-    "src/association/hypotheses_validate.c": r"PASS_NODES$",
-    "src/tracker/tracker_validate.c": r"PASS_SLOTS$",
+    "src/association/hypotheses_soundness.c": r"PASS_NODES$",
+    "src/tracker/tracker_soundness.c": r"PASS_SLOTS$",
     "src/papers/accumulator.c": r"SPARSE_(CELLS|POINTS)$|PRUNED_VOTES$",
     "src/papers/accumulator_rows.c": r"BLOCKS$",
     "src/papers/accumulator_prune.c": r"ROWS_|BINS_MIN$|WORK_|HALVINGS_MAX$|(SHRINK|GROW)_KEPT$",

@@ -92,7 +92,7 @@ static void most_bearings_alike_are_one_target(void **state)
         rho_passive_exclude_target(&best, 0);
         assert_int_equal(best.is_out[0], 1);
         assert_int_equal(best.is_out[1], i);
-        rho_passive_include(&best, best.count);
+        rho_passive_include_candidate(&best, best.count);
         assert_int_equal(best.is_in[1], !i);
     }
 }

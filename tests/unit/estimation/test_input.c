@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Input estimation against an augmented Kalman filter in double precision, and its decisions. */
 #include "dense.h"
-#include "input_reference.h"
+#include "input_estimation_reference.h"
 #include "kalman_checks.h"
 
 #include "rhotrack/detail/input.h"

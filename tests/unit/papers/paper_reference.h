@@ -20,7 +20,7 @@
 
 #include <cmocka.h>
 
-#include "paper_scene.h"
+#include "passive_paper_scene.h"
 
 static struct scene scene; /* that is looked at */
 

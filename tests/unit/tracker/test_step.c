@@ -194,9 +194,11 @@ static void an_antenna_has_passed_where_the_gate_ends(void **state)
         prepare();
         scan.sector_to_rad = 0.5f;
         at.turning = 1.0f;
-        assert_int_equal(rho_tracker_has_passed(&at, have_track(i ? 0.475 : 0.465, 200.0)), !i);
+        assert_int_equal(rho_tracker_has_passed_gate(&at, have_track(i ? 0.475 : 0.465, 200.0)),
+                         !i);
         at.turning = -1.0f;
-        assert_int_equal(rho_tracker_has_passed(&at, have_track(i ? 0.025 : 0.035, 200.0)), !i);
+        assert_int_equal(rho_tracker_has_passed_gate(&at, have_track(i ? 0.025 : 0.035, 200.0)),
+                         !i);
     }
 }
 
@@ -227,7 +229,7 @@ static void clutter_is_smoothed_over_ten_scans(void **state)
 {
     float mean = 10.0f;
     (void)state;
-    rho_tracker_smooth(&mean, 30.0f);
+    rho_tracker_smooth_mean(&mean, 30.0f);
     assert_float_equal(mean, 12.0, 1e-5);
 }
 
@@ -358,9 +360,9 @@ static void scans_may_be_late_by_a_minute(void **state)
     }
     draw(1);
     config.late_max_s = 60.0f;
-    assert_true(rho_tracker_is_late_usable(&config));
+    assert_true(rho_tracker_is_late_max_usable(&config));
     config.late_max_s = 60.1f;
-    assert_false(rho_tracker_is_late_usable(&config));
+    assert_false(rho_tracker_is_late_max_usable(&config));
 }
 
 /* ---- images ---------------------------------------------------------------------------------- */

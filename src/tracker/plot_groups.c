@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * groups: the plots of a scan that one target can have given are one plot, from before the claims
- * to the report.
+ * plot_groups: the plots of a scan that one target can have given are one plot, from before the
+ * claims to the report.
  *
  * A step goes on with the scan of the groups, in the order of their first plots; so the group of a
  * plot never has a higher row than the plot. At the end rows and fates are those of the plots
@@ -26,7 +26,7 @@
 
 #define NONE UINT16_MAX
 
-static float longest_m(const struct step *step)
+static float longest_body_m(const struct step *step)
 {
     return step->tracker->bodies.length_max_m;
 }
@@ -57,7 +57,7 @@ static int fit_together(struct step *step, uint32_t one, uint32_t other)
     const struct rho_plot *a = &step->scan->plots[one], *b = &step->scan->plots[other];
     const float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
     const float most_m =
-        longest_m(step) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
+        longest_body_m(step) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
     rho_tracker_spend(step, PAIR_UNITS);
     return dx_m * dx_m + dy_m * dy_m <= most_m * most_m &&
            have_one_rate(step, a, b, rho_sqrt(dx_m * dx_m + dy_m * dy_m));
@@ -65,7 +65,7 @@ static int fit_together(struct step *step, uint32_t one, uint32_t other)
 
 /* ---- a track's body -------------------------------------------------------------------------- */
 
-/* The body of a track as this scan's plots are compared with it. */
+/* A track's body as this scan's plots are compared with it. */
 struct outline {
     const struct rho_body_filter *body;
     const struct rho_track *track;
@@ -108,9 +108,9 @@ static float half_box_m(const struct step *step, const struct outline *outline)
            moved_m(step, outline);
 }
 
-/* The range rate that agrees with the track's velocity, where both are known. */
-static int has_its_rate(const struct step *step, const struct outline *outline,
-                        const struct rho_plot *plot, float apart_m)
+/* The plot's range rate agrees with the track's velocity, where both are known. */
+static int has_rate_of_track(const struct step *step, const struct outline *outline,
+                             const struct rho_plot *plot, float apart_m)
 {
     float row[6], rate_mps;
     const float state[6] = {plot->x_m,
@@ -132,8 +132,8 @@ static int has_its_rate(const struct step *step, const struct outline *outline,
 }
 
 /* How badly the body explains the plot: -2 ln of its likelihood. 0: not within the gate. */
-static int explains(const struct step *step, const struct outline *outline,
-                    const struct rho_plot *plot, float *misfit)
+static int explains_plot(const struct step *step, const struct outline *outline,
+                         const struct rho_plot *plot, float *misfit)
 {
     struct rho_measurement seen;
     float noise[6], axes[3];
@@ -150,7 +150,7 @@ static int explains(const struct step *step, const struct outline *outline,
     const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
     *misfit = far + wide + rho_log(along_m2) + rho_log(across_m2);
     return far <= GATE_SIGMAS * GATE_SIGMAS && wide <= GATE_SIGMAS * GATE_SIGMAS &&
-           has_its_rate(step, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m));
+           has_rate_of_track(step, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m));
 }
 
 /* The plots in a box about the track's place. */
@@ -162,17 +162,17 @@ static struct plots_near plots_about(const struct step *step, const struct outli
                                   state[1] + half_m);
 }
 
-/* Those that the track and plots of its body may have. */
+/* The plots in the box that can hold all plots of the track's body. */
 static struct plots_near plots_of_body(const struct step *step, const struct outline *outline)
 {
-    return plots_about(step, outline, 2.0f * longest_m(step) + moved_m(step, outline));
+    return plots_about(step, outline, 2.0f * longest_body_m(step) + moved_m(step, outline));
 }
 
-static int fits_owned(struct step *step, unsigned row, struct plots_near near, uint32_t plot)
+static int fits_owned_plots(struct step *step, unsigned row, struct plots_near near, uint32_t plot)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     unsigned owned = 0;
-    for (uint32_t i; rho_tracker_next_plot(step, &near, &i);) {
+    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i);) {
         rho_tracker_spend(step, PASS_UNITS);
         if (groups->owner[i] == row) {
             if (!fit_together(step, i, plot)) {
@@ -185,40 +185,40 @@ static int fits_owned(struct step *step, unsigned row, struct plots_near near, u
 }
 
 /* The body of a new track may be as long as any: it takes plots that fit all it has. */
-static void adopt(struct step *step, unsigned row)
+static void adopt_plots(struct step *step, unsigned row)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct outline outline = outline_of(step, row);
     const struct plots_near about = plots_of_body(step, &outline);
     struct plots_near near = about;
-    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
+    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
         rho_tracker_spend(step, PASS_UNITS);
         if (step->report->fates[i] == RHO_FATE_HELD && groups->owner[i] == NONE &&
-            has_its_rate(step, &outline, &step->scan->plots[i], longest_m(step)) &&
-            fits_owned(step, row, about, i)) {
+            has_rate_of_track(step, &outline, &step->scan->plots[i], longest_body_m(step)) &&
+            fits_owned_plots(step, row, about, i)) {
             groups->owner[i] = (uint16_t)row;
         }
     }
 }
 
-static int may_own(const struct step *step, unsigned row)
+static int may_own_plots(const struct step *step, unsigned row)
 {
     return row < RHO_BODY_TRACKS && step->tracker->tracks[row].status != RHO_TRACK_FREE &&
            rho_tracker_is_in_view(step, row);
 }
 
-/* Both have plots, which one target can have given. */
-static int are_one(struct step *step, unsigned row, unsigned other)
+/* The plots of both tracks can be one target's. */
+static int are_one_target(struct step *step, unsigned row, unsigned other)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct outline outline = outline_of(step, other);
     struct plots_near near = plots_of_body(step, &outline);
     const struct outline about = outline_of(step, row);
     unsigned owned = 0;
-    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
+    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
         rho_tracker_spend(step, PASS_UNITS);
         if (groups->owner[i] == other) {
-            if (!fits_owned(step, row, plots_of_body(step, &about), i)) {
+            if (!fits_owned_plots(step, row, plots_of_body(step, &about), i)) {
                 return 0;
             }
             owned++;
@@ -227,9 +227,9 @@ static int are_one(struct step *step, unsigned row, unsigned other)
     return owned > 0 && !rho_tracker_is_spent(step);
 }
 
-static int is_new(const struct step *step, unsigned row)
+static int is_new_track(const struct step *step, unsigned row)
 {
-    return may_own(step, row) && step->tracker->bodies.of[row].plots < RHO_BODY_NEW_PLOTS;
+    return may_own_plots(step, row) && step->tracker->bodies.of[row].plots < RHO_BODY_NEW_PLOTS;
 }
 
 /* Velocities that may be one target's: those that only pass each other have others. */
@@ -242,18 +242,18 @@ static int move_alike(const struct rho_track *one, const struct rho_track *other
 }
 
 /* Of two new tracks whose plots are one body's the younger ends; the other one adopts its plots. */
-static void end_doubles(struct step *step, unsigned row)
+static void end_double_tracks(struct step *step, unsigned row)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     struct rho_track *tracks = step->tracker->tracks;
     for (unsigned other = row + 1u;
          other < step->tracker->num_tracks && !rho_tracker_is_spent(step); other++) {
         rho_tracker_spend(step, PASS_UNITS);
-        if (!is_new(step, other) || !move_alike(&tracks[row], &tracks[other])) {
+        if (!is_new_track(step, other) || !move_alike(&tracks[row], &tracks[other])) {
             continue;
         }
         rho_tracker_spend(step, TEST_UNITS);
-        if (!are_one(step, row, other)) {
+        if (!are_one_target(step, row, other)) {
             continue;
         }
         for (uint32_t i = 0; i < step->num_gated; i++) {
@@ -269,14 +269,15 @@ static void find_owners(struct step *step)
     struct rho_groups *groups = &step->tracker->bodies.groups;
     float misfit;
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        if (!may_own(step, row)) {
+        if (!may_own_plots(step, row)) {
             continue;
         }
         const struct outline outline = outline_of(step, row);
         const float *state = outline.track->kalman.state;
         const float half_m = half_box_m(step, &outline);
         struct plots_near near = plots_about(step, &outline, half_m);
-        for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
+        for (uint32_t i;
+             !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
             const struct rho_plot *plot = &step->scan->plots[i];
             const float dx_m = plot->x_m - state[0], dy_m = plot->y_m - state[1];
             if (step->report->fates[i] != RHO_FATE_HELD || dx_m > half_m || dx_m < -half_m ||
@@ -284,7 +285,7 @@ static void find_owners(struct step *step)
                 continue;
             }
             rho_tracker_spend(step, TEST_UNITS);
-            if (explains(step, &outline, plot, &misfit) &&
+            if (explains_plot(step, &outline, plot, &misfit) &&
                 (groups->owner[i] == NONE || misfit < groups->misfit[i])) {
                 groups->owner[i] = (uint16_t)row;
                 groups->misfit[i] = misfit;
@@ -292,9 +293,9 @@ static void find_owners(struct step *step)
         }
     }
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        if (is_new(step, row)) {
-            end_doubles(step, row);
-            adopt(step, row);
+        if (is_new_track(step, row)) {
+            end_double_tracks(step, row);
+            adopt_plots(step, row);
         }
     }
 }
@@ -309,14 +310,14 @@ static void begin_group(struct rho_groups *groups, uint32_t plot)
     groups->of[plot] = (uint16_t)group;
 }
 
-static void join(struct rho_groups *groups, unsigned group, uint32_t plot)
+static void join_group(struct rho_groups *groups, unsigned group, uint32_t plot)
 {
     groups->next[groups->last[group]] = (uint16_t)plot;
     groups->last[group] = (uint16_t)plot;
     groups->of[plot] = (uint16_t)group;
 }
 
-static int fits_all(struct step *step, unsigned group, uint32_t plot)
+static int fits_all_in_group(struct step *step, unsigned group, uint32_t plot)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
@@ -329,19 +330,19 @@ static int fits_all(struct step *step, unsigned group, uint32_t plot)
 
 /* Plots of no track that fit the group's first, and each other; those in excluded areas stay alone,
  * for they start nothing. */
-static void gather_near(struct step *step, unsigned group)
+static void gather_near_plots(struct step *step, unsigned group)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct rho_plot *plot = &step->scan->plots[groups->first[group]];
-    const float most_m = longest_m(step) + 2.0f * APART_SIGMAS * step->sigma_max_m;
+    const float most_m = longest_body_m(step) + 2.0f * APART_SIGMAS * step->sigma_max_m;
     struct plots_near near = rho_tracker_plots_near(step, plot->x_m - most_m, plot->x_m + most_m,
                                                     plot->y_m - most_m, plot->y_m + most_m);
-    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot(step, &near, &i);) {
+    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
         rho_tracker_spend(step, PASS_UNITS);
         if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == NONE &&
             groups->owner[i] == NONE && !rho_tracker_is_excluded(step, i) &&
-            fits_all(step, group, i)) {
-            join(groups, group, i);
+            fits_all_in_group(step, group, i)) {
+            join_group(groups, group, i);
         }
     }
 }
@@ -360,21 +361,21 @@ static void form_groups(struct step *step)
             continue;
         }
         if (owner != NONE && of_track[owner] != NONE) {
-            join(groups, of_track[owner], i);
+            join_group(groups, of_track[owner], i);
             continue;
         }
         begin_group(groups, i);
         if (owner != NONE) {
             of_track[owner] = groups->of[i];
         } else if (step->report->fates[i] == RHO_FATE_HELD && !rho_tracker_is_excluded(step, i)) {
-            gather_near(step, groups->of[i]);
+            gather_near_plots(step, groups->of[i]);
         }
     }
 }
 
 /* ---- a group as one plot --------------------------------------------------------------------- */
 
-/* Two passes over a group's plots: their means, and how far their range rates are spread. */
+/* Sum over a group's plots of the squared range rate less the mean. */
 static float rate_spread(const struct step *step, unsigned group, const struct rho_plot *mean)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
@@ -387,8 +388,8 @@ static float rate_spread(const struct step *step, unsigned group, const struct r
     return sum;
 }
 
-/* Means are sums of differences from the first plot: those of places would be rounded. */
-static struct rho_plot mean_of(const struct step *step, unsigned group, unsigned *count)
+/* The mean of a group's plots, by differences from the first: sums of places would be rounded. */
+static struct rho_plot mean_plot_of(const struct step *step, unsigned group, unsigned *count)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct rho_plot *first = &step->scan->plots[groups->first[group]];
@@ -421,11 +422,12 @@ static struct rho_plot mean_of(const struct step *step, unsigned group, unsigned
 }
 
 /*
- * Variance of a place on the body in x and y. Of no track: the plots' own spread, with one plot's
- * worth of the prior.
+ * Times 1 / n the variance that places on the body leave in the mean of n plots, in x and y. Of a
+ * track's body, the share of a place's variance that n plots miss; of no track, the plots' own
+ * spread, with one plot's worth of the prior.
  */
-static void body_spread(const struct step *step, unsigned group, const struct rho_plot *mean,
-                        unsigned count, float xx_yx_yy[3])
+static void variance_missed_by_mean(const struct step *step, unsigned group,
+                                    const struct rho_plot *mean, unsigned count, float xx_yx_yy[3])
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     const struct rho_groups *groups = &bodies->groups;
@@ -454,43 +456,43 @@ static void body_spread(const struct step *step, unsigned group, const struct rh
     }
 }
 
-static float within_limits(float sigma)
+static float sigma_within_limits(float sigma)
 {
     sigma = rho_larger(sigma, RHO_LIMIT_SIGMA_MIN);
     return sigma < RHO_LIMIT_SIGMA_MAX ? sigma : RHO_LIMIT_SIGMA_MAX;
 }
 
-/* The noise of the mean: what places on the body and the plots' own noise leave of it. */
-static void make_plot(const struct step *step, unsigned group, struct rho_plot *out)
+/* The group as one plot: its mean, with the noise by places on the body and by the plots. */
+static void make_group_plot(const struct step *step, unsigned group, struct rho_plot *out)
 {
     struct rho_measurement seen;
     float spread[3];
     unsigned count;
-    *out = mean_of(step, group, &count);
+    *out = mean_plot_of(step, group, &count);
     if (step->report->fates[step->tracker->bodies.groups.first[group]] != RHO_FATE_HELD) {
         return;
     }
     const float n = (float)count;
-    body_spread(step, group, out, count, spread);
+    variance_missed_by_mean(step, group, out, count, spread);
     rho_measurement_open(out, 0, step->sensor, &seen);
     const float c = seen.cos_azimuth, s = seen.sin_azimuth;
     const float along_m2 = c * c * spread[0] + 2.0f * c * s * spread[1] + s * s * spread[2];
     const float across_m2 = s * s * spread[0] - 2.0f * c * s * spread[1] + c * c * spread[2];
     out->sigma_range_m =
-        within_limits(rho_sqrt((out->sigma_range_m * out->sigma_range_m + along_m2) / n));
+        sigma_within_limits(rho_sqrt((out->sigma_range_m * out->sigma_range_m + along_m2) / n));
     out->sigma_cross_m =
-        within_limits(rho_sqrt((out->sigma_cross_m * out->sigma_cross_m + across_m2) / n));
+        sigma_within_limits(rho_sqrt((out->sigma_cross_m * out->sigma_cross_m + across_m2) / n));
     if (step->scan->measures & RHO_MEASURES_RANGE_RATE) {
         out->sigma_range_rate_mps =
-            within_limits(rho_sqrt((out->sigma_range_rate_mps * out->sigma_range_rate_mps +
-                                    rate_spread(step, group, out) / n) /
-                                   n));
+            sigma_within_limits(rho_sqrt((out->sigma_range_rate_mps * out->sigma_range_rate_mps +
+                                          rate_spread(step, group, out) / n) /
+                                         n));
     }
 }
 
 /* ---- the scan -------------------------------------------------------------------------------- */
 
-/* All plots are alone; those that are measurements may be grouped. */
+/* Begins with each plot alone; valid ones may be grouped. */
 static void open_groups(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
@@ -510,7 +512,7 @@ static void open_groups(struct step *step)
     }
 }
 
-void rho_tracker_group(struct step *step, struct rho_scan *grouped)
+void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     rho_tracker_align_bodies(step);
@@ -521,7 +523,7 @@ void rho_tracker_group(struct step *step, struct rho_scan *grouped)
     form_groups(step);
     step->is_partial |= rho_tracker_is_spent(step);
     for (unsigned group = 0; group < groups->count; group++) {
-        make_plot(step, group, &groups->plots[group]);
+        make_group_plot(step, group, &groups->plots[group]);
     }
     *grouped = *step->scan;
     grouped->plots = groups->plots;
@@ -531,7 +533,7 @@ void rho_tracker_group(struct step *step, struct rho_scan *grouped)
     step->sigma_max_m = step->offset_max_s = 0.0f;
 }
 
-void rho_tracker_ungroup(struct step *step, const struct rho_scan *scan)
+void rho_tracker_ungroup_plots(struct step *step, const struct rho_scan *scan)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_decide: the onset test. On each axis the input is accepted or rejected; the effect of an
- * input that was accepted before and is rejected now is moved into the estimate.
+ * input_estimation_decide: the onset test. On each axis the input is accepted or rejected; the
+ * effect of an input that was accepted before and is rejected now is moved into the estimate.
  */
 #include <stddef.h>
 #include <string.h>
 
-#include "input_columns.h"
+#include "input_estimation_columns.h"
 #include "rhotrack/detail/input.h"
 
 /* Indices of row i of a packed 3 x 3 matrix. */
@@ -34,7 +34,7 @@ static float input_nis(const struct rho_input *input, int axis)
 /* ---- correlated inputs --------------------------------------------------------------- */
 
 /* A conditional variance; rounding must not take all of it. */
-static float remaining(float variance, float explained)
+static float remaining_variance(float variance, float explained)
 {
     const float rest = variance - explained, least = variance * ROUNDING_SHARE;
 
@@ -51,8 +51,8 @@ static void condition_on_no_input(struct rho_input *input, int axis)
 
     input->input_mps2[b] -= share_b * input->input_mps2[axis];
     input->input_mps2[c] -= share_c * input->input_mps2[axis];
-    v[RHO_AT(b, b)] = remaining(v[RHO_AT(b, b)], share_b * vb);
-    v[RHO_AT(c, c)] = remaining(v[RHO_AT(c, c)], share_c * vc);
+    v[RHO_AT(b, b)] = remaining_variance(v[RHO_AT(b, b)], share_b * vb);
+    v[RHO_AT(c, c)] = remaining_variance(v[RHO_AT(c, c)], share_c * vc);
     v[RHO_AT(b, c)] -= share_b * vc;
 }
 
@@ -71,12 +71,12 @@ static void absorb_input(struct rho_input *input, int axis)
 
     if (!is_zero(vb) || !is_zero(vc)) {
         const float bb = v[RHO_AT(b, b)], bc = v[RHO_AT(b, c)];
-        const float pivot = remaining(v[RHO_AT(c, c)], bc / bb * bc);
+        const float pivot = remaining_variance(v[RHO_AT(c, c)], bc / bb * bc);
         const float share_c = (vc - bc / bb * vb) / pivot;
         const float share_b = (vb - share_c * bc) / bb;
 
         rest_mps2 -= share_b * input->input_mps2[b] + share_c * input->input_mps2[c];
-        variance = remaining(variance, share_b * vb + share_c * vc);
+        variance = remaining_variance(variance, share_b * vb + share_c * vc);
         for (int i = 0; i < NUM_STATES; i++) {
             input->sensitivity[b][i] += share_b * m[i];
             input->sensitivity[c][i] += share_c * m[i];
@@ -86,13 +86,13 @@ static void absorb_input(struct rho_input *input, int axis)
 }
 
 /* The axis with the smallest NIS among these, at least one; the first of equals. */
-static int find_weakest(const struct rho_input *input, uint32_t axes)
+static int find_weakest_input(const struct rho_input *input, uint32_t axes)
 {
-    int weakest = is_in(axes, 0) ? 0 : (is_in(axes, 1) ? 1 : 2);
+    int weakest = has_axis(axes, 0) ? 0 : (has_axis(axes, 1) ? 1 : 2);
     float least = input_nis(input, weakest);
 
     for (int axis = weakest + 1; axis < NUM_AXES; axis++) {
-        if (is_in(axes, axis) && input_nis(input, axis) < least) {
+        if (has_axis(axes, axis) && input_nis(input, axis) < least) {
             weakest = axis;
             least = input_nis(input, axis);
         }
@@ -106,12 +106,12 @@ static uint32_t decide_correlated(struct rho_input *input, float limit2, float v
     uint32_t left = INPUT_ALL_PRESENT;
 
     while (left) {
-        const int axis = find_weakest(input, left);
+        const int axis = find_weakest_input(input, left);
 
         if (input_nis(input, axis) > limit2) {
             break;
         }
-        if (is_in(input->present, axis)) {
+        if (has_axis(input->present, axis)) {
             absorb_input(input, axis);
         } else {
             condition_on_no_input(input, axis);
@@ -133,7 +133,7 @@ static uint32_t decide_independent(struct rho_input *input, float limit2, float 
             left |= 1u << axis;
             continue;
         }
-        if (is_in(input->present, axis)) {
+        if (has_axis(input->present, axis)) {
             add_column(&input->bare, input->sensitivity[axis], axis, input->input_mps2[axis],
                        input->variance[places[axis][axis]]);
         }

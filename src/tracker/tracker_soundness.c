@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker_validate: whether a tracker of unknown origin (a snapshot) can be worked with.
+ * tracker_soundness: whether a tracker of unknown origin (a snapshot) can be worked with.
  */
 #include "rhotrack/detail/angle.h"
 #include "step.h"

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_update: a scalar measurement updates the filter without input, and the inputs by the part
- * of the innovation that they explain.
+ * input_estimation_update: a scalar measurement updates the filter without input, and the inputs by
+ * the part of the innovation that they explain.
  */
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
 
-#include "input_columns.h"
+#include "input_estimation_columns.h"
 #include "rhotrack/detail/input.h"
 
 /* Reduced variances are raised by sixteen units of rounding first, as in the filter. */
@@ -51,7 +51,7 @@ struct scalar {
     float by_input[NUM_AXES];
 };
 
-static enum rho_status update_bare(struct rho_kalman *bare, const struct scalar *scalar)
+static enum rho_status update_bare_filter(struct rho_kalman *bare, const struct scalar *scalar)
 {
     if (scalar->row) {
         return rho_kalman_update_row(bare, scalar->row, scalar->off, scalar->noise, NULL);
@@ -100,7 +100,8 @@ static int update_inputs(struct rho_input *input, const struct scalar *scalar)
            u[0] * u[0] + u[1] * u[1] + u[2] * u[2] <= INPUT2_MAX;
 }
 
-static enum rho_status update_all(struct rho_input *input, const struct scalar *scalar)
+static enum rho_status update_filter_and_inputs(struct rho_input *input,
+                                                const struct scalar *scalar)
 {
     struct rho_input next = *input;
     enum rho_status status;
@@ -113,7 +114,7 @@ static enum rho_status update_all(struct rho_input *input, const struct scalar *
             return RHO_ERROR_VALUE;
         }
     }
-    status = update_bare(&next.bare, scalar);
+    status = update_bare_filter(&next.bare, scalar);
     if (status == RHO_OK) {
         *input = next;
     }
@@ -132,7 +133,7 @@ static enum rho_status update_row(struct rho_input *input, const float row[6], f
             scalar.by_input[a] += row[i] * input->sensitivity[a][i];
         }
     }
-    return update_all(input, &scalar);
+    return update_filter_and_inputs(input, &scalar);
 }
 
 static enum rho_status update_coupled(struct rho_input *input, int element, float value,
@@ -150,7 +151,7 @@ static enum rho_status update_coupled(struct rho_input *input, int element, floa
     for (int a = 0; a < NUM_AXES; a++) {
         scalar.by_input[a] = input->sensitivity[a][element];
     }
-    return update_all(input, &scalar);
+    return update_filter_and_inputs(input, &scalar);
 }
 
 /* ---- an element that depends on the input of its own axis only ------------------------------- */
@@ -170,8 +171,8 @@ static int is_axis_independent(const struct rho_input *input, int element, int a
 }
 
 /*
- * The same as update_all, (8) to (13), for one axis; written out, as a loop would take twice the
- * time.
+ * The same as update_filter_and_inputs, (8) to (13), for one axis; written out, as a loop would
+ * take twice the time.
  */
 static enum rho_status update_axis(struct rho_input *input, int axis, int element, float value,
                                    float variance)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bodies: the extent of each track, learned from the plots of its groups.
+ * body_extents: the extent of each track, learned from the plots of its groups.
  */
 #include "rhotrack/body.h"
 
@@ -60,9 +60,9 @@ void rho_tracker_align_bodies(struct step *step)
     bodies->count = tracker->num_tracks;
 }
 
-/* The squares of distances, and the plots' noise, in the axes of the body. */
-static void look_at(const struct step *step, const struct rho_scan *scan,
-                    const struct rho_track *track, unsigned row, struct rho_body_look *look)
+/* Sums squared distances from the track, and the plots' noise, in the body's axes. */
+static void sum_up_plots(const struct step *step, const struct rho_scan *scan,
+                         const struct rho_track *track, unsigned row, struct rho_body_look *look)
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     const struct rho_body_filter *body = &bodies->of[row];
@@ -112,7 +112,7 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
             continue;
         }
         rho_tracker_turn_body(tracker, row);
-        look_at(step, scan, track, row, &look);
+        sum_up_plots(step, scan, track, row, &look);
         rho_body_add(&tracker->bodies.of[row], &look);
     }
 }
@@ -129,7 +129,7 @@ int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struc
     return 1;
 }
 
-static int is_sound(const struct rho_body_side *side)
+static int is_sound_side(const struct rho_body_side *side)
 {
     return rho_is_within(side->mean_m2, -1e12f, 1e12f) &&
            rho_is_within(side->weight, 1e-3f, 1e6f) &&
@@ -148,8 +148,8 @@ int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
         const struct rho_body_filter *body = &bodies->of[i];
         if (!rho_is_within(body->along_m2, LEAST_M2, 1e12f) ||
             !rho_is_within(body->across_m2, LEAST_M2, 1e12f) ||
-            !rho_is_within(body->prior_m2, LEAST_M2, 1e12f) || !is_sound(&body->along) ||
-            !is_sound(&body->across) || !rho_is_within(body->slope, -1e12f, 1e12f) ||
+            !rho_is_within(body->prior_m2, LEAST_M2, 1e12f) || !is_sound_side(&body->along) ||
+            !is_sound_side(&body->across) || !rho_is_within(body->slope, -1e12f, 1e12f) ||
             !rho_is_within(body->slope_weight, 1e-20f, 1e30f) ||
             !rho_is_within(body->cos_heading, -1.001f, 1.001f) ||
             !rho_is_within(body->sin_heading, -1.001f, 1.001f) ||

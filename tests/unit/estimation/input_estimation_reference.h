@@ -5,8 +5,8 @@
  * filter without input beside sensitivities and recursive least squares. Neither knows of the
  * other.
  */
-#ifndef RHOTRACK_TESTS_INPUT_REFERENCE_H
-#define RHOTRACK_TESTS_INPUT_REFERENCE_H
+#ifndef RHOTRACK_TESTS_INPUT_ESTIMATION_REFERENCE_H
+#define RHOTRACK_TESTS_INPUT_ESTIMATION_REFERENCE_H
 
 #include <math.h>
 #include <string.h>

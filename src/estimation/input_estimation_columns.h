@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_columns: columns of the sensitivities, and their part of an estimate. Private to
+ * input_estimation_columns: columns of the sensitivities, and their part of an estimate. Private to
  * src/estimation/input*.c.
  */
-#ifndef RHOTRACK_INPUT_COLUMNS_H
-#define RHOTRACK_INPUT_COLUMNS_H
+#ifndef RHOTRACK_INPUT_ESTIMATION_COLUMNS_H
+#define RHOTRACK_INPUT_ESTIMATION_COLUMNS_H
 
 #include <stdint.h>
 #include <string.h>
@@ -25,7 +25,7 @@
  */
 #define ROUNDING_SHARE (1.0f / 1048576.0f)
 
-static inline int is_in(uint32_t axes, int axis)
+static inline int has_axis(uint32_t axes, int axis)
 {
     return (axes >> axis & 1u) != 0;
 }
@@ -48,7 +48,7 @@ static inline float with_allowance(float added)
 }
 
 /* True if only the entries of its own axis are not 0: the usual case. */
-static inline int is_of_axis(const float m[NUM_STATES], int a)
+static inline int is_column_of_axis(const float m[NUM_STATES], int a)
 {
     static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
     const int b = others[a][0], c = others[a][1];
@@ -68,7 +68,7 @@ static inline void add_column(struct rho_kalman *kalman, const float m[NUM_STATE
         {RHO_ZZ, RHO_AT(RHO_VZ, RHO_Z), RHO_AT(RHO_VZ, RHO_VZ)}};
     float *x = kalman->state, *p = kalman->covariance;
 
-    if (is_of_axis(m, a)) {
+    if (is_column_of_axis(m, a)) {
         const float place = m[a], speed = m[a + NUM_AXES];
 
         x[a] += place * u;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hypotheses_validate: whether a pool of unknown origin (a snapshot) can be worked with.
+ * hypotheses_soundness: whether a pool of unknown origin (a snapshot) can be worked with.
  */
 #include "hypotheses_pool.h"
 
@@ -12,7 +12,7 @@ struct pass {
     uint8_t is_met[PASS_NODES];
 };
 
-static void meet(struct pass *pass, uint16_t node)
+static void mark_met(struct pass *pass, uint16_t node)
 {
     if (node >= pass->first && node - pass->first < PASS_NODES) {
         pass->is_met[node - pass->first] = 1;
@@ -20,15 +20,15 @@ static void meet(struct pass *pass, uint16_t node)
 }
 
 /* The lists name as many nodes as there are: where each of them is met, each is named once. */
-static int are_all_met(const struct rho_hypotheses *pool, unsigned first)
+static int are_all_nodes_met(const struct rho_hypotheses *pool, unsigned first)
 {
     struct pass pass = {.first = first};
     for (unsigned i = 0; i < pool->num_free; i++) {
-        meet(&pass, pool->spare[i]);
+        mark_met(&pass, pool->spare[i]);
     }
     for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
         for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-            meet(&pass, pool->node_of[slot][i]);
+            mark_met(&pass, pool->node_of[slot][i]);
         }
     }
     for (unsigned i = 0; i < PASS_NODES && first + i < RHO_MAX_HYPOTHESES; i++) {
@@ -52,7 +52,7 @@ static int has_each_node_once(const struct rho_hypotheses *pool)
         return 0;
     }
     for (unsigned first = 0; first < RHO_MAX_HYPOTHESES; first += PASS_NODES) {
-        if (!are_all_met(pool, first)) {
+        if (!are_all_nodes_met(pool, first)) {
             return 0;
         }
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* initiator_validate: consistency of an initiator of unknown origin (a snapshot). */
+/* initiator_soundness: consistency of an initiator of unknown origin (a snapshot). */
 #include "search.h"
 
 /* Limit of scores, so that their sums do not overflow. */

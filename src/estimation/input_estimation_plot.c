@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* input_plot: a plot as scalar measurements: position along its noise axes, range rate, bearing. */
+/*
+ * input_estimation_plot: a plot as scalar measurements: position along its noise axes, range rate,
+ * bearing.
+ */
 #include <float.h>
 #include <stddef.h>
 
-#include "input_columns.h"
+#include "input_estimation_columns.h"
 #include "rhotrack/detail/input.h"
 
 /* False for NaN. */
@@ -12,8 +15,8 @@ static int is_finite(float v)
     return v >= -FLT_MAX && v <= FLT_MAX;
 }
 
-static enum rho_status measure_axis(struct rho_input *input, const struct rho_input_config *config,
-                                    int axis, float place_m, float variance)
+static enum rho_status update_axis(struct rho_input *input, const struct rho_input_config *config,
+                                   int axis, float place_m, float variance)
 {
     if (!rho_kalman_is_open(&input->bare, axis)) {
         return rho_kalman_open_axis(&input->bare, axis, place_m, variance,
@@ -22,10 +25,10 @@ static enum rho_status measure_axis(struct rho_input *input, const struct rho_in
     return rho_input_update(input, config, axis, place_m, variance);
 }
 
-/* Along the line of sight, across it, and upwards: the noise of these is independent. */
-static enum rho_status measure_along_noise_axes(struct rho_input *input,
-                                                const struct rho_input_config *config,
-                                                const struct rho_measurement *seen, int num_axes)
+/* Updates along the line of sight, across it, and upwards: their noise is independent. */
+static enum rho_status update_along_noise_axes(struct rho_input *input,
+                                               const struct rho_input_config *config,
+                                               const struct rho_measurement *seen, int num_axes)
 {
     const float ca = seen->cos_azimuth, sa = seen->sin_azimuth;
     const int has_z = num_axes == NUM_AXES;
@@ -44,21 +47,21 @@ static enum rho_status measure_along_noise_axes(struct rho_input *input,
     return status;
 }
 
-/* The first axes, all open or all closed. */
-static enum rho_status measure_open_axes(struct rho_input *input,
-                                         const struct rho_input_config *config,
-                                         const struct rho_measurement *seen, int num_axes)
+/* Updates or opens the first axes, which are all open or all closed. */
+static enum rho_status update_open_axes(struct rho_input *input,
+                                        const struct rho_input_config *config,
+                                        const struct rho_measurement *seen, int num_axes)
 {
     if (!rho_kalman_is_open(&input->bare, RHO_X)) {
         return rho_kalman_update_position(&input->bare, seen, config->velocity_variance);
     }
-    return measure_along_noise_axes(input, config, seen, num_axes);
+    return update_along_noise_axes(input, config, seen, num_axes);
 }
 
-/* If only one of (x, y) and z is open, as rho_kalman_update_position does. */
-static enum rho_status measure_height_apart(struct rho_input *input,
-                                            const struct rho_input_config *config,
-                                            const struct rho_measurement *seen)
+/* Height by itself, where only one of (x, y) and z is open; as rho_kalman_update_position. */
+static enum rho_status update_height_apart(struct rho_input *input,
+                                           const struct rho_input_config *config,
+                                           const struct rho_measurement *seen)
 {
     struct rho_measurement level = *seen;
     float covariance[6];
@@ -68,9 +71,9 @@ static enum rho_status measure_height_apart(struct rho_input *input,
     level.variance_m2[0] = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
                            seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
     level.has_z = 0;
-    status = measure_open_axes(input, config, &level, 2);
+    status = update_open_axes(input, config, &level, 2);
     if (status == RHO_OK) {
-        status = measure_axis(input, config, RHO_Z, seen->place_m[2], covariance[RHO_ZZ]);
+        status = update_axis(input, config, RHO_Z, seen->place_m[2], covariance[RHO_ZZ]);
     }
     return status;
 }
@@ -90,8 +93,7 @@ static enum rho_status update_position(struct rho_input *input,
     }
     if (seen->is_isotropic) {
         for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
-            status =
-                measure_axis(input, config, axis, seen->place_m[axis], seen->variance_m2[axis]);
+            status = update_axis(input, config, axis, seen->place_m[axis], seen->variance_m2[axis]);
         }
         return status;
     }
@@ -99,9 +101,9 @@ static enum rho_status update_position(struct rho_input *input,
         return RHO_ERROR_VALUE;
     }
     if (seen->has_z && is_open != rho_kalman_is_open(&input->bare, RHO_Z)) {
-        return measure_height_apart(input, config, seen);
+        return update_height_apart(input, config, seen);
     }
-    return measure_open_axes(input, config, seen, num_axes);
+    return update_open_axes(input, config, seen, num_axes);
 }
 
 enum rho_status rho_input_update_position(struct rho_input *input,

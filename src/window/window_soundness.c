@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* window_validate: consistency of a window of unknown origin (a snapshot). */
+/* window_soundness: consistency of a window of unknown origin (a snapshot). */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"

@@ -68,7 +68,7 @@ static void group(void)
                        .num_inputs = num_plots,
                        .num_gated = num_plots,
                        .in_view = {1}};
-    rho_tracker_group(&at, &grouped);
+    rho_tracker_group_plots(&at, &grouped);
 }
 
 static int owner_of(uint32_t plot)
@@ -196,12 +196,12 @@ static void rows_are_those_of_the_plots_again(void **state)
     tracker.tracks[0].plot = 1;
     report.fates[0] = RHO_FATE_HELD;
     report.fates[1] = RHO_FATE_CLAIMED;
-    rho_tracker_ungroup(&at, &scan);
+    rho_tracker_ungroup_plots(&at, &scan);
     assert_int_equal(tracker.tracks[0].plot, 2);
     assert_int_equal(report.fates[1], RHO_FATE_HELD);
     assert_int_equal(report.fates[2], RHO_FATE_CLAIMED);
     tracker.tracks[0].plot = -1;
-    rho_tracker_ungroup(&at, &scan);
+    rho_tracker_ungroup_plots(&at, &scan);
     assert_int_equal(tracker.tracks[0].plot, -1);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * batch_validate: whether a batch of unknown origin (a snapshot) can be worked with.
+ * batch_soundness: whether a batch of unknown origin (a snapshot) can be worked with.
  */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
@@ -25,7 +25,7 @@ static int has_sound_sensors(const struct rho_batch *batch)
     return 1;
 }
 
-/* One that was taken out has a sigma of 0. */
+/* A bearing that was taken out of the batch has a sigma of 0. */
 static int is_sound_bearing(const struct rho_batch_bearing *bearing)
 {
     return rho_is_within(bearing->cosine, -1.01f, 1.01f) &&
