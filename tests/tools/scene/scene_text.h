@@ -35,7 +35,7 @@
 
 static inline struct scene *scene_of(const char *text)
 {
-    return scene_read("test.json", must_copy(text), strlen(text), NULL, 0);
+    return scene_read("test.json", must_copy_text(text), strlen(text), NULL, 0);
 }
 
 struct moments {

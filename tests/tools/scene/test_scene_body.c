@@ -50,7 +50,7 @@ static size_t watch(const char *more, double x_m, double *plots_a_scan)
     struct scene_run *run = scene_observe(scene, 3, 0);
 
     for (size_t i = 0; i < run->num_scans; i++) {
-        const struct motion at = path_at(&run->paths[0], run->scans[i].end_s);
+        const struct motion at = path_motion_at(&run->paths[0], run->scans[i].end_s);
 
         for (size_t k = 0; k < run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &run->scans[i].plots[k];

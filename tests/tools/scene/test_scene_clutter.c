@@ -203,10 +203,11 @@ static void birds_flock(void **state)
     for (size_t i = 0; i < 100; i++) { /* slower than the flock and 1.5 times 4 m/s */
         size_t count, num_paths;
         struct scene_path *paths;
-        struct scene_mover *birds = clutter_movers(seen.scene, 0, 5, 0, &count, &paths, &num_paths);
+        struct scene_mover *birds =
+            draw_clutter_movers(seen.scene, 0, 5, 0, &count, &paths, &num_paths);
         struct motion at;
 
-        assert_true(mover_at(&birds[i], &seen.scene->sensors[0], 77, &at));
+        assert_true(mover_seen_at(&birds[i], &seen.scene->sensors[0], 77, &at));
         assert_true(hypot(at.vx_mps + 10, at.vy_mps - 5) < 6.001);
         free(birds);
     }
@@ -255,7 +256,7 @@ static void clutter_stays_about_a_target(void **state)
     assert_int_equal(run->num_scans, 500);
     for (size_t i = 0; i < run->num_scans; i++) {
         const struct scene_scan *scan = &run->scans[i];
-        struct motion at = path_at(run->paths, scan->end_s);
+        struct motion at = path_motion_at(run->paths, scan->end_s);
         double radius_m = sqrt(at.x_m * at.x_m + at.y_m * at.y_m + at.z_m * at.z_m) * sin(0.01);
 
         assert_int_equal(scan->num_plots, scan->end_s < 10 ? 1 : 5);

@@ -49,7 +49,7 @@ static void check_plots(const char *text, const double bias[2], bool turns)
 
         for (size_t k = 0; k < scan->num_plots; k++) {
             const struct scene_plot *plot = &scan->plots[k];
-            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            struct motion at = path_motion_at(&run->paths[plot->target_id], plot->t_s);
             double x_m = at.x_m - sensor->x_m, y_m = at.y_m - sensor->y_m,
                    range_m = hypot(x_m, y_m);
             double azimuth_rad = atan2(y_m, x_m);
@@ -135,7 +135,7 @@ static void ambiguous_range_rates_are_folded(void **state)
     for (size_t i = 0; i < run->num_scans; i++) {
         for (size_t k = 0; k < run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &run->scans[i].plots[k];
-            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            struct motion at = path_motion_at(&run->paths[plot->target_id], plot->t_s);
             double rate = (at.x_m * at.vx_mps + at.y_m * at.vy_mps) / hypot(at.x_m, at.y_m);
 
             assert_true(fabs(plot->range_rate_mps) <= 20);
@@ -157,13 +157,13 @@ static void coverage_ends(void **state)
 
     for (size_t i = 0; i < run->num_scans; i++) {
         for (size_t k = 0; k < run->num_paths; k++) {
-            struct motion at = path_at(&run->paths[k], run->scans[i].end_s);
+            struct motion at = path_motion_at(&run->paths[k], run->scans[i].end_s);
 
-            covered += scene_covers(scene, at.x_m, at.y_m);
+            covered += scene_covers_place(scene, at.x_m, at.y_m);
         }
         for (size_t k = 0; k < run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &run->scans[i].plots[k];
-            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            struct motion at = path_motion_at(&run->paths[plot->target_id], plot->t_s);
             double range_m = hypot(at.x_m, at.y_m), azimuth_rad = atan2(at.y_m, at.x_m);
 
             assert_true(range_m >= 1000 && range_m <= 80000);
