@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The radar node: hears scans over LCM, publishes tracks. Where to start from for a node of your
- * own: the radars that it knows are in radars.h, the tracker's settings in start_node(), the hardware in
- * board/.
+ * own: the radars that it knows are in radars.h, the tracker's settings in start_node(), the
+ * hardware in board/.
  */
 #include "board/board.h"
 #include "node.h"

@@ -22,7 +22,7 @@ static struct seen watch(const char *radar, double notch_mps, double blind_mps)
     struct seen seen = {0, 0, 0, 0};
 
     snprintf(text, sizeof text, SCENE("400", "%s", FLYERS), radar);
-    struct scene *scene = scene_of(text);
+    struct scene *scene = scene_of_text(text);
     struct scene_run *run = scene_observe(scene, 1, 0);
 
     for (size_t i = 0; i < run->num_scans; i++) {
@@ -96,7 +96,7 @@ static void probabilities_are_the_lower_ones(void **state)
 static void a_tracker_is_told_the_truth_or_not(void **state)
 {
     char text[128] = "";
-    struct scene *scene = scene_of(SCENE(
+    struct scene *scene = scene_of_text(SCENE(
         "8", RADAR(", \"notch_mps\": 5, \"blind_speed_mps\": 30, \"told\": {\"notch_mps\": 4}"),
         ""));
     FILE *file = fmemopen(text, sizeof text, "w");

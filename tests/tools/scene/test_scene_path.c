@@ -34,7 +34,7 @@ static struct scene_path *paths_of(const char *targets, double duration_s, uint6
     struct scene_path *paths;
 
     snprintf(text, sizeof text, SCENE("%g", RADAR(""), ", \"targets\": [%s]"), duration_s, targets);
-    scene = scene_of(text);
+    scene = scene_of_text(text);
     paths = targets_draw(&scene->targets, "test.json", duration_s, seed, 0, 0, count);
     scene_free(scene);
     return paths;
@@ -111,7 +111,7 @@ static struct motion at_of(const char *targets, uint64_t seed, double t_s)
 
     snprintf(text, sizeof text,
              SCENE("100", "{\"interval_s\": 1, \"sigma_m\": 9}", ", \"targets\": [%s]"), targets);
-    scene = scene_of(text);
+    scene = scene_of_text(text);
     paths = targets_draw(&scene->targets, "test.json", 100, seed, 0, 0, &count);
     at = path_motion_at(paths, t_s);
     free_paths(paths, count);
@@ -173,10 +173,10 @@ static void who_is_shaken_wanders(void **state)
         add_moment(&height, at.z_m);
         add_moment(&velocity, at.vy_mps);
     }
-    assert_near(mean_of(&place), 0, 4 * 2 * 0.25 * sqrt(n * n * n / 3 / 1000));
-    assert_near(sigma_of(&place), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
-    assert_near(sigma_of(&height), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
-    assert_near(sigma_of(&velocity), 2 * 0.5 * sqrt(n), 0.9);
+    assert_near(mean_of_moments(&place), 0, 4 * 2 * 0.25 * sqrt(n * n * n / 3 / 1000));
+    assert_near(sigma_of_moments(&place), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
+    assert_near(sigma_of_moments(&height), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
+    assert_near(sigma_of_moments(&velocity), 2 * 0.5 * sqrt(n), 0.9);
 }
 
 static void one_separates_from_another(void **state)
@@ -223,13 +223,13 @@ static void groups_are_as_they_say(void **state)
         add_moment(&life, paths[i].until_s - paths[i].from_s);
     }
     /* uniform ones: mean in the middle, standard deviation width / sqrt(12) */
-    assert_near(mean_of(&speed), 200, 4 * 57.7 / sqrt(2000));
-    assert_near(sigma_of(&speed), 57.7, 2);
-    assert_near(mean_of(&azimuth), 0.5, 4 * 0.289 / sqrt(2000));
-    assert_near(mean_of(&square), 8.5e8, 4 * 4.33e8 / sqrt(2000)); /* even over the area */
-    assert_near(mean_of(&heading), 0, 4 * 1.81 / sqrt(2000));
-    assert_near(mean_of(&from), 15, 4 * 5.77 / sqrt(2000));
-    assert_near(mean_of(&life), 40, 4 * 5.77 / sqrt(2000));
+    assert_near(mean_of_moments(&speed), 200, 4 * 57.7 / sqrt(2000));
+    assert_near(sigma_of_moments(&speed), 57.7, 2);
+    assert_near(mean_of_moments(&azimuth), 0.5, 4 * 0.289 / sqrt(2000));
+    assert_near(mean_of_moments(&square), 8.5e8, 4 * 4.33e8 / sqrt(2000)); /* even over the area */
+    assert_near(mean_of_moments(&heading), 0, 4 * 1.81 / sqrt(2000));
+    assert_near(mean_of_moments(&from), 15, 4 * 5.77 / sqrt(2000));
+    assert_near(mean_of_moments(&life), 40, 4 * 5.77 / sqrt(2000));
     free_paths(paths, count);
 }
 

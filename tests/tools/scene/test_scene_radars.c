@@ -62,8 +62,8 @@ static struct errors errors_of(const struct scene_run *run, size_t radar)
 
 static void assert_standard_normal(const struct moments *moments)
 {
-    assert_near(mean_of(moments), 0.0, 4.0 / sqrt(moments->count));
-    assert_near(sigma_of(moments), 1.0, 4.0 / sqrt(2.0 * moments->count));
+    assert_near(mean_of_moments(moments), 0.0, 4.0 / sqrt(moments->count));
+    assert_near(sigma_of_moments(moments), 1.0, 4.0 / sqrt(2.0 * moments->count));
 }
 
 static void polar_is_as_its_manual_says(void **state)

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "paper_scene.h"
+#include "passive_paper_scene.h"
 
 static struct rho_passive_paper paper, before;
 static struct scene scene;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * identity_numbers: any int32 identities numbered from 0 in the order in which they come; a hash that
- * grows.
+ * identity_numbers: any int32 identities numbered from 0 in the order in which they come; a hash
+ * that grows.
  */
 #ifndef RHOTRACK_TOOL_IDENTITY_NUMBERS_H
 #define RHOTRACK_TOOL_IDENTITY_NUMBERS_H

@@ -4,9 +4,8 @@
  * describe: (channel, bytes, time) in, messages out.
  *
  *     node_core_take_message(core, channel, data, size, now_us);    for each message that comes
- *     node_core_tick(core, now_us);                         when nothing has come, at
- *     node_core_due_us at the latest node_core_send_status(core, &losses);                      once a
- *     second
+ *     node_core_tick(core, now_us);        when nothing has come, by node_core_due_us at the latest
+ *     node_core_send_status(core, &losses);                         once a second
  *
  * Any bytes may be given: faults in them are counted, and none of them ends the program.
  */

@@ -414,9 +414,9 @@ void parameters_time_biases_us(const struct parameters *parameters, int32_t *lea
                                int32_t *largest_us);
 
 /*
- * The library's configs from the parameters, checked (parameters_check_together). A sensor is described only
- * where somebody set something of it, or the range limits of all: else false, and *sensor is
- * unchanged.
+ * The library's configs from the parameters, checked (parameters_check_together). A sensor is
+ * described only where somebody set something of it, or the range limits of all: else false, and
+ * *sensor is unchanged.
  */
 bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
                           struct rho_sensor *sensor);
@@ -428,7 +428,8 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
                               struct rho_sensor *sensor);
 
 /*
- * The settings from which the library's configs follow; checked as parameters_check_together does, exit 2.
+ * The settings from which the library's configs follow; checked as parameters_check_together does,
+ * exit 2.
  */
 struct rho_settings parameters_settings(const struct parameters *parameters);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * origin_and_turn: what the first rows of a CSV file of plots tell before it is read: a place on the
- * earth, where the local frame may have its origin, and azimuths that run as a compass does.
+ * origin_and_turn: what the first rows of a CSV file of plots tell before it is read: a place on
+ * the earth, where the local frame may have its origin, and azimuths that run as a compass does.
  */
 #ifndef RHOTRACK_TOOL_ORIGIN_AND_TURN_H
 #define RHOTRACK_TOOL_ORIGIN_AND_TURN_H

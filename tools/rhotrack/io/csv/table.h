@@ -64,7 +64,8 @@ void table_free(struct table *table);
 void table_need_rows(const struct table *table);
 
 /*
- * Index of a column, or -1; table_need_column exits with 2 where it is missing, and names what is there.
+ * Index of a column, or -1; table_need_column exits with 2 where it is missing, and names what is
+ * there.
  */
 static inline int table_find_column(const struct table *table, const char *name)
 {

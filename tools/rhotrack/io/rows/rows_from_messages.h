@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_from_messages: messages of one kind, in any order, as rows in the order of time, or of reception.
+ * rows_from_messages: messages of one kind, in any order, as rows in the order of time, or of
+ * reception.
  *
  * The parts of a scan come together, in their order; its plots in the order of their own times. A
  * scan without plots, and one whose first plot is not at the scan's time, begins with a row that

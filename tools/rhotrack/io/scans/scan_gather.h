@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scan_gather: rows of one file to scans, in the order of time, with those scans alone in memory that
- * may get more rows.
+ * scan_gather: rows of one file to scans, in the order of time, with those scans alone in memory
+ * that may get more rows.
  *
- * Rows of one sensor are a scan as row_joins_scan has it: a row belongs to the scan of its number, else
- * to the sensor's newest one. Their times do not go back, but within a scan that has a number. A
- * scan is complete when rows have come to a time that cannot be its own: of a numbered one
+ * Rows of one sensor are a scan as row_joins_scan has it: a row belongs to the scan of its number,
+ * else to the sensor's newest one. Their times do not go back, but within a scan that has a number.
+ * A scan is complete when rows have come to a time that cannot be its own: of a numbered one
  * RHO_LIMIT_OFFSET_US after its first row.
  *
  * A sensor's time bias, where it has one, is taken off its scan's time: rows come by the sensors'

@@ -10,8 +10,8 @@
  * [,sigma_range_m,...]; azimuth_deg (clockwise from north) and elevation_deg may stand for the
  * radians, latitudes and longitudes for metres (geodetic.h). Others are ignored. Rows of one sensor
  * with the same t_s (or within scan_interval_s) are one scan; with a column scan those of the same
- * scan and epoch, up to a minute apart (scan_gather.h). A row whose measurement columns are empty is a
- * scan that saw nothing.
+ * scan and epoch, up to a minute apart (scan_gather.h). A row whose measurement columns are empty
+ * is a scan that saw nothing.
  *
  * Files are read once, row by row; memory does not grow with them. A path "-" is standard input, as
  * CSV.

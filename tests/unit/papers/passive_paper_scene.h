@@ -3,8 +3,8 @@
  * The paper's passive method on the scenes of passive_scene.h, and its lines beside the targets'
  * paths.
  */
-#ifndef PAPER_SCENE_H
-#define PAPER_SCENE_H
+#ifndef PASSIVE_PAPER_SCENE_H
+#define PASSIVE_PAPER_SCENE_H
 
 #include "passive_scene.h"
 #include "rhotrack/passive_paper.h"

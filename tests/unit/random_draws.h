@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Random numbers of a test: the same on every machine, from random_state on. */
-#ifndef RHOTRACK_TESTS_DRAWS_H
-#define RHOTRACK_TESTS_DRAWS_H
+#ifndef RHOTRACK_TESTS_RANDOM_DRAWS_H
+#define RHOTRACK_TESTS_RANDOM_DRAWS_H
 
 #include <math.h>
 #include <stdint.h>

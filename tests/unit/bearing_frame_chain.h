@@ -3,8 +3,8 @@
  * A tracker with a passive initiation, the frames of a scene for as long as one likes, and a filter
  * beside it.
  */
-#ifndef FRAME_CHAIN_H
-#define FRAME_CHAIN_H
+#ifndef BEARING_FRAME_CHAIN_H
+#define BEARING_FRAME_CHAIN_H
 
 #include <math.h>
 #include <setjmp.h>
@@ -48,19 +48,19 @@ static inline void use_gate(uint8_t gate)
 }
 
 /* Any number of frames: the scene holds the last ones. */
-static inline unsigned slot_of(unsigned k)
+static inline unsigned scene_slot_of(unsigned k)
 {
     return k % SCENE_SCANS;
 }
 
 /* What all sensors see at time_s goes into `full`. */
-static inline void look_round(unsigned k, double time_s)
+static inline void see_frame(unsigned k, double time_s)
 {
-    scene.time_s[slot_of(k)] = time_s;
+    scene.time_s[scene_slot_of(k)] = time_s;
     for (unsigned s = 0; s < scene.sensors; s++) {
-        see(&scene, slot_of(k), s);
+        see_look(&scene, scene_slot_of(k), s);
     }
-    fill_frame(&scene, slot_of(k), &full);
+    fill_frame(&scene, scene_slot_of(k), &full);
 }
 
 /* ---- steps ----------------------------------------------------------------------------------- */
@@ -124,11 +124,11 @@ static inline void step_frame(const struct rho_frame *frame)
 /* Frame k, interval_s after the one before. */
 static inline void fly_frame(unsigned k, double interval_s)
 {
-    look_round(k, interval_s * k);
+    see_frame(k, interval_s * k);
     step_frame(&full.frame);
 }
 
-static inline void fly(unsigned from, unsigned to, double interval_s)
+static inline void fly_frames(unsigned from, unsigned to, double interval_s)
 {
     for (unsigned k = from; k < to; k++) {
         fly_frame(k, interval_s);
@@ -137,20 +137,21 @@ static inline void fly(unsigned from, unsigned to, double interval_s)
 
 /* ---- tracks and targets ---------------------------------------------------------------------- */
 
-static inline double error_m(const struct rho_track_report *track, const struct target *target,
-                             double time_s)
+static inline double track_error_m(const struct rho_track_report *track,
+                                   const struct target *target, double time_s)
 {
     return hypot((double)track->state[0] - target_x_m(target, time_s),
                  (double)track->state[1] - target_y_m(target, time_s));
 }
 
 /* The track that is nearest to a target now; NULL: none within 3 km. */
-static inline const struct rho_track_report *track_of(const struct target *target, double time_s)
+static inline const struct rho_track_report *track_nearest_to(const struct target *target,
+                                                              double time_s)
 {
     const struct rho_track_report *nearest = NULL;
     double least_m = 3000.0;
     for (unsigned i = 0; i < report.num_tracks; i++) {
-        double off_m = error_m(&report.tracks[i], target, time_s);
+        double off_m = track_error_m(&report.tracks[i], target, time_s);
         if (off_m < least_m) {
             least_m = off_m;
             nearest = &report.tracks[i];
@@ -180,7 +181,7 @@ struct ekf {
  * It begins at the truth, and knows next to nothing beside what a batch of bearings tells: 5 km and
  * 100 m/s.
  */
-static inline struct ekf ekf_of(const struct target *target)
+static inline struct ekf ekf_at_target(const struct target *target)
 {
     struct ekf ekf = {.x = {target->x_m, target->y_m, target->vx_mps, target->vy_mps}};
     for (int i = 0; i < 4; i++) {
@@ -253,7 +254,7 @@ static inline void ekf_take_plot(struct ekf *ekf, double x_m, double y_m,
 }
 
 /* It goes on from a track. */
-static inline struct ekf ekf_from(const struct rho_track_report *track)
+static inline struct ekf ekf_from_track(const struct rho_track_report *track)
 {
     static const int at[4] = {0, 1, 3, 4};
     struct ekf ekf;
@@ -273,7 +274,7 @@ static inline struct ekf ekf_from(const struct rho_track_report *track)
 static inline void ekf_take_frame(struct ekf *ekf, unsigned k, int target)
 {
     for (unsigned s = 0; s < scene.sensors; s++) {
-        const struct look *look = &scene.look[slot_of(k)][s];
+        const struct look *look = &scene.look[scene_slot_of(k)][s];
         for (unsigned i = 0; i < look->count && !look->is_absent; i++) {
             if (look->target[i] == target) {
                 ekf_update(ekf, scene.sensor_x_m[s], scene.sensor_y_m[s], &look->bearings[i]);

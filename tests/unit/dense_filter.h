@@ -4,8 +4,8 @@
  * an inverse and in Joseph's form. It shares nothing with the library but the order of the packed
  * triangle.
  */
-#ifndef RHOTRACK_TESTS_DENSE_H
-#define RHOTRACK_TESTS_DENSE_H
+#ifndef RHOTRACK_TESTS_DENSE_FILTER_H
+#define RHOTRACK_TESTS_DENSE_FILTER_H
 
 #include <math.h>
 #include <setjmp.h>
@@ -153,9 +153,10 @@ static inline void dense_invert(int n, double s[DENSE_ROWS][DENSE_ROWS])
 }
 
 /* p h^T, a column for each row of h, and the inverse of h p h^T + r. */
-static inline void dense_project(const struct dense *d, const struct dense_measurement *m,
-                                 double ph[DENSE][DENSE_ROWS],
-                                 double inverse[DENSE_ROWS][DENSE_ROWS])
+static inline void dense_innovation_inverse(const struct dense *d,
+                                            const struct dense_measurement *m,
+                                            double ph[DENSE][DENSE_ROWS],
+                                            double inverse[DENSE_ROWS][DENSE_ROWS])
 {
     for (int a = 0; a < m->num_rows; ++a) {
         for (int i = 0; i < DENSE; ++i) {
@@ -208,7 +209,7 @@ static inline double dense_update(struct dense *d, const struct dense_measuremen
     double ph[DENSE][DENSE_ROWS], inverse[DENSE_ROWS][DENSE_ROWS], gain[DENSE][DENSE_ROWS];
     double nis = 0.0;
 
-    dense_project(d, m, ph, inverse);
+    dense_innovation_inverse(d, m, ph, inverse);
     for (int i = 0; i < DENSE; ++i) {
         for (int b = 0; b < m->num_rows; ++b) {
             gain[i][b] = 0.0;
@@ -227,7 +228,8 @@ static inline double dense_update(struct dense *d, const struct dense_measuremen
     return nis;
 }
 
-static inline struct dense_measurement dense_row(const float row[6], double y, double variance)
+static inline struct dense_measurement dense_row_measurement(const float row[6], double y,
+                                                             double variance)
 {
     struct dense_measurement m = {.num_rows = 1, .y = {y}, .r = {{variance}}};
 

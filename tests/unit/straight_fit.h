@@ -5,8 +5,8 @@
  * added up as the hypotheses read: what a target's plots are expected to be, over the same of
  * clutter.
  */
-#ifndef RHOTRACK_TESTS_STRAIGHT_H
-#define RHOTRACK_TESTS_STRAIGHT_H
+#ifndef RHOTRACK_TESTS_STRAIGHT_FIT_H
+#define RHOTRACK_TESTS_STRAIGHT_FIT_H
 
 #include <math.h>
 #include <string.h>
@@ -137,8 +137,8 @@ static inline struct straight_rows straight_rate_rows(const struct straight_fit 
 }
 
 /* Adds to the normal equations, and to what the fit says of its own residual. */
-static inline void straight_add(struct straight_fit *fit, const struct straight_rows *rows,
-                                double right[STRAIGHT])
+static inline void straight_add_rows(struct straight_fit *fit, const struct straight_rows *rows,
+                                     double right[STRAIGHT])
 {
     fit->rows += rows->count;
     fit->log_det_noise += rows->log_det;
@@ -156,8 +156,8 @@ static inline void straight_add(struct straight_fit *fit, const struct straight_
 }
 
 /* Everything about the fit's present state; rates at `point`, NULL: without. */
-static inline void straight_sum(struct straight_fit *fit, const struct straight_plot *of, int n,
-                                const double *point, double right[STRAIGHT])
+static inline void straight_sum_rows(struct straight_fit *fit, const struct straight_plot *of,
+                                     int n, const double *point, double right[STRAIGHT])
 {
     memset(fit->normal, 0, sizeof fit->normal);
     memset(right, 0, sizeof(double[STRAIGHT]));
@@ -165,11 +165,11 @@ static inline void straight_sum(struct straight_fit *fit, const struct straight_
     fit->rows = fit->heights = fit->rates = 0;
     for (int k = 0; k < n; k++) {
         struct straight_rows rows = straight_place_rows(fit, &of[k]);
-        straight_add(fit, &rows, right);
+        straight_add_rows(fit, &rows, right);
         fit->heights += rows.count == 3;
         if (point && of[k].has_rate) {
             rows = straight_rate_rows(fit, &of[k], point);
-            straight_add(fit, &rows, right);
+            straight_add_rows(fit, &rows, right);
             fit->rates++;
         }
     }
@@ -200,8 +200,8 @@ static inline double straight_solve(struct straight_fit *fit, const double right
  * Fits the places, then with the rates as they are near there. log_fisher: ln det of the normal
  * equations.
  */
-static inline struct straight_fit straight_through(const struct straight_plot *of, int n,
-                                                   double *log_fisher)
+static inline struct straight_fit straight_fit_through(const struct straight_plot *of, int n,
+                                                       double *log_fisher)
 {
     struct straight_fit fit = {0};
     double right[STRAIGHT], point[STRAIGHT];
@@ -212,12 +212,12 @@ static inline struct straight_fit straight_through(const struct straight_plot *o
     fit.axes = heights >= 2 ? 3 : 2;
     memcpy(fit.state, of[n / 2].at_m, sizeof of[0].at_m);
     fit.state[2] *= fit.axes == 3;
-    straight_sum(&fit, of, n, NULL, right);
+    straight_sum_rows(&fit, of, n, NULL, right);
     straight_solve(&fit, right);
     memcpy(point, fit.state, sizeof point);
-    straight_sum(&fit, of, n, point, right);
+    straight_sum_rows(&fit, of, n, point, right);
     *log_fisher = straight_solve(&fit, right);
-    straight_sum(&fit, of, n, point, right); /* the residual of what was found */
+    straight_sum_rows(&fit, of, n, point, right); /* the residual of what was found */
     return fit;
 }
 

@@ -8,8 +8,8 @@
  * is let fall on both sides of a cell's border: then what is sure and what is possible differ, and
  * the scene is not compared.
  */
-#ifndef PAPER_REFERENCE_H
-#define PAPER_REFERENCE_H
+#ifndef PASSIVE_PAPER_REFERENCE_H
+#define PASSIVE_PAPER_REFERENCE_H
 
 #include <math.h>
 #include <setjmp.h>
@@ -20,7 +20,7 @@
 
 #include <cmocka.h>
 
-#include "paper_scene.h"
+#include "passive_paper_scene.h"
 
 static struct scene scene; /* that is looked at */
 
@@ -42,8 +42,8 @@ static unsigned num_crossings;
 static int is_doubtful; /* something is at its limit, and float32 may see it on the other side */
 
 /* Ray from a along bearing a meets the ray from b: the two linear equations solved. */
-static int meet(unsigned a, unsigned b, double bearing_a_rad, double bearing_b_rad,
-                double range_max_m, struct crossing *at)
+static int intersect_rays(unsigned a, unsigned b, double bearing_a_rad, double bearing_b_rad,
+                          double range_max_m, struct crossing *at)
 {
     double ax = (float)scene.sensor_x_m[a], ay = (float)scene.sensor_y_m[a];
     double bx = (float)scene.sensor_x_m[b], by = (float)scene.sensor_y_m[b];
@@ -77,7 +77,7 @@ static unsigned count_row(const struct kept *kept, unsigned row, unsigned *only)
     return count;
 }
 
-static struct kept turned(const struct kept *kept)
+static struct kept transposed(const struct kept *kept)
 {
     struct kept other = {.rows = kept->columns, .columns = kept->rows};
     for (unsigned i = 0; i < kept->rows; i++) {
@@ -111,12 +111,12 @@ static void prune_rows(struct kept *kept)
     }
 }
 
-static void prune(struct kept *kept)
+static void prune_ghosts(struct kept *kept)
 {
     prune_rows(kept);
-    struct kept other = turned(kept);
+    struct kept other = transposed(kept);
     prune_rows(&other);
-    *kept = turned(&other);
+    *kept = transposed(&other);
 }
 
 static void cross_scan(unsigned a, unsigned b, unsigned k,
@@ -127,13 +127,13 @@ static void cross_scan(unsigned a, unsigned b, unsigned k,
     struct kept kept = {.rows = look_a->count, .columns = look_b->count};
     for (unsigned i = 0; i < kept.rows; i++) {
         for (unsigned j = 0; j < kept.columns; j++) {
-            kept.is_left[i][j] = meet(a, b, (double)look_a->bearings[i].bearing_rad,
-                                      (double)look_b->bearings[j].bearing_rad,
-                                      (double)config->range_max_m, &found[i][j]);
+            kept.is_left[i][j] = intersect_rays(a, b, (double)look_a->bearings[i].bearing_rad,
+                                                (double)look_b->bearings[j].bearing_rad,
+                                                (double)config->range_max_m, &found[i][j]);
         }
     }
     if (config->rule == RHO_GHOST_LITERAL) {
-        prune(&kept);
+        prune_ghosts(&kept);
     }
     for (unsigned i = 0; i < kept.rows; i++) {
         for (unsigned j = 0; j < kept.columns; j++) {
@@ -443,7 +443,8 @@ static void add_crossings(struct sums *sums, struct place at, double cell_m)
     }
 }
 
-static int gather(struct place at, const struct rho_passive_paper_config *config, struct sums *sums)
+static int gather_state_sums(struct place at, const struct rho_passive_paper_config *config,
+                             struct sums *sums)
 {
     int is_sure = 1;
     unsigned pair = 0;
@@ -462,7 +463,7 @@ static inline void expect_state(const struct rho_passive_paper_line *line, struc
                                 const struct rho_passive_paper_config *config)
 {
     struct sums sums = {0};
-    if (!gather(at, config, &sums)) {
+    if (!gather_state_sums(at, config, &sums)) {
         return;
     }
     assert_int_equal(line->scans, sums.mask);
