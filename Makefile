@@ -399,7 +399,7 @@ sanitized-tests: $(program) $(unit_programs) $(tool_programs)
 # linked as it is. In src/wire an unsigned number that wraps is a finding,
 # too; elsewhere loops and the square root wrap on purpose.
 fuzz_readers := $(wildcard $(addprefix tools/rhotrack/,io/asterix/*.c io/csv/*.c io/rows/*.c io/scans/*.c io/turns/*.c io/log/*.c \
-                  settings/parameters*.c scene/*.c base/hint.c picture/plot_data.c))
+                  settings/parameters*.c scene/*.c base/name_hint.c picture/plot_data.c))
 fuzz_parts := $(sort $(wildcard src/wire/*.c src/base/*.c)) $(fuzz_readers) tools/firmware/board/udp_frame.c
 fuzz_objects := $(fuzz_parts:%.c=$(BUILD)/fuzz/parts/%.o)
 fuzz_sources := $(sort $(wildcard tests/fuzz/fuzz_*.c))

@@ -9,7 +9,7 @@
 
 check 'the records are made' record_all
 
-sources=("$root"/src/*/*.c "$root"/tools/firmware/{node,starts_best,replay}.c \
+sources=("$root"/src/*/*.c "$root"/tools/firmware/{node,track_starts_best,replay}.c \
     "$root"/tools/firmware/board/host/files_host.c)
 build_replay() { # file, compiler, flags...
     local file=$1

@@ -26,7 +26,7 @@ static void must(bool holds)
 static void check_rows(const struct asterix_scan *scan)
 {
     const struct asterix_columns columns = {.has_place = true, .has_scan = true};
-    struct table *table = asterix_records_table("", &columns);
+    struct table *table = asterix_records_empty_table("", &columns);
 
     asterix_records_add_scan(table, scan);
     must(table->num_columns == 12 && table->num_rows == scan->count + 1);
@@ -78,7 +78,7 @@ static void look(struct asterix_scans *scans, const uint8_t *data, size_t size)
              i += record.size) {
             struct asterix_track track;
 
-            asterix_scans_look(scans, &record);
+            asterix_scans_preview_record(scans, &record);
             if (record.category == ASTERIX_TRACKS) {
                 asterix_track_read(&record, &track);
             }
@@ -125,7 +125,7 @@ static size_t take(struct asterix_scans *scans, const uint8_t *data, size_t size
         bytes = asterix_block_read(data + at, size - at, &block, &error)
                     ? ASTERIX_HEADER_BYTES + block.size
                     : size - at;
-        asterix_datagram_take(scans, data + at, bytes, heard);
+        asterix_datagram_take_records(scans, data + at, bytes, heard);
         count += check_scans(scans, settled_128);
     }
     return count;

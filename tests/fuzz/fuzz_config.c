@@ -84,13 +84,13 @@ static void read_config(void *context)
 {
     const struct reading *reading = context;
 
-    parameters_default(&parameters);
-    parameters_load(&parameters, reading->path);
+    parameters_set_defaults(&parameters);
+    parameters_load_ini(&parameters, reading->path);
     for (size_t i = 0; i < reading->num_sets; i++) {
-        parameters_set(&parameters, reading->sets[i]);
+        parameters_set_assignment(&parameters, reading->sets[i]);
     }
-    parameters_locate(&parameters);
-    parameters_check(&parameters);
+    parameters_locate_sensors(&parameters);
+    parameters_check_together(&parameters);
     check_values();
     parameters_print(&parameters, nowhere);
     if (reading->asks_library) {
@@ -105,7 +105,7 @@ static void read_config(void *context)
 static void warm_up(void)
 {
     CHECK(setenv("PROJ_DATA", "/nonexistent", 1) == 0);
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     local_frame_close(parameters_open_origin(&parameters));
     nowhere = fopen("/dev/null", "w");
     CHECK(nowhere);

@@ -92,7 +92,7 @@ static void draw_paths(const struct scene *scene)
     }
     paths = targets_draw(&scene->targets, scene->name, duration_s, 1, 0, 0, &count);
     for (size_t i = 0; i < count; i++) {
-        CHECK(isfinite(path_at(&paths[i], paths[i].from_s).x_m));
+        CHECK(isfinite(path_motion_at(&paths[i], paths[i].from_s).x_m));
         path_free(&paths[i]);
     }
     free(paths);

@@ -41,10 +41,10 @@ static void read_table(const char *path, bool keep_going)
     for (size_t row = 0; row < table->num_rows; row++) {
         must(row == 0 || table->lines[row] > table->lines[row - 1]);
         for (size_t column = 0; column < table->num_columns; column++) {
-            must(table_number(table, row, (int)column, &number) || isfinite((float)number));
-            must(table_time_us(table, row, (int)column, &time_us) ||
+            must(table_read_number(table, row, (int)column, &number) || isfinite((float)number));
+            must(table_read_time_us(table, row, (int)column, &time_us) ||
                  (time_us >= -RHO_LIMIT_TIME_US && time_us <= RHO_LIMIT_TIME_US));
-            (void)table_int32(table, row, (int)column, &integer);
+            (void)table_read_int32(table, row, (int)column, &integer);
         }
     }
     table_free(table);
@@ -111,7 +111,7 @@ static void read_frames(char *path, const struct parameters *parameters, bool ke
         num_frames++;
         check_frame(frame);
     }
-    must(num_frames == frame_reader_total(reader));
+    must(num_frames == frame_reader_num_frames(reader));
     frame_reader_close(reader);
 }
 
@@ -185,7 +185,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     if (!reading.path) {
         reading.path = refusal_write_file(data, 0);
-        parameters_default(&reading.parameters);
+        parameters_set_defaults(&reading.parameters);
         warm_up(&reading.parameters);
         refusal_begin();
     }

@@ -12,7 +12,7 @@ import harness
 harness.need_packages("rhotrack")
 
 import claims
-from parts import claims_own
+from parts import claims_own_figures
 from parts import claims_table as table
 import numpy as np
 
@@ -96,7 +96,7 @@ class Verdicts(unittest.TestCase):
         with harness.folder() as folder:
             (folder / "paper.ini").write_text(PAPER + SET + text)
             row = table.read_all(folder)[0].rows[1]
-        return claims.judged(row, figures, {test: passed for test in row.test})
+        return claims.judged_row(row, figures, {test: passed for test in row.test})
 
     def test_figures_decide(self):
         self.assertEqual(self.judged(MEASURED), (
@@ -128,11 +128,11 @@ class Own(unittest.TestCase):
     def test_crossings_are_counted(self):
         paths = np.array([[[0, 0], [0, 4], [0, 9]], [[2, 2], [2, 1], [2, 9]],
                           [[4, 4], [4, 0], [4, 9]]], float)
-        self.assertEqual(claims_own.crossings(paths), 1)
+        self.assertEqual(claims_own_figures.crossings(paths), 1)
 
     def test_printed_lines_are_as_wrong_as_they_are_told(self):
         """A pair on x = y: alpha is 1, theta printed -pi/4; the line's normal has 3 pi/4."""
-        told = claims_own.equation_9()
+        told = claims_own_figures.equation_9()
         self.assertEqual(told["printed_in_range"], 0)
         self.assertAlmostEqual(told["printed_right"] + told["absolute_right"], 1, places=3)
 

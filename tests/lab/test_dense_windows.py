@@ -22,14 +22,14 @@ HERE = {"t_s": 12.0, "x_m": 100.0, "y_m": 200.0}
 
 class DenseWindows(unittest.TestCase):
     def test_distance_by_hand(self):
-        self.assertEqual(dense_windows.off_m({"x_m": 103.0, "y_m": 196.0}, HERE), 5.0)
+        self.assertEqual(dense_windows.distance_m({"x_m": 103.0, "y_m": 196.0}, HERE), 5.0)
 
     def test_loss(self):
         """100 runs: .28 of the targets in the densest one, where .86 are found without a limit; all
         in the paper's."""
         with tempfile.TemporaryDirectory() as folder:
-            run = [dense_windows.means(PROGRAM, pathlib.Path(folder) / str(per_km2), per_km2, hits,
-                                       4, 3) for per_km2, hits in [(10, 5), (30, 6)]]
+            run = [dense_windows.mean_figures(PROGRAM, pathlib.Path(folder) / str(per_km2), per_km2,
+                                              hits, 4, 3) for per_km2, hits in [(10, 5), (30, 6)]]
         (paper, paper_free), (densest, densest_free) = run
         self.assertEqual(paper, paper_free)
         self.assertGreater(paper[0], 0.9)

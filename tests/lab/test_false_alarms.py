@@ -77,11 +77,11 @@ class Delay(unittest.TestCase):
 
     def test_the_area_holds_the_paths(self):
         paths_m = paper.straight(paper.TABLE_1, alarms.DELAY_SCANS)
-        x_min, x_max, y_min, y_max = alarms.grown_box(paths_m)
+        x_min, x_max, y_min, y_max = alarms.box_with_paths(paths_m)
         self.assertAlmostEqual(x_max, 300 + 280 * 22 + 500)
         self.assertAlmostEqual(y_min, 300 - 100 * 22 - 500)
         self.assertEqual(y_max, 1500)
-        self.assertEqual(alarms.grown_box(paths_m[:1]), paper.TABLE_1_BOX_M)
+        self.assertEqual(alarms.box_with_paths(paths_m[:1]), paper.TABLE_1_BOX_M)
 
 
 class EndToEnd(unittest.TestCase):

@@ -139,8 +139,8 @@ class Matching(unittest.TestCase):
         paths = paper.straight([(0, 100, 0, 0), (0, 100, 30, 0)])
         tracks = np.array([(1200, 10, 100, 0), (1200, 5, 100, 0), (1200, 500, 100, 0)],
                           [(name, "f4") for name in ("x_m", "y_m", "vx_mps", "vy_mps")])
-        np.testing.assert_allclose(initiation.matched(paths, tracks, 2.0, 30.0), [5, 20])
-        np.testing.assert_allclose(initiation.matched(paths, tracks[2:], 2.0, 30.0), [])
+        np.testing.assert_allclose(initiation.matched_errors(paths, tracks, 2.0, 30.0), [5, 20])
+        np.testing.assert_allclose(initiation.matched_errors(paths, tracks[2:], 2.0, 30.0), [])
 
 
 class EndToEnd(unittest.TestCase):

@@ -102,12 +102,12 @@ class Lines(unittest.TestCase):
                           (rho_m[0], theta_rad[0] + 0.001, 7), (rho_m[1], theta_rad[1], 6),
                           (rho_m[2] + 41, theta_rad[2] + 0.001, 5)],
                          [("rho_m", "f8"), ("theta_rad", "f8"), ("votes", "f8")])
-        of = papers.judged(papers.IV, peaks)
+        of = papers.judge_peaks(papers.IV, peaks)
         self.assertEqual(of.detected.tolist(), [True, True, False])
         self.assertEqual(of.top3.tolist(), [True, False, False])
         self.assertEqual(of.is_false.tolist(), [True, False, False, False, True])
         np.testing.assert_allclose(of.rho_m, [39, 0, np.nan], atol=1e-9)
-        none = papers.judged(papers.IV, peaks[:0])
+        none = papers.judge_peaks(papers.IV, peaks[:0])
         self.assertEqual((none.detected.tolist(), len(none.is_false)), ([False] * 3, 0))
 
     def test_heights_are_those_of_the_whole_plane(self):
@@ -122,7 +122,7 @@ class Lines(unittest.TestCase):
             near_theta = np.abs(np.arange(len(plane.theta_rad))[:, None]
                                 - (theta_rad / 0.001).astype(int)) <= 8
             whole = [plane.votes[np.ix_(near_theta[:, i], near_rho[:, i])].max() for i in range(3)]
-            heights = papers.highest_near(method, situation, plots)
+            heights = papers.highest_votes_near(method, situation, plots)
             # HT is counted anew in double precision: a plot in a thousand is in the next cell
             np.testing.assert_allclose(heights, whole, atol=1 if method == "HT" else 1e-6)
             if method == "HT":
@@ -142,8 +142,8 @@ class Claims(unittest.TestCase):
                                        np.random.default_rng(SEED))
         bends = np.diff(paths, 2, axis=0)  # T / 2 (w_k + w_k+1)
         self.assertAlmostEqual(bends.std() / (2 * 10 / 2**0.5), 1, delta=0.05)
-        flown, plots = papers.flown(papers.I._replace(process_mps=10, pd=1.0),
-                                    np.random.default_rng(SEED))
+        flown, plots = papers.fly_situation(papers.I._replace(process_mps=10, pd=1.0),
+                                            np.random.default_rng(SEED))
         for at_m, (places, target) in zip(flown.paths_m, plots):
             np.testing.assert_allclose(places[np.argsort(target)], at_m)
 

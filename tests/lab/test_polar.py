@@ -278,7 +278,7 @@ class Doppler(unittest.TestCase):
                 self.assertAlmostEqual(of["rmse_m"][0], 160, delta=60)
             without, = doppler.measure(report, doppler.CASES[:1], 2, 1000)
             self.assertLessEqual(without["tracked_after_5"], 0.5)
-            self.assertFalse(doppler.meets(without))
+            self.assertFalse(doppler.meets_bars(without))
             levels = [(case.name, 100, of) for case, of in zip(doppler.CASES, found)]
             beyond = [(case.name, 1000, of) for case, of in zip(doppler.CASES, found)]
             doppler.judge(report, levels, beyond, 100)

@@ -143,7 +143,7 @@ class RealSkies(unittest.TestCase):
         self.assertEqual(len(text.splitlines()), 3)
 
     def test_what_drifts(self):
-        from parts import long
+        from parts import hour_by_hour
         flat = {
             "completeness": 0.95, "false_per_scan": 0.01, "switches": 1, "identities": 200,
             "cpu_s": 1, "memory_mb": 20
@@ -153,21 +153,24 @@ class RealSkies(unittest.TestCase):
             "cpu_s": 1.4, "memory_mb": 20.5
         }
         self.assertTrue(
-            all(long.judged("a", {"false_per_scan": 0.02}, [[flat, flat]] * 3)["held"].values()))
+            all(hour_by_hour.judged("a", {"false_per_scan": 0.02},
+                                    [[flat, flat]] * 3)["held"].values()))
         for key, value in worse.items():
-            held = long.judged("a", {"false_per_scan": 0.05},
-                               [[flat, flat, {**flat, key: value}]] * 3)["held"]
+            held = hour_by_hour.judged("a", {"false_per_scan": 0.05},
+                                       [[flat, flat, {**flat, key: value}]] * 3)["held"]
             self.assertEqual([what for what, is_held in held.items() if not is_held],
                              [f"{key} does not drift"])
-        better = long.judged("a", {}, [[worse, flat]])
+        better = hour_by_hour.judged("a", {}, [[worse, flat]])
         self.assertEqual((all(better["held"].values()), "false_per_scan" in better["held"]),
                          (True, False))
         # one run in which it is worse by chance, and a goal that is missed all the time
         self.assertTrue(
-            long.judged("a", {}, [[flat, {**flat, "switches": 3}], [flat, {**flat, "switches": 0}]
-                                  ])["held"]["switches does not drift"])
+            hour_by_hour.judged("a", {}, [[flat, {**flat, "switches": 3}],
+                                          [flat, {**flat, "switches": 0}]
+                                          ])["held"]["switches does not drift"])
         self.assertFalse(
-            long.judged("a", {"false_per_scan": 0.005}, [[flat, flat]])["held"]["false_per_scan"])
+            hour_by_hour.judged("a", {"false_per_scan": 0.005},
+                                [[flat, flat]])["held"]["false_per_scan"])
 
     def test_what_is_not_there(self):
         self.assertEqual(self.run_it("--scene", "nothing").returncode, 2)

@@ -64,7 +64,7 @@ static struct parameters suggested(double pd)
 {
     struct parameters parameters;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     suggest_passive(&parameters);
     parameters_suggest(&parameters, PARAMETER_TRUE_PD, pd);
     return parameters;

@@ -143,14 +143,14 @@ static void the_table_ends_with_the_score(void **state)
     fclose(out);
     const char *last = "\n\n2 bars held, 3 missed\n";
     assert_string_equal(text + strlen(text) - strlen(last), last);
-    assert_int_equal(verdicts.grid.num_rows, 1 + 5);
-    assert_string_equal(grid_cell(&verdicts.grid, 1, 0), "ratio at 10");
-    assert_string_equal(grid_cell(&verdicts.grid, 1, 1), "1.25");
-    assert_string_equal(grid_cell(&verdicts.grid, 1, 2), "<= 2");
-    assert_string_equal(grid_cell(&verdicts.grid, 1, 3), "ok");
-    assert_string_equal(grid_cell(&verdicts.grid, 3, 2), ">= 0.95");
-    assert_string_equal(grid_cell(&verdicts.grid, 3, 3), "MISSED");
-    assert_string_equal(grid_cell(&verdicts.grid, 4, 3), "MISSED");
+    assert_int_equal(verdicts.table.num_rows, 1 + 5);
+    assert_string_equal(text_table_cell(&verdicts.table, 1, 0), "ratio at 10");
+    assert_string_equal(text_table_cell(&verdicts.table, 1, 1), "1.25");
+    assert_string_equal(text_table_cell(&verdicts.table, 1, 2), "<= 2");
+    assert_string_equal(text_table_cell(&verdicts.table, 1, 3), "ok");
+    assert_string_equal(text_table_cell(&verdicts.table, 3, 2), ">= 0.95");
+    assert_string_equal(text_table_cell(&verdicts.table, 3, 3), "MISSED");
+    assert_string_equal(text_table_cell(&verdicts.table, 4, 3), "MISSED");
     free(text);
     verdicts_free(&verdicts);
 }

@@ -14,7 +14,7 @@
 
 #include "base/random.h"
 #include "pipeline/maintainer.h"
-#include "pipeline/scan_density.h"
+#include "pipeline/scan_clutter_density.h"
 #include "rhotrack/detail/linalg.h"
 
 #define PI 3.141592653589793
@@ -26,7 +26,7 @@ static struct parameters parameters_at_default(void)
 {
     struct parameters parameters;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     return parameters;
 }
 
@@ -169,8 +169,8 @@ static void nearest_takes_the_least_distance_and_follows_the_double_filter(void 
     int not_first = 0;
     (void)state;
 
-    parameters_set(&parameters, "filter_noise_m=2");
-    parameters_set(&parameters, "filter_noise_mps=4");
+    parameters_set_assignment(&parameters, "filter_noise_m=2");
+    parameters_set_assignment(&parameters, "filter_noise_mps=4");
     maintainer = start(MAINTAIN_NEAREST, false, &parameters);
     for (int k = 0; k < 3; k++) {
         place_m[k] = start_m[k];
@@ -207,7 +207,7 @@ static void nearest_takes_the_least_distance_and_follows_the_double_filter(void 
         assert_near(estimate.kalman.covariance[RHO_AT(k, k)], axes[k].xx, 1e-3 * axes[k].xx);
         assert_near(estimate.accel_mps2[k], 0.0, 0.0);
     }
-    assert_int_equal(maintainer_refused(maintainer), 0);
+    assert_int_equal(maintainer_num_refused(maintainer), 0);
     maintainer_free(maintainer);
 }
 
@@ -228,7 +228,7 @@ static void distances_know_the_ellipse_of_the_noise(void **state)
     double expected;
     (void)state;
 
-    parameters_set(&parameters, "v_max_mps=100");
+    parameters_set_assignment(&parameters, "v_max_mps=100");
     maintainer = maintainer_new(MAINTAIN_NEAREST, false, &parameters);
     maintainer_start(maintainer, 0, &plot, 0, NULL);
     maintainer_predict(maintainer, 1000000);
@@ -253,7 +253,7 @@ static void check_first_gate(const char *model, double d_m)
     struct axis axes[3];
     double d_mps = DT_S, v0 = 22.36 * 22.36;
 
-    parameters_set(&parameters, model);
+    parameters_set_assignment(&parameters, model);
     maintainer = start(MAINTAIN_NEAREST, true, &parameters);
     for (int k = 0; k < 3; k++) {
         axes[k] = axis_start(start_m[k], start_mps[k], 10.0, 3.0);
@@ -283,7 +283,7 @@ static void an_input_is_found_and_reported(void **state)
     double place_m[3], velocity_mps[3];
     (void)state;
 
-    parameters_set(&parameters, "gamma=0.5");
+    parameters_set_assignment(&parameters, "gamma=0.5");
     maintainer = start(MAINTAIN_NEAREST, true, &parameters);
     for (int k = 0; k < 3; k++) {
         place_m[k] = start_m[k];
@@ -471,7 +471,7 @@ static void check_coasting(enum maintainer_gate gate)
         struct rho_scan scan = scan_of(step, &bad, step % 2 ? 0 : 1, ALL);
 
         maintainer_predict(maintainer, scan.time_us);
-        maintainer_where(maintainer, where_m);
+        maintainer_predicted_place(maintainer, where_m);
         assert_int_equal(maintainer_update(maintainer, &scan, NULL, NAN, 0.9, &random), -1);
         maintainer_estimate(maintainer, &estimate);
         for (int k = 0; k < 3; k++) {
@@ -479,7 +479,7 @@ static void check_coasting(enum maintainer_gate gate)
             assert_near(estimate.kalman.state[k], where_m[k], 1e-3);
         }
     }
-    assert_int_equal(maintainer_refused(maintainer), 0);
+    assert_int_equal(maintainer_num_refused(maintainer), 0);
     maintainer_free(maintainer);
 }
 
@@ -592,7 +592,7 @@ static double log_volume(const struct region *region, double half)
 static double density_error(const struct region *region, int scans)
 {
     static struct rho_plot plots[CLUTTER_MAX + 1];
-    struct scan_density *density = scan_density_new();
+    struct scan_clutter_density *density = scan_clutter_density_new();
     struct random random = random_start(1, 7, 0);
     uint32_t measures = (region->axes == 3 ? RHO_MEASURES_Z : 0) |
                         (region->half_mps > 0.0 ? RHO_MEASURES_VELOCITY : 0);
@@ -619,10 +619,10 @@ static double density_error(const struct region *region, int scans)
             plots[count++] = plot_at(place_m, start_mps);
         }
         scan = scan_of(step, plots, count, measures);
-        double found = scan_density_log(density, &scan, place_m, region->pd);
+        double found = scan_clutter_density_log(density, &scan, place_m, region->pd);
         sum += step >= scans / 2 ? found - expected : 0.0;
     }
-    scan_density_free(density);
+    scan_clutter_density_free(density);
     return sum / (scans - scans / 2);
 }
 
@@ -652,7 +652,7 @@ static void the_density_is_that_of_the_clutter(void **state)
 /* The plots of a strip of 10 km by 400 m, turned by 45 degrees. */
 static void a_strip_is_no_square(void **state)
 {
-    struct scan_density *density = scan_density_new();
+    struct scan_clutter_density *density = scan_clutter_density_new();
     struct random random = random_start(10, 0, 0);
     struct rho_plot plots[40];
     double sum = 0.0;
@@ -669,16 +669,16 @@ static void a_strip_is_no_square(void **state)
 
             plots[i] = plot_at(p, start_mps);
         }
-        sum += scan_density_log(density, &scan, start_m, 0.9) - log(39.1 / 4e6);
+        sum += scan_clutter_density_log(density, &scan, start_m, 0.9) - log(39.1 / 4e6);
     }
     assert_near(sum / 100.0, 0.0, 0.25);
-    scan_density_free(density);
+    scan_clutter_density_free(density);
 }
 
 /* Ten plots a scan in a square kilometre, then forty in sixteen. */
 static void a_change_of_density_is_seen(void **state)
 {
-    struct scan_density *density = scan_density_new();
+    struct scan_clutter_density *density = scan_clutter_density_new();
     struct random random = random_start(11, 0, 0);
     struct rho_plot plots[40];
     double found = 0.0;
@@ -696,13 +696,13 @@ static void a_change_of_density_is_seen(void **state)
             p[1] += random_between(&random, -half_m, half_m);
             plots[i] = plot_at(p, start_mps);
         }
-        found = scan_density_log(density, &scan, start_m, 0.9);
+        found = scan_clutter_density_log(density, &scan, start_m, 0.9);
         if (step == 199) {
             assert_near(found, log(9.1 / 1e6), 0.3);
         }
     }
     assert_near(found, log(39.1 / 16e6), 0.3);
-    scan_density_free(density);
+    scan_clutter_density_free(density);
 }
 
 /*
@@ -711,7 +711,7 @@ static void a_change_of_density_is_seen(void **state)
  */
 static void without_clutter_the_density_is_low(void **state)
 {
-    struct scan_density *density = scan_density_new();
+    struct scan_clutter_density *density = scan_clutter_density_new();
     struct rho_plot plot = plot_at(start_m, start_mps);
     double log_ball = log(4.0 / 3.0 * PI) + 1.5 * log(5.0);
     (void)state;
@@ -719,16 +719,16 @@ static void without_clutter_the_density_is_low(void **state)
     for (int step = 0; step < 20; step++) {
         struct rho_scan scan = scan_of(step, &plot, step % 3 ? 1 : 0, ALL);
 
-        assert_near(scan_density_log(density, &scan, start_m, 0.9),
+        assert_near(scan_clutter_density_log(density, &scan, start_m, 0.9),
                     log(0.1) - 2.0 * (log_ball + 3.0 * log(1000.0)), 1e-9);
     }
-    scan_density_free(density);
+    scan_clutter_density_free(density);
 }
 
 /* Plots in one place, or in one plane, fill as much as their noise does. */
 static void plots_in_one_place_fill_a_volume(void **state)
 {
-    struct scan_density *density = scan_density_new();
+    struct scan_clutter_density *density = scan_clutter_density_new();
     struct rho_plot plots[4];
     struct rho_scan scan = scan_of(0, plots, 4, ALL);
     double log_ball = log(4.0 / 3.0 * PI) + 1.5 * log(5.0);
@@ -737,15 +737,16 @@ static void plots_in_one_place_fill_a_volume(void **state)
     for (int i = 0; i < 4; i++) {
         plots[i] = plot_at(start_m, start_mps);
     }
-    assert_near(scan_density_log(density, &scan, start_m, 0.9),
+    assert_near(scan_clutter_density_log(density, &scan, start_m, 0.9),
                 log(3.1) - 2.0 * log_ball - 3.0 * log(10.0) - 3.0 * log(3.0), 1e-6);
-    scan_density_free(density);
+    scan_clutter_density_free(density);
 }
 
 /* A sensor far from the other, with more clutter, and one that adds range rates. */
 static void each_sensor_has_a_density_of_its_own(void **state)
 {
-    struct scan_density *both = scan_density_new(), *alone = scan_density_new();
+    struct scan_clutter_density *both = scan_clutter_density_new(),
+                                *alone = scan_clutter_density_new();
     struct random random = random_start(8, 0, 0);
     struct rho_plot plots[PLOTS];
     const double far_m[3] = {90000.0, 70000.0, 9000.0};
@@ -756,21 +757,22 @@ static void each_sensor_has_a_density_of_its_own(void **state)
         double expected;
 
         fill_scan(plots, start_m, start_mps, &random);
-        expected = scan_density_log(alone, &scan, start_m, 0.9);
-        assert_near(scan_density_log(both, &scan, start_m, 0.9), expected, 0.0);
+        expected = scan_clutter_density_log(alone, &scan, start_m, 0.9);
+        assert_near(scan_clutter_density_log(both, &scan, start_m, 0.9), expected, 0.0);
         fill_scan(plots, far_m, start_mps, &random);
         scan.sensor_id = 1;
         scan.num_plots = 3;
-        (void)scan_density_log(both, &scan, far_m, 0.9);
+        (void)scan_clutter_density_log(both, &scan, far_m, 0.9);
     }
-    scan_density_free(both);
-    scan_density_free(alone);
+    scan_clutter_density_free(both);
+    scan_clutter_density_free(alone);
 }
 
 /* Range rates, uniform over 400 m/s, are one dimension more. */
 static void range_rates_count(void **state)
 {
-    struct scan_density *with = scan_density_new(), *without = scan_density_new();
+    struct scan_clutter_density *with = scan_clutter_density_new(),
+                                *without = scan_clutter_density_new();
     struct random random = random_start(9, 0, 0);
     struct rho_plot plots[40];
     double sum = 0.0;
@@ -785,13 +787,13 @@ static void range_rates_count(void **state)
             plots[i].range_rate_mps = (float)random_between(&random, -200.0, 200.0);
             plots[i].sigma_range_rate_mps = 1.0f;
         }
-        double plain = scan_density_log(without, &scan, start_m, 0.9);
+        double plain = scan_clutter_density_log(without, &scan, start_m, 0.9);
         scan.measures = RHO_MEASURES_RANGE_RATE;
-        sum += scan_density_log(with, &scan, start_m, 0.9) - plain;
+        sum += scan_clutter_density_log(with, &scan, start_m, 0.9) - plain;
     }
     assert_near(sum / 40.0, -log(400.0), 0.05);
-    scan_density_free(with);
-    scan_density_free(without);
+    scan_clutter_density_free(with);
+    scan_clutter_density_free(without);
 }
 
 int main(void)

@@ -183,7 +183,7 @@ static struct outcome follow_scene(const char *name, const char *duration,
         struct truth_point truth = {.target_id = 0};
 
         if (run->num_paths > 0) {
-            struct motion at = path_at(&run->paths[0], seen->end_s);
+            struct motion at = path_motion_at(&run->paths[0], seen->end_s);
 
             truth = (struct truth_point){.x_m = at.x_m, .y_m = at.y_m};
         }
@@ -206,7 +206,7 @@ static struct parameters parameters_of(const char *scenario)
 {
     struct parameters parameters;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     scenario_suggest(scenario, &parameters);
     return parameters;
 }
@@ -261,7 +261,7 @@ static void a_slow_turn_is_followed(void **state)
     struct outcome outcome = {0};
     (void)state;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     parameters_suggest(&parameters, PARAMETER_V_MIN_MPS, 100);
     parameters_suggest(&parameters, PARAMETER_V_MAX_MPS, 400);
     parameters_suggest(&parameters, PARAMETER_ACCEL_MAX_MPS2, 10);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A bearing from a place as a measurement of the filter of textbooks (dense.h), in metres across
- * the line of sight.
+ * A bearing from a place as a measurement of the filter of textbooks (dense_filter.h), in metres
+ * across the line of sight.
  */
 #ifndef RHOTRACK_TESTS_DENSE_BEARING_H
 #define RHOTRACK_TESTS_DENSE_BEARING_H
 
-#include "dense.h"
+#include "dense_filter.h"
 
 #define DENSE_PI 3.14159265358979323846
 

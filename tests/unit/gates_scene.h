@@ -134,7 +134,7 @@ static inline void line_of_sight(double x_m, double y_m, double z_m, double fram
 }
 
 /* A plot of a target, or clutter (-1), with its noise. */
-static inline void add_plot(const struct target *at, double offset_s, int target)
+static inline void add_target_plot(const struct target *at, double offset_s, int target)
 {
     double u[3][3], place_m[3] = {at->x_m, at->y_m, at->z_m};
     double velocity_mps[2] = {at->speed_mps * cos(at->course_rad),
@@ -182,11 +182,11 @@ static inline void add_clutter(void)
     at.z_m = uniform(0.0, 10000.0);
     at.speed_mps = uniform(0.0, 300.0);
     at.course_rad = uniform(-3.14159, 3.14159);
-    add_plot(&at, uniform(0.0, scene.turn_s), -1);
+    add_target_plot(&at, uniform(0.0, scene.turn_s), -1);
 }
 
 /* All that the sensor sees from t_s on: targets in a random order among the clutter. */
-static inline void look(int k, double t_s)
+static inline void see_scan(int k, double t_s)
 {
     num_plots = 0;
     unsigned clutter = k < scene.clean_scans ? 0 : poisson(scene.clutter);
@@ -199,14 +199,14 @@ static inline void look(int k, double t_s)
         double offset_s = own_time_s(&scene.target[i], t_s);
         struct target at = target_at(&scene.target[i], t_s + offset_s);
         if (uniform(0.0, 1.0) < scene.pd || k < scene.clean_scans) {
-            add_plot(&at, offset_s, (int)i);
+            add_target_plot(&at, offset_s, (int)i);
         }
         i++;
     }
 }
 
 /* Of so many sectors the k-th; plots outside of it are not seen. */
-static inline void look_at_sector(int k, struct rho_scan *scan)
+static inline void keep_sector_plots(int k, struct rho_scan *scan)
 {
     const double width_rad = 6.283185307179586 / scene.num_sectors;
     double from_rad = -3.141592653589793 + width_rad * (k % scene.num_sectors);
@@ -225,7 +225,7 @@ static inline void look_at_sector(int k, struct rho_scan *scan)
 
 /* ---- what must hold -------------------------------------------------------------------------- */
 
-static inline int was_there(const struct rho_track_report *track)
+static inline int track_was_there(const struct rho_track_report *track)
 {
     for (unsigned i = 0; i < num_before; i++) {
         if (ids_before[i] == track->track_id) {
@@ -250,7 +250,7 @@ static inline void check_claims(void)
     }
     for (unsigned i = 0; i < report.num_tracks; i++) {
         int32_t plot = report.tracks[i].plot;
-        int is_old = was_there(&report.tracks[i]);
+        int is_old = track_was_there(&report.tracks[i]);
         there += is_old ? 1 : 0;
         if (plot >= 0) {
             assert_true((uint32_t)plot < num_plots);
@@ -341,9 +341,9 @@ static inline void check_tracks(void)
 
 /*
  * A scene of one target's noise and none of all else; a tracker of that gate. Change them, then
- * begin().
+ * begin_tracker().
  */
-static inline void draw(uint8_t gate, uint64_t seed)
+static inline void set_up_scene(uint8_t gate, uint64_t seed)
 {
     random_state = seed;
     memset(&config, 0, sizeof config);
@@ -371,14 +371,14 @@ static inline void estimate_inputs(void)
     config.input.noise_density = 25.0f;
 }
 
-static inline void begin(void)
+static inline void begin_tracker(void)
 {
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &initiation), RHO_OK);
 }
 
 /* A scan of what is in plots[], with or without the initiator. */
-static inline void take_scan(struct rho_scan *scan, struct rho_initiator *starter)
+static inline void step_with_scan(struct rho_scan *scan, struct rho_initiator *starter)
 {
     scan->num_plots = num_plots;
     scan->plots = plots;
@@ -394,20 +394,20 @@ static inline void take_scan(struct rho_scan *scan, struct rho_initiator *starte
     check_tracks();
 }
 
-static inline struct rho_scan scan_at(int k)
+static inline struct rho_scan scan_of_plots(int k)
 {
     return (struct rho_scan){.time_us = llround(scene.interval_s * k * 1e6),
                              .measures = scene.measures};
 }
 
-static inline void step(int k)
+static inline void step_tracker(int k)
 {
-    struct rho_scan scan = scan_at(k);
-    look(k, scene.interval_s * k);
+    struct rho_scan scan = scan_of_plots(k);
+    see_scan(k, scene.interval_s * k);
     if (scene.num_sectors > 0) {
-        look_at_sector(k, &scan);
+        keep_sector_plots(k, &scan);
     }
-    take_scan(&scan, &initiator);
+    step_with_scan(&scan, &initiator);
 }
 
 /* ---- who follows whom ------------------------------------------------------------------------ */

@@ -48,15 +48,15 @@ static inline int poisson(double mean)
     return n;
 }
 
-static inline void start(const struct rho_initiator_config *config)
+static inline void start_initiator(const struct rho_initiator_config *config)
 {
     num_plots = 0;
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, config), RHO_OK);
 }
 
 /* The plot is the caller's to complete until the scan is pushed. */
-static inline struct rho_plot *add(double x_m, double y_m, double sigma_range_m,
-                                   double sigma_cross_m)
+static inline struct rho_plot *add_plot(double x_m, double y_m, double sigma_range_m,
+                                        double sigma_cross_m)
 {
     assert_true(num_plots < PLOTS_MAX);
     plots[num_plots] = (struct rho_plot){.x_m = (float)x_m,
@@ -70,7 +70,7 @@ static inline void add_clutter(const struct rho_extent *area, int count)
 {
     for (int i = 0; i < count; i++) {
         double x_m = uniform(area->x_min_m, area->x_max_m);
-        add(x_m, uniform(area->y_min_m, area->y_max_m), 10.0, 10.0);
+        add_plot(x_m, uniform(area->y_min_m, area->y_max_m), 10.0, 10.0);
     }
 }
 
@@ -87,12 +87,12 @@ static inline void push_scan(struct rho_scan scan, double t_s, const struct rho_
     num_plots = 0;
 }
 
-static inline void push(double t_s)
+static inline void push_plots(double t_s)
 {
     push_scan((struct rho_scan){0}, t_s, NULL);
 }
 
-static inline void search(enum rho_search kind)
+static inline void search_window(enum rho_search kind)
 {
     assert_int_equal(rho_initiator_search(&initiator, kind), RHO_OK);
 }

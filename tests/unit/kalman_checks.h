@@ -48,7 +48,7 @@ static inline int is_positive_definite(const struct rho_kalman *kalman)
     return 1;
 }
 
-static inline void assert_sane(const struct rho_kalman *kalman)
+static inline void assert_sane_covariance(const struct rho_kalman *kalman)
 {
     for (int i = 0; i < STATES; ++i) {
         const float variance = kalman->covariance[RHO_AT(i, i)];
@@ -62,8 +62,8 @@ static inline void assert_sane(const struct rho_kalman *kalman)
     }
 }
 
-static inline struct rho_kalman opened(int num_axes, float position_variance,
-                                       float velocity_variance)
+static inline struct rho_kalman opened_filter(int num_axes, float position_variance,
+                                              float velocity_variance)
 {
     struct rho_kalman kalman;
 

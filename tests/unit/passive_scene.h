@@ -160,7 +160,7 @@ static inline void shuffle(struct look *look)
     }
 }
 
-static inline void see(struct scene *scene, unsigned k, unsigned s)
+static inline void see_look(struct scene *scene, unsigned k, unsigned s)
 {
     struct look *look = &scene->look[k][s];
     look->count = 0;
@@ -179,11 +179,11 @@ static inline void see(struct scene *scene, unsigned k, unsigned s)
     shuffle(look);
 }
 
-static inline void see_all(struct scene *scene)
+static inline void see_all_looks(struct scene *scene)
 {
     for (unsigned k = 0; k < scene->scans; k++) {
         for (unsigned s = 0; s < scene->sensors; s++) {
-            see(scene, k, s);
+            see_look(scene, k, s);
         }
     }
 }
@@ -202,7 +202,7 @@ static inline void draw_scene(struct scene *scene)
     for (unsigned i = 0; i < scene->targets; i++) {
         scene->target[i] = random_target(scene_span_s(scene));
     }
-    see_all(scene);
+    see_all_looks(scene);
 }
 
 /* Turned round the origin, then shifted; what was seen turns with it. */
@@ -265,8 +265,8 @@ static inline enum rho_status push_scan(struct rho_passive *passive, const struc
 }
 
 /* From scan `first` on; all that can be refused is an assertion of the caller's. */
-static inline enum rho_status push_from(struct rho_passive *passive, const struct scene *scene,
-                                        unsigned first)
+static inline enum rho_status push_scans_from(struct rho_passive *passive,
+                                              const struct scene *scene, unsigned first)
 {
     enum rho_status status = RHO_OK;
     for (unsigned k = first; k < scene->scans && status == RHO_OK; k++) {
@@ -285,7 +285,7 @@ static inline enum rho_status start_passive(struct rho_passive *passive)
 static inline enum rho_status search_scene(struct rho_passive *passive, const struct scene *scene)
 {
     enum rho_status status = start_passive(passive);
-    status = status == RHO_OK ? push_from(passive, scene, 0) : status;
+    status = status == RHO_OK ? push_scans_from(passive, scene, 0) : status;
     return status == RHO_OK ? rho_passive_search(passive) : status;
 }
 

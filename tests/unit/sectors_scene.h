@@ -40,7 +40,7 @@ struct scene {
     uint32_t fates[RHO_NUM_FATES];
 };
 
-static inline void describe(int32_t sensor_id, float x_m, float pd)
+static inline void describe_sensor(int32_t sensor_id, float x_m, float pd)
 {
     const struct rho_sensor sensor = {
         .sensor_id = sensor_id, .x_m = x_m, .pd = pd, .range_max_m = 80000.0f};
@@ -48,7 +48,7 @@ static inline void describe(int32_t sensor_id, float x_m, float pd)
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
 }
 
-static inline void start(void)
+static inline void start_tracker(void)
 {
     struct rho_tracker_config config;
     struct rho_initiator_config start_config;
@@ -58,10 +58,10 @@ static inline void start(void)
     rho_initiator_config_default(&start_config);
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
     assert_int_equal(rho_initiator_init(&initiator, sizeof initiator, &start_config), RHO_OK);
-    describe(1, 0.0f, 0.9f);
+    describe_sensor(1, 0.0f, 0.9f);
 }
 
-static inline double range_of(int target)
+static inline double target_range(int target)
 {
     return 20000.0 + 4000.0 * target;
 }
@@ -69,10 +69,10 @@ static inline double range_of(int target)
 /*
  * Target i starts at the edge of sectors 4 i and 4 i + 1, and flies along a circle about the radar.
  */
-static inline double azimuth_of(const struct scene *scene, int target, double t_s)
+static inline double target_azimuth(const struct scene *scene, int target, double t_s)
 {
     return scene->first_rad + 4.0 * target * 2.0 * PI / SECTORS +
-           scene->speed_mps / range_of(target) * t_s;
+           scene->speed_mps / target_range(target) * t_s;
 }
 
 static inline double wrapped(double angle_rad)
@@ -89,7 +89,7 @@ static inline double time_of_pass(const struct scene *scene, int target, int tur
     double turn_s = (double)TURN_US * 1e-6, t_s = turn * turn_s;
 
     for (int i = 0; i < 6; i++) {
-        double way = scene->turning * (azimuth_of(scene, target, t_s) - scene->first_rad);
+        double way = scene->turning * (target_azimuth(scene, target, t_s) - scene->first_rad);
 
         way -= 2.0 * PI * floor(way / (2.0 * PI));
         t_s = (turn + way / (2.0 * PI)) * turn_s;
@@ -97,10 +97,10 @@ static inline double time_of_pass(const struct scene *scene, int target, int tur
     return t_s;
 }
 
-static inline struct rho_plot plot_of(const struct scene *scene, int target, double t_s,
-                                      int64_t scan_us)
+static inline struct rho_plot target_plot(const struct scene *scene, int target, double t_s,
+                                          int64_t scan_us)
 {
-    double azimuth_rad = azimuth_of(scene, target, t_s), range_m = range_of(target);
+    double azimuth_rad = target_azimuth(scene, target, t_s), range_m = target_range(target);
     float noise = 10.0f * sinf(7.3f * (float)target + 1.9f * (float)t_s);
 
     return (struct rho_plot){.offset_us = (int32_t)(llround(t_s * 1e6) - scan_us),
@@ -116,8 +116,8 @@ static inline int is_hidden(const struct scene *scene, int target, int turn)
 }
 
 /* A sector as it is at its end, with the plots that the antenna passed in it. */
-static inline struct rho_scan scan_of(struct scene *scene, int turn, int sector,
-                                      struct rho_plot plots[TARGETS])
+static inline struct rho_scan sector_scan(struct scene *scene, int turn, int sector,
+                                          struct rho_plot plots[TARGETS])
 {
     double width_rad = 2.0 * PI / scene->sectors;
     double edge_rad = scene->first_rad + scene->turning * sector * width_rad;
@@ -136,7 +136,7 @@ static inline struct rho_scan scan_of(struct scene *scene, int turn, int sector,
             int64_t time_us = llround(t_s * 1e6);
 
             if (time_us >= from_us && time_us < to_us && !is_hidden(scene, i, turn)) {
-                plots[scan.num_plots++] = plot_of(scene, i, t_s, to_us);
+                plots[scan.num_plots++] = target_plot(scene, i, t_s, to_us);
                 scene->plots[i]++;
                 break; /* the antenna is there once in a sector */
             }
@@ -156,17 +156,17 @@ static inline void step_scan(struct scene *scene, const struct rho_scan *scan)
 static inline void step_sector(struct scene *scene, int turn, int sector)
 {
     struct rho_plot plots[TARGETS];
-    const struct rho_scan scan = scan_of(scene, turn, sector, plots);
+    const struct rho_scan scan = sector_scan(scene, turn, sector, plots);
 
     step_scan(scene, &scan);
 }
 
-static inline void fly(struct scene *scene, int turns)
+static inline void fly_turns(struct scene *scene, int turns)
 {
     if (scene->sectors == 0) {
         scene->sectors = SECTORS;
     }
-    start();
+    start_tracker();
     for (int turn = 0; turn < turns; turn++) {
         for (int sector = 0; sector < scene->sectors; sector++) {
             step_sector(scene, turn, sector);
@@ -175,10 +175,11 @@ static inline void fly(struct scene *scene, int turns)
 }
 
 /* The track of a target now; NULL: none is near. */
-static inline const struct rho_track_report *track_of(const struct scene *scene, int target)
+static inline const struct rho_track_report *track_of_target(const struct scene *scene, int target)
 {
-    double t_s = (double)report.time_us * 1e-6, azimuth_rad = azimuth_of(scene, target, t_s);
-    double x_m = range_of(target) * cos(azimuth_rad), y_m = range_of(target) * sin(azimuth_rad);
+    double t_s = (double)report.time_us * 1e-6, azimuth_rad = target_azimuth(scene, target, t_s);
+    double x_m = target_range(target) * cos(azimuth_rad),
+           y_m = target_range(target) * sin(azimuth_rad);
 
     for (uint32_t i = 0; i < report.num_tracks; i++) {
         const struct rho_track_report *track = &report.tracks[i];

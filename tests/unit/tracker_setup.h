@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#include "draws.h"
+#include "random_draws.h"
 #include "rhotrack/tracker.h"
 
 #define PLOTS_MAX (RHO_MAX_PLOTS + 1200)
@@ -29,10 +29,10 @@ static struct rho_plot plots[PLOTS_MAX];
 static uint32_t num_plots;
 
 /*
- * The usual configurations, to be changed before begin(): four plots of five start a track, and it
- * is believed at once.
+ * The usual configurations, to be changed before begin_tracker(): four plots of five start a track,
+ * and it is believed at once.
  */
-static inline void draw(uint64_t seed)
+static inline void use_usual_configs(uint64_t seed)
 {
     random_state = seed;
     memset(&config, 0, sizeof config);
@@ -47,7 +47,7 @@ static inline void draw(uint64_t seed)
     initiation.false_tracks_per_hour = 0.0f;
 }
 
-static inline void begin(void)
+static inline void begin_tracker(void)
 {
     num_plots = 0;
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
@@ -55,18 +55,18 @@ static inline void begin(void)
 }
 
 /* Thresholds by a rate of false tracks, windows of seven scans, and targets that pull 20 m/s^2. */
-static inline void begin_by_rate(uint64_t seed)
+static inline void begin_tracker_by_rate(uint64_t seed)
 {
-    draw(seed);
+    use_usual_configs(seed);
     initiation.scans = 7;
     initiation.min_scans = 0;
     initiation.false_tracks_per_hour = 1.0f;
     config.accel_max_mps2 = 20.0f;
-    begin();
+    begin_tracker();
 }
 
 /* Of random numbers in its arguments there may be one: compilers draw them in any order. */
-static inline struct rho_plot *add(double x_m, double y_m, double sigma_m)
+static inline struct rho_plot *add_plot(double x_m, double y_m, double sigma_m)
 {
     assert_true(num_plots < PLOTS_MAX);
     plots[num_plots] = (struct rho_plot){.x_m = (float)x_m,
@@ -77,13 +77,13 @@ static inline struct rho_plot *add(double x_m, double y_m, double sigma_m)
 }
 
 /* As measured: random numbers are drawn for x first. */
-static inline void add_noisy(double x_m, double y_m, double sigma_m)
+static inline void add_noisy_plot(double x_m, double y_m, double sigma_m)
 {
     const double dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
-    (void)add(x_m + dx_m, y_m + dy_m, sigma_m);
+    (void)add_plot(x_m + dx_m, y_m + dy_m, sigma_m);
 }
 
-static inline void check_sums(void)
+static inline void check_fate_sums(void)
 {
     uint32_t sum = 0, counted = 0, claimed = 0;
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
@@ -111,11 +111,11 @@ static inline void step_scan(struct rho_scan scan)
     memset(&report, 0xee, sizeof report);
     assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
     assert_int_equal(report.num_plots, num_plots);
-    check_sums();
+    check_fate_sums();
     num_plots = 0;
 }
 
-static inline void step(double t_s)
+static inline void step_at(double t_s)
 {
     step_scan((struct rho_scan){.time_us = llround(t_s * 1e6)});
 }

@@ -6,30 +6,30 @@
 #include "tracker_setup.h"
 
 /* 4 km apart. */
-static void see(int k, int sees_first)
+static void see_flights(int k, int sees_first)
 {
     if (sees_first) {
-        add_noisy(-3000.0 + 100.0 * k, 2000.0, 10.0);
+        add_noisy_plot(-3000.0 + 100.0 * k, 2000.0, 10.0);
     }
-    add_noisy(-3000.0 + 100.0 * k, -2000.0, 10.0);
-    step(k);
+    add_noisy_plot(-3000.0 + 100.0 * k, -2000.0, 10.0);
+    step_at(k);
 }
 
 static int next_k;
 
-static void run(int scans, int sees_first)
+static void run_scans(int scans, int sees_first)
 {
     for (int i = 0; i < scans; i++) {
-        see(next_k++, sees_first);
+        see_flights(next_k++, sees_first);
     }
 }
 
-static void prepare(void)
+static void prepare_tracker(void)
 {
-    draw(7);
-    begin();
+    use_usual_configs(7);
+    begin_tracker();
     next_k = 0;
-    run(12, 1);
+    run_scans(12, 1);
     assert_int_equal(report.num_tracks, 2);
     assert_int_equal(report.tracks[0].track_id, 1);
     assert_int_equal(report.tracks[1].track_id, 2);
@@ -51,7 +51,7 @@ static const struct rho_track_report *track_near(double y_m)
 static struct rho_tracker tracker_before;
 static struct rho_report report_before;
 
-static void remember(void)
+static void remember_state(void)
 {
     memcpy(&tracker_before, &tracker, sizeof tracker);
     memcpy(&report_before, &report, sizeof report);

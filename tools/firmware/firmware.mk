@@ -27,7 +27,7 @@ memory_flags := -fno-builtin -fno-tree-loop-distribute-patterns -fno-lto
 # What any compiler can look at: all but what is the board's.
 firmware_portable := $(wildcard $(firmware_folder)/*.c $(board)/*.c $(board)/host/*.c)
 firmware_scripts := $(wildcard $(board)/mps2/*.ld) $(firmware_folder)/firmware.mk
-firmware_node := $(firmware_folder)/node.c $(firmware_folder)/starts_best.c
+firmware_node := $(firmware_folder)/node.c $(firmware_folder)/track_starts_best.c
 radar_sources := $(library_sources) $(firmware_node) $(firmware_folder)/main.c $(board)/udp_frame.c \
                  $(board)/memory.c \
                  $(addprefix $(board)/mps2/,startup.c board_mps2.c lan9118.c)
@@ -87,9 +87,9 @@ $(foreach core,m4 m7,$(eval $(call firmware_core,$(core))))
 worst_sources := $(library_sources) tools/instructions/worst.c \
                  $(addprefix $(board)/mps2/,startup.c semihosting.c library_console.c)
 
-# How tracks of a node start (starts.h).
-starts_of = $(firmware_folder)/starts_$(if $(filter paper,$(1)),paper,best).c
-sources_of = $(filter-out $(firmware_folder)/starts_%.c,$(2)) $(call starts_of,$(1))
+# How tracks of a node start (track_starts.h).
+starts_of = $(firmware_folder)/track_starts_$(if $(filter paper,$(1)),paper,best).c
+sources_of = $(filter-out $(firmware_folder)/track_starts_%.c,$(2)) $(call starts_of,$(1))
 
 define node_of # core, name
 $(firmware)/$(1)/nodes/$(2).elf: $(patsubst %.c,$(firmware)/$(1)/nodes/$(2)/%.o,$(call sources_of,$(2),$(radar_sources))) $(firmware_scripts)

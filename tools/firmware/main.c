@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The radar node: hears scans over LCM, publishes tracks. Where to start from for a node of your
- * own: the radars that it knows are in radars.h, the tracker's settings in start(), the hardware in
- * board/.
+ * own: the radars that it knows are in radars.h, the tracker's settings in start_node(), the
+ * hardware in board/.
  */
 #include "board/board.h"
 #include "node.h"
@@ -23,7 +23,7 @@ static int64_t clock_us(void *context)
     return board_time_us();
 }
 
-static enum rho_status start(void)
+static enum rho_status start_node(void)
 {
     struct node_config config;
     node_config_default(&config);
@@ -57,7 +57,7 @@ static void say_growth(struct growth *growth, uint32_t number)
     board_say(growth->text);
 }
 
-static void report(void)
+static void say_counters(void)
 {
     static struct growth stack = {.text = "stack           "},
                          unsent = {.text = "unsent          "},
@@ -75,7 +75,7 @@ int main(void)
         board_say("the network does not answer");
         return 1;
     }
-    if (start() != RHO_OK) {
+    if (start_node() != RHO_OK) {
         board_say("the node's settings are not taken");
         return 1;
     }
@@ -90,7 +90,7 @@ int main(void)
         node_tick(now_us);
         if (now_us >= report_us) {
             report_us = now_us + REPORT_INTERVAL_US;
-            report();
+            say_counters();
         }
         if (size == 0) {
             board_wait(node_due_us());

@@ -8,7 +8,7 @@
 #include "rhotrack/node.h"
 #include "rhotrack/reflectors.h"
 #include "rhotrack/udpm.h"
-#include "starts.h"
+#include "track_starts.h"
 
 #define STATUS_INTERVAL_US 1000000
 
@@ -30,20 +30,20 @@ static int64_t status_due_us;
 /* ---- Messages that go out ---- */
 
 /* Another one after each start, and where the sensors' clock was set. */
-static int32_t epoch(void)
+static int32_t next_epoch(void)
 {
     return (int32_t)((uint32_t)settings.boot << 8 | (node.counters.restarts & 0xffu));
 }
 
 /* Where the channel's message is written; NULL: it is no channel. */
-static uint8_t *begin(const char *channel, size_t *head)
+static uint8_t *begin_message(const char *channel, size_t *head)
 {
     return rho_udpm_begin(buffer, sizeof buffer, datagrams_sent, channel, head) == RHO_OK
                ? buffer + *head
                : NULL;
 }
 
-static void send(enum rho_status status, size_t size)
+static void send_message(enum rho_status status, size_t size)
 {
     if (status == RHO_OK) {
         datagrams_sent++;
@@ -55,41 +55,41 @@ static void publish_step(void)
 {
     for (uint16_t part = 0; part < rho_node_num_messages(&node); part++) {
         size_t head, size = 0;
-        uint8_t *message = begin(rho_node_channel(&node, part), &head);
-        enum rho_status status =
-            rho_node_publish(&node, starts_initiator(), part, message, sizeof buffer - head, &size);
-        send(status, head + size);
+        uint8_t *message = begin_message(rho_node_channel(&node, part), &head);
+        enum rho_status status = rho_node_publish(&node, track_starts_initiator(), part, message,
+                                                  sizeof buffer - head, &size);
+        send_message(status, head + size);
     }
 }
 
-static void add(int32_t *counter, uint32_t more)
+static void add_to_counter(int32_t *counter, uint32_t more)
 {
     *counter = more < (uint32_t)(INT32_MAX - *counter) ? *counter + (int32_t)more : INT32_MAX;
 }
 
-static void publish_state(void)
+static void publish_status(void)
 {
     struct rho_message_status state;
     struct rho_message_work work;
     struct rho_message_learned learned;
     size_t head, size = 0;
-    uint8_t *message = begin(RHO_MESSAGE_STATUS_CHANNEL, &head);
+    uint8_t *message = begin_message(RHO_MESSAGE_STATUS_CHANNEL, &head);
     enum rho_status status;
-    rho_node_status(&node, starts_initiator(), &state);
-    add(&state.fragments_refused, datagrams_refused);
-    add(&state.fragments_refused, guard.refused_source);
-    add(&state.fragments_refused, guard.refused_mac);
+    rho_node_status(&node, track_starts_initiator(), &state);
+    add_to_counter(&state.fragments_refused, datagrams_refused);
+    add_to_counter(&state.fragments_refused, guard.refused_source);
+    add_to_counter(&state.fragments_refused, guard.refused_mac);
     status = rho_message_status_encode(&state, message, sizeof buffer - head, &size);
-    send(status, head + size);
-    message = begin(RHO_MESSAGE_WORK_CHANNEL, &head);
+    send_message(status, head + size);
+    message = begin_message(RHO_MESSAGE_WORK_CHANNEL, &head);
     rho_node_work(&node, &work);
     status = rho_message_work_encode(&work, message, sizeof buffer - head, &size);
-    send(status, head + size);
+    send_message(status, head + size);
     /* without hypotheses nothing is learned */
     if (((RHO_FILTERS)&4) != 0 && rho_node_learned(&node, &learned)) {
-        message = begin(RHO_MESSAGE_LEARNED_CHANNEL, &head);
+        message = begin_message(RHO_MESSAGE_LEARNED_CHANNEL, &head);
         status = rho_message_learned_encode(&learned, message, sizeof buffer - head, &size);
-        send(status, head + size);
+        send_message(status, head + size);
     }
 }
 
@@ -103,7 +103,7 @@ static enum rho_status open_tracker(void)
     if (status == RHO_OK) {
         tracker.counters = counters;
         tracker.work = work;
-        status = starts_open(&settings);
+        status = track_starts_open(&settings);
     }
     if (RHO_BODIES && NODE_BODY_MAX_M > 0.0f && status == RHO_OK) {
         status = rho_tracker_set_body_max(&tracker, NODE_BODY_MAX_M);
@@ -111,10 +111,10 @@ static enum rho_status open_tracker(void)
     return status;
 }
 
-static void step(void)
+static void step_and_publish(void)
 {
     int64_t start_us = settings.clock_us(settings.context);
-    if (starts_step(&node) == RHO_OK) {
+    if (track_starts_step(&node) == RHO_OK) {
         if (NODE_LEARNS_REFLECTORS && node.stepped == RHO_NODE_SCAN) {
             (void)!rho_reflector_learning_step(&learning, &tracker, &node.scan, &report);
         }
@@ -127,15 +127,15 @@ static void step(void)
 }
 
 /* At a restart the settings are taken once more. */
-static void step_due(int64_t now_us)
+static void step_all_due(int64_t now_us)
 {
     enum rho_node_due due;
     while ((due = rho_node_next(&node, now_us)) != RHO_NODE_NOTHING) {
         if (due == RHO_NODE_RESTART) {
             is_started = open_tracker() == RHO_OK;
-            node.epoch = epoch();
+            node.epoch = next_epoch();
         } else {
-            step();
+            step_and_publish();
         }
     }
 }
@@ -147,7 +147,7 @@ const struct rho_udpm_guard *node_guard(void)
     return &guard;
 }
 
-static int is_welcome(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
+static int is_datagram_admitted(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
 {
     const size_t whole = *size;
     if (!rho_udpm_admits(&guard, source_ipv4)) {
@@ -164,7 +164,7 @@ static int is_welcome(const uint8_t *bytes, size_t *size, uint32_t source_ipv4)
 void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64_t now_us)
 {
     struct rho_udpm_datagram datagram;
-    if (!is_started || !is_welcome(bytes, &size, source_ipv4)) {
+    if (!is_started || !is_datagram_admitted(bytes, &size, source_ipv4)) {
         return;
     }
     if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
@@ -173,9 +173,9 @@ void node_receive(const uint8_t *bytes, size_t size, uint32_t source_ipv4, int64
     }
     while (rho_node_take(&node, datagram.channel, datagram.payload, datagram.payload_size,
                          now_us) == RHO_ERROR_CAPACITY) {
-        step_due(now_us);
+        step_all_due(now_us);
     }
-    step_due(now_us);
+    step_all_due(now_us);
 }
 
 void node_tick(int64_t now_us)
@@ -183,10 +183,10 @@ void node_tick(int64_t now_us)
     if (!is_started) {
         return;
     }
-    step_due(now_us);
+    step_all_due(now_us);
     if (now_us >= status_due_us) {
         status_due_us = now_us + STATUS_INTERVAL_US;
-        publish_state();
+        publish_status();
     }
 }
 
@@ -199,8 +199,8 @@ int64_t node_due_us(void)
 void node_flush(void)
 {
     if (is_started) {
-        step_due(INT64_MAX);
-        publish_state();
+        step_all_due(INT64_MAX);
+        publish_status();
     }
 }
 
@@ -226,7 +226,7 @@ static enum rho_status open_assembler(const struct node_config *config)
 static enum rho_status open_node(void)
 {
     struct rho_node_config config = {
-        .assembler = &assembler, .tracker = &tracker, .report = &report, .epoch = epoch()};
+        .assembler = &assembler, .tracker = &tracker, .report = &report, .epoch = next_epoch()};
     enum rho_status status = RHO_OK;
     if (NODE_HAS_BEARINGS) {
         struct rho_frames_config gather;
@@ -234,7 +234,7 @@ static enum rho_status open_node(void)
         status = rho_frames_init(&frames, sizeof frames, &gather);
         config.frames = &frames;
     }
-    starts_of_bearings(&config);
+    track_starts_of_bearings(&config);
     return status == RHO_OK ? rho_node_init(&node, sizeof node, &config) : status;
 }
 

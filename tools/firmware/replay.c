@@ -135,7 +135,7 @@ static float whole_number(const char *text)
     return *text ? -1.0f : value; /* the node refuses what is negative */
 }
 
-static int gate_of(const char *name)
+static int gate_by_name(const char *name)
 {
     static const char *const names[RHO_NUM_TRACKER_GATES] = {"best", "hough", "nearest"};
     int gate = 0;
@@ -146,12 +146,12 @@ static int gate_of(const char *name)
 }
 
 /* Returns 0 where there is no such setting. */
-static int set(struct node_config *config, const char *argument)
+static int set_option(struct node_config *config, const char *argument)
 {
     const char *value = strchr(argument, '=');
     size_t length = value ? (size_t)(value - argument) : 0;
     if (length == 4 && strncmp(argument, "gate", length) == 0) {
-        config->tracker.gate = (uint8_t)gate_of(value + 1);
+        config->tracker.gate = (uint8_t)gate_by_name(value + 1);
         config->tracker.input.is_estimated = config->tracker.gate != RHO_TRACKER_BEST;
     } else if (length == 9 && strncmp(argument, "v_min_mps", length) == 0) {
         config->initiator.v_min_mps = whole_number(value + 1);
@@ -171,12 +171,12 @@ static int set(struct node_config *config, const char *argument)
     return 1;
 }
 
-static int start(int count, char **arguments)
+static int start_node(int count, char **arguments)
 {
     struct node_config config;
     node_config_default(&config);
     for (int i = 0; i < count; i++) {
-        if (!set(&config, arguments[i])) {
+        if (!set_option(&config, arguments[i])) {
             return 0;
         }
     }
@@ -190,7 +190,7 @@ static int start(int count, char **arguments)
  * A datagram that made a step counts with it; parts of a scan before its last are added to the
  * next.
  */
-static void measure(const uint8_t *datagram, size_t size)
+static void receive_and_measure(const uint8_t *datagram, size_t size)
 {
     static uint32_t since_step;
     const uint32_t before = tally.steps;
@@ -212,7 +212,7 @@ static void measure(const uint8_t *datagram, size_t size)
     since_step = 0;
 }
 
-static void say(const char *text, uint32_t number)
+static void say_number(const char *text, uint32_t number)
 {
     char digits[11];
     char *first = digits + sizeof digits - 1;
@@ -225,17 +225,18 @@ static void say(const char *text, uint32_t number)
     files_say(first);
 }
 
-static void report(void)
+static void say_tally(void)
 {
-    say("steps ", tally.steps);
-    say(" reports ", tally.track_reports);
-    say(" partial ", tally.partial_steps);
+    say_number("steps ", tally.steps);
+    say_number(" reports ", tally.track_reports);
+    say_number(" partial ", tally.partial_steps);
     if (tally.instructions_max > 0 && tally.instructions_steps > 0) {
-        say(" instructions mean ", (uint32_t)(tally.instructions_sum / tally.instructions_steps));
-        say(" max ", tally.instructions_max);
+        say_number(" instructions mean ",
+                   (uint32_t)(tally.instructions_sum / tally.instructions_steps));
+        say_number(" max ", tally.instructions_max);
     }
     if (files_stack_used() > 0) {
-        say(" stack ", (uint32_t)files_stack_used());
+        say_number(" stack ", (uint32_t)files_stack_used());
     }
     files_say("\n");
 }
@@ -250,15 +251,15 @@ int main(int argc, char **argv)
         files_say("usage: replay IN.lcm OUT.lcm [NAME=VALUE ...]; or a file does not open\n");
         return 2;
     }
-    if (!start(argc - 3, argv + 3)) {
+    if (!start_node(argc - 3, argv + 3)) {
         files_say("replay: a setting is not known, or not taken\n");
         return 2;
     }
     while ((size = read_datagram(input, datagram)) > 0) {
-        measure(datagram, size);
+        receive_and_measure(datagram, size);
     }
     node_flush();
     has_failed |= !files_close(output);
-    report();
+    say_tally();
     return has_failed;
 }

@@ -29,7 +29,7 @@ import stack
 FIRMWARE = pathlib.Path("tools/firmware")
 PROGRAMS = {"stepped": [FIRMWARE / "budget/step.c"],
             "LCM node": [FIRMWARE / "budget/node.c", FIRMWARE / "node.c",
-                         FIRMWARE / "starts_best.c"]}
+                         FIRMWARE / "track_starts_best.c"]}
 MEMORY = FIRMWARE / "board/memory.c"
 FLASH = re.compile(r"\.(text|rodata|data|sdata|srodata|literal|ARM\.ex)")
 RAM = re.compile(r"\.(data|sdata|bss|sbss|COMMON)")

@@ -40,12 +40,12 @@ static inline void count_end(void)
 }
 
 /* For who looks at single calls. */
-static inline uint32_t count_now(void)
+static inline uint32_t count_instructions_now(void)
 {
     return files_instructions();
 }
 
-static inline uint32_t count_between(uint32_t from, uint32_t to)
+static inline uint32_t count_instructions_between(uint32_t from, uint32_t to)
 {
     return files_instructions_between(from, to);
 }
@@ -71,12 +71,12 @@ static inline void count_end(void)
     count_calls++;
 }
 
-static inline uint32_t count_now(void)
+static inline uint32_t count_instructions_now(void)
 {
     return 0;
 }
 
-static inline uint32_t count_between(uint32_t from, uint32_t to)
+static inline uint32_t count_instructions_between(uint32_t from, uint32_t to)
 {
     return to - from;
 }

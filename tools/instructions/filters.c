@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "count.h"
-#include "draw.h"
+#include "random_draws.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/input.h"
 #include "rhotrack/detail/kalman.h"
@@ -21,7 +21,7 @@ static struct rho_kalman kalman;
 static struct rho_measurement measurement;
 static int failed;
 
-static void must(enum rho_status status)
+static void must_be_ok(enum rho_status status)
 {
     if (status != RHO_OK) {
         fprintf(stderr, "filters: %s\n", rho_status_name(status));
@@ -41,24 +41,24 @@ static void open_filter(float variance)
                                          .sigma_up_m = 110.0f};
     rho_kalman_init(&kalman);
     for (int axis = 0; axis < 3; axis++) {
-        must(rho_kalman_open_axis(&kalman, axis, 100.0f, variance, 1e4f));
+        must_be_ok(rho_kalman_open_axis(&kalman, axis, 100.0f, variance, 1e4f));
     }
     rho_measurement_open(&plot, RHO_MEASURES_Z, NULL, &measurement);
 }
 
 static void update_axes(int updates)
 {
-    must(rho_kalman_predict(&kalman, 1.0f, 1.0f));
+    must_be_ok(rho_kalman_predict(&kalman, 1.0f, 1.0f));
     for (int i = 0; i < updates; i++) {
-        must(rho_kalman_update(&kalman, i, 100.0f, 100.0f, NULL));
+        must_be_ok(rho_kalman_update(&kalman, i, 100.0f, 100.0f, NULL));
     }
 }
 
 static void update_polar(void)
 {
-    must(rho_kalman_predict(&kalman, 1.0f, 1.0f));
-    must(rho_kalman_update_position(&kalman, &measurement, 1e4f));
-    must(rho_kalman_update_range_rate(&kalman, NULL, 100.0f, 1.0f));
+    must_be_ok(rho_kalman_predict(&kalman, 1.0f, 1.0f));
+    must_be_ok(rho_kalman_update_position(&kalman, &measurement, 1e4f));
+    must_be_ok(rho_kalman_update_range_rate(&kalman, NULL, 100.0f, 1.0f));
 }
 
 /* ---- the literature's step: target and clutter of one scan ---- */
@@ -80,7 +80,7 @@ static void estimate_input(void)
 static void update_input(const float plot[RHO_KALMAN_STATES])
 {
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        must(rho_input_update(&input, &config, i, plot[i], 1.0f));
+        must_be_ok(rho_input_update(&input, &config, i, plot[i], 1.0f));
     }
 }
 
@@ -88,9 +88,10 @@ static void step_input(void)
 {
     struct rho_gate_hough hough;
     int best = 0;
-    must(rho_input_predict(&input, &config, 0.25f));
-    must(rho_gate_hough_open(&hough, RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
-                             0.0872664626f, before_mps, newest_mps));
+    must_be_ok(rho_input_predict(&input, &config, 0.25f));
+    must_be_ok(rho_gate_hough_open(&hough,
+                                   RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ,
+                                   0.0872664626f, before_mps, newest_mps));
     float least = rho_gate_hough_residual_mps(&hough, &seen[0][3]);
     for (int i = 1; i < PLOTS; i++) {
         float off = rho_gate_hough_residual_mps(&hough, &seen[i][3]);
@@ -109,9 +110,9 @@ static void open_input(void)
     rho_input_config_default(&config);
     rho_kalman_init(&kalman);
     for (int axis = 0; axis < 3; axis++) {
-        must(rho_kalman_open_axis(&kalman, axis, 100.0f, 500.0f, 500.0f));
+        must_be_ok(rho_kalman_open_axis(&kalman, axis, 100.0f, 500.0f, 500.0f));
     }
-    must(rho_input_start(&input, &config, &kalman));
+    must_be_ok(rho_input_start(&input, &config, &kalman));
     for (int scan = 1; scan <= 4; scan++) {
         float speed_mps = scan < 3 ? 0.0f : 20.0f * (float)(scan - 2);
         for (int i = 0; i < RHO_KALMAN_STATES; i++) {
@@ -121,7 +122,7 @@ static void open_input(void)
             }
         }
         if (scan < 4) {
-            must(rho_input_predict(&input, &config, 0.25f));
+            must_be_ok(rho_input_predict(&input, &config, 0.25f));
             update_input(seen[0]);
             estimate_input();
         }
@@ -131,7 +132,7 @@ static void open_input(void)
 
 /* ---- jobs ---- */
 
-static void open(const char *name)
+static void open_job_filter(const char *name)
 {
     if (strcmp(name, "input+hough") == 0) {
         open_input();
@@ -161,7 +162,7 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (argc == 2 && strcmp(argv[1], names[i]) == 0) {
             for (int k = 0; k < STEPS; k++) {
-                open(names[i]);
+                open_job_filter(names[i]);
                 count_begin();
                 step(names[i]);
                 count_end();

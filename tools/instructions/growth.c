@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "count.h"
-#include "draw.h"
+#include "random_draws.h"
 #include "rhotrack/tracker.h"
 
 #define SIDE_M 500e3f

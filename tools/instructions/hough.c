@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "count.h"
-#include "draw.h"
+#include "random_draws.h"
 #include "rhotrack/detail/accumulator.h"
 
 #define SCANS 7
@@ -22,7 +22,7 @@ static float x_m[POINTS_MAX], y_m[POINTS_MAX];
 static uint32_t scan_end[SCANS];
 static const struct rho_accumulator_points points = {x_m, y_m, SCANS, scan_end};
 
-static void scatter(unsigned count)
+static void scatter_points(unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {
         x_m[i] = draw_uniform(-15000.0f, 15000.0f);
@@ -46,7 +46,7 @@ int main(int argc, char **argv)
         return 2;
     }
     config.no_pruning = strcmp(argv[2], "plain") == 0;
-    scatter((unsigned)count);
+    scatter_points((unsigned)count);
     enum rho_status status = rho_accumulator_init(&accumulator, sizeof accumulator, &config);
     count_begin();
     status = status == RHO_OK

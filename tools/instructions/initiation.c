@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "count.h"
-#include "draw.h"
+#include "random_draws.h"
 #include "rhotrack/initiator.h"
 
 #define SCANS 7

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "count.h"
-#include "draw.h"
+#include "random_draws.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/hypotheses.h"
 
@@ -66,7 +66,7 @@ static void draw_scan(int scan, float sigma_cross_m)
 }
 
 /* A whole step, from the prediction to the estimate that is reported. */
-static int step(int64_t time_us)
+static int step_hypotheses(int64_t time_us)
 {
     const struct rho_hypotheses_scan scan = {
         .time_us = time_us, .measures = RHO_MEASURES_Z, .plots = plots, .log_miss = log_miss};
@@ -87,7 +87,7 @@ static int step(int64_t time_us)
     return failed | (rho_hypotheses_estimate(&pool, slot, time_us, &estimate) != RHO_OK);
 }
 
-static int start(void)
+static int start_hypotheses(void)
 {
     const float place_m[3] = {50000.0f, 35000.0f, 300.0f}, speed_mps[3] = {-600.0f, -500.0f, 0.0f};
     struct rho_imm_model model;
@@ -114,11 +114,11 @@ int main(int argc, char **argv)
     clutter.log_per_m2 = rho_log((num_plots > 1 ? (float)num_plots - 1.0f : 0.1f) / volume_m3);
     log_pd = rho_log(PD);
     log_miss = rho_log(1.0f - PD);
-    int failed = start();
+    int failed = start_hypotheses();
     for (int scan = 1; scan <= SCANS && !failed; scan++) {
         draw_scan(scan, atoi(argv[2]) ? 1.2f * SIGMA_M : SIGMA_M);
         count_begin();
-        failed |= step((int64_t)INTERVAL_US * scan);
+        failed |= step_hypotheses((int64_t)INTERVAL_US * scan);
         count_end();
         num_hypotheses += (int)rho_hypotheses_count(&pool, slot);
     }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "count.h"
-#include "draw.h"
+#include "random_draws.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/passive.h"
 
@@ -37,7 +37,7 @@ static void draw_targets(int count)
     }
 }
 
-static void add(struct rho_bearing_scan *scan, int sensor, float bearing_rad)
+static void add_bearing(struct rho_bearing_scan *scan, int sensor, float bearing_rad)
 {
     if (scan->num_bearings < RHO_MAX_BEARINGS) {
         bearings[sensor][scan->num_bearings++] =
@@ -60,11 +60,11 @@ static struct rho_frame draw_frame(int frame, int num_targets, int num_false)
             float true_rad =
                 rho_atan2(at->y_m + at->vy_mps * t_s - scan->y_m, at->x_m + at->vx_mps * t_s);
             if (draw_uniform(0.0f, 1.0f) < PD) {
-                add(scan, sensor, true_rad + draw_normal(SIGMA_RAD));
+                add_bearing(scan, sensor, true_rad + draw_normal(SIGMA_RAD));
             }
         }
         for (int i = 0; i < num_false; i++) {
-            add(scan, sensor, draw_uniform(-1.2f, 1.2f));
+            add_bearing(scan, sensor, draw_uniform(-1.2f, 1.2f));
         }
     }
     return (struct rho_frame){.time_us = time_us, .num_scans = SENSORS, .scans = scans};

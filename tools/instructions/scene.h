@@ -8,7 +8,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
-#include "draw.h"
+#include "random_draws.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
@@ -37,7 +37,7 @@ static struct target target_at(int target, float t_s)
 }
 
 /* The noise of the target's own plot; of clutter far enough out. */
-static float off(int is_clutter, float sigma)
+static float draw_noise(int is_clutter, float sigma)
 {
     float size = is_clutter ? draw_uniform(1.3f, 2.2f) : 0.0f;
     return is_clutter ? (draw_uniform(-1.0f, 1.0f) < 0.0f ? -size : size) * sigma
@@ -48,11 +48,11 @@ static struct rho_plot polar_plot(const struct target *target, int is_clutter)
 {
     float range_m = rho_sqrt(target->x_m * target->x_m + target->y_m * target->y_m);
     struct rho_polar_plot polar = {
-        .range_m = range_m + off(is_clutter, SIGMA_RANGE_M),
+        .range_m = range_m + draw_noise(is_clutter, SIGMA_RANGE_M),
         .azimuth_rad =
-            rho_angle_wrap(rho_atan2(target->y_m, target->x_m) + off(is_clutter, SIGMA_RAD)),
+            rho_angle_wrap(rho_atan2(target->y_m, target->x_m) + draw_noise(is_clutter, SIGMA_RAD)),
         .range_rate_mps = (target->x_m * target->vx_mps + target->y_m * target->vy_mps) / range_m +
-                          off(is_clutter, SIGMA_RATE_MPS),
+                          draw_noise(is_clutter, SIGMA_RATE_MPS),
         .sigma_range_m = SIGMA_RANGE_M,
         .sigma_azimuth_rad = SIGMA_RAD,
         .sigma_range_rate_mps = SIGMA_RATE_MPS};
@@ -63,12 +63,12 @@ static struct rho_plot polar_plot(const struct target *target, int is_clutter)
 
 static struct rho_plot cartesian_plot(const struct target *target, int is_clutter)
 {
-    return (struct rho_plot){.x_m = target->x_m + off(is_clutter, SIGMA_M),
-                             .y_m = target->y_m + off(is_clutter, SIGMA_M),
-                             .z_m = 3000.0f + off(is_clutter, SIGMA_M),
-                             .vx_mps = target->vx_mps + off(is_clutter, SIGMA_MPS),
-                             .vy_mps = target->vy_mps + off(is_clutter, SIGMA_MPS),
-                             .vz_mps = off(is_clutter, SIGMA_MPS),
+    return (struct rho_plot){.x_m = target->x_m + draw_noise(is_clutter, SIGMA_M),
+                             .y_m = target->y_m + draw_noise(is_clutter, SIGMA_M),
+                             .z_m = 3000.0f + draw_noise(is_clutter, SIGMA_M),
+                             .vx_mps = target->vx_mps + draw_noise(is_clutter, SIGMA_MPS),
+                             .vy_mps = target->vy_mps + draw_noise(is_clutter, SIGMA_MPS),
+                             .vz_mps = draw_noise(is_clutter, SIGMA_MPS),
                              .sigma_range_m = SIGMA_M,
                              .sigma_cross_m = SIGMA_M,
                              .sigma_up_m = SIGMA_M,
@@ -80,7 +80,7 @@ static struct rho_plot draw_plot(const struct target *target, int is_polar, int 
     return is_polar ? polar_plot(target, is_clutter) : cartesian_plot(target, is_clutter);
 }
 
-static uint32_t measures_of(int is_polar)
+static uint32_t measured_quantities(int is_polar)
 {
     return is_polar ? RHO_MEASURES_RANGE_RATE : RHO_MEASURES_Z | RHO_MEASURES_VELOCITY;
 }

@@ -34,7 +34,7 @@ static void draw_plots(int step, int is_polar, int count)
     num_plots = count;
     for (int i = 0; i < count; i++) {
         plots[i] = (struct rho_track_plot){.time_us = (int64_t)(1e6f * INTERVAL_S) * step,
-                                           .measures = measures_of(is_polar),
+                                           .measures = measured_quantities(is_polar),
                                            .sensor_id = sensor.sensor_id,
                                            .sensor = &sensor,
                                            .plot = draw_plot(&target, is_polar, i > 0),
@@ -43,7 +43,7 @@ static void draw_plots(int step, int is_polar, int count)
 }
 
 /* The plot in the gate that is likeliest, or changes the velocity's line least. */
-static int choose(int by_hough)
+static int choose_plot(int by_hough)
 {
     struct rho_kalman expected;
     struct rho_gate gate;
@@ -75,10 +75,10 @@ static int choose(int by_hough)
     return best;
 }
 
-static void step(int by_hough)
+static void step_track(int by_hough)
 {
     failed |= rho_track_predict(&track, plots[0].time_us, &model) != RHO_OK;
-    failed |= rho_track_update(&track, &plots[choose(by_hough)], &model, 1000) != RHO_OK;
+    failed |= rho_track_update(&track, &plots[choose_plot(by_hough)], &model, 1000) != RHO_OK;
 }
 
 int main(int argc, char **argv)
@@ -98,12 +98,12 @@ int main(int argc, char **argv)
         int is_start = i <= START_STEPS;
         draw_plots(i, is_polar, is_start ? 1 : count);
         if (is_start) {
-            step(0);
+            step_track(0);
             num_in_gate = 0;
             continue;
         }
         count_begin();
-        step(by_hough);
+        step_track(by_hough);
         count_end();
     }
     printf("%d.%02d plots in the gate\n", num_in_gate / STEPS, num_in_gate % STEPS);

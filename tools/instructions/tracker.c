@@ -35,7 +35,7 @@ static struct rho_scan draw_scan(int step, int is_polar, int each)
     }
     return (struct rho_scan){.time_us = (int64_t)(1e6f * INTERVAL_S) * step,
                              .sensor_id = sensor.sensor_id,
-                             .measures = measures_of(is_polar),
+                             .measures = measured_quantities(is_polar),
                              .num_plots = (uint32_t)(TARGETS * each),
                              .plots = plots};
 }
@@ -77,7 +77,7 @@ static struct rho_scan sector_of(const struct rho_scan *turn, int sector, int se
     return scan;
 }
 
-static void step(const struct rho_scan *scan, int is_start)
+static void step_tracker(const struct rho_scan *scan, int is_start)
 {
     if (is_start) {
         failed |= rho_tracker_step(&tracker, &initiator, scan, &report) != RHO_OK;
@@ -104,7 +104,7 @@ int main(int argc, char **argv)
         struct rho_scan whole = draw_scan(turn, strcmp(argv[2], "polar") == 0, is_start ? 1 : each);
         for (int sector = 0; sector < (is_start ? 1 : sectors); sector++) {
             struct rho_scan scan = sector_of(&whole, sector, is_start ? 1 : sectors);
-            step(&scan, is_start);
+            step_tracker(&scan, is_start);
         }
         tracks += is_start ? 0 : report.num_tracks;
     }

@@ -46,7 +46,7 @@ static void publish_tracks(void)
     status = rho_publish_tracks(&report, 1, 1, 0, bytes, sizeof bytes, &size);
 }
 
-static void fill(void)
+static void fill_messages(void)
 {
     struct rho_scan_assembler_config config;
 
@@ -79,7 +79,7 @@ int main(int argc, char **argv)
                 {"take", take_scan},
                 {"publish", publish_tracks}};
 
-    fill();
+    fill_messages();
     encode_scan();
     for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
         if (argc == 2 && status == RHO_OK && strcmp(argv[1], jobs[i].name) == 0) {

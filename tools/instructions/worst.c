@@ -15,8 +15,8 @@
 #include <string.h>
 
 #include "count.h"
-#include "draw.h"
 #include "node_settings.h"
+#include "random_draws.h"
 #include "rhotrack/body.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
@@ -81,7 +81,7 @@ struct sky {
     uint32_t instructions, work; /* of the worst step */
 };
 
-static float value_of(const struct sky *sky, enum gene gene)
+static float gene_value(const struct sky *sky, enum gene gene)
 {
     const struct range *range = &ranges[gene];
     const float share = (float)sky->genes[gene] / 255.0f;
@@ -89,9 +89,9 @@ static float value_of(const struct sky *sky, enum gene gene)
                          : range->low + (range->high - range->low) * share;
 }
 
-static unsigned count_of(const struct sky *sky, enum gene gene)
+static unsigned gene_count(const struct sky *sky, enum gene gene)
 {
-    return (unsigned)value_of(sky, gene);
+    return (unsigned)gene_value(sky, gene);
 }
 
 /* ---- the scans of a sky ---------------------------------------------------------------------- */
@@ -105,20 +105,20 @@ struct place {
 
 static struct place target_at(const struct sky *sky, unsigned target, float t_s)
 {
-    const float spacing_m = value_of(sky, SPACING_M);
-    const float speed_mps = value_of(sky, SPEED_SHARE) * NODE_V_MAX_MPS;
+    const float spacing_m = gene_value(sky, SPACING_M);
+    const float speed_mps = gene_value(sky, SPEED_SHARE) * NODE_V_MAX_MPS;
     const float course_rad = sky->genes[PLACE] & 1 ? 0.7f * (float)target : 0.3f;
     struct place at = {.vx_mps = speed_mps * rho_cos(course_rad),
                        .vy_mps = speed_mps * rho_sin(course_rad)};
-    at.x_m = value_of(sky, PLACE) * NODE_RANGE_MAX_M + spacing_m * (float)(target % 6u) +
+    at.x_m = gene_value(sky, PLACE) * NODE_RANGE_MAX_M + spacing_m * (float)(target % 6u) +
              at.vx_mps * t_s;
     at.y_m = spacing_m * (float)(target / 6u) + at.vy_mps * t_s;
     return at;
 }
 
-static uint32_t measures_of(const struct sky *sky)
+static uint32_t measured_quantities(const struct sky *sky)
 {
-    const unsigned of = count_of(sky, MEASURES);
+    const unsigned of = gene_count(sky, MEASURES);
     return (of & 1u ? RHO_MEASURES_RANGE_RATE : 0u) | (of & 2u ? RHO_MEASURES_Z : 0u) |
            (of & 4u ? RHO_MEASURES_VELOCITY : 0u);
 }
@@ -126,7 +126,7 @@ static uint32_t measures_of(const struct sky *sky)
 static struct rho_plot plot_at(const struct sky *sky, const struct place *at)
 {
     const float range_m = rho_sqrt(at->x_m * at->x_m + at->y_m * at->y_m) + 1.0f;
-    const float sigma_m = value_of(sky, SIGMA_RANGE_M);
+    const float sigma_m = gene_value(sky, SIGMA_RANGE_M);
     const float own_s = sky->genes[OWN_TIMES] & 1 ? draw_uniform(0.0f, 0.9f) * NODE_INTERVAL_S : 0;
     return (struct rho_plot){
         .offset_us = (int32_t)(1e6f * own_s),
@@ -137,29 +137,29 @@ static struct rho_plot plot_at(const struct sky *sky, const struct place *at)
         .vy_mps = at->vy_mps,
         .range_rate_mps = (at->vx_mps * at->x_m + at->vy_mps * at->y_m) / range_m,
         .sigma_range_m = sigma_m,
-        .sigma_cross_m = value_of(sky, SIGMA_RAD) * range_m + 0.1f,
+        .sigma_cross_m = gene_value(sky, SIGMA_RAD) * range_m + 0.1f,
         .sigma_up_m = sigma_m,
-        .sigma_mps = value_of(sky, SIGMA_RATE_MPS),
-        .sigma_range_rate_mps = value_of(sky, SIGMA_RATE_MPS),
+        .sigma_mps = gene_value(sky, SIGMA_RATE_MPS),
+        .sigma_range_rate_mps = gene_value(sky, SIGMA_RATE_MPS),
     };
 }
 
-static unsigned targets_of(const struct sky *sky)
+static unsigned num_targets(const struct sky *sky)
 {
-    return (unsigned)(value_of(sky, TARGETS) * RHO_MAX_TRACKS);
+    return (unsigned)(gene_value(sky, TARGETS) * RHO_MAX_TRACKS);
 }
 
 /* The targets' plots. Returns how many they are. */
-static unsigned see_targets(const struct sky *sky, float t_s)
+static unsigned add_target_plots(const struct sky *sky, float t_s)
 {
-    const unsigned each = count_of(sky, TARGET_PLOTS), targets = targets_of(sky);
+    const unsigned each = gene_count(sky, TARGET_PLOTS), targets = num_targets(sky);
     unsigned count = 0;
     for (unsigned i = 0; i < targets; i++) {
         const struct place at = target_at(sky, i, t_s);
-        const int is_seen = draw_uniform(0.0f, 1.0f) < value_of(sky, SEEN);
+        const int is_seen = draw_uniform(0.0f, 1.0f) < gene_value(sky, SEEN);
         for (unsigned k = 0; is_seen && k < each && count < RHO_MAX_PLOTS; k++) {
             struct rho_plot plot = plot_at(sky, &at);
-            const float spread_m = value_of(sky, TARGET_SIGMAS) * plot.sigma_range_m;
+            const float spread_m = gene_value(sky, TARGET_SIGMAS) * plot.sigma_range_m;
             plot.x_m += draw_normal(spread_m);
             plot.y_m += draw_normal(spread_m);
             plots[count++] = plot;
@@ -170,10 +170,10 @@ static unsigned see_targets(const struct sky *sky, float t_s)
 
 static struct place draw_clutter(const struct sky *sky, float t_s)
 {
-    const unsigned shape = count_of(sky, SHAPE), heaps = count_of(sky, HEAPS);
-    const unsigned targets = targets_of(sky);
+    const unsigned shape = gene_count(sky, SHAPE), heaps = gene_count(sky, HEAPS);
+    const unsigned targets = num_targets(sky);
     const unsigned heap = (unsigned)draw_uniform(0.0f, (float)heaps);
-    const float heap_m = value_of(sky, HEAP_M), rate_mps = value_of(sky, RATE_MPS);
+    const float heap_m = gene_value(sky, HEAP_M), rate_mps = gene_value(sky, RATE_MPS);
     struct place at = {.vx_mps = draw_normal(rate_mps), .vy_mps = draw_normal(rate_mps)};
     if (shape == SPREAD) {
         at.x_m = draw_uniform(-NODE_RANGE_MAX_M, NODE_RANGE_MAX_M);
@@ -194,13 +194,13 @@ static struct place draw_clutter(const struct sky *sky, float t_s)
  * Behind `first` plots. What stays is the plot of the scan before, moved as targets move or not at
  * all.
  */
-static unsigned see_clutter(const struct sky *sky, unsigned first, unsigned scan, float t_s,
-                            float after_s)
+static unsigned add_clutter_plots(const struct sky *sky, unsigned first, unsigned scan, float t_s,
+                                  float after_s)
 {
-    const unsigned most = (unsigned)(value_of(sky, PLOTS) * RHO_MAX_PLOTS);
+    const unsigned most = (unsigned)(gene_value(sky, PLOTS) * RHO_MAX_PLOTS);
     unsigned count = first;
-    for (; scan >= count_of(sky, QUIET) && count < most; count++) {
-        if (draw_uniform(0.0f, 1.0f) < value_of(sky, STAYS) && before[count].sigma_range_m > 0) {
+    for (; scan >= gene_count(sky, QUIET) && count < most; count++) {
+        if (draw_uniform(0.0f, 1.0f) < gene_value(sky, STAYS) && before[count].sigma_range_m > 0) {
             const float moved_s = sky->genes[DRIFTS] & 1 ? after_s : 0.0f;
             plots[count] = before[count];
             plots[count].x_m += moved_s * plots[count].vx_mps;
@@ -226,13 +226,13 @@ static int open_tracker(const struct sky *sky)
         rho_tracker_init(&tracker, sizeof tracker, &config) == RHO_OK &&
         rho_initiator_init(&initiator, sizeof initiator, &start) == RHO_OK &&
         (NODE_BODY_MAX_M <= 0.0f || rho_tracker_set_body_max(&tracker, NODE_BODY_MAX_M) == RHO_OK);
-    for (unsigned i = 0; i < count_of(sky, SENSORS) && i < RHO_MAX_SENSORS && is_open; i++) {
+    for (unsigned i = 0; i < gene_count(sky, SENSORS) && i < RHO_MAX_SENSORS && is_open; i++) {
         struct rho_sensor sensor = {.sensor_id = (int32_t)i + 1,
                                     .pd = 0.9f,
                                     .x_m = 3000.0f * (float)i,
                                     .range_max_m = NODE_RANGE_MAX_M};
 #if RHO_AMBIGUOUS_RANGE_RATES
-        const float span_mps = value_of(sky, SPAN_MPS);
+        const float span_mps = gene_value(sky, SPAN_MPS);
         sensor.range_rate_span_mps = span_mps < 1000.0f ? span_mps : 0.0f;
 #endif
         is_open = rho_tracker_set_sensor(&tracker, &sensor) == RHO_OK;
@@ -242,29 +242,29 @@ static int open_tracker(const struct sky *sky)
 
 static uint32_t step_counted(const struct rho_scan *scan)
 {
-    const uint32_t from = count_now();
+    const uint32_t from = count_instructions_now();
     count_begin();
     failed |= rho_tracker_step(&tracker, &initiator, scan, &report) != RHO_OK;
     count_end();
-    return count_between(from, count_now());
+    return count_instructions_between(from, count_instructions_now());
 }
 
 /* The sky's instructions and work, of its worst step. */
-static void watch(struct sky *sky)
+static void measure_sky(struct sky *sky)
 {
-    const float interval_s = value_of(sky, INTERVAL) * NODE_INTERVAL_S;
+    const float interval_s = gene_value(sky, INTERVAL) * NODE_INTERVAL_S;
     const float middle_s = 0.5f * SCANS * interval_s;
     sky->instructions = sky->work = 0;
     draw_state = 1u + 7919u * sky->genes[DRAW];
     failed |= !open_tracker(sky);
     for (unsigned i = 0; i < SCANS && !failed; i++) {
         const float t_s = interval_s * (float)i - middle_s;
-        const unsigned targets = see_targets(sky, t_s);
+        const unsigned targets = add_target_plots(sky, t_s);
         const struct rho_scan scan = {
             .time_us = (int64_t)(1e6f * interval_s) * i,
-            .sensor_id = (int32_t)(i % count_of(sky, SENSORS)) + 1,
-            .measures = measures_of(sky),
-            .num_plots = see_clutter(sky, targets, i, t_s, interval_s),
+            .sensor_id = (int32_t)(i % gene_count(sky, SENSORS)) + 1,
+            .measures = measured_quantities(sky),
+            .num_plots = add_clutter_plots(sky, targets, i, t_s, interval_s),
             .plots = plots,
         };
         const uint32_t instructions = step_counted(&scan);
@@ -275,7 +275,7 @@ static void watch(struct sky *sky)
     }
 }
 
-static void say(const struct sky *sky)
+static void print_sky(const struct sky *sky)
 {
     printf("%lu instructions, work %lu of %lu, sky ", (unsigned long)sky->instructions,
            (unsigned long)sky->work, (unsigned long)NODE_WORK_MAX);
@@ -306,7 +306,7 @@ static void draw_genes(struct sky *sky)
 }
 
 /* A gene anew, moved, or the other parent's. */
-static void bear(struct sky *child, const struct sky *parent, const struct sky *other)
+static void draw_child(struct sky *child, const struct sky *parent, const struct sky *other)
 {
     *child = *parent;
     for (unsigned changes = 1u + draw_below(3); changes > 0; changes--) {
@@ -320,7 +320,7 @@ static void bear(struct sky *child, const struct sky *parent, const struct sky *
     }
 }
 
-static struct sky *cheapest(struct sky *parents)
+static struct sky *cheapest_parent(struct sky *parents)
 {
     struct sky *least = parents;
     for (unsigned i = 1; i < PARENTS; i++) {
@@ -329,21 +329,21 @@ static struct sky *cheapest(struct sky *parents)
     return least;
 }
 
-static void search(unsigned skies)
+static void search_skies(unsigned skies)
 {
     static struct sky parents[PARENTS];
     uint32_t worst = 0;
     for (unsigned n = 0; n < skies && !failed; n++) {
-        struct sky child, *least = cheapest(parents);
+        struct sky child, *least = cheapest_parent(parents);
         if (n < FIRST_SKIES) {
             draw_genes(&child);
         } else {
-            bear(&child, &parents[draw_below(PARENTS)], &parents[draw_below(PARENTS)]);
+            draw_child(&child, &parents[draw_below(PARENTS)], &parents[draw_below(PARENTS)]);
         }
-        watch(&child);
+        measure_sky(&child);
         if (child.instructions > worst) {
             worst = child.instructions;
-            say(&child);
+            print_sky(&child);
         }
         if (child.instructions > least->instructions) {
             *least = child;
@@ -369,10 +369,10 @@ int main(int argc, char **argv)
     struct sky sky;
     if (argc == 4 && strcmp(argv[1], "search") == 0) {
         search_state = (uint32_t)strtoul(argv[2], NULL, 10);
-        search((unsigned)strtoul(argv[3], NULL, 10));
+        search_skies((unsigned)strtoul(argv[3], NULL, 10));
     } else if (argc == 3 && strcmp(argv[1], "sky") == 0 && read_genes(&sky, argv[2])) {
-        watch(&sky);
-        say(&sky);
+        measure_sky(&sky);
+        print_sky(&sky);
         count_report();
     } else {
         fprintf(stderr, "worst: give search, a seed and a number of skies, or sky and %d genes\n",

@@ -5,7 +5,7 @@
  */
 #include "rhotrack/zones.h"
 #include "count.h"
-#include "draw.h"
+#include "random_draws.h"
 
 #define STEPS 200
 #define ZONES 16
@@ -32,7 +32,7 @@ static int open_zones(void)
 }
 
 /* A twentieth of a second further; who has passed all zones begins anew. */
-static void move(void)
+static void move_tracks(void)
 {
     report.time_us += 50000;
     for (int i = 0; i < report.num_tracks; i++) {
@@ -57,7 +57,7 @@ int main(void)
         report.tracks[i].state[RHO_VX] = draw_uniform(0.5f, 30.0f);
     }
     for (int k = 0; k < STEPS; k++) {
-        move();
+        move_tracks();
         count_begin();
         failed |= rho_zones_step(&zones, &report) != RHO_OK;
         count_end();

@@ -122,13 +122,13 @@ def tell_stress(report, summaries):
     report.table(TRAFFIC_HEADS, map(traffic_row, summaries))
 
 
-def alone_per_hour(of):
+def false_tracks_without_aircraft(of):
     """False tracks an hour in the same clutter without aircraft."""
     return sum(run["alarms"]["confirmed"] for run in of["runs"]) / sum(
         run["alarms"]["hours"] for run in of["runs"])
 
 
-def found_by(of):
+def found_shares_by_scan(of):
     """Shares of the targets that lived so long, by scans since the first."""
     return sum(run["found"] for run in of["runs"]) / sum(run["alive"] for run in of["runs"])
 
@@ -145,17 +145,18 @@ def tell_operation(report, summaries):
     for of in summaries:
         hours = sum(run["hours"] for run in of["runs"])
         tracks = of["tracks"][0]
-        rows.append([of["case"].name, f"{alone_per_hour(of):.2f}",
+        rows.append([of["case"].name, f"{false_tracks_without_aircraft(of):.2f}",
                      f"{tracks['false_tracks'] * len(of['runs']) / hours:.1f}",
                      f"{tracks['false']:.3f}", f"{of['min_scans']:.1f}",
-                     *(f"{found_by(of)[k - 1]:.3f}" for k in by), f"{tracks['completeness']:.4f}",
+                     *(f"{found_shares_by_scan(of)[k - 1]:.3f}" for k in by),
+                     f"{tracks['completeness']:.4f}",
                      f"{tracks['gospa_m']:.0f}"])
     report.table(["wanted an hour", "in clutter alone", "false tracks an hour", "false a scan", "M",
                   f"found by scan {by[0]}", *map(str, by[1:]), "complete", "gospa m"], rows)
     figure, axes = plt.subplots(figsize=(8, 4.5))
     for k in by:
-        axes.plot([alone_per_hour(of) for of in summaries],
-                  [found_by(of)[k - 1] for of in summaries], "o-", label=f"by scan {k}")
+        axes.plot([false_tracks_without_aircraft(of) for of in summaries],
+                  [found_shares_by_scan(of)[k - 1] for of in summaries], "o-", label=f"by scan {k}")
     axes.set_xscale("symlog", linthresh=1)
     axes.set(xlabel="false tracks an hour in clutter alone", ylabel="aircraft found",
              ylim=(0, 1.02))

@@ -72,10 +72,10 @@ def run_experiment(options, name):
 
 def figures_of(options, papers):
     """{experiment: its figures.json} of all that the rows name."""
-    from parts import claims_own
+    from parts import claims_own_figures
     used = {of[1] for paper in papers for row in paper.rows for of in row.measured}
     used |= {row.at[1] for paper in papers for row in paper.rows if row.at}
-    figures = {"own": claims_own.figures()} if "own" in used else {}
+    figures = {"own": claims_own_figures.figures()} if "own" in used else {}
     for name in EXPERIMENTS:
         if name in used:
             path = experiment_folder(options, name) / "figures.json"
@@ -144,7 +144,7 @@ def results_of(papers):
 # ---- verdicts ----
 
 
-def judged(row, figures, results):
+def judged_row(row, figures, results):
     """(verdict, our figures as text, reason)."""
     values = {name: table.figure(row, figures, experiment, path)
               for name, experiment, path in row.measured}
@@ -156,7 +156,7 @@ def judged(row, figures, results):
         return "not measured", "", f"no run had a figure for {', '.join(unknown)}"
     ours = ours.format(**values)
     if "lost" in row.texts:
-        ours = ours or passed_text(row, results)
+        ours = ours or tests_passed_text(row, results)
         return "cannot be known", ours, f"lost: {row.texts['lost']}"
     if row.measured:
         held = table.is_true(row.texts["holds"], values)
@@ -165,10 +165,10 @@ def judged(row, figures, results):
     failed = [test for test in row.test if not results.get(test)]
     if failed:
         return "fails", "", f"its test {failed[0][1]} does not pass"
-    return "holds", passed_text(row, results), why
+    return "holds", tests_passed_text(row, results), why
 
 
-def passed_text(row, results):
+def tests_passed_text(row, results):
     passed = sum(bool(results.get(test)) for test in row.test)
     return f"{passed} of {len(row.test)} tests pass" if row.test else ""
 
@@ -176,7 +176,7 @@ def passed_text(row, results):
 # ---- the page ----
 
 
-def cell(text):
+def escaped_cell(text):
     return " ".join(text.split()).replace("|", "\\|")
 
 
@@ -195,21 +195,21 @@ def command_of(row):
         else f"`{file} -k {next(test for of, test in row.test if of == file)}`" for file in files)
 
 
-def see_of(paper, row):
+def shown_of_row(paper, row):
     return ", ".join(name for name, _, _, begins in paper.see
                      if any(file.startswith(tuple(begins)) for file, _ in row.code))
 
 
-def group_of(row):
+def group_of_row(row):
     word = row.name.split()[0].rstrip("s:")
     return next(i for i, (_, begins) in enumerate(GROUPS) if word == begins or not begins)
 
 
-def line_of(paper, row, verdict, ours, reason):
+def table_line(paper, row, verdict, ours, reason):
     cells = [row.name, row.says, linked(row.code), linked(row.test), command_of(row),
-             see_of(paper, row), row.texts.get("paper", ""), ours,
+             shown_of_row(paper, row), row.texts.get("paper", ""), ours,
              f"**{verdict}**" + (f": {reason}" if reason else "")]
-    return "| " + " | ".join(cell(text) for text in cells) + " |"
+    return "| " + " | ".join(escaped_cell(text) for text in cells) + " |"
 
 
 def sources_of(options, figures):
@@ -217,10 +217,11 @@ def sources_of(options, figures):
              for name, of in figures.items() if name != "own"]
     how = ("as they were last run, which [the measurements](MEASUREMENTS.md) show, too"
            if options.figures else "which this command ran")
-    return f"{', '.join(names)}, {how}; `claims` itself has those of `tools/lab/parts/claims_own.py`"
+    return f"{', '.join(names)}, {how}; `claims` itself has those of " \
+           "`tools/lab/parts/claims_own_figures.py`"
 
 
-def filled(text, **values):
+def wrapped_paragraphs(text, **values):
     """The text's paragraphs in lines of the page's width, but for tables."""
     return "\n\n".join(part if part.startswith("|") else textwrap.fill(
         part.format(**values), 100, break_long_words=False, break_on_hyphens=False)
@@ -229,13 +230,13 @@ def filled(text, **values):
 
 def page_of(options, papers, figures, results):
     """The page, and {verdict: count}."""
-    judgements = [[(row, *judged(row, figures, results)) for row in paper.rows]
+    judgements = [[(row, *judged_row(row, figures, results)) for row in paper.rows]
                   for paper in papers]
     counts = [{verdict: sum(of[1] == verdict for of in rows) for verdict in VERDICTS}
               for rows in judgements]
     total = {verdict: sum(count[verdict] for count in counts) for verdict in VERDICTS}
     shown = [verdict for verdict in VERDICTS if total[verdict] or verdict != "not measured"]
-    lines = [filled(HEAD, command=" ".join(["rhotrack experiment claims", *(
+    lines = [wrapped_paragraphs(HEAD, command=" ".join(["rhotrack experiment claims", *(
         ["--figures", os.path.relpath(options.figures, lab.ROOT)] if options.figures else []),
         "--update"]),
                          sources=sources_of(options, figures)),
@@ -245,16 +246,16 @@ def page_of(options, papers, figures, results):
               for name, count in [*zip((paper.title for paper in papers), counts),
                                   ("all", total)]]
     for paper, rows in zip(papers, judgements):
-        lines.append(f"\n## {paper.title}\n\n{filled(paper.by)}")
+        lines.append(f"\n## {paper.title}\n\n{wrapped_paragraphs(paper.by)}")
         lines.append("| | see it | command |\n|---|---|---|\n")
-        lines += [f"| {name} | {cell(what)} | `{cell(command)}` |\n"
+        lines += [f"| {name} | {escaped_cell(what)} | `{escaped_cell(command)}` |\n"
                   for name, what, command, _ in paper.see]
         for number, (heading, _) in enumerate(GROUPS):
-            of_group = [of for of in rows if group_of(of[0]) == number]
+            of_group = [of for of in rows if group_of_row(of[0]) == number]
             if of_group:
                 lines.append(f"\n### {heading}\n\n| | it says | code | test | run | see | paper | "
                              f"ours | verdict |\n|{'---|' * 9}\n")
-                lines += [line_of(paper, *of) + "\n" for of in of_group]
+                lines += [table_line(paper, *of) + "\n" for of in of_group]
     return "".join(lines), total
 
 

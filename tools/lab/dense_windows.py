@@ -30,11 +30,11 @@ def rows(path):
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
-def off_m(track, target):
+def distance_m(track, target):
     return math.hypot(track["x_m"] - target["x_m"], track["y_m"] - target["y_m"])
 
 
-def searched(program, folder, min_scans, work_max):
+def search_figures(program, folder, min_scans, work_max):
     """How many targets are found, how many tracks are of none, and the share not tried."""
     settings = {**SETTINGS, "min_scans": min_scans, "work_max": work_max}
     options = [f"--set={key}={value}" for key, value in settings.items()]
@@ -47,12 +47,12 @@ def searched(program, folder, min_scans, work_max):
     last_s = max(row["t_s"] for row in truth)
     targets = [row for row in truth if row["t_s"] == last_s]
     tracks = rows(folder / "tracks.csv")
-    found = sum(any(off_m(track, target) <= NEAR_M for track in tracks) for target in targets)
-    false = sum(all(off_m(track, target) > NEAR_M for target in targets) for track in tracks)
+    found = sum(any(distance_m(track, target) <= NEAR_M for track in tracks) for target in targets)
+    false = sum(all(distance_m(track, target) > NEAR_M for target in targets) for track in tracks)
     return found / len(targets), false, figures["plots_not_tried"] / figures["plots"]
 
 
-def means(program, folder, per_km2, min_scans, runs, seed):
+def mean_figures(program, folder, per_km2, min_scans, runs, seed):
     """Of each limit: found, false tracks a run, not tried."""
     subprocess.run(
         [program, "simulate", "crossing", "--runs", str(runs), "--seed", str(seed),
@@ -60,16 +60,16 @@ def means(program, folder, per_km2, min_scans, runs, seed):
         check=True)
     some = sorted(folder.glob("run-*")) or [folder]
     return [[sum(column) / runs for column in zip(*(
-        searched(program, run, min_scans, limit) for run in some))]
+        search_figures(program, run, min_scans, limit) for run in some))]
             for limit in (FULL_NODE_WORK, 0)]
 
 
-def window(job):
+def density_case(job):
     """One density: plots a scan, and both limits' means."""
     program, per_km2, min_scans, runs, seed = job
     with tempfile.TemporaryDirectory() as folder:
-        return per_km2 * AREA_KM2, *means(program, pathlib.Path(folder) / "runs", per_km2,
-                                          min_scans, runs, seed)
+        return per_km2 * AREA_KM2, *mean_figures(program, pathlib.Path(folder) / "runs", per_km2,
+                                                 min_scans, runs, seed)
 
 
 def add_options(parser):
@@ -80,7 +80,7 @@ def main():
     options = lab.options_of(__doc__, 100, add_options)
     report = lab.Report(f"Scene crossing, seven scans in one batch, work_max {FULL_NODE_WORK} "
                         "and none", options)
-    windows = report.map(window, [
+    windows = report.map(density_case, [
         (options.program, per_km2, min_scans, options.runs, options.seed)
         for per_km2, min_scans in CLUTTER_PER_KM2.items()])
     report.table(

@@ -36,7 +36,7 @@ def measure(report, cases, num_runs, moving, still=0):
     return [polar.figures_of([one[k] for one in done]) for k in range(len(cases))]
 
 
-def meets(of):
+def meets_bars(of):
     """By batch and tracker."""
     return (of["pd"] >= PD_MIN and of["tracked_after_5"] >= PD_MIN
             and of["false_candidates_per_run"][0] <= FALSE_MAX
@@ -49,7 +49,7 @@ def find_limit(report):
     for clutter in CLUTTER:
         of, = measure(report, CASES[:1], report.options.runs, clutter)
         rows.append((CASES[0].name, clutter, of))
-        if not meets(of):
+        if not meets_bars(of):
             break
         limit = clutter
     return rows, limit
@@ -72,7 +72,7 @@ def measure_all(report):
     return levels + at_limit[1:] + beyond + [still], at_limit, beyond, limit
 
 
-def row(name, clutter, of):
+def table_row(name, clutter, of):
     return [name, clutter, f"{of['pd']:.3f}", f"{of['false_candidates_per_run'][0]:.3f}",
             f"{of['search_ms']:.1f}", f"{of['tracked_after_5']:.3f}",
             f"{of['tracked_at_end']:.3f}", f"{of['false_tracks_per_run'][0]:.3f}",
@@ -121,7 +121,7 @@ def main():
                 f"a span of 100 m/s 3.2, of 30 m/s 2.0; ten times the clutter takes 2.3.")
     report.table(["case", "clutter a turn", "Pd, batch of 7", "false a run", "ms",
                   "tracked after 5", "at the end", "false a run", "confirmed at turn", "rmse m",
-                  "rmse m/s"], [row(*one) for one in rows])
+                  "rmse m/s"], [table_row(*one) for one in rows])
     draw(report, rows, at_limit, beyond)
     report.fact("limit_clutter_per_scan", limit)
     report.fact("cases", [{"case": name, "clutter_per_scan": clutter, **polar.facts(of)}

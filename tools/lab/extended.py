@@ -65,7 +65,7 @@ def table(path):
     return found
 
 
-def by_time(columns):
+def rows_by_time(columns):
     """{time in ms: rows} of a table."""
     found = {}
     for row, t_s in enumerate(columns["t_s"]):
@@ -73,7 +73,7 @@ def by_time(columns):
     return found
 
 
-def on_body(truth, row, dx_m, dy_m):
+def place_on_body(truth, row, dx_m, dy_m):
     """Places in the target's axes, along and across."""
     speed = np.hypot(truth["vx_mps"][row], truth["vy_mps"][row])
     c, s = truth["vx_mps"][row] / speed, truth["vy_mps"][row] / speed
@@ -82,16 +82,17 @@ def on_body(truth, row, dx_m, dy_m):
 
 def pairs_of(truth, tracks):
     """(truth row, track row, along, across) of tracks on bodies; and how many are on none."""
-    seen, pairs, others = by_time(truth), [], 0
-    for time_ms, rows in by_time(tracks).items():
+    seen, pairs, others = rows_by_time(truth), [], 0
+    for time_ms, rows in rows_by_time(tracks).items():
         targets = seen.get(time_ms, [])
         for row in rows:
             if tracks["status"][row] not in ("confirmed", "coasting"):
                 continue
             best = None
             for target in targets:
-                along, across = on_body(truth, target, tracks["x_m"][row] - truth["x_m"][target],
-                                        tracks["y_m"][row] - truth["y_m"][target])
+                along, across = place_on_body(truth, target,
+                                              tracks["x_m"][row] - truth["x_m"][target],
+                                              tracks["y_m"][row] - truth["y_m"][target])
                 slack = 0.2 * truth["length_m"][target]
                 if (abs(along) <= truth["length_m"][target] / 2 + slack and
                         abs(across) <= truth["width_m"][target] / 2 + slack):
@@ -127,12 +128,12 @@ def score(truth, tracks, settle_s):
                            dtype=bool)
         one["centre"] = float(np.sqrt((off[settled]**2).sum(axis=1).mean()) / length_m)
         if "length_m" in tracks:
-            add_sizes(one, truth, tracks, target[settled], track[settled], off[settled])
+            add_size_errors(one, truth, tracks, target[settled], track[settled], off[settled])
         figures[f"{length_m:g}"] = one
     return figures
 
 
-def add_sizes(one, truth, tracks, target, track, off):
+def add_size_errors(one, truth, tracks, target, track, off):
     known = ~np.isnan(tracks["length_m"][track])
     target, track, off = target[known], track[known], off[known]
     for name in ("length", "width"):
@@ -203,7 +204,7 @@ def draw(report, case, shown):
                   f"{case.scene}, {case.name}: plots, bodies as they are (green), tracks (red).")
 
 
-def tell_bound(report):
+def tell_width_bound(report):
     """The least sigma of a car's width by all its plots, as it comes nearer: by squares of places,
     each with the variance W^2 / 12 + R^2 sigma^2. And what few scatterers leave open at any range.
     """
@@ -261,7 +262,7 @@ def main():
                   "complete", "centre over length", "length", "width", "NEES centre",
                   "NEES length", "NEES width"], rows)
     report.fact("cases", facts)
-    tell_bound(report)
+    tell_width_bound(report)
     report.close()
 
 

@@ -79,11 +79,11 @@ CASES = (
 
 def simulate(case, seed):
     """The run, with the truth's columns."""
-    return scene_runs.simulate(case.scene, seed, *case.sets, also=lambda folder: with_headings(
+    return scene_runs.simulate(case.scene, seed, *case.sets, also=lambda folder: with_kept_headings(
         extended.table(folder / "truth.csv")))
 
 
-def with_headings(truth):
+def with_kept_headings(truth):
     """A target that stands is headed as it came: it creeps."""
     last = {}
     for row, target in enumerate(truth["target_id"]):
@@ -134,7 +134,7 @@ def track(case, run, tracker):
     return {name: rows[name] for name in rows.dtype.names}, ms
 
 
-def switches(truth, tracks, pairs, length_m):
+def switches_by_target(truth, tracks, pairs, length_m):
     """How often a target of a length has no track of its last one's number, by target."""
     ids, seen = truth["target_id"].astype(int), {}
     for row, col, along, across in pairs:
@@ -164,7 +164,8 @@ def score(truth, tracks, settle_s, ms):
     tracks = {**tracks, "status": np.full(len(tracks["t_s"]), "confirmed")}
     figures = extended.score(truth, tracks, settle_s)
     pairs, _ = extended.pairs_of(truth, tracks)
-    return {float(length): {**of, "switches": switches(truth, tracks, pairs, float(length)),
+    return {float(length): {**of,
+                            "switches": switches_by_target(truth, tracks, pairs, float(length)),
                             "others": figures["others"], "scan_ms": ms}
             for length, of in figures.items() if length != "others"}
 

@@ -92,7 +92,7 @@ class Delays(NamedTuple):
     possible_at: np.ndarray
 
 
-def grown_box(paths_m):
+def box_with_paths(paths_m):
     """The area holds the targets' paths."""
     low, high = paths_m.min(axis=(0, 1)), paths_m.max(axis=(0, 1))
     x_min, x_max, y_min, y_max = paper.TABLE_1_BOX_M
@@ -102,7 +102,7 @@ def grown_box(paths_m):
             y_max if high[1] <= y_max else high[1] + MARGIN_M)
 
 
-def is_possible(history, per_km2, area_m2, settings, confirm_nat):
+def is_fit_above_threshold(history, per_km2, area_m2, settings, confirm_nat):
     """Whether the fit through all plots (t_s, x_m, y_m) of a target reaches the threshold."""
     if len(history) < 3:
         return False
@@ -119,7 +119,7 @@ def is_possible(history, per_km2, area_m2, settings, confirm_nat):
 def targets_in_clutter(job):
     per_km2, *seed = job
     paths_m = paper.straight(paper.TABLE_1, DELAY_SCANS)
-    box_m, num_targets = grown_box(paths_m), paths_m.shape[1]
+    box_m, num_targets = box_with_paths(paths_m), paths_m.shape[1]
     area_m2, tracker = paper.area_m2(box_m), tracker_of(box_m)
     observed = paper.observed(paths_m, paper.TABLE_1_SIGMA_M, 0.99,
                               [(box_m, 1e-6 * per_km2 * area_m2)], np.random.default_rng(seed))
@@ -133,7 +133,7 @@ def targets_in_clutter(job):
             if len(seen):
                 history.append((INTERVAL_S * k, *seen[0]))
                 # only a new plot can make it possible
-                if found.possible_at[target] > k + 1 and is_possible(
+                if found.possible_at[target] > k + 1 and is_fit_above_threshold(
                         history, per_km2, area_m2, tracker.settings,
                         tracker.thresholds_nat[1]):
                     found.possible_at[target] = k + 1
@@ -159,7 +159,7 @@ def delay_row(per_km2, runs):
 # ---- tables, bars, pictures ----
 
 
-def bars(report, alarms, delays):
+def judge_bars(report, alarms, delays):
     for row in alarms:
         wanted, count = row["wanted_per_hour"], row["false_tracks"]
         if wanted < 50:  # a hundred an hour is told, without a bar
@@ -252,7 +252,7 @@ def main():
          f"{row['at_most_one_scan_late']:.3f}", f"{row['share_by_scan'][-1]:.3f}"]
         for row in delays])
     pictures_of_delays(report, delays)
-    bars(report, alarms, delays)
+    judge_bars(report, alarms, delays)
     report.fact("clutter_alone", alarms)
     report.fact("targets", [{**row, "scans_behind": row["scans_behind"][0]} for row in delays])
     report.close()

@@ -67,7 +67,7 @@ def crossing(per_km2, pd, min_scans, found, wrong):
                 pd=pd, min_scans=min_scans, found_min=found, false_max=wrong, behind_max=0.02)
 
 
-def real(per_scan):
+def table_3_case(per_scan):
     return Case("B2", f"Table 3, {per_scan} clutter plots a scan", lambda _: paper.TABLE_3,
                 paper.TABLE_3_BOX_M, per_scan=per_scan, pd=1.0, tolerance_m=120.0,
                 counts_all=True, found_min=0.99, false_max=0.05)
@@ -78,7 +78,7 @@ def square(name, *starts, found=0.97):
                 false_max=0.05)
 
 
-def alone(score_min_nat, wrong):
+def clutter_alone_case(score_min_nat, wrong):
     return Case("B4", f"clutter only, 10/km^2, score_min {score_min_nat} nat",
                 lambda _: np.empty((paper.SCANS, 0, 2)), paper.TABLE_1_BOX_M, 10,
                 score_min_nat=score_min_nat, false_max=wrong)
@@ -114,7 +114,7 @@ CASES = [
     crossing(10, 0.99, 5, 0.98, 0.06),
     crossing(10, 0.9, 5, 0.82, 0.13),
     crossing(30, 0.99, 6, 0.80, 0.18),
-    real(0), real(10), real(100),
+    table_3_case(0), table_3_case(10), table_3_case(100),
     square("parallel, 20 m", (-1500, 250, 0, 0), (-1500, 250, 20, 0)),
     square("parallel, 30 m", (-1500, 250, 0, 0), (-1500, 250, 30, 0)),
     square("parallel, 50 m", (-1500, 250, 0, 0), (-1500, 250, 50, 0), found=0.92),
@@ -133,7 +133,7 @@ CASES = [
     square("mirror lines, y = +-500 m", (-1500, 250, 500, 0), (-1500, 250, -500, 0)),
     square("slow, 105 m/s", (-600, 105, 200, 0)),
     square("fast, 395 m/s", (-2300, 395, 200, 0)),
-    alone(-3, 0.12), alone(0, 0.005),
+    clutter_alone_case(-3, 0.12), clutter_alone_case(0, 0.005),
     Case("-", "Table 1, 5/km^2 with a hot spot of 50/km^2", table_1, paper.TABLE_1_BOX_M, 5,
          spot_per_km2=45, found_min=0.98, false_max=0.10),
     turn(1, 0), turn(1, 2.5), turn(10, 5),
@@ -179,7 +179,7 @@ def tracks_of(case, model, plots):
     return initiator.find(paper.scans_of(plots, model.interval_s, initiator.settings)), initiator
 
 
-def matched(paths_m, tracks, interval_s, tolerance_m):
+def matched_errors(paths_m, tracks, interval_s, tolerance_m):
     """The mean errors (m) of targets and tracks that are paired one to one, the closest first."""
     since_s = interval_s * (np.arange(len(paths_m)) - (len(paths_m) - 1))
     on_track_m = np.stack([tracks["x_m"] + since_s[:, None] * tracks["vx_mps"],
@@ -204,7 +204,7 @@ def density_per_m2(case, plots, places_m):
     return 1e-6 * (case.per_km2 + np.where(is_inside, case.spot_per_km2, 0))
 
 
-def is_accepted(case, model, plots, target):
+def is_own_fit_accepted(case, model, plots, target):
     """Whether the fit through the target's own plots reaches the threshold."""
     places_m = np.concatenate([places[which == target] for places, which in plots])
     scan = np.repeat(np.arange(len(plots)), [np.sum(which == target) for _, which in plots])
@@ -221,10 +221,10 @@ def run(job):
     case, rng = CASES[number], np.random.default_rng([seed, number, index])
     model, (paths_m, plots) = model_of(case), plots_of(case, rng)
     tracks, initiator = tracks_of(case, model, plots)
-    errors_m = matched(paths_m, tracks, model.interval_s, case.tolerance_m)
+    errors_m = matched_errors(paths_m, tracks, model.interval_s, case.tolerance_m)
     work = initiator.work
     return Run(paths_m.shape[1], len(errors_m),
-               sum(is_accepted(case, model, plots, i) for i in range(paths_m.shape[1])),
+               sum(is_own_fit_accepted(case, model, plots, i) for i in range(paths_m.shape[1])),
                len(tracks) - len(errors_m), errors_m, work["search_us"],
                (work["seeds"], work["window"]["lookups"], work["window"]["distances"],
                 work["fits"]))
@@ -252,21 +252,21 @@ def summarised(case, runs):
         "time_us": float(np.median([run.search_us for run in runs]))}
 
 
-def number(value, digits=3):
+def number_text(value, digits=3):
     return "" if np.isnan(value) else f"{value:.{digits}f}"
 
 
 def table(report, rows):
     report.table(["case", "bar", "Pd", "all found", "must be", "oracle's Pd", "false a run",
                   "at most", "error m", "ms"], [
-        [row["case"], row["bar"], number(row["pd"]), number(row["all_found"]),
+        [row["case"], row["bar"], number_text(row["pd"]), number_text(row["all_found"]),
          "" if np.isnan(case.found_min) else f"{'all' if case.counts_all else 'Pd'} >= "
-         f"{case.found_min:g}", number(row["oracle_pd"]), number(row["false_per_run"]),
-         "" if np.isnan(case.false_max) else f"{case.false_max:g}", number(row["error_m"], 1),
+         f"{case.found_min:g}", number_text(row["oracle_pd"]), number_text(row["false_per_run"]),
+         "" if np.isnan(case.false_max) else f"{case.false_max:g}", number_text(row["error_m"], 1),
          f"{row['time_us'] / 1e3:.2f}"] for case, row in zip(CASES, rows)])
 
 
-def bars(report, rows, runs):
+def judge_bars(report, rows, runs):
     for case, row in zip(CASES, rows):
         if not np.isnan(case.found_min):
             report.at_least(f"{case.name}: {'all ' if case.counts_all else ''}found",
@@ -359,7 +359,7 @@ def main():
     report.text(" ".join(__doc__.split("\n\n", maxsplit=1)[1].split()))
     table(report, rows)
     pictures(report, rows)
-    bars(report, rows, options.runs)
+    judge_bars(report, rows, options.runs)
     work_table(report, of_case[DENSE])
     report.fact("cases", [{key: None if isinstance(value, float) and np.isnan(value) else value
                            for key, value in row.items() if key not in ("behind", "targets")}

@@ -87,7 +87,7 @@ def run(job):
         tracks = scene_files.read_tracks(folder / "tracks.csv", truth)
         figures, _ = scoring.score(truth, tracks, scoring.gate_m(sensors),
                                    scoring.forgiven_scans(scene))
-        late, _ = scoring.score(*after(truth, tracks, LATE_US), scoring.gate_m(sensors),
+        late, _ = scoring.score(*scans_after(truth, tracks, LATE_US), scoring.gate_m(sensors),
                                 scoring.forgiven_scans(scene))
     targets = int(truth.visible.any(axis=0).sum())
     return {
@@ -98,7 +98,7 @@ def run(job):
     }, (truth, tracks) if is_kept else None
 
 
-def after(truth, tracks, time_us):
+def scans_after(truth, tracks, time_us):
     """The scans from this time on."""
     first = int(np.searchsorted(truth.times_us, truth.times_us[0] + time_us))
     later = {field.name: getattr(truth, field.name)[first:] for field in dataclasses.fields(truth)

@@ -101,7 +101,7 @@ def plots_of(situation, rng):
                           [(situation.box_m, mean)], rng)
 
 
-def flown(situation, rng):
+def fly_situation(situation, rng):
     """The situation as it was flown, with process noise if it has any, and its plots."""
     if situation.process_mps:
         situation = situation._replace(flown_m=paper.wandering(paper.TABLE_1, situation.process_mps,
@@ -118,7 +118,7 @@ def true_lines(paths_m):
     return np.sum(middle * normal, axis=1), np.arctan2(normal[:, 1], normal[:, 0])
 
 
-def highest_near(method, situation, plots):
+def highest_votes_near(method, situation, plots):
     """The most votes of a cell within 40 m and 8 mrad of each target's line."""
     rho_m, theta_rad = true_lines(situation.paths_m)
     row, column = (theta_rad / THETA_CELL_RAD).astype(int), np.floor(rho_m / RHO_CELL_M).astype(int)
@@ -155,7 +155,7 @@ class Judged(NamedTuple):
     is_false: np.ndarray  # by peak
 
 
-def judged(situation, peaks):
+def judge_peaks(situation, peaks):
     peaks = peaks[:PEAKS_MAX]
     rho_m, theta_rad = true_lines(situation.paths_m)
     off_rho_m = np.abs(peaks["rho_m"][:, None] - rho_m)
@@ -179,13 +179,13 @@ def run_method(method, situation, plots, ideal_votes):
     initiator = initiator_of(method, situation)
     scans = paper.scans_of(plots, situation.interval_s, initiator.settings)
     peaks = (initiator.find if method == "default" else initiator.lines)(scans)
-    of = judged(situation, peaks)
+    of = judge_peaks(situation, peaks)
     figures = {"detected": of.detected.mean(), "met": of.met.mean(),
                "false peaks": of.is_false.sum(), "top 3": of.top3.mean(),
                "error of rho": of.rho_m, "error of theta": of.theta_mrad,
                "ms": initiator.work["search_us"] / 1e3}
     if method != "default":
-        height = np.mean(highest_near(method, situation, plots))
+        height = np.mean(highest_votes_near(method, situation, plots))
         false_votes = peaks["votes"][:len(of.is_false)][of.is_false]
         listed = TAU * initiator.work["votes_max"] / 65536
         most = max(false_votes.max(initial=0), listed)
@@ -197,7 +197,7 @@ def run_method(method, situation, plots, ideal_votes):
 
 def run(job):
     situation, methods, ideal_votes, *seed = job
-    situation, plots = flown(situation, np.random.default_rng(seed))
+    situation, plots = fly_situation(situation, np.random.default_rng(seed))
     return {method: run_method(method, situation, plots, ideal_votes) for method in methods}
 
 
@@ -209,7 +209,7 @@ def summarised(results, methods):
         for name in results[0][method]} for method in methods}
 
 
-def measured(report, situations, methods, ideal_votes, runs, stream):
+def measure_methods(report, situations, methods, ideal_votes, runs, stream):
     jobs = [(situation, methods, ideal_votes, report.options.seed, stream + i, index)
             for i, situation in enumerate(situations) for index in range(runs)]
     results = report.map(run, jobs)
@@ -237,7 +237,7 @@ def search_whole_plane(places, rho_max_m):
     return np.flatnonzero(votes >= max(np.ceil(TAU * votes.max()), 1))
 
 
-def timed(situation, methods, runs, *seed):
+def time_methods(situation, methods, runs, *seed):
     """{method: (median ms, mean votes)}, and of HT on a whole plane."""
     results, whole_ms = [], []
     for index in range(runs):
@@ -345,7 +345,7 @@ def agreement_bars(report, summaries):
         report.table(["figure", "measured", "must be", "+-"], off)
 
 
-def bars(report, summaries, sweep, times, alone_votes):
+def judge_bars(report, summaries, sweep, times, alone_votes):
     agreement_bars(report, summaries)
     of_iv = summaries[SITUATIONS.index(IV)]
     for method, votes in known.WORK_IV.items():
@@ -406,7 +406,7 @@ def heights_without_chance(methods):
     """In Situation I with nothing missed, in the mean over the targets."""
     ideal = I._replace(pd=1.0)
     plots = plots_of(ideal, np.random.default_rng(1))
-    return {method: float(np.mean(highest_near(method, ideal, plots)))
+    return {method: float(np.mean(highest_votes_near(method, ideal, plots)))
             for method in methods if method != "default"}
 
 
@@ -414,8 +414,8 @@ def tell_claims(report, methods, ideal_votes):
     """What the paper claims or shows besides."""
     process = [situation._replace(name=f"{situation.name} w", process_mps=paper.PROCESS_MPS)
                for situation in SITUATIONS[:4]]
-    summaries = measured(report, process, methods, ideal_votes,
-                         max(report.options.runs // 2, min(report.options.runs, 2)), 5000)
+    summaries = measure_methods(report, process, methods, ideal_votes,
+                                max(report.options.runs // 2, min(report.options.runs, 2)), 5000)
     report.heading("The Situations with process noise, equation (33)")
     report.text("The state takes w, 10 m/s in each axis, at every scan, and the place T/2 w: paths "
                 "leave the straight line. The true line is the best one through the true places.")
@@ -447,12 +447,12 @@ def main():
     for paragraph in __doc__.split("\n\n")[1:]:
         report.text(" ".join(paragraph.split()))
     ideal_votes = heights_without_chance(methods)
-    summaries = measured(report, SITUATIONS, methods, ideal_votes, options.runs, 1000)
+    summaries = measure_methods(report, SITUATIONS, methods, ideal_votes, options.runs, 1000)
     swept = [method for method in SWEPT if method in methods]
-    sweep = measured(report, [IV._replace(noise_m=noise_m) for noise_m in NOISES_M], swept,
-                     ideal_votes, max(options.runs // 4, min(options.runs, 2)), 2000)
+    sweep = measure_methods(report, [IV._replace(noise_m=noise_m) for noise_m in NOISES_M], swept,
+                            ideal_votes, max(options.runs // 4, min(options.runs, 2)), 2000)
     is_long = options.runs >= DENSEST_RUNS_MIN
-    times = [timed(IV._replace(per_km2=per_km2), methods,
+    times = [time_methods(IV._replace(per_km2=per_km2), methods,
                    7 if is_long and per_km2 < DENSITIES[-1] else 3, options.seed, 3000 + i)
              for i, per_km2 in enumerate(DENSITIES[:None if is_long else -1])]
     alone_votes = votes_of_table_3(options.seed) if "NHT A" in methods else None
@@ -494,7 +494,7 @@ def main():
         tell_claims(report, methods, ideal_votes)
         known.findings(report, dict(zip((of.name for of in SITUATIONS), summaries)),
                        dict(zip(DENSITIES, times)), alone_votes)
-    bars(report, summaries, sweep, times, alone_votes)
+    judge_bars(report, summaries, sweep, times, alone_votes)
     report.fact("cases", facts_of([of.name for of in SITUATIONS], "case", summaries))
     report.fact("noise", facts_of(NOISES_M, "noise_m", sweep))
     report.fact("times", [{"per_km2": per_km2, "method": method, "ms": ms,

@@ -19,7 +19,7 @@ import numpy as np
 from parts import passive_chain
 from parts import passive_claims
 from parts import passive_figures
-from parts import passive_further
+from parts import passive_variants
 import rhotrack
 from parts.bearings import PLACES_M, Setting, fit, moved, nees
 from common.lab import ratio_of, root_of
@@ -358,7 +358,7 @@ def tell_default(report):
 
 
 PARTS = {"pruning": tell_pruning, "paper": tell_paper, "default": tell_default,
-         "chain": passive_chain.tell, "further": passive_further.tell,
+         "chain": passive_chain.tell, "further": passive_variants.tell,
          "claims": passive_claims.tell}
 
 

@@ -203,7 +203,7 @@ def measure(options, scenes):
             if not options.json and not options.lines and sys.stderr.isatty():
                 sys.stderr.write(f"\r{sum(map(len, done.values()))} of {len(work)} runs")
             if options.lines and len(done[name]) == options.runs:
-                print(line(name, done[name]), flush=True)
+                print(scene_line(name, done[name]), flush=True)
         if sys.stderr.isatty():
             sys.stderr.write("\r\x1b[K")
     results = []
@@ -222,22 +222,22 @@ def measure(options, scenes):
 
 # --- what is told
 
-def line(name, runs):
+def scene_line(name, runs):
     """One scene in one line: figures and standard errors."""
     parts = []
     for which in ("today", "oracle"):
         if which in runs[0]:
             figures = statistics(runs, which)
             parts.append("  ".join(
-                [f"{heading} {cell(figures, key, form)}"
+                [f"{heading} {figure_cell(figures, key, form)}"
                  for key, heading, form, _, _ in COLUMNS] + [
-                     f"{heading} {cell(figures, key, form, False)}"
+                     f"{heading} {figure_cell(figures, key, form, False)}"
                      for key, heading, form, _ in CONSISTENCY
                  ]))
     return f"{name:22} " + "\n".join([parts[0]] + [f"{'  oracle':22} {part}" for part in parts[1:]])
 
 
-def cell(figures, key, form, with_error=True):
+def figure_cell(figures, key, form, with_error=True):
     if not figures or key not in figures:
         return "-"
     mean, error = figures[key]["mean"], figures[key]["standard_error"]
@@ -253,10 +253,10 @@ def goal_cell(result, key, form):
 
 def rows_of(result):
     """Rows of the table: label and cells, a cell being (text, met or None)."""
-    rows = [("today", [(cell(result["figures"], key, form), result["met"].get(key))
+    rows = [("today", [(figure_cell(result["figures"], key, form), result["met"].get(key))
                        for key, _, form, _, _ in COLUMNS])]
     if result["oracle"]:
-        rows.append(("oracle", [(cell(result["oracle"], key, form), None)
+        rows.append(("oracle", [(figure_cell(result["oracle"], key, form), None)
                                 for key, _, form, _, _ in COLUMNS]))
     if result["goal"]:
         rows.append(
@@ -271,11 +271,11 @@ def consistency_rows(result):
     for label, figures in (("today", result["figures"]), ("oracle", result["oracle"])):
         for motion in ("", *scene_files.MOTIONS) if figures else ():
             end = motion and "_" + motion
-            cells = [(cell(figures, key + end, form, False), None) for key, form in
+            cells = [(figure_cell(figures, key + end, form, False), None) for key, form in
                      (("pairs", "{:.0f}"), ("rms_m", "{:.1f}"), ("rms_mps", "{:.2f}"))]
             for key, _, form, (low, high) in CONSISTENCY:
                 known = figures.get(key + end)
-                cells.append((cell(figures, key + end, form,
+                cells.append((figure_cell(figures, key + end, form,
                                    False), low <= known["mean"] <= high if known else None))
             rows.append((label, motion or "all", cells))
     return rows
@@ -430,11 +430,11 @@ def main():
             options.output.mkdir(parents=True, exist_ok=True)
         results, alarms, longs = [], [], []
         if options.endurance:
-            from parts import endurance
-            alarms = endurance.measure(options, run_program)
+            from parts import false_track_endurance
+            alarms = false_track_endurance.measure(options, run_program)
         elif options.long:
-            from parts import long
-            longs = long.measure(options, run_program)
+            from parts import hour_by_hour
+            longs = hour_by_hour.measure(options, run_program)
         else:
             results = measure(options, find_scenes(options))
         report = as_json(results, options, alarms, longs)
@@ -449,9 +449,9 @@ def main():
         print(json.dumps(report, indent=1))
         return
     if options.endurance:
-        print(endurance.table(alarms))
+        print(false_track_endurance.table(alarms))
     elif options.long:
-        print(long.table(longs))
+        print(hour_by_hour.table(longs))
     elif not options.lines:
         print_table(results, options)
         print_consistency(results)

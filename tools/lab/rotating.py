@@ -119,7 +119,7 @@ def figures_of(runs):
             "rmse_m": rms("m2"), "rmse_mps": rms("m2ps2")}
 
 
-def behind(runs, key):
+def share_behind(runs, key):
     """By how much of the targets sectors are behind all at once, and its standard error."""
     sectors, at_once = runs[0], runs[CASES.index("all at once")]
     return lab.ratio_of([one[key] - other[key] for one, other in zip(at_once, sectors)],
@@ -128,7 +128,7 @@ def behind(runs, key):
 
 def judge(report, runs, figures, latency_ms):
     for key, what in (("found", "found after 7 turns"), ("tracked", "tracked at the end")):
-        value, error = behind(runs, key)
+        value, error = share_behind(runs, key)
         report.at_most(f"by sectors: {what}, behind all at once", value, LOSS_MAX, error)
     value, error = lab.quotient_of(figures[0]["rmse_m"],
                                    figures[CASES.index("all at once")]["rmse_m"])

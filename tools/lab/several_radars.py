@@ -39,7 +39,7 @@ def radars(second, first=None, *others):
     return {"radars": [first or radar(), second, *others]}
 
 
-def second(**differs):
+def with_second_radar(**differs):
     """Scene overlapping-radars, whose second radar differs."""
     return radars(radar(5, 60000, 1.7, **differs))
 
@@ -62,11 +62,11 @@ SKIES = {
     "4, 5 and 6 s": radars(radar(5, 60000, 1.7), None, radar(6, 30000, 0.9)),
     "4 s three times": radars(radar(4, 60000, 1.3), None, radar(4, 30000, 2.6)),
     "part in common": {**radars(radar(5, 110000, 1.7)), "targets": [LONG]},
-    "P_D .5": second(pd=0.5),
-    "P_D .5, stated .9": second(pd=0.5, told={"pd": 0.9}),
-    "one with range rates": second(sigma_range_rate_mps=1),
-    "one noisier than stated": second(**TWICE_NOISE, told=USUAL_NOISE),
-    "one biased by a sigma": second(range_bias_m=30, azimuth_bias_rad=0.003),
+    "P_D .5": with_second_radar(pd=0.5),
+    "P_D .5, stated .9": with_second_radar(pd=0.5, told={"pd": 0.9}),
+    "one with range rates": with_second_radar(sigma_range_rate_mps=1),
+    "one noisier than stated": with_second_radar(**TWICE_NOISE, told=USUAL_NOISE),
+    "one biased by a sigma": with_second_radar(range_bias_m=30, azimuth_bias_rad=0.003),
     "a fifth late by 5 s": radars(radar(5, 60000, 1.7, **LATE), radar(**LATE)),
     "by 16 sectors": radars(radar(5, 60000, 1.7, sectors=16), radar(sectors=16)),
     "300 clutter plots in one": {

@@ -139,7 +139,7 @@ struct parameters *program_settings(const struct parameters *from)
     if (from) {
         *settings = *from;
     } else {
-        parameters_default(settings);
+        parameters_set_defaults(settings);
     }
     return settings;
 }
@@ -163,14 +163,14 @@ bool program_settings_set(struct parameters *settings, const char *key, const ch
 bool program_settings_load(struct parameters *settings, const char *path)
 {
     RETURN_ON_FAILURE(false)
-    parameters_load(settings, path);
+    parameters_load_ini(settings, path);
     return true;
 }
 
 bool program_settings_check(const struct parameters *settings)
 {
     RETURN_ON_FAILURE(false)
-    parameters_check(settings);
+    parameters_check_together(settings);
     return true;
 }
 
@@ -211,12 +211,12 @@ static struct parameters *ready(const struct parameters *settings, char *const *
          i < num_paths && !place.is_given && !parameters_is_set(copy, PARAMETER_ORIGIN_LAT_DEG) &&
          !parameters_is_set(copy, PARAMETER_ORIGIN_LON_DEG);
          i++) {
-        place = asterix_file_place(paths[i]);
+        place = asterix_file_radar_place(paths[i]);
         if (place.is_given) {
             asterix_records_suggest_origin(paths[i], &place, copy);
         }
     }
-    parameters_locate(copy);
+    parameters_locate_sensors(copy);
     return copy;
 }
 
@@ -527,8 +527,8 @@ static float said(float value, double otherwise)
 static double of_sensor(const struct making *making, int32_t sensor_id, enum sensor_parameter_id id,
                         enum parameter_id otherwise)
 {
-    return parameters_of_sensor(making->settings, sensor_id, id,
-                                making->settings->value[otherwise]);
+    return parameters_value_of_sensor(making->settings, sensor_id, id,
+                                      making->settings->value[otherwise]);
 }
 
 static int64_t time_of(const struct making *making, const struct program_row *row)
@@ -775,9 +775,11 @@ const char *program_kind(const char *path)
     }
     struct table *header = table_read_header(path);
     const char *kind =
-        table_find(header, "status") >= 0 && table_find(header, "track_id") >= 0      ? "tracks"
-        : table_find(header, "target_id") >= 0 && table_find(header, "sensor_id") < 0 ? "truth"
-                                                                                      : "scans";
+        table_find_column(header, "status") >= 0 && table_find_column(header, "track_id") >= 0
+            ? "tracks"
+        : table_find_column(header, "target_id") >= 0 && table_find_column(header, "sensor_id") < 0
+            ? "truth"
+            : "scans";
 
     table_free(header);
     return kind;
@@ -902,7 +904,7 @@ void program_tracks_free(struct program_tracks *tracks)
 struct program_pipeline *program_pipeline(const struct parameters *settings, bool has_covariances)
 {
     RETURN_ON_FAILURE(NULL)
-    parameters_check(settings);
+    parameters_check_together(settings);
     pipeline_set_options((struct parameters *)settings, &(struct pipeline_options){NULL});
     struct program_pipeline *made = must_calloc(1, sizeof *made);
 
@@ -983,7 +985,7 @@ static void open_for(struct program_pipeline *made, const struct program_scans *
     if (!made->is_open && scans->count > 0) {
         made->is_open = true;
         if (!has_plots) {
-            method_suggest(METHOD_PASSIVE, made->settings);
+            method_suggest_parameters(METHOD_PASSIVE, made->settings);
             pipeline_open(made->pipeline, made->settings);
         }
     }
@@ -1032,7 +1034,7 @@ struct program_maintainers *program_maintainers(const struct parameters *setting
                                                 bool has_covariances)
 {
     RETURN_ON_FAILURE(NULL)
-    parameters_check(settings);
+    parameters_check_together(settings);
     struct program_maintainers *made = must_calloc(1, sizeof *made);
     const enum maintainer_gate gate = (enum maintainer_gate)settings->value[PARAMETER_GATE];
 
@@ -1077,7 +1079,7 @@ static void tell(struct program_maintainers *made, size_t index, int64_t time_us
         add_track(&made->tracks, time_us, &track);
         maintainer_estimate(maintainer, &estimate);
         made->hypotheses[index] = estimate.num_hypotheses;
-        made->refused[index] = maintainer_refused(maintainer);
+        made->refused[index] = maintainer_num_refused(maintainer);
     }
 }
 
@@ -1094,7 +1096,7 @@ bool program_maintainers_predict(struct program_maintainers *made, double t_s, d
         place_m[0] = place_m[1] = place_m[2] = NAN;
         if (maintainer_is_started(made->list[i].maintainer)) {
             maintainer_predict(made->list[i].maintainer, microseconds(t_s));
-            maintainer_where(made->list[i].maintainer, place_m);
+            maintainer_predicted_place(made->list[i].maintainer, place_m);
             tell(made, i, microseconds(t_s));
         }
     }
@@ -1126,7 +1128,7 @@ static struct parameters customary(const struct parameters *settings, enum metho
 {
     struct parameters copy = *settings;
 
-    method_suggest(method, &copy);
+    method_suggest_parameters(method, &copy);
     return copy;
 }
 
@@ -1144,7 +1146,7 @@ bool program_hough_config(const struct parameters *settings, const char *method,
     RETURN_ON_FAILURE(false)
     const struct parameters copy = customary(settings, method_find(method));
 
-    *config = method_hough(method_find(method), &copy, range_m);
+    *config = method_hough_config(method_find(method), &copy, range_m);
     return true;
 }
 
@@ -1153,7 +1155,7 @@ bool program_passive_config(const struct parameters *settings, struct rho_passiv
     RETURN_ON_FAILURE(false)
     const struct parameters copy = customary(settings, METHOD_PASSIVE);
 
-    *config = method_passive(&copy);
+    *config = method_passive_config(&copy);
     return true;
 }
 
@@ -1163,7 +1165,7 @@ bool program_passive_paper_config(const struct parameters *settings,
     RETURN_ON_FAILURE(false)
     const struct parameters copy = customary(settings, METHOD_PASSIVE_PAPER);
 
-    *config = method_passive_paper(&copy);
+    *config = method_passive_paper_config(&copy);
     return true;
 }
 
@@ -1198,7 +1200,7 @@ bool program_node_take(struct program_node *node, const char *channel, const uin
 {
     RETURN_ON_FAILURE(false)
     if (channel) {
-        node_core_take(node->core, channel, data, size, now_us);
+        node_core_take_message(node->core, channel, data, size, now_us);
     } else if (now_us == INT64_MAX) {
         node_core_flush(node->core);
     } else {
@@ -1212,7 +1214,7 @@ bool program_node_status(struct program_node *node)
     static const struct node_core_losses none;
 
     RETURN_ON_FAILURE(false)
-    node_core_status(node->core, &none);
+    node_core_send_status(node->core, &none);
     return true;
 }
 
@@ -1225,6 +1227,6 @@ bool program_node_tracks(struct program_node *node, struct program_tracks *track
 {
     RETURN_ON_FAILURE(false)
     tracks->count = 0;
-    add_tracks(tracks, node_core_report(node->core), node_core_state(node->core));
+    add_tracks(tracks, node_core_last_report(node->core), node_core_tracker_state(node->core));
     return true;
 }

@@ -9,7 +9,7 @@
 #include "registration/calibrate_output.h"
 #include "registration/register_data.h"
 
-static uint64_t read_all(const struct command_line *line, struct register_data *data)
+static uint64_t read_scans(const struct command_line *line, struct register_data *data)
 {
     struct inputs *inputs =
         inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
@@ -27,8 +27,9 @@ static uint64_t read_all(const struct command_line *line, struct register_data *
         } else {
             parameters_to_any_sensor(&line->parameters, input.scan->sensor_id, &sensor);
         }
-        register_take(data, input.scan, &sensor);
-        progress_show_bytes(&progress, ++done, inputs_position(inputs), inputs_size(inputs));
+        register_add_any_scan(data, input.scan, &sensor);
+        progress_show_bytes(&progress, ++done, inputs_bytes_read(inputs),
+                            inputs_total_bytes(inputs));
     }
     progress_end(&progress);
     skipped = inputs_counts(inputs).rows_skipped;
@@ -36,14 +37,14 @@ static uint64_t read_all(const struct command_line *line, struct register_data *
     return skipped;
 }
 
-static void print(const struct command_line *line, const struct calibrate_result *result,
-                  uint64_t rows_skipped)
+static void print_result(const struct command_line *line, const struct calibrate_result *result,
+                         uint64_t rows_skipped)
 {
     struct output output;
 
     if (line->json) {
         calibrate_print_json(result, rows_skipped);
-    } else if (is_output_standard(line)) {
+    } else if (is_output_to_stdout(line)) {
         calibrate_print(result, stderr);
     } else {
         output = output_open(NULL);
@@ -60,15 +61,15 @@ int command_calibrate(struct command_line *line)
     struct calibrate_result result;
     uint64_t rows_skipped;
 
-    command_line_check_ini(line, "calibrate");
+    command_line_check_ini_output(line, "calibrate");
     pipeline_set_options(&line->parameters, &(struct pipeline_options){.gate = line->gate});
-    rows_skipped = read_all(line, data);
+    rows_skipped = read_scans(line, data);
     if (register_num_radars(data) == 0) {
         fail(EXIT_USAGE, "calibrate: the input has no plots");
     }
     result = calibrate(data, &pipeline);
-    print(line, &result, rows_skipped);
-    if (!calibrate_knows_any(&result)) {
+    print_result(line, &result, rows_skipped);
+    if (!calibrate_knows_any_figure(&result)) {
         fail(EXIT_RUNTIME, "calibrate: too little was tracked to tell noise or pd of any radar");
     }
     if (line->output) {

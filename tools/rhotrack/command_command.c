@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/hint.h"
+#include "base/name_hint.h"
 #include "commands.h"
 #include "rhotrack/command.h"
 #include "rhotrack/message.h"
@@ -50,14 +50,14 @@ static const struct action *find_action(const char *name)
             return &actions[i];
         }
     }
-    hint = hint_nearest(name, action_name);
+    hint = name_hint_nearest(name, action_name);
     if (hint) {
         fail(EXIT_USAGE, "command: unknown action '%s', did you mean '%s'?", name, hint);
     }
     fail(EXIT_USAGE, "command: unknown action '%s'; see rhotrack command --help", name);
 }
 
-static int32_t read_track(const char *text)
+static int32_t read_track_id(const char *text)
 {
     char *end;
     const long number = strtol(text, &end, 10);
@@ -79,7 +79,7 @@ static bool has_word(const char *list, const char *word, size_t length)
     return false;
 }
 
-static float *field_of(struct rho_message_command *command, const char *key, size_t length)
+static float *command_field(struct rho_message_command *command, const char *key, size_t length)
 {
     const struct {
         const char *name;
@@ -97,7 +97,7 @@ static float *field_of(struct rho_message_command *command, const char *key, siz
     return NULL;
 }
 
-static bool is_given(char **arguments, int num_arguments, const char *key, size_t length)
+static bool is_key_given(char **arguments, int num_arguments, const char *key, size_t length)
 {
     for (int i = 0; i < num_arguments; i++) {
         if (strncmp(arguments[i], key, length) == 0 && arguments[i][length] == '=') {
@@ -107,11 +107,11 @@ static bool is_given(char **arguments, int num_arguments, const char *key, size_
     return false;
 }
 
-static void read_value(const struct action *action, const char *text,
-                       struct rho_message_command *command)
+static void read_key_value(const struct action *action, const char *text,
+                           struct rho_message_command *command)
 {
     const size_t length = strcspn(text, "=");
-    float *field = field_of(command, text, length);
+    float *field = command_field(command, text, length);
     char *end;
 
     if (text[length] != '=' || !field ||
@@ -152,19 +152,19 @@ static struct rho_message_command read_command(char **arguments, int num_argumen
         fail(EXIT_USAGE, "command: %s needs %s", action->name,
              action->num_numbers > 1 ? "a track's number and a new one" : "a track's number");
     }
-    command.track_id = action->num_numbers > 0 ? read_track(arguments[1]) : 0;
-    command.new_id = action->num_numbers > 1 ? read_track(arguments[2]) : 0;
+    command.track_id = action->num_numbers > 0 ? read_track_id(arguments[1]) : 0;
+    command.new_id = action->num_numbers > 1 ? read_track_id(arguments[2]) : 0;
     arguments += 1 + action->num_numbers;
     num_arguments -= 1 + action->num_numbers;
     for (int i = 0; i < num_arguments; i++) {
-        read_value(action, arguments[i], &command);
-        if (is_given(arguments, i, arguments[i], strcspn(arguments[i], "="))) {
+        read_key_value(action, arguments[i], &command);
+        if (is_key_given(arguments, i, arguments[i], strcspn(arguments[i], "="))) {
             fail(EXIT_USAGE, "command: %.*s is given twice", (int)strcspn(arguments[i], "="),
                  arguments[i]);
         }
     }
     for (const char *key = action->keys; *key; key += strcspn(key, " "), key += strspn(key, " ")) {
-        if (!is_given(arguments, num_arguments, key, strcspn(key, " "))) {
+        if (!is_key_given(arguments, num_arguments, key, strcspn(key, " "))) {
             fail(EXIT_USAGE, "command: %s needs %.*s=VALUE", action->name, (int)strcspn(key, " "),
                  key);
         }
@@ -198,7 +198,7 @@ static struct rho_message_setting read_setting(char **arguments, int num_argumen
         setting.field = strcmp(name, arguments[1]) == 0 ? i : 0;
     }
     if (setting.field == 0) {
-        hint = hint_nearest(arguments[1], setting_name);
+        hint = name_hint_nearest(arguments[1], setting_name);
         if (hint) {
             fail(EXIT_USAGE, "command: no setting '%s', did you mean '%s'?", arguments[1], hint);
         }
@@ -212,7 +212,7 @@ static struct rho_message_setting read_setting(char **arguments, int num_argumen
     return setting;
 }
 
-static void print_setting(const struct rho_message_setting_answer *answer)
+static void print_setting_answer(const struct rho_message_setting_answer *answer)
 {
     static const char *const when[] = {"", "from the next step on",
                                        "from the next step on; the initiation window begins anew",
@@ -250,8 +250,8 @@ struct answer {
     struct rho_message_setting_answer setting;
 };
 
-static bool is_answer(const struct transport_message *message, int32_t number,
-                      struct answer *answer)
+static bool is_answer_to(const struct transport_message *message, int32_t number,
+                         struct answer *answer)
 {
     if (answer->is_setting) {
         return strcmp(message->channel, RHO_MESSAGE_SETTING_ANSWER_CHANNEL) == 0 &&
@@ -276,7 +276,7 @@ static bool await_answer(struct transport *transport, int32_t number, int64_t en
     for (int64_t left_us; (left_us = end_us - clock_us()) > 0;) {
         switch (transport_receive(transport, &message)) {
         case TRANSPORT_MESSAGE:
-            if (is_answer(&message, number, answer)) {
+            if (is_answer_to(&message, number, answer)) {
                 return true;
             }
             break;
@@ -290,7 +290,7 @@ static bool await_answer(struct transport *transport, int32_t number, int64_t en
     return false;
 }
 
-static const char *reason_of(int8_t status)
+static const char *refusal_reason(int8_t status)
 {
     switch (status) {
     case RHO_ERROR_VALUE:
@@ -305,8 +305,9 @@ static const char *reason_of(int8_t status)
 }
 
 /* Sends a message, and waits for its answer. */
-static void ask(struct transport *transport, const char *channel, const uint8_t *data, size_t size,
-                int32_t number, double wait_s, struct answer *answer)
+static void send_and_await_answer(struct transport *transport, const char *channel,
+                                  const uint8_t *data, size_t size, int32_t number, double wait_s,
+                                  struct answer *answer)
 {
     if (!transport_send(transport, channel, data, size)) {
         fail(EXIT_RUNTIME, "%s: the command is not sent: %s", transport_url(transport),
@@ -317,10 +318,10 @@ static void ask(struct transport *transport, const char *channel, const uint8_t 
     }
 }
 
-static void print_command(const struct rho_message_command_answer *answer)
+static void print_command_answer(const struct rho_message_command_answer *answer)
 {
     if (answer->status != RHO_OK) {
-        fail(EXIT_RUNTIME, "refused: %s", reason_of(answer->status));
+        fail(EXIT_RUNTIME, "refused: %s", refusal_reason(answer->status));
     }
     if (answer->track_id > 0) {
         printf("done: track %" PRId32 "\n", answer->track_id);
@@ -351,12 +352,13 @@ int command_command(struct command_line *line)
                      ? rho_message_setting_encode(&setting, buffer, sizeof buffer, &size)
                      : rho_message_command_encode(&command, buffer, sizeof buffer, &size),
                  "command");
-    ask(transport, answer.is_setting ? RHO_MESSAGE_SETTING_CHANNEL : RHO_MESSAGE_COMMAND_CHANNEL,
+    send_and_await_answer(
+        transport, answer.is_setting ? RHO_MESSAGE_SETTING_CHANNEL : RHO_MESSAGE_COMMAND_CHANNEL,
         buffer, size, command.number, wait_s, &answer);
     if (answer.is_setting) {
-        print_setting(&answer.setting);
+        print_setting_answer(&answer.setting);
     } else {
-        print_command(&answer.command);
+        print_command_answer(&answer.command);
     }
     transport_close(transport);
     return 0;

@@ -8,8 +8,8 @@
 #include "settings/method.h"
 
 /* A number, or a word where the parameter is one. */
-static void add_value(cJSON *object, const char *name, const struct parameter_text *text,
-                      double value)
+static void add_parameter_value(cJSON *object, const char *name, const struct parameter_text *text,
+                                double value)
 {
     char word[PARAMETER_VALUE_BYTES];
 
@@ -27,7 +27,7 @@ static cJSON *parameter_json(const struct parameter_text *text, double value,
 
     cJSON_AddStringToObject(object, "unit", text->unit);
     if (text->has_default) {
-        add_value(object, "default", text, text->value);
+        add_parameter_value(object, "default", text, text->value);
     } else {
         cJSON_AddNullToObject(object, "default");
     }
@@ -38,7 +38,7 @@ static cJSON *parameter_json(const struct parameter_text *text, double value,
         cJSON_AddNumberToObject(object, "max", text->max);
     }
     if (source != SOURCE_UNSET) {
-        add_value(object, "value", text, value);
+        add_parameter_value(object, "value", text, value);
     } else {
         cJSON_AddNullToObject(object, "value");
     }
@@ -46,7 +46,7 @@ static cJSON *parameter_json(const struct parameter_text *text, double value,
     return object;
 }
 
-static cJSON *allowed_json(const struct parameters *parameters)
+static cJSON *allowed_sensors_json(const struct parameters *parameters)
 {
     cJSON *object = cJSON_CreateObject(), *list = cJSON_AddArrayToObject(object, "value");
 
@@ -57,7 +57,7 @@ static cJSON *allowed_json(const struct parameters *parameters)
     return object;
 }
 
-static cJSON *name_json(const struct sensor_name *named)
+static cJSON *sensor_name_json(const struct sensor_name *named)
 {
     cJSON *object = cJSON_CreateObject();
 
@@ -66,7 +66,7 @@ static cJSON *name_json(const struct sensor_name *named)
     return object;
 }
 
-static void print_json(const struct parameters *parameters)
+static void print_parameters_json(const struct parameters *parameters)
 {
     cJSON *object = cJSON_CreateObject();
 
@@ -76,7 +76,7 @@ static void print_json(const struct parameters *parameters)
         cJSON_AddItemToObject(object, text.name,
                               parameter_json(&text, parameters->value[i], parameters->source[i]));
     }
-    cJSON_AddItemToObject(object, "sensors_allowed", allowed_json(parameters));
+    cJSON_AddItemToObject(object, "sensors_allowed", allowed_sensors_json(parameters));
     for (size_t s = 0; s < parameters->num_sensors; s++) {
         const struct sensor_parameters *sensor = &parameters->sensors[s];
 
@@ -97,7 +97,7 @@ static void print_json(const struct parameters *parameters)
         char name[40];
 
         snprintf(name, sizeof name, "sensor.%d.name", (int)named->sensor_id);
-        cJSON_AddItemToObject(object, name, name_json(named));
+        cJSON_AddItemToObject(object, name, sensor_name_json(named));
     }
     json_print(object);
 }
@@ -107,11 +107,11 @@ int command_config(struct command_line *line)
     struct output output;
 
     if (line->method) {
-        method_suggest(method_find(line->method), &line->parameters);
+        method_suggest_parameters(method_find(line->method), &line->parameters);
     }
-    parameters_check(&line->parameters);
+    parameters_check_together(&line->parameters);
     if (line->json) {
-        print_json(&line->parameters);
+        print_parameters_json(&line->parameters);
         return 0;
     }
     output = output_open(NULL);

@@ -20,13 +20,13 @@
 #include "io/log/message_source.h"
 #include "io/output/geojson.h"
 #include "io/output/geojson_rows.h"
-#include "io/rows/rows_collect.h"
+#include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_read.h"
 #include "io/rows/rows_write.h"
 
 /* ---- Which way ---- */
 
-static bool is_regular(const char *path)
+static bool is_regular_file(const char *path)
 {
     struct stat status;
 
@@ -34,25 +34,28 @@ static bool is_regular(const char *path)
            S_ISREG(status.st_mode); /* of what is not there the reader says so */
 }
 
-/* A pipe is what the output's name leaves for it. */
+/* Of a pipe the output's name decides: what becomes NAME.csv is taken for a log. */
 static bool input_is_log(const char *input, const char *output)
 {
-    return lcm_log_is_log(input) ||
-           (!is_regular(input) && !path_ends_with(input, ".csv") && path_ends_with(output, ".csv"));
+    return lcm_log_is_log(input) || (!is_regular_file(input) && !path_ends_with(input, ".csv") &&
+                                     path_ends_with(output, ".csv"));
 }
 
 /* Exit 2 where the input, which is no log, is no table either. */
-static void check_table(const char *input)
+static void check_is_table(const char *input)
 {
     table_free(table_read_header(input));
 }
 
-/* An output with another name, as standard output, is what the input is not. */
-static void check_output(const char *input, const char *output, bool from_log)
+/*
+ * Exit 2 where the output's name says the format that the input has. Under any other name, as on
+ * standard output, it gets the other format.
+ */
+static void check_output_differs(const char *input, const char *output, bool from_log)
 {
     if (path_ends_with(output, from_log ? ".lcm" : ".csv")) {
         if (!from_log) {
-            check_table(input);
+            check_is_table(input);
         }
         fail(EXIT_USAGE,
              "convert: %s would be %s, and so is the input; CSV files end with .csv, LCM logs with "
@@ -63,7 +66,7 @@ static void check_output(const char *input, const char *output, bool from_log)
 
 /* ---- CSV to log ---- */
 
-static void write_log(struct message_source *source, const struct command_line *line)
+static void write_messages_to_log(struct message_source *source, const struct command_line *line)
 {
     const char *path = line->arguments[1];
     struct output output = output_open(path);
@@ -79,7 +82,7 @@ static void write_log(struct message_source *source, const struct command_line *
     output_close(&output);
 }
 
-static void convert_to_log(const struct command_line *line)
+static void convert_table_to_log(const struct command_line *line)
 {
     struct message_source *source =
         message_source_open(line->arguments, 1, &line->parameters, line->keep_going);
@@ -88,25 +91,25 @@ static void convert_to_log(const struct command_line *line)
         fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is a CSV file",
              line->arguments[0]);
     }
-    write_log(source, line);
+    write_messages_to_log(source, line);
     message_source_report(source);
     message_source_close(source);
 }
 
 /* ---- ASTERIX to CSV ---- */
 
-static void convert_from_asterix(const struct command_line *line)
+static void convert_asterix_plots_to_csv(const struct command_line *line)
 {
     const char *path = line->arguments[0];
     struct asterix_records *records =
         asterix_records_open(path, &line->parameters, line->keep_going);
-    struct table *table = asterix_records_table(path, asterix_records_columns(records));
+    struct table *table = asterix_records_empty_table(path, asterix_records_columns(records));
     struct output output = output_open(line->arguments[1]);
     struct progress progress = progress_start("rows", 0);
-    uint64_t bytes = file_bytes(path), rows = 0;
+    uint64_t bytes = plain_file_size(path), rows = 0;
 
     table_write_header(output.file, table);
-    while (asterix_records_next(records, table)) {
+    while (asterix_records_next_row(records, table)) {
         table_write_row(output.file, table, 0);
         table->num_rows = 0;
         progress_show_bytes(&progress, ++rows, asterix_records_position(records), bytes);
@@ -117,7 +120,7 @@ static void convert_from_asterix(const struct command_line *line)
     asterix_records_close(records);
 }
 
-static void convert_tracks_from_asterix(const struct command_line *line)
+static void convert_asterix_tracks_to_csv(const struct command_line *line)
 {
     struct table *table =
         asterix_track_table_read(line->arguments[0], &line->parameters, line->keep_going);
@@ -134,7 +137,7 @@ static void convert_tracks_from_asterix(const struct command_line *line)
 /* ---- Tracks to ASTERIX ---- */
 
 /* Lists of tracks as records; other messages of a log are counted. */
-static void convert_to_asterix(const struct command_line *line)
+static void convert_tracks_to_asterix(const struct command_line *line)
 {
     const char *input = line->arguments[0];
     struct message_source *source =
@@ -177,7 +180,7 @@ struct reading {
     uint64_t others;
 };
 
-static const struct rows_kind *find_kind(const char *name)
+static const struct rows_kind *find_row_kind(const char *name)
 {
     for (int i = 0; i < NUM_ROWS_KINDS; i++) {
         if (strcmp(name, rows_kinds[i]->name) == 0) {
@@ -187,14 +190,14 @@ static const struct rows_kind *find_kind(const char *name)
     fail(EXIT_USAGE, "convert: --kind '%s' is none of plots, polar, bearings, truth, tracks", name);
 }
 
-static void choose_kind(struct reading *reading, const struct rows_kind *kind)
+static void choose_row_kind(struct reading *reading, const struct rows_kind *kind)
 {
     reading->kind = kind;
-    rows_collect_start(&reading->collection, kind);
+    rows_from_messages_start(&reading->collection, kind);
     reading->collection.with_received = true;
 }
 
-static void take_event(struct reading *reading, const struct lcm_log_event *event)
+static void take_log_event(struct reading *reading, const struct lcm_log_event *event)
 {
     const struct rows_kind *kind = rows_kind_of_channel(event->channel);
 
@@ -206,13 +209,14 @@ static void take_event(struct reading *reading, const struct lcm_log_event *even
         reading->num_messages[i] += rows_kinds[i] == kind;
     }
     if (!reading->kind) {
-        choose_kind(reading, kind);
+        choose_row_kind(reading, kind);
     }
-    rows_collect_event(&reading->collection, reading->path, event, reading->line->keep_going);
+    rows_from_messages_add_event(&reading->collection, reading->path, event,
+                                 reading->line->keep_going);
 }
 
 /* "12 plots, 3 truth" */
-static const char *list_kinds(const struct reading *reading, char *text, size_t bytes)
+static const char *list_kinds_found(const struct reading *reading, char *text, size_t bytes)
 {
     size_t length = 0;
 
@@ -227,8 +231,8 @@ static const char *list_kinds(const struct reading *reading, char *text, size_t 
     return text;
 }
 
-/* One kind at least, and no other that was not chosen against. */
-static void check_kinds(struct reading *reading)
+/* Exit 2 where the log has no messages of the kind, or several kinds and none is chosen. */
+static void check_one_kind(struct reading *reading)
 {
     char text[200];
     int kinds = 0;
@@ -236,7 +240,7 @@ static void check_kinds(struct reading *reading)
     for (int i = 0; i < NUM_ROWS_KINDS; i++) {
         kinds += reading->num_messages[i] > 0;
     }
-    list_kinds(reading, text, sizeof text);
+    list_kinds_found(reading, text, sizeof text);
     if (kinds == 0) {
         fail(EXIT_USAGE,
              "%s: no messages of plots, polar plots, bearings, truth or tracks in it; %" PRIu64
@@ -265,9 +269,9 @@ static void say_count(const struct reading *reading, uint64_t count, const char 
     }
 }
 
-static void report(const struct reading *reading, const struct lcm_log_reader *log)
+static void report_left_out(const struct reading *reading, const struct lcm_log_reader *log)
 {
-    lcm_log_report(log);
+    lcm_log_report_skipped(log);
     say_count(reading, reading->collection.messages_bad, "bad messages skipped");
     say_count(reading, reading->others, "messages on other channels left out");
     say_count(reading, reading->collection.messages_again,
@@ -276,7 +280,7 @@ static void report(const struct reading *reading, const struct lcm_log_reader *l
     say_count(reading, reading->collection.lists_empty, "lists without elements have no row");
 }
 
-static void convert_from_log(const struct command_line *line)
+static void convert_log_to_csv(const struct command_line *line)
 {
     struct reading reading = {.line = line, .path = line->arguments[0]};
     struct lcm_log_reader *log;
@@ -284,41 +288,41 @@ static void convert_from_log(const struct command_line *line)
     struct output output;
 
     if (line->kind) {
-        choose_kind(&reading, find_kind(line->kind));
+        choose_row_kind(&reading, find_row_kind(line->kind));
     }
     log = lcm_log_open(reading.path);
     while (lcm_log_next(log, &event)) {
-        take_event(&reading, &event);
+        take_log_event(&reading, &event);
     }
     if (lcm_log_counts(log).events == 0) {
         fail(EXIT_USAGE, "%s: not one event of an LCM log in it", reading.path);
     }
-    check_kinds(&reading);
-    rows_collect_finish(&reading.collection);
+    check_one_kind(&reading);
+    rows_from_messages_finish(&reading.collection);
     if (reading.collection.rows.count == 0) {
         fail(EXIT_USAGE, "%s: the messages of %s in it have not one row", reading.path,
              reading.kind->name);
     }
     output = output_open(line->arguments[1]);
-    if (geojson_is_wanted(line->arguments[1])) {
+    if (geojson_path_is_geojson(line->arguments[1])) {
         geojson_write_rows(output.file, &reading.collection.rows, &line->parameters);
     } else {
-        rows_write(output.file, &reading.collection.rows, line->covariance);
+        rows_write_csv(output.file, &reading.collection.rows, line->covariance);
     }
     output_close(&output);
-    report(&reading, log);
-    rows_collect_free(&reading.collection);
+    report_left_out(&reading, log);
+    rows_from_messages_free(&reading.collection);
     lcm_log_close(log);
 }
 
 /* ---- To GeoJSON ---- */
 
-static void convert_to_map(const struct command_line *line)
+static void convert_tracks_to_geojson(const struct command_line *line)
 {
     struct rows_file file;
     struct output output;
 
-    rows_read(&file, line->arguments[0], &line->parameters, line->keep_going);
+    rows_read_csv(&file, line->arguments[0], &line->parameters, line->keep_going);
     if (file.rows.kind != &rows_kind_tracks) {
         fail(EXIT_USAGE, "%s: these are %s; GeoJSON is made of tracks", line->arguments[0],
              file.rows.kind->name);
@@ -331,7 +335,7 @@ static void convert_to_map(const struct command_line *line)
 }
 
 /* Tracks alone become a map. */
-static void check_map(struct command_line *line)
+static void check_geojson_options(struct command_line *line)
 {
     if (line->covariance) {
         fail(EXIT_USAGE, "convert: --covariance has no place in GeoJSON");
@@ -342,14 +346,14 @@ static void check_map(struct command_line *line)
     line->kind = rows_kind_tracks.name;
 }
 
-void command_convert_refuse(const struct command_line *line)
+void command_convert_refuse_radars(const struct command_line *line)
 {
     const char *input = line->arguments[0], *output = line->arguments[1];
-    bool to_map = geojson_is_wanted(output);
+    bool to_map = geojson_path_is_geojson(output);
 
-    if ((to_map || asterix_tracks_is_asterix(output)) && asterix_file_is_asterix(input) &&
-        !asterix_tracks_are_in(input)) {
-        check_table(input);
+    if ((to_map || asterix_tracks_path_is_asterix(output)) && asterix_file_is_asterix(input) &&
+        !asterix_file_has_only_tracks(input)) {
+        check_is_table(input);
         fail(EXIT_USAGE, "%s: a recording of radars, and no list of tracks; %s is made of tracks",
              input, to_map ? "GeoJSON" : "CAT062");
     }
@@ -358,12 +362,12 @@ void command_convert_refuse(const struct command_line *line)
 int command_convert(struct command_line *line)
 {
     bool from_log = input_is_log(line->arguments[0], line->arguments[1]);
-    bool to_map = geojson_is_wanted(line->arguments[1]);
+    bool to_map = geojson_path_is_geojson(line->arguments[1]);
 
-    parameters_check(&line->parameters);
-    if (asterix_tracks_is_asterix(line->arguments[1])) {
+    parameters_check_together(&line->parameters);
+    if (asterix_tracks_path_is_asterix(line->arguments[1])) {
         asterix_tracks_refuse_covariance(line->arguments[1], line->covariance);
-        convert_to_asterix(line);
+        convert_tracks_to_asterix(line);
         return 0;
     }
     if (asterix_file_is_asterix(line->arguments[0]) &&
@@ -372,25 +376,25 @@ int command_convert(struct command_line *line)
             fail(EXIT_USAGE, "convert: --kind chooses messages of a log, and %s is in ASTERIX",
                  line->arguments[0]);
         }
-        if (!asterix_tracks_are_in(line->arguments[0])) {
-            convert_from_asterix(line);
+        if (!asterix_file_has_only_tracks(line->arguments[0])) {
+            convert_asterix_plots_to_csv(line);
             return 0;
         }
         if (!to_map) {
-            convert_tracks_from_asterix(line);
+            convert_asterix_tracks_to_csv(line);
             return 0;
         }
     }
-    check_output(line->arguments[0], line->arguments[1], from_log);
+    check_output_differs(line->arguments[0], line->arguments[1], from_log);
     if (to_map) {
-        check_map(line);
+        check_geojson_options(line);
     }
     if (to_map && !from_log) {
-        convert_to_map(line);
+        convert_tracks_to_geojson(line);
     } else if (from_log) {
-        convert_from_log(line);
+        convert_log_to_csv(line);
     } else {
-        convert_to_log(line);
+        convert_table_to_log(line);
     }
     return 0;
 }

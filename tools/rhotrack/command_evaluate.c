@@ -12,7 +12,7 @@
 #include "io/log/log_table.h"
 #include "next_command.h"
 
-static void check_output(const char *path)
+static void check_output_ending(const char *path)
 {
     if (path != NULL && !path_ends_with(path, ".svg") && !path_ends_with(path, ".csv")) {
         fail(EXIT_USAGE,
@@ -27,17 +27,18 @@ static struct evaluation *evaluate_files(const struct command_line *line)
     struct table *tracks =
         log_table_or_csv(line->arguments[1], &rows_kind_tracks, line->keep_going);
     table_need_rows(truth);
-    struct evaluation *e = evaluation_read(truth, tracks, &line->parameters,
-                                           line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);
+    struct evaluation *e = evaluation_of_tables(truth, tracks, &line->parameters,
+                                                line->parameters.value[PARAMETER_GOSPA_CUTOFF_M]);
     table_free(truth);
     table_free(tracks);
     return e;
 }
 
 /* A page of the truth, the tracks, and the plots where they stand beside the truth. */
-static void say_next(const struct command_line *line)
+static void suggest_next_command(const struct command_line *line)
 {
-    char *files[2] = {line->arguments[0], next_command_beside(line->arguments[0], "plots.csv")};
+    char *files[2] = {line->arguments[0],
+                      next_command_find_beside(line->arguments[0], "plots.csv")};
 
     if (path_ends_with(line->arguments[1], ".csv")) {
         next_command_say_page(line, files, files[1] ? 2 : 1, line->arguments[1]);
@@ -47,8 +48,8 @@ static void say_next(const struct command_line *line)
 
 int command_evaluate(struct command_line *line)
 {
-    check_output(line->output);
-    refuse_own_input(line);
+    check_output_ending(line->output);
+    refuse_output_as_input(line);
     struct evaluation *e = evaluate_files(line);
     if (line->output != NULL && path_ends_with(line->output, ".svg")) {
         evaluation_draw(e, line->output);
@@ -61,6 +62,6 @@ int command_evaluate(struct command_line *line)
         evaluation_print(e, line->by_target);
     }
     evaluation_free(e);
-    say_next(line);
+    suggest_next_command(line);
     return 0;
 }

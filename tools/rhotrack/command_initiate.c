@@ -23,7 +23,7 @@ struct batch {
     int64_t wall_us;
 };
 
-static void check_status(enum rho_status status)
+static void fail_unless_ok(enum rho_status status)
 {
     if (status != RHO_OK) {
         fail(EXIT_RUNTIME, "initiator: the library says '%s'", rho_status_name(status));
@@ -32,7 +32,8 @@ static void check_status(enum rho_status status)
 
 /* ---- The batch ---- */
 
-static void push(struct batch *batch, const struct rho_scan *scan, const struct rho_sensor *sensor)
+static void push_scan(struct batch *batch, const struct rho_scan *scan,
+                      const struct rho_sensor *sensor)
 {
     static uint8_t fates[RHO_MAX_PLOTS];
     struct rho_scan held = *scan;
@@ -44,7 +45,7 @@ static void push(struct batch *batch, const struct rho_scan *scan, const struct 
     }
     memset(fates, RHO_FATE_HELD, sizeof fates);
     start_us = clock_us();
-    check_status(rho_initiator_push(batch->initiator, &held, sensor, fates, &left_unused));
+    fail_unless_ok(rho_initiator_push(batch->initiator, &held, sensor, fates, &left_unused));
     batch->wall_us += clock_us() - start_us;
     batch->time_us = scan->time_us;
     batch->scans++;
@@ -53,19 +54,19 @@ static void push(struct batch *batch, const struct rho_scan *scan, const struct 
 }
 
 /* Pushes the last scans of the reader that fit the window, turns of radars that look by sectors. */
-static void push_last(struct batch *batch, struct scan_reader *reader)
+static void push_last_scans(struct batch *batch, struct scan_reader *reader)
 {
-    struct revolutions revolutions = revolutions_read(reader, batch->initiator->config.scans);
+    struct revolutions revolutions = revolutions_read_last(reader, batch->initiator->config.scans);
 
     for (size_t i = 0; i < revolutions.count; i++) {
         const struct revolution *turn = &revolutions.list[i];
 
-        push(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
+        push_scan(batch, &turn->scan, turn->has_sensor ? &turn->sensor : NULL);
     }
     revolutions_free(&revolutions);
 }
 
-static void search(struct batch *batch, const struct command_line *line)
+static void fill_and_search(struct batch *batch, const struct command_line *line)
 {
     struct rho_initiator_config config;
     struct scan_reader *reader;
@@ -73,14 +74,14 @@ static void search(struct batch *batch, const struct command_line *line)
 
     parameters_to_initiator(&line->parameters, &config);
     batch->initiator = must_alloc(sizeof *batch->initiator);
-    check_status(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config));
+    fail_unless_ok(rho_initiator_init(batch->initiator, sizeof *batch->initiator, &config));
     reader =
         scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
-    push_last(batch, reader);
+    push_last_scans(batch, reader);
     start_us = clock_us();
-    check_status(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));
+    fail_unless_ok(rho_initiator_search(batch->initiator, RHO_SEARCH_BATCH));
     batch->wall_us += clock_us() - start_us;
-    scan_reader_report(reader);
+    scan_reader_report_skipped(reader);
     if (batch->plots_no_room) {
         fprintf(stderr, "rhotrack: %" PRIu64 " plots beyond %d a scan are left out\n",
                 batch->plots_no_room, RHO_MAX_PLOTS);
@@ -94,7 +95,7 @@ static void search(struct batch *batch, const struct command_line *line)
 
 /* ---- What it found ---- */
 
-static void write_found(const struct batch *batch, const char *path)
+static void write_found_tracks(const struct batch *batch, const char *path)
 {
     struct initiated_output *found = initiated_output_open(path);
 
@@ -102,13 +103,13 @@ static void write_found(const struct batch *batch, const char *path)
         struct initiated row =
             initiated_from(i + 1, batch->time_us, &batch->initiator->candidates[i]);
 
-        initiated_output_row(found, &row);
+        initiated_output_add_row(found, &row);
     }
     initiated_output_close(found);
 }
 
 /* Votes of each track found, descending; *sum gets them all. */
-static cJSON *peaks_json(const struct rho_initiator *initiator, double *sum)
+static cJSON *track_hits_json(const struct rho_initiator *initiator, double *sum)
 {
     int hits[RHO_MAX_CANDIDATES];
 
@@ -117,16 +118,16 @@ static cJSON *peaks_json(const struct rho_initiator *initiator, double *sum)
         hits[i] = initiator->candidates[i].hits;
         *sum += hits[i];
     }
-    return json_descending(hits, initiator->num_candidates);
+    return json_list_descending(hits, initiator->num_candidates);
 }
 
-static void print_json(const struct batch *batch)
+static void print_found_json(const struct batch *batch)
 {
     const struct rho_initiator *initiator = batch->initiator;
     cJSON *object = cJSON_CreateObject(), *peaks;
     double votes;
 
-    peaks = peaks_json(initiator, &votes);
+    peaks = track_hits_json(initiator, &votes);
     cJSON_AddStringToObject(object, "method", "kernel");
     cJSON_AddNumberToObject(object, "scans", (double)batch->scans);
     cJSON_AddNumberToObject(object, "plots", (double)batch->plots);
@@ -155,12 +156,12 @@ static void initiate_kernel(const struct command_line *line)
 {
     struct batch batch = {.wall_us = 0};
 
-    search(&batch, line);
+    fill_and_search(&batch, line);
     if (line->output || !line->json) {
-        write_found(&batch, line->output);
+        write_found_tracks(&batch, line->output);
     }
     if (line->json) {
-        print_json(&batch);
+        print_found_json(&batch);
     }
     free(batch.initiator);
 }
@@ -168,7 +169,7 @@ static void initiate_kernel(const struct command_line *line)
 /* The method asked for, or the default for the file's kind. */
 static enum method choose_method(const struct command_line *line)
 {
-    bool has_bearings = frame_reader_is_bearings(line->arguments[0]);
+    bool has_bearings = frame_reader_file_has_bearings(line->arguments[0]);
 
     if (!line->method) {
         return has_bearings ? METHOD_PASSIVE : METHOD_KERNEL;
@@ -185,7 +186,7 @@ int command_initiate(struct command_line *line)
 {
     enum method method = choose_method(line);
 
-    method_suggest(method, &line->parameters);
+    method_suggest_parameters(method, &line->parameters);
     if (method == METHOD_KERNEL) {
         initiate_kernel(line);
     } else if (method == METHOD_PASSIVE) {

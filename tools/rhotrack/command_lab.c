@@ -35,7 +35,7 @@ bool command_lab_has(const char *name)
 }
 
 /* The program's folder: the build folder, where it lies in its sources. */
-static void find_folder(char folder[PATH_MAX])
+static void find_program_folder(char folder[PATH_MAX])
 {
     ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
 
@@ -78,7 +78,7 @@ static _Noreturn void run_experiment(char **argv)
     for (char *hyphen; (hyphen = strchr(script, '-'));) {
         *hyphen = '_';
     }
-    find_folder(folder);
+    find_program_folder(folder);
     snprintf(path, sizeof path, "%s/../%s", folder, script);
     if (access(path, X_OK) == 0 && setenv("BUILD", folder, 0) == 0) {
         argv[2] = path;
@@ -93,7 +93,7 @@ static _Noreturn void run_bench(char **argv)
 {
     char folder[PATH_MAX], path[2 * PATH_MAX];
 
-    find_folder(folder);
+    find_program_folder(folder);
     snprintf(path, sizeof path, "%s/rhotrack-lab", folder);
     execv(path, argv);
     fail(EXIT_RUNTIME,

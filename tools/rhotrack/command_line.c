@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/hint.h"
+#include "base/name_hint.h"
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_records.h"
-#include "io/csv/first_look.h"
-#include "io/csv/table_form.h"
+#include "io/csv/origin_and_turn.h"
+#include "io/csv/table_dialect.h"
 #include "settings/method.h"
 
 enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
@@ -60,7 +60,7 @@ static const struct {
     {'h', "help", NULL, "this text"},
 };
 
-static bool takes(const struct command *command, char letter)
+static bool takes_option(const struct command *command, char letter)
 {
     return letter == 'h' || strchr(command->options, letter);
 }
@@ -79,7 +79,7 @@ void command_line_help(const struct command *command, FILE *file)
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
         char left[48];
 
-        if (!takes(command, options[i].letter) || !options[i].text) {
+        if (!takes_option(command, options[i].letter) || !options[i].text) {
             continue;
         }
         snprintf(left, sizeof left, "%s--%s%s%s",
@@ -173,7 +173,7 @@ static bool take_live_option(struct command_line *line, char letter, char *argum
 }
 
 /* Kept for the command that is suggested next. */
-static void keep_setting(struct command_line *line, const char *option, const char *value)
+static void keep_setting_as_typed(struct command_line *line, const char *option, const char *value)
 {
     line->settings =
         must_realloc(line->settings, (line->num_settings + 2) * sizeof *line->settings);
@@ -185,16 +185,16 @@ static bool take_setting(struct command_line *line, char letter, char *argument)
 {
     switch (letter) {
     case 's':
-        parameters_set(&line->parameters, argument);
-        keep_setting(line, "--set", argument);
+        parameters_set_assignment(&line->parameters, argument);
+        keep_setting_as_typed(line, "--set", argument);
         return true;
     case 'N':
-        table_form_set_columns(argument);
-        keep_setting(line, "--columns", argument);
+        table_dialect_set_columns_option(argument);
+        keep_setting_as_typed(line, "--columns", argument);
         return true;
     case 'C':
-        parameters_load(&line->parameters, argument);
-        keep_setting(line, "--config", argument);
+        parameters_load_ini(&line->parameters, argument);
+        keep_setting_as_typed(line, "--config", argument);
         return true;
     default:
         return false;
@@ -262,7 +262,7 @@ static void take_option(struct command_line *line, char letter, char *argument)
  * getopt's table of all options: those of other commands are refused with a better message than its
  * own.
  */
-static void fill_table(struct option table[NUM_OPTIONS + 1])
+static void fill_option_table(struct option table[NUM_OPTIONS + 1])
 {
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
         table[i] =
@@ -272,7 +272,7 @@ static void fill_table(struct option table[NUM_OPTIONS + 1])
     table[NUM_OPTIONS] = (struct option){NULL, 0, NULL, 0};
 }
 
-static const char *name_of(int letter)
+static const char *long_option_name(int letter)
 {
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
         if (options[i].letter == letter) {
@@ -287,15 +287,15 @@ static _Noreturn void refuse_option(const struct command *command, char **argv)
     const char *typed = argv[optind - 1], *hint;
     char name[64];
 
-    if (optopt && strncmp(typed, "--", 2) == 0 && name_of(optopt)) {
-        fail(EXIT_USAGE, "%s: --%s takes no value", command->name, name_of(optopt));
+    if (optopt && strncmp(typed, "--", 2) == 0 && long_option_name(optopt)) {
+        fail(EXIT_USAGE, "%s: --%s takes no value", command->name, long_option_name(optopt));
     }
     if (optopt) {
         fail(EXIT_USAGE, "%s: unknown option '-%c'; see rhotrack %s --help", command->name, optopt,
              command->name);
     }
     snprintf(name, sizeof name, "%.*s", (int)strcspn(typed + 2, "="), typed + 2);
-    hint = hint_nearest(name, option_name);
+    hint = name_hint_nearest(name, option_name);
     if (hint) {
         fail(EXIT_USAGE, "%s: unknown option '%s', did you mean '--%s'?", command->name, typed,
              hint);
@@ -311,21 +311,21 @@ static void read_options(struct command_line *line, const struct command *comman
     size_t room = 0;
     int letter;
 
-    fill_table(table);
+    fill_option_table(table);
     opterr = 0;
     while ((letter = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
         if (letter == '?') {
             refuse_option(command, argv);
         }
         if (letter == ':') {
-            fail(EXIT_USAGE, "%s: --%s needs a value", command->name, name_of(optopt));
+            fail(EXIT_USAGE, "%s: --%s needs a value", command->name, long_option_name(optopt));
         }
         if (letter == 'h') {
             show_help(command);
         }
-        if (!takes(command, (char)letter)) {
+        if (!takes_option(command, (char)letter)) {
             fail(EXIT_USAGE, "%s takes no --%s; see rhotrack %s --help", command->name,
-                 name_of(letter), command->name);
+                 long_option_name(letter), command->name);
         }
         if (letter == 's' && strcmp(command->name, "simulate") == 0) { /* changes the scene */
             line->scene_sets =
@@ -354,9 +354,9 @@ static void suggest_origin(struct command_line *line, const char *path, struct a
     }
 }
 
-static void look_at_plots(struct command_line *line, const char *path)
+static void look_at_first_plots(struct command_line *line, const char *path)
 {
-    const struct first_look look = first_look_at(path);
+    const struct origin_and_turn look = origin_and_turn_of(path);
 
     suggest_origin(line, path,
                    (struct asterix_place){look.has_place, look.lat_deg, look.lon_deg, look.alt_m});
@@ -376,7 +376,7 @@ static void find_plot_files(struct command_line *line, const struct command *com
 
     line->plot_files = line->arguments + skipped;
     line->num_plot_files = strcmp(command->name, "convert") == 0 ? 1
-                           : takes(command, 'N') && strcmp(command->name, "evaluate") != 0
+                           : takes_option(command, 'N') && strcmp(command->name, "evaluate") != 0
                                ? line->num_arguments - skipped
                                : 0;
 }
@@ -385,7 +385,7 @@ void command_line_read(struct command_line *line, const struct command *command,
                        char **argv)
 {
     *line = (struct command_line){.seed = 1, .speed = 1};
-    parameters_default(&line->parameters);
+    parameters_set_defaults(&line->parameters);
     read_options(line, command, argc, argv);
     line->arguments = argv + optind;
     line->num_arguments = argc - optind;
@@ -400,7 +400,7 @@ void command_line_read(struct command_line *line, const struct command *command,
     find_plot_files(line, command);
 }
 
-void refuse_own_input(const struct command_line *line)
+void refuse_output_as_input(const struct command_line *line)
 {
     for (int i = 0; line->output && i < line->num_arguments; i++) {
         if (is_same_file(line->output, line->arguments[i])) {
@@ -434,42 +434,42 @@ static void refuse_other_than_ini(const struct command_line *line, const char *c
     }
 }
 
-bool is_output_standard(const struct command_line *line)
+bool is_output_to_stdout(const struct command_line *line)
 {
     return line->output && strcmp(line->output, "-") == 0;
 }
 
-void command_line_check_ini(const struct command_line *line, const char *command)
+void command_line_check_ini_output(const struct command_line *line, const char *command)
 {
-    refuse_own_input(line);
+    refuse_output_as_input(line);
     refuse_inputs_given_twice(line, command);
     refuse_other_than_ini(line, command);
-    if (line->json && is_output_standard(line)) {
+    if (line->json && is_output_to_stdout(line)) {
         fail(EXIT_USAGE, "%s: --json and -o - both write on standard output", command);
     }
 }
 
 /* All plots can be looked at before they are read. */
-static bool has_plain_files(const struct command_line *line)
+static bool has_only_plain_files(const struct command_line *line)
 {
     for (int i = 0; i < line->num_plot_files; i++) {
-        if (file_bytes(line->plot_files[i]) == 0) {
+        if (plain_file_size(line->plot_files[i]) == 0) {
             return false;
         }
     }
     return true;
 }
 
-void command_line_locate(struct command_line *line)
+void command_line_find_origin(struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments && lacks_origin(&line->parameters); i++) {
-        suggest_origin(line, line->arguments[i], asterix_file_place(line->arguments[i]));
+        suggest_origin(line, line->arguments[i], asterix_file_radar_place(line->arguments[i]));
     }
     for (int i = 0; i < line->num_plot_files; i++) {
-        look_at_plots(line, line->plot_files[i]);
+        look_at_first_plots(line, line->plot_files[i]);
     }
-    if (line->num_plot_files > 0 && has_plain_files(line)) {
-        table_form_check_columns();
+    if (line->num_plot_files > 0 && has_only_plain_files(line)) {
+        table_dialect_check_columns_option();
     }
-    parameters_locate(&line->parameters);
+    parameters_locate_sensors(&line->parameters);
 }

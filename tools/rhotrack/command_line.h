@@ -29,7 +29,7 @@ void command_line_read(struct command_line *line, const struct command *command,
  * Then: the origin of a recording or of places on the earth, where none was set; what is placed on
  * the earth; and on standard error what seems wrong with the azimuths.
  */
-void command_line_locate(struct command_line *line);
+void command_line_find_origin(struct command_line *line);
 
 /* Help of one command. */
 void command_line_help(const struct command *command, FILE *file);
@@ -38,16 +38,16 @@ void command_line_help(const struct command *command, FILE *file);
  * Exit 2 where --output names one of the arguments: of commands that nobody wants to put their
  * output in an input's place.
  */
-void refuse_own_input(const struct command_line *line);
+void refuse_output_as_input(const struct command_line *line);
 
 /* -o -: standard output has the file that is written, and nothing else. */
-bool is_output_standard(const struct command_line *line);
+bool is_output_to_stdout(const struct command_line *line);
 
 /*
  * Of commands that learn from recordings and write an INI file. Exit 2 where --output names an
  * input, or something else than an INI file; where an input is given twice, whose plots would count
  * twice; where --json writes on standard output, too.
  */
-void command_line_check_ini(const struct command_line *line, const char *command);
+void command_line_check_ini_output(const struct command_line *line, const char *command);
 
 #endif

@@ -25,7 +25,7 @@ struct maintaining {
 /* ---- What was asked for ---- */
 
 /* --gate, else the parameter. */
-static enum maintainer_gate gate_of(struct command_line *line)
+static enum maintainer_gate chosen_gate(struct command_line *line)
 {
     if (line->gate) {
         parameters_set_gate(&line->parameters, line->gate);
@@ -33,16 +33,16 @@ static enum maintainer_gate gate_of(struct command_line *line)
     return (enum maintainer_gate)line->parameters.value[PARAMETER_GATE];
 }
 
-static void warn_unused(const struct command_line *line, enum maintainer_gate gate)
+static void warn_of_unused_option(const struct command_line *line, enum maintainer_gate gate)
 {
     if (gate == MAINTAIN_BEST && line->no_input_estimation) {
         fputs("rhotrack: --no-input-estimation says nothing to --gate best\n", stderr);
     }
 }
 
-/* A literal input moves no place: where nothing else is measured it is never seen. */
-static void warn_blind(const struct command_line *line, enum maintainer_gate gate,
-                       const struct rho_scan *first)
+/* By input_model literal an input changes the velocity alone, which measured places do not show. */
+static void warn_of_unseen_inputs(const struct command_line *line, enum maintainer_gate gate,
+                                  const struct rho_scan *first)
 {
     if (gate != MAINTAIN_BEST && !line->no_input_estimation &&
         !(first->measures & (RHO_MEASURES_VELOCITY | RHO_MEASURES_RANGE_RATE)) &&
@@ -55,7 +55,7 @@ static void warn_blind(const struct command_line *line, enum maintainer_gate gat
 
 /* ---- Steps ---- */
 
-static void count_fates(struct maintaining *maintaining, const struct rho_scan *scan, int row)
+static void count_plot_fates(struct maintaining *maintaining, const struct rho_scan *scan, int row)
 {
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         bool is_valid = rho_measurement_is_valid(&scan->plots[i], scan->measures);
@@ -69,8 +69,8 @@ static void count_fates(struct maintaining *maintaining, const struct rho_scan *
     }
 }
 
-static void step(struct maintaining *maintaining, const struct rho_scan *scan,
-                 const struct rho_sensor *sensor)
+static void step_scan(struct maintaining *maintaining, const struct rho_scan *scan,
+                      const struct rho_sensor *sensor)
 {
     int64_t start_us = clock_us(), took_us;
     int row = maintainer_step(maintaining->maintainer, scan, sensor, NAN, &maintaining->random);
@@ -79,26 +79,27 @@ static void step(struct maintaining *maintaining, const struct rho_scan *scan,
     maintaining->scans++;
     maintaining->sum_us += took_us;
     maintaining->max_us = took_us > maintaining->max_us ? took_us : maintaining->max_us;
-    count_fates(maintaining, scan, row);
+    count_plot_fates(maintaining, scan, row);
 }
 
-static void step_all(struct maintaining *maintaining, struct scan_reader *reader,
-                     const struct command_line *line, struct tracks_output *tracks)
+static void step_all_scans(struct maintaining *maintaining, struct scan_reader *reader,
+                           const struct command_line *line, struct tracks_output *tracks)
 {
     struct progress progress = progress_start("scans", 0);
-    uint64_t bytes = file_bytes(line->arguments[0]);
+    uint64_t bytes = plain_file_size(line->arguments[0]);
     const struct rho_scan *scan;
 
     while ((scan = scan_reader_next(reader))) {
         bool was_started = maintainer_is_started(maintaining->maintainer);
 
-        step(maintaining, scan, scan_reader_sensor(reader));
+        step_scan(maintaining, scan, scan_reader_sensor(reader));
         bool is_started = maintainer_is_started(maintaining->maintainer);
         if (is_started && !was_started) {
-            warn_blind(line, maintaining->gate, scan);
+            warn_of_unseen_inputs(line, maintaining->gate, scan);
         }
         if (is_started && tracks) {
-            tracks_output_track(tracks, scan->time_us, maintainer_report(maintaining->maintainer));
+            tracks_output_write_track(tracks, scan->time_us,
+                                      maintainer_report(maintaining->maintainer));
         }
         progress_show_bytes(&progress, maintaining->scans, scan_reader_position(reader), bytes);
     }
@@ -107,7 +108,7 @@ static void step_all(struct maintaining *maintaining, struct scan_reader *reader
 
 /* ---- What it comes to ---- */
 
-static double mean_us(const struct maintaining *maintaining)
+static double mean_step_us(const struct maintaining *maintaining)
 {
     return (double)maintaining->sum_us / (double)maintaining->scans;
 }
@@ -121,15 +122,15 @@ static void print_summary(const struct maintaining *maintaining,
             "rhotrack: %" PRIu64 " scans, %" PRIu64 " plots: %u claimed, %u misses, %lu updates "
             "refused",
             maintaining->scans, counts->plots, (unsigned)track->hits, (unsigned)track->misses,
-            maintainer_refused(maintaining->maintainer));
+            maintainer_num_refused(maintaining->maintainer));
     if (counts->rows_skipped) {
         fprintf(stderr, ", %" PRIu64 " bad rows skipped", counts->rows_skipped);
     }
-    fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(maintaining),
+    fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_step_us(maintaining),
             maintaining->max_us);
 }
 
-static cJSON *fates_json(const struct maintaining *maintaining)
+static cJSON *plot_fates_json(const struct maintaining *maintaining)
 {
     cJSON *object = cJSON_CreateObject();
 
@@ -155,19 +156,19 @@ static void print_json(const struct maintaining *maintaining, const struct comma
     cJSON_AddNumberToObject(object, "rows_skipped", (double)counts->rows_skipped);
     cJSON_AddNumberToObject(object, "tracks_confirmed", 1);
     cJSON_AddNumberToObject(object, "misses", maintainer_report(maintaining->maintainer)->misses);
-    cJSON_AddItemToObject(object, "fates", fates_json(maintaining));
-    cJSON_AddNumberToObject(object, "mean_us", mean_us(maintaining));
+    cJSON_AddItemToObject(object, "fates", plot_fates_json(maintaining));
+    cJSON_AddNumberToObject(object, "mean_us", mean_step_us(maintaining));
     cJSON_AddNumberToObject(object, "max_us", (double)maintaining->max_us);
     cJSON_AddNumberToObject(object, "state_bytes",
                             (double)maintainer_state_bytes(maintaining->maintainer));
     cJSON_AddNumberToObject(object, "updates_refused",
-                            (double)maintainer_refused(maintaining->maintainer));
+                            (double)maintainer_num_refused(maintaining->maintainer));
     json_print(object);
 }
 
-static struct scan_reader *open_reader(const struct command_line *line)
+static struct scan_reader *open_plot_reader(const struct command_line *line)
 {
-    if (frame_reader_is_bearings(line->arguments[0])) {
+    if (frame_reader_file_has_bearings(line->arguments[0])) {
         fail(EXIT_USAGE, "%s: maintain takes plots, and these are bearings", line->arguments[0]);
     }
     return scan_reader_open(line->arguments, 1, &line->parameters, line->keep_going);
@@ -176,19 +177,19 @@ static struct scan_reader *open_reader(const struct command_line *line)
 int command_maintain(struct command_line *line)
 {
     bool has_file = line->output || !line->json;
-    struct maintaining maintaining = {.gate = gate_of(line),
+    struct maintaining maintaining = {.gate = chosen_gate(line),
                                       .random = random_start(line->seed, 0, 0)};
     struct scan_reader *reader;
     struct scan_reader_counts counts;
     struct tracks_output *tracks;
 
-    warn_unused(line, maintaining.gate);
+    warn_of_unused_option(line, maintaining.gate);
     maintaining.maintainer =
         maintainer_new(maintaining.gate, !line->no_input_estimation, &line->parameters);
-    reader = open_reader(line);
+    reader = open_plot_reader(line);
     tracks =
         has_file ? tracks_output_open(line->output, &line->parameters, line->covariance) : NULL;
-    step_all(&maintaining, reader, line, tracks);
+    step_all_scans(&maintaining, reader, line, tracks);
     counts = scan_reader_counts(reader);
     if (counts.plots == 0) {
         fail(EXIT_USAGE, "%s: not one plot to start the track from", line->arguments[0]);

@@ -87,7 +87,7 @@ struct node {
 /* ---- Log ---- */
 
 /* Stock readers of logs want channels that are text, which a hostile one need not be. */
-static bool is_text(const char *channel)
+static bool is_printable_channel(const char *channel)
 {
     while (*channel > ' ' && *channel <= '~') {
         channel++;
@@ -95,24 +95,24 @@ static bool is_text(const char *channel)
     return *channel == '\0';
 }
 
-static void write_log(struct node *node, int64_t time_us, const char *channel, const uint8_t *data,
-                      size_t size)
+static void log_message(struct node *node, int64_t time_us, const char *channel,
+                        const uint8_t *data, size_t size)
 {
-    if (node->log && is_text(channel)) {
-        node_log_put(node->log, time_us, channel, data, size);
+    if (node->log && is_printable_channel(channel)) {
+        node_log_put_event(node->log, time_us, channel, data, size);
     }
 }
 
 /* ---- Files that are saved ---- */
 
 /* A file that cannot be saved does not end the tracking. */
-static void note_saved(struct node *node, bool is_saved)
+static void note_save_result(struct node *node, bool is_saved)
 {
     node->exit_code = is_saved ? node->exit_code : EXIT_RUNTIME;
 }
 
-/* True where none is at work any more; *code is then the last one's exit code. */
-static bool has_ended(pid_t *writer, int options, int *code)
+/* True where the process that writes has ended, or there was none; *code is its exit code then. */
+static bool has_writer_ended(pid_t *writer, int options, int *code)
 {
     int status = 0;
 
@@ -124,113 +124,115 @@ static bool has_ended(pid_t *writer, int options, int *code)
     return true;
 }
 
-/* The next snapshot may be written. */
-static void warn_of_snapshot(struct node *node, const char *why)
+/* One that is not written does not end the tracking; the next one may be. */
+static void warn_of_unwritten_snapshot(struct node *node, const char *why)
 {
     fprintf(stderr, "rhotrack: %s: %s; the snapshot is not written\n", node->snapshot_path, why);
     node->exit_code = EXIT_RUNTIME;
 }
 
-static bool has_snapshot_ended(struct node *node, int options)
+static bool has_snapshot_writer_ended(struct node *node, int options)
 {
     int code;
-    const bool is_ended = has_ended(&node->snapshot_writer, options, &code);
+    const bool is_ended = has_writer_ended(&node->snapshot_writer, options, &code);
 
     if (is_ended && code) {
-        warn_of_snapshot(node, strerror(code));
+        warn_of_unwritten_snapshot(node, strerror(code));
     }
     return is_ended;
 }
 
 /* In a process of its own, as the copy of what is here now: messages do not wait for the disk. */
-static void start_snapshot(struct node *node)
+static void start_snapshot_writer(struct node *node)
 {
     node->snapshot_writer = fork();
     if (node->snapshot_writer == 0) {
-        _exit(node_core_save(node->core, node->snapshot_path) ? 0 : errno);
+        _exit(node_core_save_snapshot(node->core, node->snapshot_path) ? 0 : errno);
     }
     if (node->snapshot_writer < 0) {
         node->snapshot_writer = 0;
-        warn_of_snapshot(node, strerror(errno));
+        warn_of_unwritten_snapshot(node, strerror(errno));
     }
 }
 
-static void keep_snapshot(struct node *node, int64_t now_us)
+static void write_snapshot_when_due(struct node *node, int64_t now_us)
 {
-    if (node->snapshot_path && now_us >= node->snapshot_us && has_snapshot_ended(node, WNOHANG)) {
+    if (node->snapshot_path && now_us >= node->snapshot_us &&
+        has_snapshot_writer_ended(node, WNOHANG)) {
         node->snapshot_us = now_us + SNAPSHOT_US;
-        start_snapshot(node);
+        start_snapshot_writer(node);
     }
 }
 
 static void write_last_snapshot(struct node *node)
 {
     if (node->snapshot_path) {
-        (void)has_snapshot_ended(node, 0);
-        if (!node_core_save(node->core, node->snapshot_path)) {
-            warn_of_snapshot(node, strerror(errno));
+        (void)has_snapshot_writer_ended(node, 0);
+        if (!node_core_save_snapshot(node->core, node->snapshot_path)) {
+            warn_of_unwritten_snapshot(node, strerror(errno));
         }
     }
 }
 
-static bool has_clutter_ended(struct node *node, int options)
+static bool has_clutter_writer_ended(struct node *node, int options)
 {
     int code;
-    const bool is_ended = has_ended(&node->clutter_writer, options, &code);
+    const bool is_ended = has_writer_ended(&node->clutter_writer, options, &code);
 
-    note_saved(node, !is_ended || code == 0);
+    note_save_result(node, !is_ended || code == 0);
     return is_ended;
 }
 
-/* Likewise; what goes wrong is said there. */
-static void keep_clutter(struct node *node)
+/* In a process of its own, too, which says itself what goes wrong. */
+static void save_clutter_when_due(struct node *node)
 {
-    if (clutter_file_is_due(&node->clutter) && has_clutter_ended(node, WNOHANG)) {
+    if (clutter_file_is_due(&node->clutter) && has_clutter_writer_ended(node, WNOHANG)) {
         node->clutter.saved_us = clock_us();
         node->clutter_writer = fork();
         if (node->clutter_writer == 0) {
-            _exit(clutter_file_save(&node->clutter, node_core_clutter(node->core)) ? 0
-                                                                                   : EXIT_RUNTIME);
+            _exit(clutter_file_save(&node->clutter, node_core_clutter_map(node->core))
+                      ? 0
+                      : EXIT_RUNTIME);
         }
-        note_saved(node, node->clutter_writer > 0);
+        note_save_result(node, node->clutter_writer > 0);
         node->clutter_writer = node->clutter_writer > 0 ? node->clutter_writer : 0;
     }
 }
 
 static void save_last_clutter(struct node *node)
 {
-    (void)has_clutter_ended(node, 0);
-    note_saved(node, clutter_file_save(&node->clutter, node_core_clutter(node->core)));
+    (void)has_clutter_writer_ended(node, 0);
+    note_save_result(node, clutter_file_save(&node->clutter, node_core_clutter_map(node->core)));
 }
 
 /* ---- Calls of the core ---- */
 
-static void on_send(void *context, const char *channel, const uint8_t *data, size_t size)
+static void send_core_message(void *context, const char *channel, const uint8_t *data, size_t size)
 {
     struct node *node = context;
 
     (void)transport_send(node->transport, channel, data, size); /* counted */
     if (node->log) {
-        write_log(node, transport_now_us(node->transport), channel, data, size);
+        log_message(node, transport_now_us(node->transport), channel, data, size);
     }
 }
 
 /*
- * At each step, so that no change is missed however many of them come at once; and not into a
- * table.
+ * At each step, so that no change is missed however many of them come at once. Nothing is said
+ * while the terminal shows a table.
  */
-static void watch_sensors(struct node *node)
+static void tell_of_sensor_changes(struct node *node)
 {
-    node_sensors_watch(&node->sensors, node->core, node->print.is_terminal ? NULL : stderr);
+    node_sensors_print_changes(&node->sensors, node->core, node->print.is_terminal ? NULL : stderr);
 }
 
 /* A wall that is learned, or forgotten, is told of once. */
-static void watch_walls(struct node *node)
+static void tell_of_wall_changes(struct node *node)
 {
     struct rho_reflector wall;
 
     for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
-        const bool is_known = node_core_wall(node->core, i, &wall);
+        const bool is_known = node_core_learned_wall(node->core, i, &wall);
 
         if (is_known && !node->knows_wall[i]) {
             fprintf(stderr, "rhotrack: a wall is learned: %.1f %.1f %.1f %.1f\n",
@@ -247,15 +249,15 @@ static void on_step(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
-    node_print_step(&node->print, report);
-    watch_sensors(node);
+    node_print_note_step(&node->print, report);
+    tell_of_sensor_changes(node);
     if (!node->print.is_terminal) {
-        watch_walls(node);
+        tell_of_wall_changes(node);
     }
 }
 
-/* Many sensors may begin again at once, but who makes them do so all the time is not told of. */
-static void on_restart(void *context, int16_t sensor_id)
+/* Names sensors that begin again, but within WARNING_US no more than RESTARTS_SAID of them. */
+static void on_sensor_restart(void *context, int16_t sensor_id)
 {
     struct node *node = context;
     const int64_t now_us = clock_us();
@@ -285,8 +287,8 @@ static void on_new_clock(void *context)
  * The count that is certain by now: of a count that may fall again its least value of the last
  * MISSING_US, as a skipped number is lost only where its scan does not come a moment later.
  */
-static uint64_t count_to_warn_of(struct warning *warning, const struct node_tally *tally,
-                                 int64_t now_us)
+static uint64_t certain_count(struct warning *warning, const struct node_tally *tally,
+                              int64_t now_us)
 {
     bool was_more = warning->is_more;
 
@@ -301,9 +303,9 @@ static uint64_t count_to_warn_of(struct warning *warning, const struct node_tall
     return now_us >= warning->more_us + MISSING_US ? warning->least : warning->said;
 }
 
-static void warn_of(struct warning *warning, const struct node_tally *tally, int64_t now_us)
+static void warn_of_tally(struct warning *warning, const struct node_tally *tally, int64_t now_us)
 {
-    uint64_t count = count_to_warn_of(warning, tally, now_us);
+    uint64_t count = certain_count(warning, tally, now_us);
 
     if (tally->kind != NODE_TALLY_USUAL && count > warning->said &&
         now_us >= warning->said_us + WARNING_US) {
@@ -318,14 +320,14 @@ static void warn_of(struct warning *warning, const struct node_tally *tally, int
     }
 }
 
-/* A message of this channel was taken: what is counted since then was of it. */
-static void note_sensor(struct node *node, const char *channel)
+/* After a message of this channel: the counts that rose with it are of its sensor. */
+static void note_sensor_of_counts(struct node *node, const char *channel)
 {
     struct node_tally tallies[NODE_TALLIES];
     int16_t sensor_id = 0;
-    const bool has_sensor = senders_read_sensor(channel, &sensor_id);
+    const bool has_sensor = senders_read_sensor_id(channel, &sensor_id);
 
-    node_tally(node->core, node->transport, tallies);
+    node_tally_all(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         struct warning *warning = &node->warnings[i];
 
@@ -337,7 +339,7 @@ static void note_sensor(struct node *node, const char *channel)
     }
 }
 
-/* A cause speaks at most once a second, and not into a table. */
+/* Each cause at most once a second, and nothing while the terminal shows a table. */
 static void warn_of_losses(struct node *node)
 {
     struct node_tally tallies[NODE_TALLIES];
@@ -346,27 +348,28 @@ static void warn_of_losses(struct node *node)
     if (node->print.is_terminal) {
         return;
     }
-    node_tally(node->core, node->transport, tallies);
+    node_tally_all(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
-        warn_of(&node->warnings[i], &tallies[i], now_us);
+        warn_of_tally(&node->warnings[i], &tallies[i], now_us);
     }
 }
 
 static void print_summary(const struct node *node)
 {
-    const struct rho_tracker_counters *tracker = node_core_tracker(node->core);
+    const struct rho_tracker_counters *tracker = node_core_tracker_counters(node->core);
     struct transport_counters network = transport_counters(node->transport);
     struct node_tally tallies[NODE_TALLIES];
-    const uint64_t events_left_out = node_log_left_out(node->log);
+    const uint64_t events_left_out = node_log_events_left_out(node->log);
 
     fprintf(stderr,
             "rhotrack: %" PRIu64 " messages in, %" PRIu64 " out; %" PRIu32 " steps, %" PRIu32
             " plots, %" PRIu32 " tracks confirmed; %.0f us a step, %.0f at most",
-            node->taken, network.sent, node_core_counters(node->core)->steps, tracker->plots_in,
-            tracker->tracks_confirmed, node_core_mean_us(node->core), node_core_max_us(node->core));
+            node->taken, network.sent, node_core_node_counters(node->core)->steps,
+            tracker->plots_in, tracker->tracks_confirmed, node_core_mean_step_us(node->core),
+            node_core_max_step_us(node->core));
     node_core_print_learned(node->core, stderr);
     fprintf(stderr, "\n");
-    node_tally(node->core, node->transport, tallies);
+    node_tally_all(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
         if (tallies[i].count) {
             fprintf(stderr, "rhotrack: %s: %" PRIu64 "\n", tallies[i].name, tallies[i].count);
@@ -375,14 +378,14 @@ static void print_summary(const struct node *node)
     if (node->print.left_out > 0) {
         fprintf(stderr, "rhotrack: reports not printed: %" PRIu64 "\n", node->print.left_out);
     }
-    if (node_core_not_shown(node->core) > 0) {
+    if (node_core_num_not_shown(node->core) > 0) {
         fprintf(stderr, "rhotrack: messages of --show beyond its rate: %" PRIu64 "\n",
-                node_core_not_shown(node->core));
+                node_core_num_not_shown(node->core));
     }
     if (events_left_out > 0) {
         fprintf(stderr, "rhotrack: events not logged: %" PRIu64 "\n", events_left_out);
     }
-    node_sensors_print(node->core, stderr);
+    node_sensors_print_bad(node->core, stderr);
     if (error_lines_is_lossy()) {
         fputs("rhotrack: standard error was full for a while: lines of it are missing\n", stderr);
     }
@@ -390,7 +393,7 @@ static void print_summary(const struct node *node)
 
 /* ---- The loop ---- */
 
-/* The process has one that it was started from. */
+/* Whether the process still has the terminal that it was started from. */
 static bool has_terminal(void)
 {
     const int descriptor = open("/dev/tty", O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -401,7 +404,7 @@ static bool has_terminal(void)
     return descriptor >= 0;
 }
 
-static int open_signals(const sigset_t *set)
+static int open_signal_descriptor(const sigset_t *set)
 {
     const int descriptor = signalfd(-1, set, SFD_CLOEXEC | SFD_NONBLOCK);
 
@@ -417,7 +420,7 @@ static int open_signals(const sigset_t *set)
  * an unfinished output would do about them (common.c) is not needed, for the log is written under
  * its own name.
  */
-static void take_signals(struct node *node)
+static void set_up_signals(struct node *node)
 {
     sigset_t ends, hang_ups;
 
@@ -426,15 +429,15 @@ static void take_signals(struct node *node)
     sigaddset(&ends, SIGTERM);
     sigemptyset(&hang_ups);
     sigaddset(&hang_ups, SIGHUP);
-    node->has_terminal = !is_ignored(SIGHUP) && has_terminal();
-    node->signals = open_signals(&ends);
-    node->hang_ups = open_signals(&hang_ups);
+    node->has_terminal = !is_signal_ignored(SIGHUP) && has_terminal();
+    node->signals = open_signal_descriptor(&ends);
+    node->hang_ups = open_signal_descriptor(&hang_ups);
     signal(SIGPIPE, SIG_IGN); /* standard output that ends shows as a write error */
     signal(SIGXFSZ, SIG_IGN); /* and so does a log that is as long as the system allows */
 }
 
 /* SIGHUP: of an operator who has put the log away, or of the terminal that is gone. */
-static void take_hang_up(struct node *node)
+static void handle_hang_up(struct node *node)
 {
     struct signalfd_siginfo info;
 
@@ -451,7 +454,7 @@ static void take_hang_up(struct node *node)
  * Whatever the program waits for, a disk or a network: once it is told to end it has END_MOST_US
  * left.
  */
-static void *watch_end(void *signals)
+static void *enforce_end_in_time(void *signals)
 {
     const struct timespec left = {0, END_MOST_US * 1000L};
     struct pollfd here = {.fd = *(const int *)signals, .events = POLLIN};
@@ -463,16 +466,16 @@ static void *watch_end(void *signals)
     _exit(EXIT_RUNTIME);
 }
 
-static void start_watch(int *signals)
+static void start_end_watchdog(int *signals)
 {
     pthread_t thread;
 
-    if (pthread_create(&thread, NULL, watch_end, signals) == 0) {
+    if (pthread_create(&thread, NULL, enforce_end_in_time, signals) == 0) {
         pthread_detach(thread);
     }
 }
 
-static int64_t least(int64_t a, int64_t b)
+static int64_t least_of(int64_t a, int64_t b)
 {
     return a < b ? a : b;
 }
@@ -484,11 +487,12 @@ static void wait_for_work(struct node *node)
                              {.fd = node->hang_ups, .events = POLLIN},
                              {.fd = page_server_descriptor(node->pages), .events = POLLIN},
                              {.fd = transport_descriptor(node->transport), .events = POLLIN}};
-    int64_t due_us = least(least(node->status_us, node->end_us), node_print_due_us(&node->print));
+    int64_t due_us =
+        least_of(least_of(node->status_us, node->end_us), node_print_due_us(&node->print));
     int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - clock_us();
 
     if (core_due_us != INT64_MAX) {
-        wait_us = least(wait_us, core_due_us - transport_now_us(node->transport));
+        wait_us = least_of(wait_us, core_due_us - transport_now_us(node->transport));
     }
     if (!node->is_waiting || wait_us < 0) {
         wait_us = 0;
@@ -497,17 +501,17 @@ static void wait_for_work(struct node *node)
     if (ppoll(here, 4, &wait, NULL) > 0) {
         node->is_over |= here[0].revents != 0;
         if (here[1].revents) {
-            take_hang_up(node);
+            handle_hang_up(node);
         }
         if (here[2].revents) {
-            page_server_run(node->pages);
+            page_server_serve(node->pages);
         }
     }
 }
 
-static void end_of_messages(struct node *node)
+static void end_after_last_message(struct node *node)
 {
-    if (transport_is_live(transport_url(node->transport))) {
+    if (transport_url_is_live(transport_url(node->transport))) {
         fprintf(stderr, "rhotrack: %s: the connection is gone\n", transport_url(node->transport));
         node->exit_code = EXIT_RUNTIME;
     }
@@ -515,7 +519,7 @@ static void end_of_messages(struct node *node)
 }
 
 /* Messages that this node, or another one, has published come back over multicast. */
-static bool is_output(const char *channel)
+static bool is_output_channel(const char *channel)
 {
     return strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 ||
            strcmp(channel, RHO_MESSAGE_PEAK_LIST_CHANNEL) == 0 ||
@@ -535,13 +539,13 @@ static bool is_output(const char *channel)
            strcmp(channel, RHO_MESSAGE_COMMAND_ANSWER_CHANNEL) == 0;
 }
 
-static void watch_plots(struct node *node, const struct transport_message *message)
+static void watch_scan_intervals(struct node *node, const struct transport_message *message)
 {
     if (node->plots.scans < HINT_SCANS && !node->print.is_terminal) {
-        scan_interval_hint_add(&node->plots,
-                               &(struct message_event){message->received_us, message->channel,
-                                                       message->data, message->size});
-        scan_interval_hint_watch(&node->plots);
+        scan_interval_hint_add_message(
+            &node->plots, &(struct message_event){message->received_us, message->channel,
+                                                  message->data, message->size});
+        scan_interval_hint_report_live(&node->plots);
     }
 }
 
@@ -550,19 +554,20 @@ static void watch_plots(struct node *node, const struct transport_message *messa
  */
 static void take_message(struct node *node, const struct transport_message *message)
 {
-    senders_note(&node->senders, message, clock_us(), node->print.is_terminal ? NULL : stderr);
-    if (is_output(message->channel)) {
+    senders_note_message(&node->senders, message, clock_us(),
+                         node->print.is_terminal ? NULL : stderr);
+    if (is_output_channel(message->channel)) {
         return;
     }
     error_lines_set_time(message->received_us);
     node->taken++;
-    watch_plots(node, message);
+    watch_scan_intervals(node, message);
     if (strncmp(message->channel, "RHO_", 4) == 0) {
-        write_log(node, message->received_us, message->channel, message->data, message->size);
+        log_message(node, message->received_us, message->channel, message->data, message->size);
     }
-    node_core_take(node->core, message->channel, message->data, message->size,
-                   message->received_us);
-    note_sensor(node, message->channel);
+    node_core_take_message(node->core, message->channel, message->data, message->size,
+                           message->received_us);
+    note_sensor_of_counts(node, message->channel);
 }
 
 static void take_messages(struct node *node)
@@ -571,7 +576,7 @@ static void take_messages(struct node *node)
     enum transport_found found = TRANSPORT_MESSAGE;
 
     for (int i = 0; i < TURN_MESSAGES && found == TRANSPORT_MESSAGE; i++) {
-        if (is_told_to_end()) {
+        if (is_end_signal_pending()) {
             return;
         }
         found = transport_receive(node->transport, &message);
@@ -583,17 +588,17 @@ static void take_messages(struct node *node)
     if (found == TRANSPORT_NOTHING) {
         node_core_tick(node->core, transport_now_us(node->transport));
     } else if (found == TRANSPORT_END) {
-        end_of_messages(node);
+        end_after_last_message(node);
     }
 }
 
-static struct node_core_losses losses_of(const struct node *node)
+static struct node_core_losses node_losses(const struct node *node)
 {
     const struct transport_counters network = transport_counters(node->transport);
 
     return (struct node_core_losses){.datagrams_refused = network.refused + network.refused_source,
                                      .reports_not_printed = node->print.left_out,
-                                     .events_not_logged = node_log_left_out(node->log)};
+                                     .events_not_logged = node_log_events_left_out(node->log)};
 }
 
 static void write_metrics(FILE *out, void *context)
@@ -604,9 +609,9 @@ static void write_metrics(FILE *out, void *context)
         .transport = node->transport,
         .parameters = node->parameters,
         .messages_in = node->taken,
-        .losses = losses_of(node),
-        .pages_sent = page_server_sent(node->pages),
-        .clients_refused = page_server_refused(node->pages),
+        .losses = node_losses(node),
+        .pages_sent = page_server_num_sent(node->pages),
+        .clients_refused = page_server_num_refused(node->pages),
     };
 
     metrics_write(out, &source);
@@ -614,15 +619,15 @@ static void write_metrics(FILE *out, void *context)
 
 static void send_status(struct node *node)
 {
-    const struct node_core_losses losses = losses_of(node);
+    const struct node_core_losses losses = node_losses(node);
 
-    node_core_status(node->core, &losses);
+    node_core_send_status(node->core, &losses);
     if (node->statuses++ % CLUTTER_STATUSES == 0) {
         node_core_send_clutter(node->core);
     }
 }
 
-static void show(struct node *node, bool is_end)
+static void show_tracks(struct node *node, bool is_end)
 {
     if (!node_print_show(&node->print, node->core, transport_url(node->transport), is_end)) {
         if (errno != EPIPE) {
@@ -634,7 +639,7 @@ static void show(struct node *node, bool is_end)
     }
 }
 
-static void keep_clocks(struct node *node)
+static void do_what_is_due(struct node *node)
 {
     int64_t now_us = clock_us();
 
@@ -644,21 +649,21 @@ static void keep_clocks(struct node *node)
             node->status_us = now_us + STATUS_US;
         }
         send_status(node);
-        page_server_run(node->pages); /* who was too slow goes */
+        page_server_serve(node->pages); /* who was too slow goes */
     }
-    keep_snapshot(node, now_us);
+    write_snapshot_when_due(node, now_us);
     node->is_over = node->is_over || now_us >= node->end_us;
-    show(node, false);
+    show_tracks(node, false);
     warn_of_losses(node);
-    watch_sensors(node);
-    note_saved(node, node_log_watch(node->log));
-    keep_clutter(node);
+    tell_of_sensor_changes(node);
+    note_save_result(node, node_log_report_errors(node->log));
+    save_clutter_when_due(node);
 }
 
-static void run(struct node *node)
+static void run_node(struct node *node)
 {
     while (!node->is_over) {
-        keep_clocks(node);
+        do_what_is_due(node);
         wait_for_work(node);
         take_messages(node);
     }
@@ -666,15 +671,15 @@ static void run(struct node *node)
     node_core_flush(node->core);
     node->statuses = 0;
     send_status(node);
-    show(node, true);
+    show_tracks(node, true);
 }
 
 /* Outputs that take nothing are waited for END_US at most, all together. */
-static void finish(struct node *node)
+static void finish_outputs(struct node *node)
 {
-    node_print_end(&node->print, node->finish_us);
-    node_log_end(node->log, node->finish_us);
-    note_saved(node, node_log_watch(node->log));
+    node_print_finish(&node->print, node->finish_us);
+    node_log_finish_queue(node->log, node->finish_us);
+    note_save_result(node, node_log_report_errors(node->log));
     print_summary(node);
     write_last_snapshot(node);
     save_last_clutter(node);
@@ -694,38 +699,40 @@ int command_node(struct command_line *line)
 {
     struct node node = {
         .status_us = clock_us(), .end_us = INT64_MAX, .parameters = &line->parameters};
-    const struct node_core_events events = {&node, on_send, on_step, on_restart, on_new_clock};
-    const bool is_live = transport_is_live(line->lcm);
+    const struct node_core_events events = {&node, send_core_message, on_step, on_sensor_restart,
+                                            on_new_clock};
+    const bool is_live = transport_url_is_live(line->lcm);
     const struct node_log_limits limits = log_limits(&line->parameters);
     bool is_restored = false; /* the map of clutter, too */
     int exit_code;
 
-    if (line->log && transport_is_file(line->lcm, line->log)) {
+    if (line->log && transport_url_is_file(line->lcm, line->log)) {
         fail(EXIT_USAGE, "node: %s would be written over what is read", line->log);
     }
     pipeline_set_options(&line->parameters,
                          &(struct pipeline_options){line->gate, line->method, line->pipeline});
-    clutter_file_refuse(line->clutter_map, line->log, "log");
-    if (line->clutter_map && transport_is_file(line->lcm, line->clutter_map)) {
+    clutter_file_refuse_same_file(line->clutter_map, line->log, "log");
+    if (line->clutter_map && transport_url_is_file(line->lcm, line->clutter_map)) {
         fail(EXIT_USAGE, "%s: the input cannot be the clutter map", line->clutter_map);
     }
     struct pipeline_show *show = pipeline_show_open(line->show, &line->parameters);
     node.core = node_core_open(&line->parameters, (int32_t)(time(NULL) & INT32_MAX), &events);
     error_lines_open(&line->parameters, is_live);
-    node_core_show(node.core, show);
+    node_core_set_show(node.core, show);
     if (line->commands) {
         node_core_allow_commands(node.core);
     }
     node.snapshot_path = line->snapshot;
     node.snapshot_us = node.status_us + SNAPSHOT_US;
-    if (line->snapshot && node_core_restore(node.core, line->snapshot) == PIPELINE_RESTORED) {
+    if (line->snapshot &&
+        node_core_restore_snapshot(node.core, line->snapshot) == PIPELINE_RESTORED) {
         fprintf(stderr, "rhotrack: %s: tracks go on\n", line->snapshot);
         is_restored = true;
     }
     node.clutter = clutter_file_open(line->clutter_map, &line->parameters,
-                                     is_restored ? NULL : node_core_clutter(node.core));
-    take_signals(&node);
-    start_watch(&node.signals);
+                                     is_restored ? NULL : node_core_clutter_map(node.core));
+    set_up_signals(&node);
+    start_end_watchdog(&node.signals);
     node.transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
     node.pages = page_server_open(line->metrics, "/metrics",
                                   "text/plain; version=0.0.4; charset=utf-8", write_metrics, &node);
@@ -734,8 +741,8 @@ int command_node(struct command_line *line)
     if (line->seconds > 0) {
         node.end_us = node.status_us + llround(line->seconds * 1e6);
     }
-    run(&node);
-    finish(&node);
+    run_node(&node);
+    finish_outputs(&node);
     exit_code = node.exit_code;
     page_server_close(node.pages);
     transport_close(node.transport);

@@ -18,7 +18,7 @@
 #include "picture/plot_tracks.h"
 #include "picture/plot_votes.h"
 
-static void need(const struct plot_points *points, const char *kind, const char *what)
+static void need_points(const struct plot_points *points, const char *kind, const char *what)
 {
     if (points->count == 0) {
         fail(EXIT_USAGE, "plot %s: no file with %s is given", kind, what);
@@ -26,7 +26,7 @@ static void need(const struct plot_points *points, const char *kind, const char 
 }
 
 /* The slider of a page stops at times of these. */
-static void need_times(const struct plot_data *data)
+static void need_times_for_page(const struct plot_data *data)
 {
     if (data->plots.count + data->tracks.count + data->bearings.count == 0) {
         fail(EXIT_USAGE, "plot: a page needs plots, tracks or bearings beside the truth; "
@@ -34,7 +34,7 @@ static void need_times(const struct plot_data *data)
     }
 }
 
-static void check_content(const char *kind, const struct plot_data *data)
+static void check_data_for_kind(const char *kind, const struct plot_data *data)
 {
     const bool shows_bearings = strcmp(kind, "scans") == 0 || strcmp(kind, "tracks") == 0;
     if (data->bearings.has_own_file && !shows_bearings) {
@@ -47,9 +47,9 @@ static void check_content(const char *kind, const struct plot_data *data)
         return;
     }
     if (strcmp(kind, "scans") == 0 || strcmp(kind, "parameter-space") == 0) {
-        need(&data->plots, kind, "plots (t_s, x_m, y_m)");
+        need_points(&data->plots, kind, "plots (t_s, x_m, y_m)");
     } else if (strcmp(kind, "errors") == 0) {
-        need(&data->truth, kind, "truth (target_id)");
+        need_points(&data->truth, kind, "truth (target_id)");
     } else if (strcmp(kind, "tracks") != 0) {
         fail(EXIT_USAGE,
              "plot: no picture '%s'; there is: scans, tracks, parameter-space, errors, "
@@ -67,8 +67,8 @@ struct findings {
     struct plot_votes *votes; /* of --method; else NULL */
 };
 
-static void find_votes(struct findings *findings, const struct plot_data *data,
-                       struct command_line *line)
+static void find_votes_of_method(struct findings *findings, const struct plot_data *data,
+                                 struct command_line *line)
 {
     const enum method method = method_find(line->method);
 
@@ -78,29 +78,29 @@ static void find_votes(struct findings *findings, const struct plot_data *data,
              "nht have one",
              method_name(method));
     }
-    method_suggest(method, &line->parameters);
+    method_suggest_parameters(method, &line->parameters);
     findings->revolutions = plot_parameter_space_read(
         data, &line->parameters, (size_t)line->parameters.value[PARAMETER_SCANS]);
     findings->votes = plot_votes_find(method, &findings->revolutions, &line->parameters);
 }
 
-static struct findings find(const char *kind, const struct plot_data *data,
-                            struct command_line *line)
+static struct findings find_what_is_drawn(const char *kind, const struct plot_data *data,
+                                          struct command_line *line)
 {
     const struct parameters *parameters = &line->parameters;
     struct findings findings = {.revolutions = {.count = 0}};
     if (strcmp(kind, "errors") == 0) {
         findings.errors = plot_errors_find(data, parameters);
     } else if (strcmp(kind, "parameter-space") == 0 && line->method) {
-        find_votes(&findings, data, line);
+        find_votes_of_method(&findings, data, line);
     } else if (strcmp(kind, "parameter-space") == 0) {
         findings.revolutions = plot_parameter_space_read(data, parameters, RHO_MAX_SCANS);
     }
     return findings;
 }
 
-static void draw(const char *kind, struct picture *picture, const struct plot_data *data,
-                 const struct findings *findings)
+static void draw_kind(const char *kind, struct picture *picture, const struct plot_data *data,
+                      const struct findings *findings)
 {
     if (strcmp(kind, "scans") == 0 && data->bearings.num_sensors) {
         plot_bearings(picture, data);
@@ -122,11 +122,11 @@ static int plot_clutter_map(const struct command_line *line)
 {
     size_t count;
     struct clutter_echo *echoes =
-        clutter_file_echoes(line->arguments[1], &line->parameters, &count);
+        clutter_file_read_echoes(line->arguments[1], &line->parameters, &count);
     struct plot_data data =
         plot_data_read(line->arguments + 2, line->num_arguments - 2, &line->parameters);
     if (line->num_arguments > 2) {
-        need(&data.plots, "clutter-map", "plots (t_s, x_m, y_m)");
+        need_points(&data.plots, "clutter-map", "plots (t_s, x_m, y_m)");
     }
     struct picture picture = picture_open(line->output, 1000, 900);
     plot_clutter(&picture, echoes, count, &data, &line->parameters);
@@ -144,14 +144,14 @@ int command_plot(struct command_line *line)
     }
     const char *kind = line->arguments[0];
     const bool is_map = strcmp(kind, "scans") == 0 || strcmp(kind, "tracks") == 0;
-    if (page_is_wanted(line->output) && !is_map) {
+    if (page_path_is_html(line->output) && !is_map) {
         fail(EXIT_USAGE,
              "%s: plot scans and plot tracks alone make a page; plot %s makes "
              "NAME.svg or NAME.png",
              line->output, kind);
     }
     picture_check_path(line->output);
-    refuse_own_input(line);
+    refuse_output_as_input(line);
     if (line->method && strcmp(kind, "parameter-space") != 0) {
         fail(EXIT_USAGE, "plot %s: --method is for parameter-space", kind);
     }
@@ -160,16 +160,16 @@ int command_plot(struct command_line *line)
     }
     struct plot_data data =
         plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
-    check_content(kind, &data);
-    if (page_is_wanted(line->output)) {
-        need_times(&data);
+    check_data_for_kind(kind, &data);
+    if (page_path_is_html(line->output)) {
+        need_times_for_page(&data);
         page_write(line->output, &data, &line->parameters);
         plot_data_free(&data);
         return 0;
     }
-    struct findings findings = find(kind, &data, line);
+    struct findings findings = find_what_is_drawn(kind, &data, line);
     struct picture picture = picture_open(line->output, 1100, 680);
-    draw(kind, &picture, &data, &findings);
+    draw_kind(kind, &picture, &data, &findings);
     picture_close(&picture);
     revolutions_free(&findings.revolutions);
     plot_errors_free(&findings.errors);

@@ -49,7 +49,7 @@ struct player {
 
 /* ---- Time ---- */
 
-static bool is_stopped(const struct player *player)
+static bool is_playing_over(const struct player *player)
 {
     return player->is_over || publish_is_stopped();
 }
@@ -70,7 +70,7 @@ static void sleep_until(struct player *player, uint64_t deadline_ns)
                           ? player->start_ns + (uint64_t)(player->line->seconds * 1e9)
                           : UINT64_MAX;
 
-    while (!is_stopped(player) && now_ns < deadline_ns) {
+    while (!is_playing_over(player) && now_ns < deadline_ns) {
         uint64_t next_ns = deadline_ns - now_ns > PIECE_NS ? now_ns + PIECE_NS : deadline_ns;
         struct timespec next = {(time_t)(next_ns / NS_PER_S), (long)(next_ns % NS_PER_S)};
 
@@ -82,7 +82,7 @@ static void sleep_until(struct player *player, uint64_t deadline_ns)
 }
 
 /* Waits for an event's time; times that go back are now. */
-static void wait_for(struct player *player, int64_t utime)
+static void wait_for_event_time(struct player *player, int64_t utime)
 {
     double after_s = 0;
 
@@ -93,7 +93,7 @@ static void wait_for(struct player *player, int64_t utime)
     uint64_t deadline_ns =
         player->start_ns + (uint64_t)(fmin(fmax(after_s, 0), LATEST_S) * NS_PER_S);
     sleep_until(player, deadline_ns);
-    if (player->line->speed > 0 && !is_stopped(player)) {
+    if (player->line->speed > 0 && !is_playing_over(player)) {
         player->lag_max_s =
             fmax(player->lag_max_s, (double)(monotonic_ns() - deadline_ns) / NS_PER_S);
     }
@@ -119,7 +119,7 @@ static struct channel *find_channel(struct player *player, const char *name)
 }
 
 /* Counts an event of the first pass: its time, and the scans of its channel. */
-static void note_event(struct player *player, const struct message_event *event)
+static void note_first_pass_event(struct player *player, const struct message_event *event)
 {
     struct channel *channel = find_channel(player, event->channel);
     int32_t scan;
@@ -127,10 +127,10 @@ static void note_event(struct player *player, const struct message_event *event)
     if (player->passes > 0) {
         return;
     }
-    scan_interval_hint_add(&player->plots, event);
+    scan_interval_hint_add_message(&player->plots, event);
     player->times += player->times == 0 || event->utime != player->last_us;
     player->last_us = event->utime;
-    if (message_scan(event->data, event->size, &scan)) {
+    if (message_scan_number(event->data, event->size, &scan)) {
         channel->first_scan = channel->has_scans ? channel->first_scan : scan;
         channel->last_scan = scan;
         channel->has_scans = true;
@@ -138,7 +138,7 @@ static void note_event(struct player *player, const struct message_event *event)
 }
 
 /* A pass begins one mean interval after the end of the one before. */
-static double pass_us(const struct player *player)
+static double pass_duration_us(const struct player *player)
 {
     double duration_us = (double)player->last_us - (double)player->first_us;
 
@@ -147,13 +147,13 @@ static double pass_us(const struct player *player)
                : 1e6;
 }
 
-static uint32_t scans_of(const struct channel *channel)
+static uint32_t scans_in_pass(const struct channel *channel)
 {
     return (uint32_t)channel->last_scan - (uint32_t)channel->first_scan + 1;
 }
 
 /* The message as it is to be sent. */
-static const uint8_t *change(struct player *player, const struct message_event *event)
+static const uint8_t *message_for_pass(struct player *player, const struct message_event *event)
 {
     const struct channel *channel = find_channel(player, event->channel);
 
@@ -169,8 +169,8 @@ static const uint8_t *change(struct player *player, const struct message_event *
         message_set_epoch(player->buffer, event->size, PUBLISH_EPOCH_OF_CSV, player->epoch);
     }
     if (player->passes > 0) {
-        message_shift(player->buffer, event->size, (int64_t)player->shift_us,
-                      (uint32_t)player->passes * scans_of(channel));
+        message_shift_in_time(player->buffer, event->size, (int64_t)player->shift_us,
+                              (uint32_t)player->passes * scans_in_pass(channel));
     }
     return player->buffer;
 }
@@ -179,36 +179,36 @@ static const uint8_t *change(struct player *player, const struct message_event *
 
 static void send_event(struct player *player, const struct message_event *event)
 {
-    player->skipped +=
-        !publish_send(player->transport, event->channel, change(player, event), event->size);
+    player->skipped += !publish_send_message(player->transport, event->channel,
+                                             message_for_pass(player, event), event->size);
 }
 
-static struct message_source *open_source(const struct command_line *line)
+static struct message_source *open_messages(const struct command_line *line)
 {
     return message_source_open(line->arguments, line->num_arguments, &line->parameters,
                                line->keep_going);
 }
 
 /* One pass; the source is closed. */
-static void play(struct player *player, struct message_source *source)
+static void play_pass(struct player *player, struct message_source *source)
 {
     struct message_event event;
 
-    while (!is_stopped(player) && message_source_next(source, &event)) {
+    while (!is_playing_over(player) && message_source_next(source, &event)) {
         if (!player->start_ns) {
             player->start_ns = monotonic_ns();
             player->first_us = event.utime;
         }
-        note_event(player, &event);
-        wait_for(player, event.utime);
-        if (!is_stopped(player)) {
+        note_first_pass_event(player, &event);
+        wait_for_event_time(player, event.utime);
+        if (!is_playing_over(player)) {
             send_event(player, &event);
         }
     }
     message_source_report(source);
     message_source_close(source);
     player->passes++;
-    player->shift_us = pass_us(player) * (double)player->passes;
+    player->shift_us = pass_duration_us(player) * (double)player->passes;
 }
 
 /* ---- Epochs ---- */
@@ -217,7 +217,7 @@ static void play(struct player *player, struct message_source *source)
  * Whether a CSV file's header, its first line that is no comment, names the column. A pipe is not
  * looked into.
  */
-static bool names_epoch(const char *path)
+static bool has_epoch_column(const char *path)
 {
     char line[4096] = "#";
     struct stat status;
@@ -242,14 +242,14 @@ static bool names_epoch(const char *path)
  * A sensor that begins anew says so by its epoch; logs and files that say one keep it. 0 stands for
  * none.
  */
-static int32_t own_epoch(const struct command_line *line)
+static int32_t epoch_for_csv(const struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments; i++) {
-        if (lcm_log_is_log(line->arguments[i]) || names_epoch(line->arguments[i])) {
+        if (lcm_log_is_log(line->arguments[i]) || has_epoch_column(line->arguments[i])) {
             return 0;
         }
     }
-    return publish_epoch();
+    return publish_run_epoch();
 }
 
 static void print_summary(const struct player *player)
@@ -270,23 +270,23 @@ static void print_summary(const struct player *player)
 
 int command_publish(struct command_line *line)
 {
-    struct player player = {.line = line, .epoch = own_epoch(line)};
+    struct player player = {.line = line, .epoch = epoch_for_csv(line)};
     struct message_source *source;
 
     if (asterix_udp_is_url(line->arguments[0])) {
         return publish_asterix(line);
     }
     for (int i = 0; i < line->num_arguments; i++) {
-        if (transport_is_file(line->lcm, line->arguments[i])) {
+        if (transport_url_is_file(line->lcm, line->arguments[i])) {
             fail(EXIT_USAGE, "publish: %s would be written over what is read", line->arguments[i]);
         }
     }
     publish_watch_signals();
-    source = open_source(line); /* what is wrong with it is said before a log is emptied */
+    source = open_messages(line); /* what is wrong with it is said before a log is emptied */
     player.transport = transport_open(line->lcm, TRANSPORT_SEND);
-    play(&player, source);
-    while (line->loop && !is_stopped(&player)) {
-        play(&player, open_source(line));
+    play_pass(&player, source);
+    while (line->loop && !is_playing_over(&player)) {
+        play_pass(&player, open_messages(line));
     }
     print_summary(&player);
     transport_close(player.transport);

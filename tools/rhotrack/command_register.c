@@ -35,13 +35,13 @@ static void add_scan(struct register_data *data, const struct input *input,
         }
         *unplaced = (struct unplaced){.is_any = true, .sensor_id = sensor.sensor_id};
     }
-    wrong = register_add(data, input->scan, &sensor);
+    wrong = register_add_scan(data, input->scan, &sensor);
     if (wrong) {
         fail(EXIT_USAGE, "register: sensor %d: %s", (int)sensor.sensor_id, wrong);
     }
 }
 
-static uint64_t read_all(const struct command_line *line, struct register_data *data)
+static uint64_t read_scans(const struct command_line *line, struct register_data *data)
 {
     struct inputs *inputs =
         inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
@@ -54,7 +54,8 @@ static uint64_t read_all(const struct command_line *line, struct register_data *
     }
     for (struct input input = inputs_next(inputs); input.scan; input = inputs_next(inputs)) {
         add_scan(data, &input, &line->parameters, &unplaced);
-        progress_show_bytes(&progress, ++done, inputs_position(inputs), inputs_size(inputs));
+        progress_show_bytes(&progress, ++done, inputs_bytes_read(inputs),
+                            inputs_total_bytes(inputs));
     }
     progress_end(&progress);
     skipped = inputs_counts(inputs).rows_skipped;
@@ -62,7 +63,7 @@ static uint64_t read_all(const struct command_line *line, struct register_data *
     return skipped;
 }
 
-static void check_enough(const struct register_data *data)
+static void check_enough_radars(const struct register_data *data)
 {
     if (register_num_radars(data) == 0) {
         fail(EXIT_USAGE, "register: the input has no plots");
@@ -73,14 +74,14 @@ static void check_enough(const struct register_data *data)
     }
 }
 
-static void print(const struct command_line *line, const struct register_result *result,
-                  uint64_t rows_skipped)
+static void print_result(const struct command_line *line, const struct register_result *result,
+                         uint64_t rows_skipped)
 {
     struct output output;
 
     if (line->json) {
         register_print_json(result, rows_skipped);
-    } else if (is_output_standard(line)) {
+    } else if (is_output_to_stdout(line)) {
         register_print(result, stderr);
     } else {
         output = output_open(NULL);
@@ -97,17 +98,17 @@ int command_register(struct command_line *line)
     struct register_result result;
     uint64_t rows_skipped;
 
-    command_line_check_ini(line, "register");
+    command_line_check_ini_output(line, "register");
     pipeline_set_options(&line->parameters, &(struct pipeline_options){.gate = line->gate});
-    rows_skipped = read_all(line, data);
-    check_enough(data);
-    result = register_estimate(data, &pipeline);
+    rows_skipped = read_scans(line, data);
+    check_enough_radars(data);
+    result = register_estimate_biases(data, &pipeline);
     if (result.targets == 0) {
         fail(EXIT_RUNTIME, "register: no target was tracked by two radars at the same time, within "
                            "3 km; nothing can be said of biases");
     }
-    print(line, &result, rows_skipped);
-    if (!register_knows_any(&result)) {
+    print_result(line, &result, rows_skipped);
+    if (!register_knows_any_bias(&result)) {
         fail(EXIT_RUNTIME,
              "register: %zu targets in common tell none of the biases to half of a plot's noise",
              result.targets);

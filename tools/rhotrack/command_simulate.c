@@ -3,12 +3,12 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/hint.h"
+#include "base/name_hint.h"
 #include "commands.h"
 #include "next_command.h"
 #include "scene/scene.h"
 
-static void write_runs(const struct command_line *line, const struct scene *scene)
+static void simulate_runs(const struct command_line *line, const struct scene *scene)
 {
     struct progress progress = progress_start("runs", (uint64_t)line->runs);
     for (long run = 0; run < line->runs; run++) {
@@ -22,7 +22,7 @@ static void write_runs(const struct command_line *line, const struct scene *scen
     progress_end(&progress);
 }
 
-static _Noreturn void fail_with_list(void)
+static _Noreturn void fail_with_scene_list(void)
 {
     fprintf(stderr, "rhotrack: simulate: give one scene and -o DIR; the scenes, besides files "
                     "NAME.json:\n");
@@ -32,9 +32,9 @@ static _Noreturn void fail_with_list(void)
     exit(EXIT_USAGE);
 }
 
-static _Noreturn void fail_unknown(const char *name)
+static _Noreturn void fail_unknown_scene(const char *name)
 {
-    const char *hint = hint_nearest(name, scene_shipped_name);
+    const char *hint = name_hint_nearest(name, scene_shipped_name);
     char list[2048];
     size_t used = 0;
 
@@ -47,7 +47,7 @@ static _Noreturn void fail_unknown(const char *name)
 }
 
 /* A scene says all that there is to say; --set changes what stands in it. */
-static void refuse_config(const struct command_line *line)
+static void refuse_config_option(const struct command_line *line)
 {
     bool has_any = line->parameters.num_sensors > 0;
 
@@ -61,20 +61,21 @@ static void refuse_config(const struct command_line *line)
 }
 
 /* Its own plots, and what a tracker may know of them. */
-static void say_next(const struct command_line *line)
+static void suggest_next_command(const struct command_line *line)
 {
-    char *folder = line->runs > 1 ? path_join(line->output, "run-0000") : must_copy(line->output);
+    char *folder =
+        line->runs > 1 ? path_join(line->output, "run-0000") : must_copy_text(line->output);
     char *files[] = {path_join(folder, "plots.csv"), path_join(folder, "bearings.csv")};
     char *config = path_join(folder, "scenario.ini"), *tracks = path_join(folder, "tracks.csv");
     const char *words[8] = {"track"};
     size_t count = 1;
 
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        if (file_bytes(files[i]) > 0) {
+        if (plain_file_size(files[i]) > 0) {
             words[count++] = files[i];
         }
     }
-    if (count > 1 && file_bytes(config) > 0) {
+    if (count > 1 && plain_file_size(config) > 0) {
         words[count++] = "--config";
         words[count++] = config;
         words[count++] = "-o";
@@ -94,19 +95,19 @@ int command_simulate(struct command_line *line)
     struct scene *scene;
 
     if (line->num_arguments != 1 || line->output == NULL) {
-        fail_with_list();
+        fail_with_scene_list();
     }
     scene = scene_find(line->arguments[0], line->scene_sets, line->num_scene_sets);
     if (!scene) {
-        fail_unknown(line->arguments[0]);
+        fail_unknown_scene(line->arguments[0]);
     }
-    refuse_config(line);
+    refuse_config_option(line);
     if (line->runs > 1) {
-        write_runs(line, scene);
+        simulate_runs(line, scene);
     } else {
         scene_simulate(scene, line->arguments[0], line->output, line->seed, 0);
     }
     scene_free(scene);
-    say_next(line);
+    suggest_next_command(line);
     return 0;
 }

@@ -19,9 +19,9 @@
 #include "io/scans/inputs.h"
 #include "io/scans/scan_reader.h"
 #include "next_command.h"
-#include "pipeline/bearings_batch.h"
-#include "pipeline/learned.h"
-#include "pipeline/no_tracks.h"
+#include "pipeline/last_bearings.h"
+#include "pipeline/learned_report.h"
+#include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/pipeline_show.h"
 #include "settings/method.h"
@@ -38,7 +38,7 @@ struct tracking {
 /* ---- Steps ---- */
 
 /* The sensor's description goes before its scan; it may have moved. */
-static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
+static void describe_sensor(struct tracking *tracking, const struct rho_sensor *sensor)
 {
     enum rho_status status = rho_tracker_set_sensor(tracking->pipeline.tracker, sensor);
 
@@ -50,8 +50,8 @@ static void describe(struct tracking *tracking, const struct rho_sensor *sensor)
 }
 
 /* Passive sensors stand still and are known from the start. */
-static void describe_passive(struct tracking *tracking, const struct inputs *inputs,
-                             const struct parameters *parameters)
+static void describe_passive_sensors(struct tracking *tracking, const struct inputs *inputs,
+                                     const struct parameters *parameters)
 {
     size_t count;
     const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
@@ -59,8 +59,8 @@ static void describe_passive(struct tracking *tracking, const struct inputs *inp
     if (count > 0) {
         struct parameters customary = *parameters;
 
-        method_suggest(METHOD_PASSIVE, &customary);
-        bearings_check_sensors(sensors, count, &tracking->pipeline.passive->batch, &customary);
+        method_suggest_parameters(METHOD_PASSIVE, &customary);
+        bearing_sensors_check(sensors, count, &tracking->pipeline.passive->batch, &customary);
     }
     for (size_t i = 0; i < count; i++) {
         struct rho_sensor sensor;
@@ -69,21 +69,21 @@ static void describe_passive(struct tracking *tracking, const struct inputs *inp
             sensor.x_m = sensors[i].x_m;
             sensor.y_m = sensors[i].y_m;
             sensor.range_max_m = (float)parameters_range_max_m(parameters, sensors[i].sensor_id);
-            describe(tracking, &sensor);
+            describe_sensor(tracking, &sensor);
         }
     }
 }
 
-static void step(struct tracking *tracking, const struct input *input)
+static void step_input(struct tracking *tracking, const struct input *input)
 {
     int64_t start_us, took_us;
 
     if (input->sensor) {
-        describe(tracking, input->sensor);
+        describe_sensor(tracking, input->sensor);
     }
     start_us = clock_us();
     if (input->scan) {
-        no_tracks_add(&tracking->seen, input->scan);
+        no_tracks_reason_add_scan(&tracking->seen, input->scan);
         pipeline_step(&tracking->pipeline, input->scan);
     } else {
         pipeline_step_frame(&tracking->pipeline, input->frame);
@@ -95,41 +95,42 @@ static void step(struct tracking *tracking, const struct input *input)
     }
 }
 
-/* A log that is written, at the time of a step. */
+/* Where messages of --show go: the log of the tracks, at the step's time. */
 struct shown {
     struct tracks_output *tracks;
     int64_t time_us;
 };
 
-static void on_shown(void *context, const char *channel, const uint8_t *data, size_t size)
+static void write_shown_message(void *context, const char *channel, const uint8_t *data,
+                                size_t size)
 {
     const struct shown *shown = context;
 
-    tracks_output_message(shown->tracks, shown->time_us, channel, data, size);
+    tracks_output_write_message(shown->tracks, shown->time_us, channel, data, size);
 }
 
 static void step_and_report(struct tracking *tracking, const struct input *input,
                             struct tracks_output *tracks)
 {
-    step(tracking, input);
+    step_input(tracking, input);
     if (tracking->pipeline.zones) {
-        zones_output_write(&tracking->zones, tracking->pipeline.zones);
+        zones_output_write_events(&tracking->zones, tracking->pipeline.zones);
     }
     if (tracks) {
-        tracks_output_report(tracks, tracking->pipeline.report);
+        tracks_output_write_report(tracks, tracking->pipeline.report);
     }
     if (tracking->show) {
         struct shown shown = {tracks, tracking->pipeline.report->time_us};
-        const struct pipeline_show_output output = {&shown, on_shown};
+        const struct pipeline_show_output output = {&shown, write_shown_message};
 
         pipeline_show_step(tracking->show, &tracking->pipeline, input->frame != NULL,
-                           tracks_output_step(tracks), tracks_output_epoch(), shown.time_us,
+                           tracks_output_step_number(tracks), tracks_output_epoch(), shown.time_us,
                            &output);
     }
 }
 
-static void step_all(struct tracking *tracking, struct inputs *inputs, struct tracks_output *tracks,
-                     bool is_on_terminal)
+static void step_all_inputs(struct tracking *tracking, struct inputs *inputs,
+                            struct tracks_output *tracks, bool is_on_terminal)
 {
     struct progress progress = progress_start("scans", 0);
     uint64_t done = 0;
@@ -139,7 +140,8 @@ static void step_all(struct tracking *tracking, struct inputs *inputs, struct tr
         step_and_report(tracking, &input, tracks);
         done++;
         if (!is_on_terminal) {
-            progress_show_bytes(&progress, done, inputs_position(inputs), inputs_size(inputs));
+            progress_show_bytes(&progress, done, inputs_bytes_read(inputs),
+                                inputs_total_bytes(inputs));
         }
     }
     progress_end(&progress);
@@ -149,17 +151,17 @@ static void step_all(struct tracking *tracking, struct inputs *inputs, struct tr
 
 static volatile sig_atomic_t is_stopped;
 
-static void on_stop(int number)
+static void on_stop_signal(int number)
 {
     (void)number;
     is_stopped = 1;
 }
 
-static void stop_on(int number)
+static void stop_on_signal(int number)
 {
-    struct sigaction action = {.sa_handler = on_stop};
+    struct sigaction action = {.sa_handler = on_stop_signal};
 
-    if (!is_ignored(number)) {
+    if (!is_signal_ignored(number)) {
         sigaction(number, &action, NULL);
     }
 }
@@ -193,18 +195,19 @@ static const char *follow_until_over(struct tracking *tracking, struct inputs *i
     const char *why = NULL;
 
     while (!is_stopped) {
-        (void)clutter_file_keep(&tracking->clutter, &tracking->pipeline.tracker->clutter_map);
-        why = scan_reader_why_over(reader); /* what was added before that is still read */
-        if (follow_scans(tracking, inputs, tracks) || position != inputs_position(inputs) ||
+        (void)clutter_file_save_if_due(&tracking->clutter,
+                                       &tracking->pipeline.tracker->clutter_map);
+        why = scan_reader_why_ended(reader); /* what was added before that is still read */
+        if (follow_scans(tracking, inputs, tracks) || position != inputs_bytes_read(inputs) ||
             scan_reader_is_mid_row(reader)) {
             since_us = clock_us();
-            position = inputs_position(inputs);
+            position = inputs_bytes_read(inputs);
         }
-        if (why || !scan_reader_waits(reader)) {
+        if (why || !scan_reader_waits_for_rows(reader)) {
             break;
         }
         if (clock_us() - since_us >= quiet_us) {
-            scan_reader_complete(reader);
+            scan_reader_complete_scans(reader);
         }
         nanosleep(&pause, NULL);
     }
@@ -212,7 +215,7 @@ static const char *follow_until_over(struct tracking *tracking, struct inputs *i
 }
 
 /* Scans wait for clocks that are behind: time_bias_s. Rows of these may come so much later. */
-static int64_t quiet_time_us(const struct parameters *parameters)
+static int64_t follow_quiet_us(const struct parameters *parameters)
 {
     int32_t least_us, largest_us;
 
@@ -222,19 +225,19 @@ static int64_t quiet_time_us(const struct parameters *parameters)
 }
 
 /* Scans that are there when the input ends are tracked. */
-static const char *follow(struct tracking *tracking, struct inputs *inputs,
-                          struct tracks_output *tracks, const struct parameters *parameters)
+static const char *follow_input(struct tracking *tracking, struct inputs *inputs,
+                                struct tracks_output *tracks, const struct parameters *parameters)
 {
     struct input input;
     const char *why;
 
-    stop_on(SIGINT);
-    stop_on(SIGTERM);
+    stop_on_signal(SIGINT);
+    stop_on_signal(SIGTERM);
     if (tracks) {
         tracks_output_flush(tracks);
     }
-    why = follow_until_over(tracking, inputs, tracks, quiet_time_us(parameters));
-    scan_reader_end(inputs_scan_reader(inputs));
+    why = follow_until_over(tracking, inputs, tracks, follow_quiet_us(parameters));
+    scan_reader_end_reading(inputs_scan_reader(inputs));
     while ((input = inputs_next(inputs)).scan) {
         step_and_report(tracking, &input, tracks);
     }
@@ -243,13 +246,13 @@ static const char *follow(struct tracking *tracking, struct inputs *inputs,
 
 /* ---- What it comes to ---- */
 
-static double mean_us(const struct tracking *tracking, const struct inputs_counts *counts)
+static double mean_step_us(const struct tracking *tracking, const struct inputs_counts *counts)
 {
     return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
 
-/* The setting that would have them in time, where it can be larger. */
-static const char *advice_on_late(const struct parameters *parameters, uint32_t num_too_late)
+/* The setting by which late scans would be used, where it can be larger. */
+static const char *advice_on_late_scans(const struct parameters *parameters, uint32_t num_too_late)
 {
     if (parameters->value[PARAMETER_HOLD_MS] < parameters_text(PARAMETER_HOLD_MS).max) {
         return "; hold_ms waits longer";
@@ -275,7 +278,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
     if (counters->scans_late + counters->scans_retrodicted > 0) {
         fprintf(stderr, " (scans: %" PRIu32 " late, used for tracks alone, %" PRIu32 " too late%s)",
                 counters->scans_retrodicted, counters->scans_late,
-                advice_on_late(parameters, counters->scans_late));
+                advice_on_late_scans(parameters, counters->scans_late));
     }
     if (counts->frames_incomplete) {
         fprintf(stderr, ", %" PRIu64 " frames miss a sensor%s", counts->frames_incomplete,
@@ -290,7 +293,7 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
                     tracking->pipeline.tracker->looks[i].sensor_id);
         }
     }
-    learned_print(tracking->pipeline.tracker, tracking->pipeline.learning, stderr);
+    learned_report_print(tracking->pipeline.tracker, tracking->pipeline.learning, stderr);
     if (work->partial_steps > 0) {
         fprintf(stderr, ", in %" PRIu32 " scans work_max left out plots, %" PRIu32 " times",
                 work->partial_steps, work->plots_not_tried);
@@ -299,11 +302,11 @@ static void print_summary(const struct tracking *tracking, const struct inputs_c
         fprintf(stderr, ", messages of --show beyond its rate: %" PRIu64,
                 pipeline_show_not_sent(tracking->show));
     }
-    fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_us(tracking, counts),
+    fprintf(stderr, "; %.0f us a scan, %" PRId64 " at most\n", mean_step_us(tracking, counts),
             tracking->max_us);
 }
 
-static cJSON *fates_json(const struct rho_tracker_counters *counters)
+static cJSON *plot_fates_json(const struct rho_tracker_counters *counters)
 {
     cJSON *object = cJSON_CreateObject();
 
@@ -370,7 +373,7 @@ static cJSON *origin_json(const struct parameters *parameters)
     return object;
 }
 
-static size_t count_bytes(const struct tracking *tracking, const struct inputs *inputs)
+static size_t tracker_memory_bytes(const struct tracking *tracking, const struct inputs *inputs)
 {
     return sizeof *tracking->pipeline.tracker +
            (inputs_have_plots(inputs)
@@ -380,7 +383,7 @@ static size_t count_bytes(const struct tracking *tracking, const struct inputs *
 }
 
 /* Echoes of the clutter map that are known. */
-static double echoes_known(const struct rho_clutter_map *map)
+static double count_known_echoes(const struct rho_clutter_map *map)
 {
     uint32_t place = 0;
     double num = 0.0;
@@ -403,43 +406,44 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddNumberToObject(object, "frames_incomplete", (double)counts->frames_incomplete);
     cJSON_AddNumberToObject(object, "rows_skipped", (double)counts->rows_skipped);
     cJSON_AddNumberToObject(object, "tracks_confirmed", counters->tracks_confirmed);
-    cJSON_AddItemToObject(object, "fates", fates_json(counters));
-    cJSON_AddNumberToObject(object, "mean_us", mean_us(tracking, counts));
+    cJSON_AddItemToObject(object, "fates", plot_fates_json(counters));
+    cJSON_AddNumberToObject(object, "mean_us", mean_step_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
-    cJSON_AddNumberToObject(object, "state_bytes", (double)count_bytes(tracking, inputs));
+    cJSON_AddNumberToObject(object, "state_bytes", (double)tracker_memory_bytes(tracking, inputs));
     json_add_work(object, &tracking->pipeline.tracker->work);
     cJSON_AddItemToObject(object, "counters", counters_json(tracking->pipeline.tracker));
     cJSON_AddNumberToObject(object, "echoes_known",
-                            echoes_known(&tracking->pipeline.tracker->clutter_map));
+                            count_known_echoes(&tracking->pipeline.tracker->clutter_map));
     cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->pipeline.tracker));
-    cJSON_AddItemToObject(object, "learned", learned_json(tracking->pipeline.tracker));
-    if (learned_walls(tracking->pipeline.learning) > 0) {
+    cJSON_AddItemToObject(object, "learned",
+                          learned_report_sensors_json(tracking->pipeline.tracker));
+    if (learned_report_num_walls(tracking->pipeline.learning) > 0) {
         cJSON_AddItemToObject(object, "learned_reflectors",
-                              learned_walls_json(tracking->pipeline.learning));
+                              learned_report_walls_json(tracking->pipeline.learning));
     }
     cJSON_AddItemToObject(object, "origin", origin_json(parameters));
     if (tracking->pipeline.zones) {
-        cJSON_AddItemToObject(object, "zones", zones_json(tracking->pipeline.zones));
+        cJSON_AddItemToObject(object, "zones", zones_counts_json(tracking->pipeline.zones));
     }
     json_print(object);
 }
 
 /* Where there are bearings alone, what is customary with them holds for the tracks as well. */
-static void open_chain(struct tracking *tracking, const struct inputs *inputs,
-                       struct parameters *parameters)
+static void open_pipeline(struct tracking *tracking, const struct inputs *inputs,
+                          struct parameters *parameters)
 {
     if (!inputs_have_plots(inputs)) {
-        method_suggest(METHOD_PASSIVE, parameters);
+        method_suggest_parameters(METHOD_PASSIVE, parameters);
     }
     pipeline_open(&tracking->pipeline, parameters);
     if (inputs_have_bearings(inputs)) {
         size_t count;
         const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
 
-        parameters->passive_apart_m = bearings_apart_m(sensors, count);
+        parameters->passive_apart_m = bearing_sensors_apart_m(sensors, count);
         pipeline_open_passive(&tracking->pipeline, parameters);
     }
-    describe_passive(tracking, inputs, parameters);
+    describe_passive_sensors(tracking, inputs, parameters);
 }
 
 /* ---- The command ---- */
@@ -447,9 +451,9 @@ static void open_chain(struct tracking *tracking, const struct inputs *inputs,
 static void check_clutter_map(const struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments; i++) {
-        clutter_file_refuse(line->clutter_map, line->arguments[i], "input");
+        clutter_file_refuse_same_file(line->clutter_map, line->arguments[i], "input");
     }
-    clutter_file_refuse(line->clutter_map, line->output, "output");
+    clutter_file_refuse_same_file(line->clutter_map, line->output, "output");
 }
 
 static struct inputs *open_inputs(const struct command_line *line)
@@ -461,11 +465,11 @@ static struct inputs *open_inputs(const struct command_line *line)
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
     }
-    refuse_own_input(line); /* the output is written in place */
+    refuse_output_as_input(line); /* the output is written in place */
     return inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
 }
 
-static struct tracks_output *open_tracks(const struct command_line *line)
+static struct tracks_output *open_tracks_output(const struct command_line *line)
 {
     if (!line->output && line->json) {
         return NULL;
@@ -491,10 +495,11 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 
     print_summary(tracking, &counts, &line->parameters);
     if (tracking->pipeline.tracker->counters.tracks_confirmed == 0 && counts.frames == 0) {
-        no_tracks_say(&tracking->seen, tracking->pipeline.tracker, &line->parameters, stderr);
+        no_tracks_reason_say(&tracking->seen, tracking->pipeline.tracker, &line->parameters,
+                             stderr);
     }
     if (tracking->pipeline.zones) {
-        zones_print(tracking->pipeline.zones);
+        zones_print_counts(tracking->pipeline.zones);
     }
     if (line->json) {
         print_json(tracking, inputs, &counts, &line->parameters);
@@ -505,18 +510,18 @@ static void print_results(const struct tracking *tracking, const struct inputs *
  * With a truth of targets beside the plots its figures, else a picture; and a scene's own settings,
  * unused.
  */
-static void say_next(const struct command_line *line)
+static void suggest_next_command(const struct command_line *line)
 {
     const char *plots = line->arguments[0];
-    char *truth = next_command_beside(plots, "truth.csv");
-    char *config = next_command_beside(plots, "scenario.ini");
+    char *truth = next_command_find_beside(plots, "truth.csv");
+    char *config = next_command_find_beside(plots, "scenario.ini");
 
     if (config && line->num_settings == 0 && isatty(STDERR_FILENO)) {
         fprintf(stderr, "rhotrack: %s stands beside the plots and was not used (--config)\n",
                 config);
     }
     if (line->output && path_ends_with(line->output, ".csv") && truth &&
-        next_command_can_read(line, truth)) {
+        next_command_can_read_file(line, truth)) {
         next_command_say(line, (const char *[]){"evaluate", truth, line->output, NULL});
     } else if (line->output && path_ends_with(line->output, ".csv") && strcmp(plots, "-") != 0) {
         next_command_say_page(line, line->arguments, line->num_arguments, line->output);
@@ -536,23 +541,23 @@ int command_track(struct command_line *line)
     pipeline_set_options(&line->parameters,
                          &(struct pipeline_options){line->gate, line->method, line->pipeline});
     check_clutter_map(line);
-    if (line->show && !tracks_output_is_log(line->output)) {
+    if (line->show && !tracks_output_path_is_log(line->output)) {
         fail(EXIT_USAGE, "--show writes messages: it needs -o NAME.lcm");
     }
     tracking.show = pipeline_show_open(line->show, &line->parameters);
     inputs = open_inputs(line);
-    open_chain(&tracking, inputs, &line->parameters);
+    open_pipeline(&tracking, inputs, &line->parameters);
     tracking.clutter = clutter_file_open(line->clutter_map, &line->parameters,
                                          &tracking.pipeline.tracker->clutter_map);
-    tracks = open_tracks(line);
+    tracks = open_tracks_output(line);
     if (tracks && line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0) {
         tracks_output_add_bodies(tracks, tracking.pipeline.tracker);
     }
     tracking.zones = open_zone_events(line);
     if (line->follow) {
-        why = follow(&tracking, inputs, tracks, &line->parameters);
+        why = follow_input(&tracking, inputs, tracks, &line->parameters);
     } else {
-        step_all(&tracking, inputs, tracks, !line->output && isatty(STDOUT_FILENO));
+        step_all_inputs(&tracking, inputs, tracks, !line->output && isatty(STDOUT_FILENO));
     }
     tracks_output_close(tracks);
     zones_output_close(&tracking.zones);
@@ -566,7 +571,7 @@ int command_track(struct command_line *line)
         fail(EXIT_RUNTIME, "%s %s: it is followed no longer", line->arguments[0], why);
     }
     if (has_tracks) {
-        say_next(line);
+        suggest_next_command(line);
     }
     return is_saved ? 0 : EXIT_RUNTIME;
 }

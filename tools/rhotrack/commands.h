@@ -56,7 +56,7 @@ int command_plot(struct command_line *line);
 int command_convert(struct command_line *line);
 
 /* Refuses input that no origin helps, before one is looked for. Exit 2. */
-void command_convert_refuse(const struct command_line *line);
+void command_convert_refuse_radars(const struct command_line *line);
 
 int command_node(struct command_line *line);
 int command_publish(struct command_line *line);

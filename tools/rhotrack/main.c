@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/hint.h"
+#include "base/name_hint.h"
 #include "command_line.h"
 #include "commands.h"
-#include "io/csv/table_form.h"
+#include "io/csv/table_dialect.h"
 #include "rhotrack/rhotrack.h"
 
 #define INPUT_FORMATS                                                                              \
@@ -252,7 +252,7 @@ static const struct command *find_command(const char *name)
             return &commands[i];
         }
     }
-    hint = hint_nearest(name, command_name);
+    hint = name_hint_nearest(name, command_name);
     if (hint) {
         fail(EXIT_USAGE, "unknown command '%s', did you mean '%s'?", name, hint);
     }
@@ -283,11 +283,11 @@ int main(int argc, char **argv)
     command = find_command(argv[1]);
     command_line_read(&line, command, argc - 1, argv + 1);
     if (command->run == command_convert) {
-        command_convert_refuse(&line);
+        command_convert_refuse_radars(&line);
     }
-    command_line_locate(&line);
+    command_line_find_origin(&line);
     const int exit_code = command->run(&line);
 
-    table_form_check_columns();
+    table_dialect_check_columns_option();
     return exit_code;
 }

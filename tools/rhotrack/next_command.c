@@ -11,7 +11,7 @@
 #include "base/common.h"
 
 /* A word as a shell takes it. */
-static void print_word(const char *word, bool is_first)
+static void print_shell_word(const char *word, bool is_first)
 {
     const bool is_plain =
         *word && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -35,12 +35,12 @@ void next_command_say(const struct command_line *line, const char *const *words)
         return;
     }
     fputs("rhotrack: next: ", stderr);
-    print_word(program_invocation_name, true);
+    print_shell_word(program_invocation_name, true);
     for (; *words; words++) {
-        print_word(*words, false);
+        print_shell_word(*words, false);
     }
     for (size_t i = 0; i < line->num_settings; i++) {
-        print_word(line->settings[i], false);
+        print_shell_word(line->settings[i], false);
     }
     fputc('\n', stderr);
 }
@@ -68,7 +68,7 @@ void next_command_say_page(const struct command_line *line, char *const *files, 
     free(words);
 }
 
-char *next_command_beside(const char *path, const char *name)
+char *next_command_find_beside(const char *path, const char *name)
 {
     const char *slash = strrchr(path, '/');
     const size_t length = slash ? (size_t)(slash - path) + 1 : 0;
@@ -85,7 +85,7 @@ char *next_command_beside(const char *path, const char *name)
 }
 
 /* The columns that --columns names. */
-static bool has_columns(const char *header, const char *columns)
+static bool header_has_columns(const char *header, const char *columns)
 {
     while ((columns = strchr(columns, '='))) {
         const size_t length = strcspn(++columns, ",");
@@ -97,7 +97,7 @@ static bool has_columns(const char *header, const char *columns)
     return true;
 }
 
-bool next_command_can_read(const struct command_line *line, const char *path)
+bool next_command_can_read_file(const struct command_line *line, const char *path)
 {
     FILE *file = fopen(path, "r");
     char *header = NULL, *row = NULL;
@@ -106,7 +106,7 @@ bool next_command_can_read(const struct command_line *line, const char *path)
 
     for (size_t i = 0; can && i < line->num_settings; i += 2) {
         can = strcmp(line->settings[i], "--columns") != 0 ||
-              has_columns(header, line->settings[i + 1]);
+              header_has_columns(header, line->settings[i + 1]);
     }
     free(header);
     free(row);

@@ -18,9 +18,9 @@ void next_command_say_page(const struct command_line *line, char *const *files, 
                            const char *tracks);
 
 /* A file of that name in the path's folder, in new memory; NULL where there is none. */
-char *next_command_beside(const char *path, const char *name);
+char *next_command_find_beside(const char *path, const char *name);
 
 /* A CSV file has rows, and the columns of this command's --columns. */
-bool next_command_can_read(const struct command_line *line, const char *path);
+bool next_command_can_read_file(const struct command_line *line, const char *path);
 
 #endif

@@ -37,7 +37,7 @@ static struct evaluation_point at(int32_t id, double x_m, double y_m)
 static void step(struct evaluation *e, int64_t time_s, int32_t track, double error_m)
 {
     struct evaluation_point target = at(7, 0.0, 0.0), there = at(track, error_m, 0.0);
-    evaluation_time(e, time_s * S, &target, 1, &there, track > 0);
+    evaluation_add_time(e, time_s * S, &target, 1, &there, track > 0);
 }
 
 static void nothing_is_known_of_nothing(void **state)
@@ -49,11 +49,11 @@ static void nothing_is_known_of_nothing(void **state)
     assert_true(r.scans == 0 && r.targets == 0 && r.tracks == 0 && r.switches == 0);
     assert_true(isnan(r.gospa_m) && isnan(r.completeness) && isnan(r.delay_s));
     assert_true(isnan(r.errors.rmse_m) && isnan(r.errors.median_m) && isnan(r.errors.nees));
-    free(evaluation_by_target(e, &count));
+    free(evaluation_results_by_target(e, &count));
     assert_int_equal(count, 0);
-    evaluation_over_time(e, &count);
+    evaluation_results_over_time(e, &count);
     assert_int_equal(count, 0);
-    evaluation_time(e, 5 * S, NULL, 0, NULL, 0);
+    evaluation_add_time(e, 5 * S, NULL, 0, NULL, 0);
     r = evaluation_result(e);
     assert_true(r.scans == 1 && r.gospa_m == 0.0 && r.ospa_m == 0.0 && isnan(r.completeness));
     assert_true(r.first_us == 5 * S && r.last_us == 5 * S && isnan(r.false_per_hour));
@@ -81,13 +81,13 @@ static void switches_and_fragments_are_told_apart(void **state)
     assert_true(is_near(r.delay_s, 4.0) && is_near(r.completeness, 7.0 / 14.0));
     assert_true(r.first_us == 10 * S && r.last_us == 36 * S);
     size_t count;
-    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    const struct evaluation_scan *scans = evaluation_results_over_time(e, &count);
     assert_int_equal(count, 14);
     for (int i = 0; i < 14; i++) {
         assert_true(scans[i].switches == switches[i] && scans[i].fragments == fragments[i]);
         assert_true(scans[i].time_us == (10 + 2 * i) * S && scans[i].pairs == (track[i] > 0));
     }
-    struct evaluation_target *targets = evaluation_by_target(e, &count);
+    struct evaluation_target *targets = evaluation_results_by_target(e, &count);
     assert_true(count == 1 && targets[0].id == 7);
     assert_true(targets[0].found_us == 14 * S && targets[0].kept_until_us == 34 * S);
     assert_true(targets[0].switches == 2 && targets[0].fragments == 3 &&
@@ -103,7 +103,7 @@ static void absence_is_no_fragment(void **state)
     struct evaluation *e = evaluation_start(CUTOFF_M);
     struct evaluation_point other = at(8, 5000.0, 0.0);
     step(e, 0, 1, 5.0);
-    evaluation_time(e, 1 * S, &other, 1, NULL, 0);
+    evaluation_add_time(e, 1 * S, &other, 1, NULL, 0);
     step(e, 2, 1, 5.0);
     struct evaluation_result r = evaluation_result(e);
     assert_int_equal(r.fragments, 0);
@@ -144,12 +144,12 @@ static void velocities_count_where_both_are_known(void **state)
     tracks[0].vx_mps = 12.0, tracks[0].vy_mps = 3.0, tracks[0].vz_mps = -5.0;
     targets[1].vx_mps = 10.0, targets[1].vy_mps = 0.0;
     tracks[2].vx_mps = 10.0, tracks[2].vy_mps = 0.0;
-    evaluation_time(e, 0, targets, 3, tracks, 3);
+    evaluation_add_time(e, 0, targets, 3, tracks, 3);
     struct evaluation_result r = evaluation_result(e);
     assert_true(r.errors.pairs == 3 && is_near(r.errors.rmse_m, sqrt(49.0 / 3.0)));
     assert_true(is_near(r.errors.rmse_mps, 7.0) && is_near(r.errors.median_mps, 7.0));
     size_t count;
-    const struct evaluation_scan *scan = evaluation_over_time(e, &count);
+    const struct evaluation_scan *scan = evaluation_results_over_time(e, &count);
     assert_true(is_near(scan->rmse_mps, 7.0) && is_near(scan->rmse_m, sqrt(49.0 / 3.0)));
     assert_true(isnan(scan->nees));
     evaluation_free(e);
@@ -179,12 +179,12 @@ static void nees_is_that_of_the_covariance(void **state)
     tracks[2] = at(22, 2000.0, 50.0);                        /* none is given */
     tracks[3] = with_covariance(tracks[3], 4.0, 4.0, 4.0);   /* singular */
     tracks[4] = with_covariance(tracks[4], -4.0, 0.0, -4.0); /* not positive definite */
-    evaluation_time(e, 0, targets, 5, tracks, 5);
+    evaluation_add_time(e, 0, targets, 5, tracks, 5);
     struct evaluation_result r = evaluation_result(e);
     assert_true(is_near(r.errors.nees, 9.5 / 2.0) && is_near(r.errors.nees_inside, 0.5));
     size_t count;
-    assert_true(is_near(evaluation_over_time(e, &count)->nees, 9.5 / 2.0));
-    struct evaluation_target *by_target = evaluation_by_target(e, &count);
+    assert_true(is_near(evaluation_results_over_time(e, &count)->nees, 9.5 / 2.0));
+    struct evaluation_target *by_target = evaluation_results_by_target(e, &count);
     assert_true(is_near(by_target[0].errors.nees, 1.0) && by_target[0].errors.nees_inside == 1.0);
     assert_true(is_near(by_target[1].errors.nees, 8.5) && by_target[1].errors.nees_inside == 0.0);
     assert_true(isnan(by_target[2].errors.nees) && isnan(by_target[3].errors.nees_inside));
@@ -228,12 +228,12 @@ static void velocities_have_a_ratio_of_their_own(void **state)
     tracks[2] = with_velocity_covariance(at(22, 2000.0, 0.0), 4.0, 2.0, 3.0);
     tracks[3] = with_covariance(with_velocity(at(23, 3000.0, 0.0), 90.0, 0.0), 1.0, 0.0, 1.0);
     tracks[4] = with_velocity_covariance(tracks[4], 4.0, 4.0, 4.0);
-    evaluation_time(e, 0, targets, 5, tracks, 5);
+    evaluation_add_time(e, 0, targets, 5, tracks, 5);
     struct evaluation_result r = evaluation_result(e);
     assert_true(is_near(r.errors.velocity_ratio, 4.75 / 2.0) && r.errors.velocity_inside == 0.5);
     assert_true(r.errors.nees == 0.0 && r.errors.nees_inside == 1.0); /* of the fourth */
     size_t count;
-    assert_true(is_near(evaluation_over_time(e, &count)->velocity_ratio, 4.75 / 2.0));
+    assert_true(is_near(evaluation_results_over_time(e, &count)->velocity_ratio, 4.75 / 2.0));
     evaluation_free(e);
 }
 
@@ -257,7 +257,7 @@ static void motions_are_told_apart(void **state)
         struct evaluation_point target = with_velocity(at(1, 0.0, 0.0), vx_mps[i], 0.0);
         struct evaluation_point track = at(2, error_m, 0.0);
         track.is_coasting = i == 3;
-        evaluation_time(e, 2 * i * S, &target, 1, &track, 1);
+        evaluation_add_time(e, 2 * i * S, &target, 1, &track, 1);
         squares_m2[expected[i]] += error_m * error_m;
         pairs[expected[i]]++;
     }
@@ -270,11 +270,11 @@ static void motions_are_told_apart(void **state)
     /* 0.04 m/s in a second is a turn, and below another limit none */
     struct evaluation_point track = at(2, 0.0, 0.0);
     struct evaluation_point target = with_velocity(at(1, 0.0, 0.0), 10.47, 0.0);
-    evaluation_time(e, 15 * S, &target, 1, &track, 1);
+    evaluation_add_time(e, 15 * S, &target, 1, &track, 1);
     assert_int_equal(evaluation_result(e).by_motion[EVALUATION_TURNING].pairs, 2);
-    evaluation_set_turning(e, 0.05);
+    evaluation_set_turning_limit(e, 0.05);
     target.vx_mps += 0.04;
-    evaluation_time(e, 16 * S, &target, 1, &track, 1);
+    evaluation_add_time(e, 16 * S, &target, 1, &track, 1);
     r = evaluation_result(e);
     assert_true(r.by_motion[EVALUATION_TURNING].pairs == 2 &&
                 r.by_motion[EVALUATION_STRAIGHT].pairs == pairs[EVALUATION_STRAIGHT] + 1);
@@ -288,10 +288,10 @@ static void the_ellipse_is_that_of_95_percent(void **state)
     struct evaluation *e = evaluation_start(CUTOFF_M);
     struct evaluation_point target = at(1, 0.0, 0.0), track;
     track = with_covariance(at(1, sqrt(5.991), 0.0), 1.0, 0.0, 1.0);
-    evaluation_time(e, 0, &target, 1, &track, 1);
+    evaluation_add_time(e, 0, &target, 1, &track, 1);
     assert_true(evaluation_result(e).errors.nees_inside == 1.0);
     track.x_m = sqrt(5.992);
-    evaluation_time(e, S, &target, 1, &track, 1);
+    evaluation_add_time(e, S, &target, 1, &track, 1);
     assert_true(is_near(evaluation_result(e).errors.nees_inside, 0.5));
     evaluation_free(e);
 }
@@ -308,9 +308,9 @@ static void false_tracks_are_alone_most_of_the_time(void **state)
     struct evaluation_point first[2] = {at(2, 10.0, 0.0), at(3, 900.0, 0.0)};
     struct evaluation_point then[3] = {at(3, 10.0, 0.0), at(2, 900.0, 0.0), at(4, 0.0, 900.0)};
     struct evaluation_point last[1] = {at(2, 900.0, 0.0)};
-    evaluation_time(e, 0, &target, 1, first, 2);
-    evaluation_time(e, 900 * (int64_t)S, &target, 1, then, 3);
-    evaluation_time(e, 1800 * (int64_t)S, &target, 1, last, 1);
+    evaluation_add_time(e, 0, &target, 1, first, 2);
+    evaluation_add_time(e, 900 * (int64_t)S, &target, 1, then, 3);
+    evaluation_add_time(e, 1800 * (int64_t)S, &target, 1, last, 1);
     struct evaluation_result r = evaluation_result(e);
     assert_true(r.tracks == 3 && r.false_tracks == 2 && is_near(r.false_per_hour, 4.0));
     assert_true(is_near(r.gospa_false, 4.0 / 3.0) && is_near(r.false_per_scan, 4.0 / 3.0));
@@ -321,7 +321,7 @@ static void false_tracks_are_alone_most_of_the_time(void **state)
     assert_true(is_near(r.ospa_m,
                         (sqrt((100.0 + 1e4) / 2.0) + sqrt((100.0 + 2e4) / 3.0) + CUTOFF_M) / 3.0));
     size_t count;
-    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    const struct evaluation_scan *scans = evaluation_results_over_time(e, &count);
     assert_true(is_near(scans[1].gospa_m, sqrt(10100.0)) && is_near(scans[1].missed_m2, 0.0) &&
                 is_near(scans[1].false_m2, 10000.0) && is_near(scans[1].localisation_m2, 100.0));
     assert_true(scans[1].targets == 1 && scans[1].tracks == 3 && scans[1].pairs == 1);
@@ -337,11 +337,11 @@ static void targets_are_listed_by_identity(void **state)
     struct evaluation_point then[3] = {at(-5, 1000.0, 0.0), at(INT32_MIN, 2000.0, 0.0),
                                        at(INT32_MAX, 0.0, 0.0)};
     struct evaluation_point tracks[2] = {at(INT32_MIN, 1003.0, 0.0), at(0, 2004.0, 0.0)};
-    evaluation_time(e, 0, first, 2, NULL, 0);
-    evaluation_time(e, S, then, 3, tracks, 2);
-    evaluation_time(e, 2 * S, then, 3, tracks, 1);
+    evaluation_add_time(e, 0, first, 2, NULL, 0);
+    evaluation_add_time(e, S, then, 3, tracks, 2);
+    evaluation_add_time(e, 2 * S, then, 3, tracks, 1);
     size_t count;
-    struct evaluation_target *targets = evaluation_by_target(e, &count);
+    struct evaluation_target *targets = evaluation_results_by_target(e, &count);
     assert_true(count == 3 && targets[0].id == INT32_MIN && targets[1].id == -5 &&
                 targets[2].id == INT32_MAX);
     assert_true(targets[0].first_us == S && targets[0].scans == 2 && targets[0].paired == 1 &&
@@ -377,11 +377,11 @@ static void many_identities_add_up(void **state)
                 tracks[num_tracks++].y_m += i % 50;
             }
         }
-        evaluation_time(e, t * S, targets, MANY, tracks, num_tracks);
+        evaluation_add_time(e, t * S, targets, MANY, tracks, num_tracks);
     }
     struct evaluation_result r = evaluation_result(e);
     size_t count, paired = 0, fragments = 0;
-    struct evaluation_target *by_target = evaluation_by_target(e, &count);
+    struct evaluation_target *by_target = evaluation_results_by_target(e, &count);
     for (size_t i = 0; i < count; i++) {
         assert_int_equal(by_target[i].id, (int32_t)i * 70000);
         assert_true(is_near(by_target[i].errors.median_m, (double)(i % 50)));

@@ -35,7 +35,7 @@ static void take(struct asterix_scans *scans, uint8_t category, const uint8_t *b
 
     assert_true(asterix_record_read(category, bytes, size, &record, &error));
     assert_int_equal(record.size, size);
-    asterix_scans_take(scans, &record);
+    asterix_scans_take_record(scans, &record);
 }
 
 /* Items 010, 140, 020, 040 of radar 0/sic; time of day in 1/128 s. */

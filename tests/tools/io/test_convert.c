@@ -17,7 +17,7 @@
 #include "base/random.h"
 #include "io/log/lcm_log.h"
 #include "io/log/message_source.h"
-#include "io/rows/rows_collect.h"
+#include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_write.h"
 #include "rhotrack/message.h"
 
@@ -288,10 +288,10 @@ static void write_csv(const char *path, const struct rows_kind *kind, bool is_sh
     struct rows_collection collection;
     size_t order[MAX_MESSAGES];
     FILE *file = fopen(path, "w");
-    char reason[ROWS_COLLECT_REASON_BYTES];
+    char reason[ROWS_FROM_MESSAGES_REASON_BYTES];
 
     assert_non_null(file);
-    rows_collect_start(&collection, kind);
+    rows_from_messages_start(&collection, kind);
     for (size_t i = 0; i < num_sent; i++) {
         size_t other = is_shuffled ? below(i + 1) : i;
 
@@ -301,15 +301,15 @@ static void write_csv(const char *path, const struct rows_kind *kind, bool is_sh
     for (size_t i = 0; i < num_sent; i++) {
         const struct sent *message = &sent[order[i]];
 
-        assert_null(
-            rows_collect(&collection, message->channel, message->data, message->size, reason));
+        assert_null(rows_from_messages_add(&collection, message->channel, message->data,
+                                           message->size, reason));
     }
-    rows_collect_finish(&collection);
+    rows_from_messages_finish(&collection);
     assert_int_equal(collection.messages_again, 0);
     assert_int_equal(collection.scans_incomplete, 0);
-    rows_write(file, &collection.rows, true);
+    rows_write_csv(file, &collection.rows, true);
     fclose(file);
-    rows_collect_free(&collection);
+    rows_from_messages_free(&collection);
 }
 
 static void assert_comes_back(char *path)
@@ -318,7 +318,7 @@ static void assert_comes_back(char *path)
     struct message_event event;
     struct parameters parameters;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     source = message_source_open(&path, 1, &parameters, false);
     for (size_t i = 0; i < num_sent; i++) {
         assert_true(message_source_next(source, &event));
@@ -426,7 +426,7 @@ static const char *all_of(char *const *paths, int num_paths, double interval_s, 
     struct message_source *source;
     struct parameters parameters;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     parameters.value[PARAMETER_SCAN_INTERVAL_S] = interval_s;
     source = message_source_open(paths, num_paths, &parameters, keep_going);
     text[0] = '\0';
@@ -501,7 +501,7 @@ static void a_track_that_is_named_again_begins_the_next_list(void **state)
     struct message_event event;
     (void)state;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     write_text(path, "t_s,track_id,status,x_m,y_m\n1,1,confirmed,0,0\n1,2,tentative,0,0\n"
                      "1,1,confirmed,0,0\n1,2,coasting,0,0\n1,3,tentative,0,0\n2,1,deleted,0,0\n");
     source = message_source_open(&name, 1, &parameters, false);
@@ -572,7 +572,7 @@ static void parts_keep_the_order_of_rows(void **state)
         sprintf(text + strlen(text), "1,4,%d,0,%d\n", i + 1, i < 120 ? 9 : 8 + i % 2);
     }
     write_text(path, text);
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     source = message_source_open(&name, 1, &parameters, false);
     for (int part = 0; message_source_next(source, &event); part++) {
         assert_int_equal(rho_message_polar_scan_decode(event.data, event.size, &scan), RHO_OK);
@@ -592,7 +592,7 @@ static void parts_keep_the_order_of_rows(void **state)
 static void what_a_collection_counts(void **state)
 {
     struct rows_collection collection;
-    char reason[ROWS_COLLECT_REASON_BYTES];
+    char reason[ROWS_FROM_MESSAGES_REASON_BYTES];
     (void)state;
 
     dice = random_start(1, 0, 0);
@@ -601,33 +601,34 @@ static void what_a_collection_counts(void **state)
         num_sent = 0;
         send_plots(4, 1, 1000);
     }
-    rows_collect_start(&collection, &rows_kind_plots);
+    rows_from_messages_start(&collection, &rows_kind_plots);
     for (size_t i = 0; i < 2; i++) {
-        assert_null(rows_collect(&collection, "RHO_PLOTS_4", sent[0].data, sent[0].size, reason));
+        assert_null(
+            rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[0].data, sent[0].size, reason));
     }
     assert_string_equal(
-        rows_collect(&collection, "RHO_PLOTS_5", sent[1].data, sent[1].size, reason),
+        rows_from_messages_add(&collection, "RHO_PLOTS_5", sent[1].data, sent[1].size, reason),
         "sensor_id is not that of the channel");
     assert_string_equal(
-        rows_collect(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size - 1, reason),
+        rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size - 1, reason),
         "too short for a plot_scan_t");
     assert_string_equal(
-        rows_collect(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size + 1, reason),
+        rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size + 1, reason),
         "too long for a plot_scan_t");
     sent[1].data[0] ^= 1;
     assert_string_equal(
-        rows_collect(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size, reason),
+        rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size, reason),
         "no plot_scan_t, or of another version");
     sent[1].data[0] ^= 1;
     sent[1].data[26] = 1; /* kind */
     assert_string_equal(
-        rows_collect(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size, reason),
+        rows_from_messages_add(&collection, "RHO_PLOTS_4", sent[1].data, sent[1].size, reason),
         "kind is outside the range of a plot_scan_t");
-    rows_collect_finish(&collection);
+    rows_from_messages_finish(&collection);
     assert_int_equal(collection.messages_again, 1);
     assert_int_equal(collection.scans_incomplete, 1);
     assert_int_equal(collection.rows.count, RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS);
-    rows_collect_free(&collection);
+    rows_from_messages_free(&collection);
 }
 
 static void channels_and_their_kinds(void **state)

@@ -56,7 +56,7 @@ static struct given given_text(const char *text)
 {
     struct given given = {.num_paths = 0};
 
-    parameters_default(&given.parameters);
+    parameters_set_defaults(&given.parameters);
     write_file(&given, text);
     return given;
 }
@@ -148,7 +148,7 @@ static void a_sigma_is_the_rows_or_the_sensors_or_that_for_all(void **state)
     const struct rho_frame *frame;
     (void)state;
 
-    parameters_set(&given.parameters, "sensor.1.sigma_rad=0.02");
+    parameters_set_assignment(&given.parameters, "sensor.1.sigma_rad=0.02");
     open_files(&given, false);
     frame = frame_reader_next(given.reader);
     assert_true(frame->scans[0].bearings[0].sigma_rad == 0.01f);
@@ -164,7 +164,7 @@ static void rows_within_the_scan_interval_are_one_scan(void **state)
     const struct rho_frame *frame;
     (void)state;
 
-    parameters_set(&given.parameters, "scan_interval_s=1");
+    parameters_set_assignment(&given.parameters, "scan_interval_s=1");
     open_files(&given, false);
     frame = frame_reader_next(given.reader);
     assert_int_equal(frame->scans[0].num_bearings, 2);
@@ -214,10 +214,10 @@ static void the_tolerance_is_a_parameter(void **state)
     struct given wide = given_text(late_text), none = given_text(late_text);
     (void)state;
 
-    parameters_set(&wide.parameters, "frame_tolerance_s=0.1");
+    parameters_set_assignment(&wide.parameters, "frame_tolerance_s=0.1");
     open_files(&wide, false);
     assert_frames(&wide, (const char *[]){"0: 1(1) 2(1)", "1000: 1(1) 2(1)", "end"});
-    parameters_set(&none.parameters, "frame_tolerance_s=0");
+    parameters_set_assignment(&none.parameters, "frame_tolerance_s=0");
     open_files(&none, false);
     assert_frames(&none,
                   (const char *[]){"0: 1(1)", "50: 2(1)", "1000: 1(1)", "1050: 2(1)", "end"});
@@ -298,9 +298,9 @@ static void the_last_frames_may_be_taken_alone(void **state)
         read_text(HEADER "0,1,0,0,1\n0,2,9,0,1\n10,1,0,0,1\n20,1,0,0,1\n30,2,9,0,1\n");
     (void)state;
 
-    frame_reader_skip(given.reader, 4);
-    assert_int_equal(frame_reader_total(given.reader), 4);
-    frame_reader_skip(given.reader, 2);
+    frame_reader_keep_last(given.reader, 4);
+    assert_int_equal(frame_reader_num_frames(given.reader), 4);
+    frame_reader_keep_last(given.reader, 2);
     assert_frames(&given, (const char *[]){"20000: 1(1)", "30000: 2(1)", "end"});
     end(&given);
 }
@@ -328,11 +328,11 @@ static void a_header_tells_bearings_from_other_files(void **state)
                  both = given_text("t_s,sensor_id,x_m,y_m,bearing_rad\n0,1,2,3,1\n");
     (void)state;
 
-    assert_true(frame_reader_is_bearings(bearings.paths[0]));
-    assert_false(frame_reader_is_bearings(empty.paths[0]));
-    assert_false(frame_reader_is_bearings(both.paths[0]));
-    assert_false(frame_reader_is_bearings("/tmp"));
-    assert_false(frame_reader_is_bearings("/tmp/there/is/no/such/file"));
+    assert_true(frame_reader_file_has_bearings(bearings.paths[0]));
+    assert_false(frame_reader_file_has_bearings(empty.paths[0]));
+    assert_false(frame_reader_file_has_bearings(both.paths[0]));
+    assert_false(frame_reader_file_has_bearings("/tmp"));
+    assert_false(frame_reader_file_has_bearings("/tmp/there/is/no/such/file"));
     end(&bearings);
     end(&empty);
     end(&both);

@@ -30,7 +30,7 @@ static void start(struct map *map, const char *lat_deg, const char *lon_deg)
     char reason[PARAMETER_REASON_BYTES];
 
     *map = (struct map){.text = NULL};
-    parameters_default(&map->parameters);
+    parameters_set_defaults(&map->parameters);
     assert_true(parameters_assign(&map->parameters, "origin_lat_deg", lat_deg, SOURCE_SET, reason));
     assert_true(parameters_assign(&map->parameters, "origin_lon_deg", lon_deg, SOURCE_SET, reason));
     map->file = open_memstream(&map->text, &map->bytes);
@@ -47,7 +47,7 @@ static void add(struct map *map, int32_t track_id, int second, const char *statu
                                     .sigma_m = 5,
                                     .hits = second};
 
-    geojson_add(map->geojson, &row);
+    geojson_add_row(map->geojson, &row);
 }
 
 static cJSON *end(struct map *map)

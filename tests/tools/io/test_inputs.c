@@ -34,7 +34,7 @@ static struct given given_nothing(void)
 {
     struct given given = {.num_paths = 0};
 
-    parameters_default(&given.parameters);
+    parameters_set_defaults(&given.parameters);
     return given;
 }
 
@@ -194,8 +194,8 @@ static void a_sensor_that_is_known_comes_with_its_scan(void **state)
 
     write_file(&given, "t_s,sensor_id,range_m,azimuth_rad\n0,3,5000,1\n2,4,5000,1\n");
     write_file(&given, BEARINGS "1,8,0,0,1\n");
-    parameters_set(&given.parameters, "sensor.3.x_m=700");
-    parameters_set(&given.parameters, "sensor.3.y_m=0");
+    parameters_set_assignment(&given.parameters, "sensor.3.x_m=700");
+    parameters_set_assignment(&given.parameters, "sensor.3.y_m=0");
     open_inputs(&given, false);
     assert_inputs(&given, (const char *[]){"0: s3(1) known", "1000: f 8(1)", "2000: s4(1)", "end"});
     end(&given);

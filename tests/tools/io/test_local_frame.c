@@ -197,14 +197,14 @@ static void between_frames_distances_stay(void **state)
     double a[3], b[3], before[3], after[3];
 
     (void)state;
-    local_frame_between(one, other, a_m, a);
-    local_frame_between(one, other, b_m, b);
+    local_frame_convert_place(one, other, a_m, a);
+    local_frame_convert_place(one, other, b_m, b);
     for (int i = 0; i < 3; i++) {
         before[i] = a_m[i] - b_m[i];
         after[i] = a[i] - b[i];
     }
     assert_close(distance_m(before), distance_m(after), 1e-6);
-    local_frame_between(other, one, a, a);
+    local_frame_convert_place(other, one, a, a);
     assert_near(a, a_m, 1e-6);
     local_frame_close(one);
     local_frame_close(other);
@@ -222,7 +222,7 @@ static void check_radar(const double radar[3], const double target[3])
     const struct local_frame_plot plot = {.range_m = distance_m(seen_m),
                                           .azimuth_rad = atan2(seen_m[1], seen_m[0]),
                                           .alt_m = target[2]};
-    assert_true(local_frame_from_radar(frame, &plot, found_m));
+    assert_true(local_frame_from_range_and_height(frame, &plot, found_m));
     /*
      * near the zenith the range hardly depends on the place: what 0.1 mm of height is on the ground
      */
@@ -257,16 +257,16 @@ static void a_height_beyond_the_range_is_no_place(void **state)
     double place_m[3] = {1, 2, 3};
 
     (void)state;
-    assert_false(
-        local_frame_from_radar(radar, &(struct local_frame_plot){5000, 0.3, 5400.01}, place_m));
-    assert_false(
-        local_frame_from_radar(radar, &(struct local_frame_plot){5000, 0.3, -4600.01}, place_m));
+    assert_false(local_frame_from_range_and_height(
+        radar, &(struct local_frame_plot){5000, 0.3, 5400.01}, place_m));
+    assert_false(local_frame_from_range_and_height(
+        radar, &(struct local_frame_plot){5000, 0.3, -4600.01}, place_m));
     assert_near(place_m, (double[3]){1, 2, 3}, 0);
-    assert_true(
-        local_frame_from_radar(radar, &(struct local_frame_plot){5000, 0.3, 5400}, place_m));
+    assert_true(local_frame_from_range_and_height(
+        radar, &(struct local_frame_plot){5000, 0.3, 5400}, place_m));
     assert_near(place_m, (double[3]){0, 0, 5000}, 1.5);
-    assert_true(
-        local_frame_from_radar(radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
+    assert_true(local_frame_from_range_and_height(
+        radar, &(struct local_frame_plot){5000, 0.3, 5399}, place_m));
     assert_close(distance_m(place_m), 5000, 1e-6);
     assert_close(atan2(place_m[1], place_m[0]), 0.3, 1e-9);
     local_frame_close(radar);

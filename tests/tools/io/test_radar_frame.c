@@ -88,7 +88,7 @@ static void azimuth_and_elevation_are_turned_and_tilted(void **state)
     struct radar_look look = scene.look;
 
     (void)state;
-    radar_frame_turn(scene.frame, true, &look);
+    radar_frame_turn_look(scene.frame, true, &look);
     assert_at_target(&scene, &look);
     assert_true(fabs(look.elevation_rad - scene.look.elevation_rad) > 0.005); /* the tilt */
     close_scene(&scene);
@@ -101,8 +101,8 @@ static void without_elevation_the_azimuth_is_turned(void **state)
     struct radar_look flat = scene.look, whole = scene.look;
 
     (void)state;
-    radar_frame_turn(scene.frame, false, &flat);
-    radar_frame_turn(scene.frame, true, &whole);
+    radar_frame_turn_look(scene.frame, false, &flat);
+    radar_frame_turn_look(scene.frame, true, &whole);
     assert_near(flat.azimuth_rad - scene.look.azimuth_rad, radar_frame_turn_rad(scene.frame),
                 1e-12);
     assert_near(flat.azimuth_rad, whole.azimuth_rad, 2e-3);
@@ -120,7 +120,7 @@ static void a_height_makes_the_place(void **state)
 
     (void)state;
     look.elevation_rad = 0;
-    assert_true(radar_frame_raise(scene.frame, 0, &height, &look, &sigma_rad));
+    assert_true(radar_frame_elevation_from_height(scene.frame, 0, &height, &look, &sigma_rad));
     assert_at_target(&scene, &look);
     close_scene(&scene);
 }
@@ -137,11 +137,11 @@ static void azimuths_of_the_common_frame_are_not_turned(void **state)
     double sigma_rad = 0;
 
     (void)state;
-    radar_frame_turn(scene.frame, true, &look);
+    radar_frame_turn_look(scene.frame, true, &look);
     assert_near(look.azimuth_rad, scene.look.azimuth_rad, 0);
     assert_near(radar_frame_turn_rad(scene.frame), 0, 0);
     look.azimuth_rad += local_frame_turn_rad(scene.own, scene.common);
-    assert_true(radar_frame_raise(scene.frame, 0, &height, &look, &sigma_rad));
+    assert_true(radar_frame_elevation_from_height(scene.frame, 0, &height, &look, &sigma_rad));
     assert_at_target(&scene, &look);
     close_scene(&scene);
 }
@@ -168,14 +168,14 @@ static void check_noise(const double on_earth[3])
         double ignored;
 
         drawn.alt_m += 40 * random_normal(&random);
-        assert_true(radar_frame_raise(frame, 0, &drawn, &look, &ignored));
+        assert_true(radar_frame_elevation_from_height(frame, 0, &drawn, &look, &ignored));
         double up_m = look.range_m * sin(look.elevation_rad - elevation);
         double along_m = look.range_m * cos(look.elevation_rad - elevation) - range_m;
         up_m2 += up_m * up_m / RUNS;
         along_m2 += along_m * along_m / RUNS;
     }
     struct radar_look look = {range_m, azimuth, 0};
-    assert_true(radar_frame_raise(frame, 0, &height, &look, &sigma_rad));
+    assert_true(radar_frame_elevation_from_height(frame, 0, &height, &look, &sigma_rad));
     print_message("range %.0f m, elevation %.1f deg: sigma up %.1f m, spread %.1f m\n", range_m,
                   elevation * 180 / PI, sigma_rad * range_m, sqrt(up_m2));
     assert_near(sqrt(up_m2) / (sigma_rad * range_m), 1, 0.05); /* 4 standard errors */
@@ -199,7 +199,7 @@ static void on_a_flat_earth_a_triangle_will_do(void **state)
     double sigma_rad = 0;
 
     (void)state;
-    assert_true(radar_frame_raise(NULL, 50, &height, &look, &sigma_rad));
+    assert_true(radar_frame_elevation_from_height(NULL, 50, &height, &look, &sigma_rad));
     assert_near(look.range_m * sin(look.elevation_rad), 3000, 1e-9);
     assert_near(look.range_m * cos(look.elevation_rad), 4000, 1e-9);
     assert_near(look.azimuth_rad, 0.7, 0);
@@ -216,15 +216,15 @@ static void heights_that_cannot_be_are_refused(void **state)
     double sigma_rad = 0.5;
 
     (void)state;
-    assert_false(radar_frame_raise(frame, 0, &height, &look, &sigma_rad));
-    assert_false(radar_frame_raise(NULL, 400, &height, &look, &sigma_rad));
+    assert_false(radar_frame_elevation_from_height(frame, 0, &height, &look, &sigma_rad));
+    assert_false(radar_frame_elevation_from_height(NULL, 400, &height, &look, &sigma_rad));
     height.alt_m = -6601;
-    assert_false(radar_frame_raise(frame, 0, &height, &look, &sigma_rad));
-    assert_false(radar_frame_raise(NULL, 400, &height, &look, &sigma_rad));
+    assert_false(radar_frame_elevation_from_height(frame, 0, &height, &look, &sigma_rad));
+    assert_false(radar_frame_elevation_from_height(NULL, 400, &height, &look, &sigma_rad));
     assert_near(look.azimuth_rad, 0.7, 0);
     assert_near(look.elevation_rad, 0.1, 0);
     height.alt_m = 7400; /* straight up: the place is known, but not where on the ground */
-    assert_true(radar_frame_raise(NULL, 400, &height, &look, &sigma_rad));
+    assert_true(radar_frame_elevation_from_height(NULL, 400, &height, &look, &sigma_rad));
     assert_near(sigma_rad, 0.5, 0);
     radar_frame_close(frame);
     local_frame_close(common);

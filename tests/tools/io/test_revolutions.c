@@ -48,9 +48,9 @@ static struct revolutions read_text(const char *text, size_t max)
     assert_true(file >= 0);
     assert_int_equal(write(file, text, strlen(text)), (long)strlen(text));
     close(file);
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     reader = scan_reader_open(paths, 1, &parameters, false);
-    revolutions = revolutions_read(reader, max);
+    revolutions = revolutions_read_last(reader, max);
     scan_reader_close(reader);
     unlink(path);
     return revolutions;

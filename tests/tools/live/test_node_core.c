@@ -55,7 +55,7 @@ static void start(struct live *live)
     const struct node_core_events events = {.context = &live->heard, .send = on_send};
 
     *live = (struct live){.core = NULL};
-    parameters_default(&live->parameters);
+    parameters_set_defaults(&live->parameters);
     live->core = node_core_open(&live->parameters, 1, &events);
 }
 
@@ -76,7 +76,7 @@ static void look(struct live *live, int16_t sensor_id, float x_m, float y_m, int
     scan.bearing_rad[0] = atan2f(200.0f * (float)k - y_m, 30000.0f - x_m);
     assert_int_equal(rho_message_bearing_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
     snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_BEARING_SCAN_CHANNEL, sensor_id);
-    node_core_take(live->core, channel, buffer, size, START_US + k * SECOND_US);
+    node_core_take_message(live->core, channel, buffer, size, START_US + k * SECOND_US);
 }
 
 static void sensors_that_are_gone_make_room(void **state)
@@ -93,9 +93,9 @@ static void sensors_that_are_gone_make_room(void **state)
         look(&live, 2, 0.0f, 10000.0f, k);
     }
     /* heard for 30 s, they are in the way for as long */
-    assert_in_range(node_core_counters(live.core)->bearings_refused, 30, 70);
-    assert_int_equal(node_core_counters(live.core)->restarts, 0);
-    assert_int_equal(node_core_frames(live.core)->scans_off_clock, 0);
+    assert_in_range(node_core_node_counters(live.core)->bearings_refused, 30, 70);
+    assert_int_equal(node_core_node_counters(live.core)->restarts, 0);
+    assert_int_equal(node_core_frame_counters(live.core)->scans_off_clock, 0);
     assert_int_equal(live.heard.tracks, 1);
     node_core_close(live.core);
 }
@@ -114,8 +114,8 @@ static void sensors_that_are_heard_stay(void **state)
             look(&live, 50, 3000.0f, 3000.0f, k);
         }
     }
-    assert_true(node_core_counters(live.core)->bearings_refused > 10);
-    assert_int_equal(node_core_frames(live.core)->frames_incomplete, 0);
+    assert_true(node_core_node_counters(live.core)->bearings_refused > 10);
+    assert_int_equal(node_core_frame_counters(live.core)->frames_incomplete, 0);
     assert_int_equal(live.heard.tracks, 1);
     node_core_close(live.core);
 }
@@ -131,9 +131,9 @@ static void a_sensor_that_has_moved_is_believed_in_the_end(void **state)
         look(&live, 1, 0.0f, -10000.0f, k);
         look(&live, 2, 0.0f, 10000.0f, k);
     }
-    assert_in_range(node_core_counters(live.core)->bearings_refused, 10, 17);
-    assert_int_equal(node_core_counters(live.core)->restarts, 0);
-    assert_int_equal(node_core_frames(live.core)->scans_off_clock, 0);
+    assert_in_range(node_core_node_counters(live.core)->bearings_refused, 10, 17);
+    assert_int_equal(node_core_node_counters(live.core)->restarts, 0);
+    assert_int_equal(node_core_frame_counters(live.core)->scans_off_clock, 0);
     assert_int_equal(live.heard.tracks, 1);
     node_core_close(live.core);
 }
@@ -149,8 +149,8 @@ static void sensors_that_have_moved_together_are_believed(void **state)
         look(&live, 1, k < 20 ? 7000.0f : 0.0f, -10000.0f, k);
         look(&live, 2, k < 20 ? 7000.0f : 0.0f, 10000.0f, k);
     }
-    assert_in_range(node_core_counters(live.core)->bearings_refused, 20, 33);
-    assert_int_equal(node_core_counters(live.core)->restarts, 0);
+    assert_in_range(node_core_node_counters(live.core)->bearings_refused, 20, 33);
+    assert_int_equal(node_core_node_counters(live.core)->restarts, 0);
     assert_int_equal(live.heard.tracks, 1);
     node_core_close(live.core);
 }
@@ -176,7 +176,7 @@ static void plot(struct live *live, int16_t sensor_id, float x_m, int32_t k)
     scan.polar_plots[0].azimuth_rad = 1.5707964f;
     assert_int_equal(rho_message_polar_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
     snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_POLAR_SCAN_CHANNEL, sensor_id);
-    node_core_take(live->core, channel, buffer, size, START_US + k * SECOND_US);
+    node_core_take_message(live->core, channel, buffer, size, START_US + k * SECOND_US);
 }
 
 static void radars_that_are_gone_make_room(void **state)
@@ -192,9 +192,9 @@ static void radars_that_are_gone_make_room(void **state)
     for (int32_t k = 1; k < 60; k++) {
         plot(&live, 1, -20000.0f, k);
     }
-    assert_true(node_core_counters(live.core)->sensors_forgotten > 0);
-    assert_int_equal(node_core_counters(live.core)->scans_refused, 0);
-    report = node_core_report(live.core);
+    assert_true(node_core_node_counters(live.core)->sensors_forgotten > 0);
+    assert_int_equal(node_core_node_counters(live.core)->scans_refused, 0);
+    report = node_core_last_report(live.core);
     assert_int_equal(report->num_tracks, 1);
     assert_float_equal(report->tracks[0].state[0], -20000.0f, 50.0f);
     node_core_close(live.core);
@@ -210,7 +210,7 @@ static void a_status_says_the_origin(void **state)
 
     (void)state;
     start(&live);
-    node_core_status(live.core, &losses);
+    node_core_send_status(live.core, &losses);
     assert_true(status->origin_lat_1e7deg == 0 && status->origin_lon_1e7deg == 0);
     node_core_close(live.core);
     assert_true(parameters_assign(&live.parameters, "origin_lat_deg", "-33.9461234", SOURCE_CONFIG,
@@ -220,7 +220,7 @@ static void a_status_says_the_origin(void **state)
     assert_true(
         parameters_assign(&live.parameters, "origin_alt_m", "27.4321", SOURCE_CONFIG, reason));
     live.core = node_core_open(&live.parameters, 1, &events);
-    node_core_status(live.core, &losses);
+    node_core_send_status(live.core, &losses);
     assert_int_equal(status->origin_lat_1e7deg, -339461234);
     assert_int_equal(status->origin_lon_1e7deg, 1511771234);
     assert_int_equal(status->origin_alt_mm, 27432);
@@ -241,10 +241,10 @@ static void the_limits_have_a_message_of_their_own(void **state)
         look(&live, 2, 0.0f, 20000.0f, k);
     }
     node_core_flush(live.core);
-    node_core_status(live.core, &losses);
+    node_core_send_status(live.core, &losses);
     assert_int_equal(live.heard.status.fragments_refused, 3);
     assert_true(work->num_steps > 0);
-    assert_int_equal(work->num_steps, node_core_counters(live.core)->steps);
+    assert_int_equal(work->num_steps, node_core_node_counters(live.core)->steps);
     assert_int_equal(work->scan, live.heard.status.scan);
     assert_int_equal(work->utime, live.heard.status.utime);
     assert_int_equal(work->work_max, RHO_WORK_MAX);

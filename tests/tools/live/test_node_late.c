@@ -126,7 +126,7 @@ static void send(struct live *live, const struct event *event)
     }
     assert_int_equal(rho_message_plot_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
     snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_PLOT_SCAN_CHANNEL, event->sensor_id);
-    node_core_take(live->core, channel, buffer, size, event->received_us);
+    node_core_take_message(live->core, channel, buffer, size, event->received_us);
 }
 
 /*
@@ -215,7 +215,7 @@ static void run(struct live *live, uint64_t seed, int16_t sensors, int64_t lag_u
     char reason[PARAMETER_REASON_BYTES];
 
     *live = (struct live){.seed = seed};
-    parameters_default(&live->parameters);
+    parameters_set_defaults(&live->parameters);
     assert_true(
         parameters_assign(&live->parameters, "late_max_s", late_max_s, SOURCE_CONFIG, reason));
     assert_true(parameters_assign(&live->parameters, "hold_ms", hold_ms, SOURCE_CONFIG, reason));
@@ -239,7 +239,7 @@ static void run(struct live *live, uint64_t seed, int16_t sensors, int64_t lag_u
 
 static void add(struct figures *figures, const struct live *live, const struct live *with)
 {
-    const struct rho_tracker_counters *tracker = node_core_tracker(live->core);
+    const struct rho_tracker_counters *tracker = node_core_tracker_counters(live->core);
 
     for (int i = FIRST_ROUND; i < ROUNDS; i++) {
         if (!isnan(live->sum_m2[i]) && !isnan(with->sum_m2[i])) {
@@ -251,9 +251,9 @@ static void add(struct figures *figures, const struct live *live, const struct l
     figures->rmse_m = sqrt(figures->sum_m2 / figures->found);
     figures->lost += live->lost;
     figures->scans += live->num_events;
-    figures->late += node_core_assembler(live->core)->scans_late;
-    figures->losses =
-        sequence_counts_losses(node_core_order(live->core), node_core_assembler(live->core));
+    figures->late += node_core_assembler_counters(live->core)->scans_late;
+    figures->losses = out_of_sequence_counts_losses(node_core_sequence_counts(live->core),
+                                                    node_core_assembler_counters(live->core));
     figures->retrodicted += tracker->scans_retrodicted;
     figures->stale += tracker->fates[RHO_FATE_STALE];
 }

@@ -59,7 +59,7 @@ static void on_step(void *context, const struct rho_report *report)
     struct live *live = context;
 
     (void)report;
-    node_sensors_watch(&live->said, live->core, live->lines);
+    node_sensors_print_changes(&live->said, live->core, live->lines);
 }
 
 /* As the radars' operator has it in a file for --config. */
@@ -76,7 +76,7 @@ static struct live *start(void)
     const struct node_core_events events = {.context = live, .send = on_send, .stepped = on_step};
 
     assert_non_null(live);
-    parameters_default(&live->parameters);
+    parameters_set_defaults(&live->parameters);
     describe(live, "v_max_mps", "400");
     describe(live, "accel_max_mps2", "10"); /* 30, the default, follows such a bias */
     describe(live, "sensor.1.pd", "0.9");
@@ -134,7 +134,7 @@ static void look(struct live *live, int16_t sensor_id, int32_t round, enum fault
     fill(live, &scan, (double)(time_us - START_US) / 1e6, fault);
     assert_int_equal(rho_message_plot_scan_encode(&scan, buffer, sizeof buffer, &size), RHO_OK);
     snprintf(channel, sizeof channel, "%s%d", RHO_MESSAGE_PLOT_SCAN_CHANNEL, sensor_id);
-    node_core_take(live->core, channel, buffer, size, time_us);
+    node_core_take_message(live->core, channel, buffer, size, time_us);
 }
 
 /* Sensor 1 has the fault. */
@@ -147,10 +147,10 @@ static void fly(struct live *live, int32_t from, int32_t to, enum fault fault)
             }
         }
         node_core_tick(live->core, START_US + (round + 1) * ROUND_US);
-        node_sensors_watch(&live->said, live->core, live->lines);
+        node_sensors_print_changes(&live->said, live->core, live->lines);
     }
     const struct node_core_losses none = {.reports_not_printed = 0};
-    node_core_status(live->core, &none);
+    node_core_send_status(live->core, &none);
     fflush(live->lines);
 }
 
@@ -188,7 +188,7 @@ static void sensors_that_are_well_are_not_named(void **state)
     the_others_are_well(live);
     assert_int_equal(find(live, 1)->is_doubted, 0);
     assert_int_equal(find(live, 1)->scans, 60);
-    node_sensors_print(live->core, live->lines);
+    node_sensors_print_bad(live->core, live->lines);
     fflush(live->lines);
     assert_string_equal(live->text, "");
     end(live);
@@ -222,7 +222,7 @@ static void one_that_lies_is_named_once(void **state)
     times = number_in(live->text, "rhotrack: sensor 1 is suspect: its innovations are ",
                       " times what its sigmas say\n");
     assert_true(times >= 2.0 && times < 4.0);
-    node_sensors_print(live->core, live->lines);
+    node_sensors_print_bad(live->core, live->lines);
     fflush(live->lines);
     assert_non_null(strstr(live->text, "say\nrhotrack: sensor 1 contradicts the others\n"));
     end(live);
@@ -305,7 +305,7 @@ static void what_is_learned_is_told_of_each_in_turn(void **state)
     (void)state;
     fly(live, 0, 40, WELL);
     for (int call = 1; call < 7; call++) {
-        node_core_status(live->core, &none);
+        node_core_send_status(live->core, &none);
         assert_int_equal(learned->sensor_id, 1 + call % SENSORS);
         assert_int_equal(learned->scan, live->list.scan);
         assert_int_equal(learned->epoch, live->list.epoch);

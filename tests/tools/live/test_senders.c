@@ -27,7 +27,7 @@ static void hear(const char *channel, uint16_t port, bool is_own, int64_t now_us
     const struct transport_message message = {.channel = channel,
                                               .sender = {0x0a090001u, port, is_own}};
 
-    senders_note(&senders, &message, now_us, to);
+    senders_note_message(&senders, &message, now_us, to);
 }
 
 static void said(const char *expected)

@@ -96,7 +96,7 @@ static void take(struct live *live, const char *channel, int16_t sensor_id, cons
 
     snprintf(name, sizeof name, "%s%d", channel, sensor_id);
     start_us = clock_us();
-    node_core_take(live->core, name, message, size, live->now_us);
+    node_core_take_message(live->core, name, message, size, live->now_us);
     live->now_us += clock_us() - start_us;
 }
 
@@ -225,7 +225,7 @@ static void start(struct live *live, int64_t interval_us)
     char reason[PARAMETER_REASON_BYTES];
 
     *live = (struct live){.now_us = 0};
-    parameters_default(&live->parameters);
+    parameters_set_defaults(&live->parameters);
     assert_true(parameters_assign(&live->parameters, "v_max_mps", "400", SOURCE_CONFIG, reason));
     add_radar(live, interval_us);
 }
@@ -370,7 +370,7 @@ static void try(struct live *live, int64_t interval_us, attacker *attack, const 
                   (double)live->gap_us / 1e6,
                   live->found_us ? (double)(live->found_us - START_US) / 1e6 - attack_s
                                  : (double)NAN,
-                  node_core_max_us(live->core) / 1e6);
+                  node_core_max_step_us(live->core) / 1e6);
     node_core_close(live->core);
 }
 
@@ -448,12 +448,12 @@ static void two_senders_of_one_number_are_told(void **state)
     }
     run(&live);
     for (int i = 0; i < 2; i++) {
-        node_sensors_watch(&sensors, live.core, to);
+        node_sensors_print_changes(&sensors, live.core, to);
     }
     fclose(to);
     assert_string_equal(said, "rhotrack: sensor 1: a scan came twice with different contents: two "
                               "senders use this number\n");
-    assert_int_equal(node_core_assembler(live.core)->scans_other, 3);
+    assert_int_equal(node_core_assembler_counters(live.core)->scans_other, 3);
     node_core_close(live.core);
     free(said);
 }

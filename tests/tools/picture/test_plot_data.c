@@ -18,7 +18,7 @@ static void an_empty_list_has_no_identities(void **state)
     const struct plot_points none = {0};
     struct plot_points one;
     size_t at = 0;
-    assert_false(plot_data_next(&none, &at, &one));
+    assert_false(plot_data_next_identity(&none, &at, &one));
     assert_int_equal(at, 0);
 }
 
@@ -29,12 +29,12 @@ static void identities_come_one_by_one(void **state)
     const struct plot_points points = {.list = list, .count = 3};
     struct plot_points one;
     size_t at = 0;
-    assert_true(plot_data_next(&points, &at, &one));
+    assert_true(plot_data_next_identity(&points, &at, &one));
     assert_int_equal(one.count, 2);
-    assert_true(plot_data_next(&points, &at, &one));
+    assert_true(plot_data_next_identity(&points, &at, &one));
     assert_int_equal(one.count, 1);
     assert_int_equal(one.list[0].id, 9);
-    assert_false(plot_data_next(&points, &at, &one));
+    assert_false(plot_data_next_identity(&points, &at, &one));
 }
 
 int main(void)

@@ -21,13 +21,13 @@ static void open_chain(double initiators)
 {
     struct parameters parameters;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     parameters.value[PARAMETER_INITIATORS] = initiators;
     for (int32_t id = 1; id <= 7; id++) {
         char assignment[40];
 
         snprintf(assignment, sizeof assignment, "sensor.%d.range_max_m=80000", (int)id);
-        parameters_set(&parameters, assignment);
+        parameters_set_assignment(&parameters, assignment);
     }
     pipeline_open(&chain, &parameters);
 }
@@ -44,7 +44,7 @@ static struct rho_initiator *of(int32_t sensor_id)
 {
     const struct rho_scan scan = {.sensor_id = sensor_id};
 
-    return pipeline_initiator_of(&chain, &scan);
+    return pipeline_initiator_of_scan(&chain, &scan);
 }
 
 static void radars_that_see_the_same_share_a_window(void **state)
@@ -116,7 +116,7 @@ static void sectors_have_their_radar_s_own(void **state)
     describe(1, 0.0f, 80e3f);
     describe(2, 0.0f, 80e3f);
     const struct rho_scan sector = {.sensor_id = 2, .sector_to_rad = 1.0f};
-    assert_ptr_not_equal(pipeline_initiator_of(&chain, &sector), of(1));
+    assert_ptr_not_equal(pipeline_initiator_of_scan(&chain, &sector), of(1));
 }
 
 /* Whole turns of both, until it is known how long they are. */

@@ -82,7 +82,7 @@ static void add(struct register_data *data, const struct scene_run *run,
         chain.plots[i].sigma_range_m *= (float)telling->sigma_factor;
         chain.plots[i].sigma_cross_m *= (float)telling->sigma_factor;
     }
-    assert_null(register_add(data, &scan, &sensor));
+    assert_null(register_add_scan(data, &scan, &sensor));
 }
 
 static struct register_result estimate(const struct heard *heard, const struct telling *telling)
@@ -93,7 +93,7 @@ static struct register_result estimate(const struct heard *heard, const struct t
     for (size_t i = 0; i < run->num_scans; i++) {
         add(data, run, &run->scans[telling->is_backwards ? run->num_scans - 1 - i : i], telling);
     }
-    struct register_result result = register_estimate(data, &chain);
+    struct register_result result = register_estimate_biases(data, &chain);
     register_free(data);
     return result;
 }
@@ -183,7 +183,7 @@ static void test_large_biases_and_the_reference(void **state)
     check(&heard, &result, 4.0);
     register_result_free(&result);
 
-    parameters_set(&heard.parameters, "reference_sensor=2");
+    parameters_set_assignment(&heard.parameters, "reference_sensor=2");
     result = estimate(&heard, &telling);
     assert_int_equal(result.reference, 1);
     heard.scene->sensors[0].time_bias_s = -1.5;
@@ -283,19 +283,19 @@ static void test_says_what_it_cannot_know(void **state)
 static void test_refuses_what_it_cannot_use(void **state)
 {
     struct parameters parameters;
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     struct register_data *data = register_start(&parameters);
     struct rho_plot plot = lab_plot(1000.0, 2000.0, 10.0);
     struct rho_scan scan = {.sensor_id = 5, .num_plots = 1, .plots = &plot};
     struct rho_sensor sensor = {.sensor_id = 5, .pd = 0.9f, .range_max_m = 1e5f};
 
     (void)state;
-    assert_string_equal(register_add(data, &scan, &sensor),
+    assert_string_equal(register_add_scan(data, &scan, &sensor),
                         "its plots are not in range and azimuth");
     plot.sigma_cross_m = 20.0f;
-    assert_null(register_add(data, &scan, &sensor));
+    assert_null(register_add_scan(data, &scan, &sensor));
     sensor.x_m = 1.0f;
-    assert_non_null(strstr(register_add(data, &scan, &sensor), "moves"));
+    assert_non_null(strstr(register_add_scan(data, &scan, &sensor), "moves"));
     assert_int_equal(register_num_radars(data), 1);
     register_free(data);
 }

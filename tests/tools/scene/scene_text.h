@@ -33,9 +33,9 @@
 #define SCENE(duration, radars, rest)                                                              \
     "{\"version\": 1, \"duration_s\": " duration ", \"radars\": [" radars "]" rest "}"
 
-static inline struct scene *scene_of(const char *text)
+static inline struct scene *scene_of_text(const char *text)
 {
-    return scene_read("test.json", must_copy(text), strlen(text), NULL, 0);
+    return scene_read("test.json", must_copy_text(text), strlen(text), NULL, 0);
 }
 
 struct moments {
@@ -49,14 +49,14 @@ static inline void add_moment(struct moments *moments, double value)
     moments->squares += value * value;
 }
 
-static inline double mean_of(const struct moments *moments)
+static inline double mean_of_moments(const struct moments *moments)
 {
     return moments->sum / moments->count;
 }
 
-static inline double sigma_of(const struct moments *moments)
+static inline double sigma_of_moments(const struct moments *moments)
 {
-    double mean = mean_of(moments);
+    double mean = mean_of_moments(moments);
 
     return sqrt(moments->squares / moments->count - mean * mean);
 }

@@ -46,11 +46,11 @@ static size_t watch(const char *more, double x_m, double *plots_a_scan)
 
     snprintf(target, sizeof target, TARGET, x_m, more);
     snprintf(text, sizeof text, SCENE("200", SHARP, ", \"targets\": [%s]"), target);
-    struct scene *scene = scene_of(text);
+    struct scene *scene = scene_of_text(text);
     struct scene_run *run = scene_observe(scene, 3, 0);
 
     for (size_t i = 0; i < run->num_scans; i++) {
-        const struct motion at = path_at(&run->paths[0], run->scans[i].end_s);
+        const struct motion at = path_motion_at(&run->paths[0], run->scans[i].end_s);
 
         for (size_t k = 0; k < run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &run->scans[i].plots[k];
@@ -94,7 +94,7 @@ static void a_turning_body_turns_its_scatterers(void **state)
               "[{\"turn_degps\": 3, \"for_s\": 100}], \"body\": {\"length_m\": 200, \"width_m\": "
               "1, \"scatterers\": 2, \"seen\": 1}}]");
     (void)state;
-    struct scene *scene = scene_of(text);
+    struct scene *scene = scene_of_text(text);
     struct scene_run *run = scene_observe(scene, 1, 0);
     const struct scene_scan *first = &run->scans[0];
     assert_int_equal(first->num_plots, 2);

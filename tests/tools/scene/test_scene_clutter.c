@@ -17,7 +17,7 @@ struct seen {
 /* All clutter of a scene, in time order; its moments. */
 static struct seen look_at(const char *text)
 {
-    struct seen seen = {.scene = scene_of(text)};
+    struct seen seen = {.scene = scene_of_text(text)};
 
     seen.run = scene_observe(seen.scene, 5, 0);
     for (size_t i = 0; i < seen.run->num_scans; i++) {
@@ -59,20 +59,20 @@ static void uniform_clutter(void **state)
         SCENE("4000", RADAR(", \"sigma_range_rate_mps\": 1"),
               CLUTTER("{\"kind\": \"uniform\", \"plots\": 50, \"range_rate_max_mps\": 90}")));
 
-    assert_near(mean_of(&seen.scan), 50, 4 * sqrt(50. / TURNS));
-    assert_near(sigma_of(&seen.scan), sqrt(50), 4 * sqrt(50) / sqrt(2. * TURNS));
-    assert_near(mean_of(&seen.range), 40500, 4 * 22800 / sqrt(seen.range.count));
-    assert_near(sigma_of(&seen.range), 79000 / sqrt(12), 150);
-    assert_near(mean_of(&seen.azimuth), 0, 4 * 1.81 / sqrt(seen.range.count));
-    assert_near(sigma_of(&seen.azimuth), PORTABLE_TURN / sqrt(12), 0.02);
-    assert_near(sigma_of(&seen.rate), 180 / sqrt(12), 0.6);
+    assert_near(mean_of_moments(&seen.scan), 50, 4 * sqrt(50. / TURNS));
+    assert_near(sigma_of_moments(&seen.scan), sqrt(50), 4 * sqrt(50) / sqrt(2. * TURNS));
+    assert_near(mean_of_moments(&seen.range), 40500, 4 * 22800 / sqrt(seen.range.count));
+    assert_near(sigma_of_moments(&seen.range), 79000 / sqrt(12), 150);
+    assert_near(mean_of_moments(&seen.azimuth), 0, 4 * 1.81 / sqrt(seen.range.count));
+    assert_near(sigma_of_moments(&seen.azimuth), PORTABLE_TURN / sqrt(12), 0.02);
+    assert_near(sigma_of_moments(&seen.rate), 180 / sqrt(12), 0.6);
     end_look(&seen);
     seen = look_at(SCENE("4000", RADAR(""),
                          CLUTTER("{\"kind\": \"uniform\", \"plots\": 20, \"range_m\": [5000, 9000],"
                                  "\"sector_rad\": [3, -3], \"from_s\": 1000, \"until_s\": 3000}")));
-    assert_near(mean_of(&seen.scan), 10, 4 * sqrt(20. / 500) / 2);
-    assert_near(mean_of(&seen.range), 7000, 4 * 1155 / sqrt(seen.range.count));
-    assert_near(mean_of(&seen.x), -7000 * sin(0.1416) / 0.1416, 60);
+    assert_near(mean_of_moments(&seen.scan), 10, 4 * sqrt(20. / 500) / 2);
+    assert_near(mean_of_moments(&seen.range), 7000, 4 * 1155 / sqrt(seen.range.count));
+    assert_near(mean_of_moments(&seen.x), -7000 * sin(0.1416) / 0.1416, 60);
     end_look(&seen);
 }
 
@@ -86,10 +86,10 @@ static void a_cell_drifts(void **state)
     size_t last = seen.run->num_scans - 1;
     struct moments x = {0};
 
-    assert_near(mean_of(&seen.scan), 30, 4 * sqrt(30. / TURNS));
-    assert_near(mean_of(&seen.x), -10000, 4 * 11700 / sqrt(seen.x.count)); /* half way */
-    assert_near(mean_of(&seen.y), 20000, 4 * 2000 / sqrt(seen.y.count));
-    assert_near(sigma_of(&seen.y), 2000, 4 * 2000 / sqrt(2 * seen.y.count));
+    assert_near(mean_of_moments(&seen.scan), 30, 4 * sqrt(30. / TURNS));
+    assert_near(mean_of_moments(&seen.x), -10000, 4 * 11700 / sqrt(seen.x.count)); /* half way */
+    assert_near(mean_of_moments(&seen.y), 20000, 4 * 2000 / sqrt(seen.y.count));
+    assert_near(sigma_of_moments(&seen.y), 2000, 4 * 2000 / sqrt(2 * seen.y.count));
     for (size_t i = last - 50; i < last; i++) {
         for (size_t k = 0; k < seen.run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &seen.run->scans[i].plots[k];
@@ -97,14 +97,14 @@ static void a_cell_drifts(void **state)
             add_moment(&x, plot->range_m * cos(plot->azimuth_rad) - 10 * plot->t_s);
         }
     }
-    assert_near(mean_of(&x), -30000, 4 * 2000 / sqrt(x.count));
+    assert_near(mean_of_moments(&x), -30000, 4 * 2000 / sqrt(x.count));
     end_look(&seen);
     seen = look_at(SCENE(
         "4000", RADAR(""),
         CLUTTER(
             "{\"kind\": \"cell\", \"shape\": \"disc\", \"plots\": 30, \"at_m\": [-30000, 20000],"
             "\"radius_m\": 2000}")));
-    assert_near(sigma_of(&seen.y), 1000, 4 * 1000 / sqrt(2 * seen.y.count));
+    assert_near(sigma_of_moments(&seen.y), 1000, 4 * 1000 / sqrt(2 * seen.y.count));
     for (size_t i = 0; i < seen.run->num_scans; i++) {
         for (size_t k = 0; k < seen.run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &seen.run->scans[i].plots[k];
@@ -126,8 +126,8 @@ static void towers_stand(void **state)
     struct moments far = {0}, azimuth = {0};
 
     assert_share(seen.range.count, 2 * TURNS, 0.5);
-    assert_near(mean_of(&seen.rate), 0, 4 / sqrt(seen.rate.count));
-    assert_near(sigma_of(&seen.rate), 1, 0.1);
+    assert_near(mean_of_moments(&seen.rate), 0, 4 / sqrt(seen.rate.count));
+    assert_near(sigma_of_moments(&seen.rate), 1, 0.1);
     for (size_t i = 0; i < seen.run->num_scans; i++) {
         for (size_t k = 0; k < seen.run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &seen.run->scans[i].plots[k];
@@ -138,9 +138,9 @@ static void towers_stand(void **state)
             }
         }
     }
-    assert_near(mean_of(&far), 50000, 4 * 30 / sqrt(far.count));
-    assert_near(sigma_of(&far), 30, 4 * 30 / sqrt(2 * far.count));
-    assert_near(sigma_of(&azimuth), 0.003, 4 * 0.003 / sqrt(2 * far.count));
+    assert_near(mean_of_moments(&far), 50000, 4 * 30 / sqrt(far.count));
+    assert_near(sigma_of_moments(&far), 30, 4 * 30 / sqrt(2 * far.count));
+    assert_near(sigma_of_moments(&azimuth), 0.003, 4 * 0.003 / sqrt(2 * far.count));
     end_look(&seen);
     seen = look_at(SCENE(
         "400", RADAR(""),
@@ -162,8 +162,9 @@ static void spikes_last_some_scans(void **state)
 
     /* 20 s of life, five turns, of each; some are alive at the start */
     assert_near(seen.range.count, 40000 * 0.05 * 5 * 0.7, 4 * 0.7 * sqrt(40000 * 0.05 * (25 + 3)));
-    assert_near(mean_of(&seen.x), 0, 400);
-    assert_true(seen.range.count > 0 && sigma_of(&seen.x) > 3000 && sigma_of(&seen.x) < 6000);
+    assert_near(mean_of_moments(&seen.x), 0, 400);
+    assert_true(seen.range.count > 0 && sigma_of_moments(&seen.x) > 3000 &&
+                sigma_of_moments(&seen.x) < 6000);
     end_look(&seen);
 }
 
@@ -176,16 +177,16 @@ static void a_strobe_is_a_wedge(void **state)
                               "\"width_rad\": 0.04, \"azimuth_radps\": 0.001}")));
     struct moments off = {0};
 
-    assert_near(mean_of(&seen.scan), 60, 4 * sqrt(60. / 100));
+    assert_near(mean_of_moments(&seen.scan), 60, 4 * sqrt(60. / 100));
     for (size_t i = 0; i < seen.run->num_scans; i++) {
         for (size_t k = 0; k < seen.run->scans[i].num_plots; k++) {
             add_moment(&off, seen.run->scans[i].plots[k].azimuth_rad - 0.5 -
                                  0.001 * (seen.run->scans[i].end_s - 4));
         }
     }
-    assert_near(mean_of(&off), 0, 4 * 0.0116 / sqrt(off.count));
-    assert_near(sigma_of(&off), 0.04 / sqrt(12), 0.0004);
-    assert_near(mean_of(&seen.range), 40500, 4 * 22800 / sqrt(seen.range.count));
+    assert_near(mean_of_moments(&off), 0, 4 * 0.0116 / sqrt(off.count));
+    assert_near(sigma_of_moments(&off), 0.04 / sqrt(12), 0.0004);
+    assert_near(mean_of_moments(&seen.range), 40500, 4 * 22800 / sqrt(seen.range.count));
     end_look(&seen);
 }
 
@@ -198,15 +199,16 @@ static void birds_flock(void **state)
                 "\"velocity_mps\": [-10, 5], \"speed_mps\": 4, \"pd\": 0.5}")));
 
     assert_share(seen.range.count, 100 * 500, 0.5);
-    assert_near(mean_of(&seen.x), 20000, 4 * 3000 / sqrt(100));
-    assert_near(mean_of(&seen.y), 5000, 4 * 3000 / sqrt(100));
+    assert_near(mean_of_moments(&seen.x), 20000, 4 * 3000 / sqrt(100));
+    assert_near(mean_of_moments(&seen.y), 5000, 4 * 3000 / sqrt(100));
     for (size_t i = 0; i < 100; i++) { /* slower than the flock and 1.5 times 4 m/s */
         size_t count, num_paths;
         struct scene_path *paths;
-        struct scene_mover *birds = clutter_movers(seen.scene, 0, 5, 0, &count, &paths, &num_paths);
+        struct scene_mover *birds =
+            draw_clutter_movers(seen.scene, 0, 5, 0, &count, &paths, &num_paths);
         struct motion at;
 
-        assert_true(mover_at(&birds[i], &seen.scene->sensors[0], 77, &at));
+        assert_true(mover_seen_at(&birds[i], &seen.scene->sensors[0], 77, &at));
         assert_true(hypot(at.vx_mps + 10, at.vy_mps - 5) < 6.001);
         free(birds);
     }
@@ -233,7 +235,7 @@ static void echoes_of_the_second_time(void **state)
         assert_near(plot->azimuth_rad, 0, 0.015);
         assert_near(plot->range_rate_mps, 50, 5);
     }
-    assert_near(mean_of(&off), 0, 4 * 30 / sqrt(off.count));
+    assert_near(mean_of_moments(&off), 0, 4 * 30 / sqrt(off.count));
     end_look(&seen);
 }
 
@@ -244,7 +246,7 @@ static void echoes_of_the_second_time(void **state)
 static void clutter_stays_about_a_target(void **state)
 {
     (void)state;
-    struct scene *scene = scene_of(SCENE(
+    struct scene *scene = scene_of_text(SCENE(
         "1000", "{\"interval_s\": 2, \"sigma_m\": 7, \"sigma_mps\": 3, \"pd\": 1}",
         ", \"targets\": [{\"at_m\": [30000, 40000, 100], \"velocity_mps\": [100, 20, 5]}]" CLUTTER(
             "{\"kind\": \"about-targets\", \"count\": 4, \"width_rad\": 0.02, "
@@ -255,7 +257,7 @@ static void clutter_stays_about_a_target(void **state)
     assert_int_equal(run->num_scans, 500);
     for (size_t i = 0; i < run->num_scans; i++) {
         const struct scene_scan *scan = &run->scans[i];
-        struct motion at = path_at(run->paths, scan->end_s);
+        struct motion at = path_motion_at(run->paths, scan->end_s);
         double radius_m = sqrt(at.x_m * at.x_m + at.y_m * at.y_m + at.z_m * at.z_m) * sin(0.01);
 
         assert_int_equal(scan->num_plots, scan->end_s < 10 ? 1 : 5);
@@ -279,12 +281,12 @@ static void clutter_stays_about_a_target(void **state)
             }
         }
     }
-    assert_near(mean_of(&share), 0.5, 4 * 0.289 / sqrt(share.count));
-    assert_near(mean_of(&x), 0, 4 * 0.447 / sqrt(share.count));
-    assert_near(sigma_of(&x), sqrt(0.2), 0.03);
-    assert_near(sigma_of(&z), sqrt(0.2), 0.03);
-    assert_near(sigma_of(&noise), 7, 4 * 7 / sqrt(2 * noise.count));
-    assert_near(sigma_of(&velocity), 3, 4 * 3 / sqrt(2 * noise.count));
+    assert_near(mean_of_moments(&share), 0.5, 4 * 0.289 / sqrt(share.count));
+    assert_near(mean_of_moments(&x), 0, 4 * 0.447 / sqrt(share.count));
+    assert_near(sigma_of_moments(&x), sqrt(0.2), 0.03);
+    assert_near(sigma_of_moments(&z), sqrt(0.2), 0.03);
+    assert_near(sigma_of_moments(&noise), 7, 4 * 7 / sqrt(2 * noise.count));
+    assert_near(sigma_of_moments(&velocity), 3, 4 * 3 / sqrt(2 * noise.count));
     scene_run_free(run);
     scene_free(scene);
 }

@@ -20,7 +20,7 @@ static struct scene_path *flights_of(size_t flights, double crossing_share, doub
                    ", \"targets\": [{\"flights\": %zu, \"box_m\": [-250e3, 250e3, -250e3, 250e3], "
                    "\"least_s\": 400, \"crossing_share\": %g}]"),
              duration_s, flights, crossing_share);
-    scene = scene_of(text);
+    scene = scene_of_text(text);
     paths = targets_draw(&scene->targets, "test.json", duration_s, seed, 0, 0, count);
     scene_free(scene);
     return paths;
@@ -109,7 +109,8 @@ static void flights_keep_to_their_box_speeds_and_turn_rates(void **state)
 
     for (size_t i = 0; i < count; i++) {
         for (double t_s = paths[i].from_s; t_s + STEP_S < paths[i].until_s; t_s += STEP_S) {
-            struct motion from = path_at(&paths[i], t_s), to = path_at(&paths[i], t_s + STEP_S);
+            struct motion from = path_motion_at(&paths[i], t_s),
+                          to = path_motion_at(&paths[i], t_s + STEP_S);
 
             check_step(&from, &to, &tally);
         }
@@ -136,8 +137,8 @@ static void flights_come_over_the_border_and_from_the_ground(void **state)
     double begun = (double)count, entered = 0.0, left = 0.0;
 
     for (size_t i = 0; i < count; i++) {
-        struct motion first = path_at(&paths[i], paths[i].from_s);
-        struct motion last = path_at(&paths[i], paths[i].until_s);
+        struct motion first = path_motion_at(&paths[i], paths[i].from_s);
+        struct motion last = path_motion_at(&paths[i], paths[i].until_s);
         bool enters = is_at_border(&first), leaves = is_at_border(&last);
 
         assert_true(enters || fabs(speed_of(&first) - 80.0) < 1e-6);
@@ -159,10 +160,10 @@ static size_t count_meetings(double crossing_share)
 
     for (double t_s = 0.0; t_s < 3600.0; t_s += STEP_S) {
         for (size_t i = 0; i < count; i++) {
-            struct motion at = path_at(&paths[i], t_s);
+            struct motion at = path_motion_at(&paths[i], t_s);
 
             for (size_t j = 0; j < i && t_s >= paths[i].from_s && t_s < paths[i].until_s; j++) {
-                struct motion other = path_at(&paths[j], t_s);
+                struct motion other = path_motion_at(&paths[j], t_s);
 
                 meetings += t_s >= paths[j].from_s && t_s < paths[j].until_s &&
                             hypot(at.x_m - other.x_m, at.y_m - other.y_m) < 1000.0;
@@ -189,8 +190,8 @@ static void a_seed_gives_the_same_flights_again(void **state)
     struct scene_path *one = flights_of(20, 0.2, 600, 1, &one_count);
     struct scene_path *again = flights_of(20, 0.2, 600, 1, &again_count);
     struct scene_path *other = flights_of(20, 0.2, 600, 2, &other_count);
-    struct motion first = path_at(&one[0], 100.0), second = path_at(&again[0], 100.0);
-    struct motion third = path_at(&other[0], 100.0);
+    struct motion first = path_motion_at(&one[0], 100.0), second = path_motion_at(&again[0], 100.0);
+    struct motion third = path_motion_at(&other[0], 100.0);
 
     assert_int_equal(one_count, again_count);
     assert_memory_equal(&first, &second, sizeof first);

@@ -22,12 +22,12 @@ static struct seen watch(const char *radar, double notch_mps, double blind_mps)
     struct seen seen = {0, 0, 0, 0};
 
     snprintf(text, sizeof text, SCENE("400", "%s", FLYERS), radar);
-    struct scene *scene = scene_of(text);
+    struct scene *scene = scene_of_text(text);
     struct scene_run *run = scene_observe(scene, 1, 0);
 
     for (size_t i = 0; i < run->num_scans; i++) {
         for (size_t k = 0; k < run->num_paths; k++) {
-            struct motion at = path_at(&run->paths[k], run->scans[i].end_s);
+            struct motion at = path_motion_at(&run->paths[k], run->scans[i].end_s);
             double rate = (at.x_m * at.vx_mps + at.y_m * at.vy_mps) / hypot(at.x_m, at.y_m);
             double off = fabs(blind_mps > 0 ? remainder(rate, blind_mps) : rate);
             bool is_plot = false;
@@ -96,12 +96,12 @@ static void probabilities_are_the_lower_ones(void **state)
 static void a_tracker_is_told_the_truth_or_not(void **state)
 {
     char text[128] = "";
-    struct scene *scene = scene_of(SCENE(
+    struct scene *scene = scene_of_text(SCENE(
         "8", RADAR(", \"notch_mps\": 5, \"blind_speed_mps\": 30, \"told\": {\"notch_mps\": 4}"),
         ""));
     FILE *file = fmemopen(text, sizeof text, "w");
     (void)state;
-    scene_notch_write(&scene->sensors[0].told.notch, file);
+    scene_notch_write_settings(&scene->sensors[0].told.notch, file);
     fclose(file);
     assert_string_equal(text, "notch_mps = 4\nblind_speed_mps = 30\n");
     assert_near(scene->sensors[0].notch.mps, 5, 0);

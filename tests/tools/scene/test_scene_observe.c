@@ -14,7 +14,7 @@
 
 static struct scene_run *watch_text(const char *text, struct scene **scene, uint64_t seed)
 {
-    *scene = scene_of(text);
+    *scene = scene_of_text(text);
     return scene_observe(*scene, seed, 0);
 }
 
@@ -49,7 +49,7 @@ static void check_plots(const char *text, const double bias[2], bool turns)
 
         for (size_t k = 0; k < scan->num_plots; k++) {
             const struct scene_plot *plot = &scan->plots[k];
-            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            struct motion at = path_motion_at(&run->paths[plot->target_id], plot->t_s);
             double x_m = at.x_m - sensor->x_m, y_m = at.y_m - sensor->y_m,
                    range_m = hypot(x_m, y_m);
             double azimuth_rad = atan2(y_m, x_m);
@@ -71,13 +71,13 @@ static void check_plots(const char *text, const double bias[2], bool turns)
     }
     assert_true(range.count > 3000);
     assert_share(range.count, 40 * 100, 0.9);
-    assert_near(mean_of(&range), 0, 4 / sqrt(range.count));
-    assert_near(mean_of(&azimuth), 0, 4 / sqrt(range.count));
-    assert_near(sigma_of(&range), 1, 4 / sqrt(2 * range.count));
-    assert_near(sigma_of(&azimuth), 1, 4 / sqrt(2 * range.count));
+    assert_near(mean_of_moments(&range), 0, 4 / sqrt(range.count));
+    assert_near(mean_of_moments(&azimuth), 0, 4 / sqrt(range.count));
+    assert_near(sigma_of_moments(&range), 1, 4 / sqrt(2 * range.count));
+    assert_near(sigma_of_moments(&azimuth), 1, 4 / sqrt(2 * range.count));
     if (sensor->has_range_rate) {
-        assert_near(mean_of(&rate), 0, 8 / sqrt(range.count));
-        assert_near(sigma_of(&rate), 2, 8 / sqrt(2 * range.count));
+        assert_near(mean_of_moments(&rate), 0, 8 / sqrt(range.count));
+        assert_near(sigma_of_moments(&rate), 2, 8 / sqrt(2 * range.count));
     }
     end_watch(run, scene);
 }
@@ -135,7 +135,7 @@ static void ambiguous_range_rates_are_folded(void **state)
     for (size_t i = 0; i < run->num_scans; i++) {
         for (size_t k = 0; k < run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &run->scans[i].plots[k];
-            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            struct motion at = path_motion_at(&run->paths[plot->target_id], plot->t_s);
             double rate = (at.x_m * at.vx_mps + at.y_m * at.vy_mps) / hypot(at.x_m, at.y_m);
 
             assert_true(fabs(plot->range_rate_mps) <= 20);
@@ -157,13 +157,13 @@ static void coverage_ends(void **state)
 
     for (size_t i = 0; i < run->num_scans; i++) {
         for (size_t k = 0; k < run->num_paths; k++) {
-            struct motion at = path_at(&run->paths[k], run->scans[i].end_s);
+            struct motion at = path_motion_at(&run->paths[k], run->scans[i].end_s);
 
-            covered += scene_covers(scene, at.x_m, at.y_m);
+            covered += scene_covers_place(scene, at.x_m, at.y_m);
         }
         for (size_t k = 0; k < run->scans[i].num_plots; k++) {
             const struct scene_plot *plot = &run->scans[i].plots[k];
-            struct motion at = path_at(&run->paths[plot->target_id], plot->t_s);
+            struct motion at = path_motion_at(&run->paths[plot->target_id], plot->t_s);
             double range_m = hypot(at.x_m, at.y_m), azimuth_rad = atan2(at.y_m, at.x_m);
 
             assert_true(range_m >= 1000 && range_m <= 80000);
@@ -292,9 +292,9 @@ static void targets_split(void **state)
     }
     assert_share(first.count, 4000, 0.9);
     assert_share(second.count, first.count, 0.3);
-    assert_near(mean_of(&second), 500, 4 * 65 / sqrt(second.count));
-    assert_near(sigma_of(&second), sqrt(30 * 30 + 200 * 200 / 12.), 5);
-    assert_near(mean_of(&azimuth), 0.06, 4 * 0.003 / sqrt(second.count));
+    assert_near(mean_of_moments(&second), 500, 4 * 65 / sqrt(second.count));
+    assert_near(sigma_of_moments(&second), sqrt(30 * 30 + 200 * 200 / 12.), 5);
+    assert_near(mean_of_moments(&azimuth), 0.06, 4 * 0.003 / sqrt(second.count));
     end_watch(run, scene);
 }
 
@@ -325,7 +325,8 @@ static void what_is_not_resolved_is_one_plot(void **state)
     assert_share(seen[0] + seen[1], 2000, 1 - 0.4 * 0.4);
     assert_share(seen[2], 2000, 0.6);
     assert_share(seen[3], 2000, 0.6);
-    assert_near(mean_of(&range), (30000 + hypot(30150, 200)) / 2, 4 * 30 / sqrt(range.count));
+    assert_near(mean_of_moments(&range), (30000 + hypot(30150, 200)) / 2,
+                4 * 30 / sqrt(range.count));
     end_watch(run, scene);
 }
 
@@ -352,11 +353,11 @@ static void passive_sensors_measure_bearings(void **state)
         }
     }
     assert_share(right.count, 2000, 0.8);
-    assert_near(mean_of(&right), atan2(40000, 30000), 4 * 0.002 / sqrt(right.count));
-    assert_near(sigma_of(&right), 0.002, 4 * 0.002 / sqrt(2 * right.count));
+    assert_near(mean_of_moments(&right), atan2(40000, 30000), 4 * 0.002 / sqrt(right.count));
+    assert_near(sigma_of_moments(&right), 0.002, 4 * 0.002 / sqrt(2 * right.count));
     assert_poisson(wrong.count, 3000);
-    assert_near(mean_of(&wrong), 0, 4 * 0.577 / sqrt(wrong.count));
-    assert_near(sigma_of(&wrong), 0.577, 0.03);
+    assert_near(mean_of_moments(&wrong), 0, 4 * 0.577 / sqrt(wrong.count));
+    assert_near(sigma_of_moments(&wrong), 0.577, 0.03);
     end_watch(run, scene);
 }
 

@@ -34,7 +34,7 @@ static struct scene_path *paths_of(const char *targets, double duration_s, uint6
     struct scene_path *paths;
 
     snprintf(text, sizeof text, SCENE("%g", RADAR(""), ", \"targets\": [%s]"), duration_s, targets);
-    scene = scene_of(text);
+    scene = scene_of_text(text);
     paths = targets_draw(&scene->targets, "test.json", duration_s, seed, 0, 0, count);
     scene_free(scene);
     return paths;
@@ -52,10 +52,10 @@ static void free_paths(struct scene_path *paths, size_t count)
 static void assert_is_smooth(const struct scene_path *path, double until_s, double accel_max_mps2)
 {
     const double step_s = 0.01;
-    struct motion last = path_at(path, path->from_s);
+    struct motion last = path_motion_at(path, path->from_s);
 
     for (int i = 1; path->from_s + i * step_s < until_s; i++) {
-        struct motion at = path_at(path, path->from_s + i * step_s);
+        struct motion at = path_motion_at(path, path->from_s + i * step_s);
 
         assert_near(at.x_m - last.x_m, 0.5 * (at.vx_mps + last.vx_mps) * step_s, 1e-2);
         assert_near(at.y_m - last.y_m, 0.5 * (at.vy_mps + last.vy_mps) * step_s, 1e-2);
@@ -82,21 +82,21 @@ static void legs_are_flown(void **state)
 
     assert_int_equal(count, 1);
     assert_is_smooth(paths, 150, 12);
-    at = path_at(paths, 15);
+    at = path_motion_at(paths, 15);
     assert_near(at.x_m, 2000, 1e-6);
-    at = path_at(paths, 15 + quarter_s); /* a circle of 1000 m to the left */
+    at = path_motion_at(paths, 15 + quarter_s); /* a circle of 1000 m to the left */
     assert_near(at.x_m, 3000, 1e-6);
     assert_near(at.y_m, 3000, 1e-6);
     assert_near(at.vx_mps, 0, 1e-6);
     assert_near(at.vy_mps, 100, 1e-6);
-    at = path_at(paths, 15 + quarter_s + 5 + 10); /* slowed down to 50 m/s in 10 s */
+    at = path_motion_at(paths, 15 + quarter_s + 5 + 10); /* slowed down to 50 m/s in 10 s */
     assert_near(at.vy_mps, 50, 1e-6);
     assert_near(at.y_m, 3000 + 500 + 750, 1e-6);
-    at = path_at(paths, 15 + quarter_s + 19);
+    at = path_motion_at(paths, 15 + quarter_s + 19);
     assert_near(atan2(at.vy_mps, at.vx_mps), (90 - 12) * PORTABLE_PI / 180, 1e-9);
-    at = path_at(paths, 15 + quarter_s + 29 + 7 + 10); /* it stands */
+    at = path_motion_at(paths, 15 + quarter_s + 29 + 7 + 10); /* it stands */
     assert_near(hypot(at.vx_mps, at.vy_mps), 0, 1e-6);
-    at = path_at(paths, 190);
+    at = path_motion_at(paths, 190);
     assert_near(hypot(at.vx_mps, at.vy_mps), 30, 1e-6);
     free_paths(paths, count);
 }
@@ -111,9 +111,9 @@ static struct motion at_of(const char *targets, uint64_t seed, double t_s)
 
     snprintf(text, sizeof text,
              SCENE("100", "{\"interval_s\": 1, \"sigma_m\": 9}", ", \"targets\": [%s]"), targets);
-    scene = scene_of(text);
+    scene = scene_of_text(text);
     paths = targets_draw(&scene->targets, "test.json", 100, seed, 0, 0, &count);
-    at = path_at(paths, t_s);
+    at = path_motion_at(paths, t_s);
     free_paths(paths, count);
     scene_free(scene);
     return at;
@@ -173,10 +173,10 @@ static void who_is_shaken_wanders(void **state)
         add_moment(&height, at.z_m);
         add_moment(&velocity, at.vy_mps);
     }
-    assert_near(mean_of(&place), 0, 4 * 2 * 0.25 * sqrt(n * n * n / 3 / 1000));
-    assert_near(sigma_of(&place), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
-    assert_near(sigma_of(&height), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
-    assert_near(sigma_of(&velocity), 2 * 0.5 * sqrt(n), 0.9);
+    assert_near(mean_of_moments(&place), 0, 4 * 2 * 0.25 * sqrt(n * n * n / 3 / 1000));
+    assert_near(sigma_of_moments(&place), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
+    assert_near(sigma_of_moments(&height), 2 * 0.25 * sqrt(n * n * n / 3), 0.09 * 290);
+    assert_near(sigma_of_moments(&velocity), 2 * 0.5 * sqrt(n), 0.9);
 }
 
 static void one_separates_from_another(void **state)
@@ -188,7 +188,7 @@ static void one_separates_from_another(void **state)
         " \"legs\": [{\"for_s\": 10}, {\"for_s\": 50, \"turn_degps\": 2}]},"
         "{\"parent\": 0, \"from_s\": 30, \"speed_change_mps\": 20, \"heading_change_rad\": 0.1}",
         100, 1, &count);
-    struct motion parent = path_at(&paths[0], 30), child = path_at(&paths[1], 30);
+    struct motion parent = path_motion_at(&paths[0], 30), child = path_motion_at(&paths[1], 30);
 
     assert_int_equal(count, 2);
     assert_near(child.x_m, parent.x_m, 1e-9);
@@ -211,7 +211,7 @@ static void groups_are_as_they_say(void **state)
 
     assert_int_equal(count, 2000);
     for (size_t i = 0; i < count; i++) {
-        struct motion at = path_at(&paths[i], paths[i].from_s);
+        struct motion at = path_motion_at(&paths[i], paths[i].from_s);
         double range_m = hypot(at.x_m - 500, at.y_m + 300);
 
         assert_true(range_m >= 9999.9 && range_m <= 40000.1);
@@ -223,13 +223,13 @@ static void groups_are_as_they_say(void **state)
         add_moment(&life, paths[i].until_s - paths[i].from_s);
     }
     /* uniform ones: mean in the middle, standard deviation width / sqrt(12) */
-    assert_near(mean_of(&speed), 200, 4 * 57.7 / sqrt(2000));
-    assert_near(sigma_of(&speed), 57.7, 2);
-    assert_near(mean_of(&azimuth), 0.5, 4 * 0.289 / sqrt(2000));
-    assert_near(mean_of(&square), 8.5e8, 4 * 4.33e8 / sqrt(2000)); /* even over the area */
-    assert_near(mean_of(&heading), 0, 4 * 1.81 / sqrt(2000));
-    assert_near(mean_of(&from), 15, 4 * 5.77 / sqrt(2000));
-    assert_near(mean_of(&life), 40, 4 * 5.77 / sqrt(2000));
+    assert_near(mean_of_moments(&speed), 200, 4 * 57.7 / sqrt(2000));
+    assert_near(sigma_of_moments(&speed), 57.7, 2);
+    assert_near(mean_of_moments(&azimuth), 0.5, 4 * 0.289 / sqrt(2000));
+    assert_near(mean_of_moments(&square), 8.5e8, 4 * 4.33e8 / sqrt(2000)); /* even over the area */
+    assert_near(mean_of_moments(&heading), 0, 4 * 1.81 / sqrt(2000));
+    assert_near(mean_of_moments(&from), 15, 4 * 5.77 / sqrt(2000));
+    assert_near(mean_of_moments(&life), 40, 4 * 5.77 / sqrt(2000));
     free_paths(paths, count);
 }
 
@@ -249,7 +249,8 @@ static void who_is_to_keep_within_does(void **state)
     for (size_t i = 0; i < count; i++) {
         assert_is_smooth(&paths[i], 600, 10);
         for (int t = 0; t < 600; t++) {
-            struct motion at = path_at(&paths[i], t), next = path_at(&paths[i], t + 0.1);
+            struct motion at = path_motion_at(&paths[i], t),
+                          next = path_motion_at(&paths[i], t + 0.1);
             double turn = at.vx_mps * next.vy_mps - at.vy_mps * next.vx_mps;
 
             assert_true(hypot(at.x_m, at.y_m) > 1800 && hypot(at.x_m, at.y_m) < 30200);
@@ -273,7 +274,7 @@ static void a_box_keeps_who_is_to_stay(void **state)
                  100, 4, &count);
 
     for (size_t i = 0; i < count; i++) {
-        struct motion first = path_at(&paths[i], 0), last = path_at(&paths[i], 100);
+        struct motion first = path_motion_at(&paths[i], 0), last = path_motion_at(&paths[i], 100);
 
         assert_true(fmin(first.x_m, last.x_m) >= 0 && fmax(first.x_m, last.x_m) <= 9000);
         assert_true(fmin(first.y_m, last.y_m) >= 1000 && fmax(first.y_m, last.y_m) <= 8000);
@@ -319,8 +320,9 @@ static void others_change_no_path(void **state)
     others = paths_of(group, 100, 8, &again_count);
     assert_int_equal(more_count, 11);
     for (size_t i = 0; i < count; i++) {
-        struct motion at = path_at(&paths[i], 50), same = path_at(&again[i], 50);
-        struct motion next = path_at(&again[5 + i], 50), other = path_at(&others[i], 50);
+        struct motion at = path_motion_at(&paths[i], 50), same = path_motion_at(&again[i], 50);
+        struct motion next = path_motion_at(&again[5 + i], 50),
+                      other = path_motion_at(&others[i], 50);
 
         assert_memory_equal(&at, &same, sizeof at);
         assert_memory_not_equal(&at, &next, sizeof at);

@@ -43,7 +43,7 @@ static struct errors errors_of(const struct scene_run *run, size_t radar)
                 errors.clutter++;
                 continue;
             }
-            at = path_at(&run->paths[plot->target_id], plot->t_s);
+            at = path_motion_at(&run->paths[plot->target_id], plot->t_s);
             x_m = at.x_m - sensor->x_m;
             y_m = at.y_m - sensor->y_m;
             range_m = hypot(x_m, y_m);
@@ -62,8 +62,8 @@ static struct errors errors_of(const struct scene_run *run, size_t radar)
 
 static void assert_standard_normal(const struct moments *moments)
 {
-    assert_near(mean_of(moments), 0.0, 4.0 / sqrt(moments->count));
-    assert_near(sigma_of(moments), 1.0, 4.0 / sqrt(2.0 * moments->count));
+    assert_near(mean_of_moments(moments), 0.0, 4.0 / sqrt(moments->count));
+    assert_near(sigma_of_moments(moments), 1.0, 4.0 / sqrt(2.0 * moments->count));
 }
 
 static void polar_is_as_its_manual_says(void **state)
@@ -82,7 +82,7 @@ static void polar_is_as_its_manual_says(void **state)
     assert_poisson((double)errors.clutter, 1500.0);
     for (size_t i = 0; i < run->num_paths; i++) {
         for (double t_s = 0.0; t_s <= 60.0; t_s += 4.0) {
-            struct motion at = path_at(&run->paths[i], t_s);
+            struct motion at = path_motion_at(&run->paths[i], t_s);
             double range_m = hypot(at.x_m, at.y_m), speed_mps = hypot(at.vx_mps, at.vy_mps);
 
             assert_true(range_m >= 19900.0 && range_m <= 60100.0);
@@ -132,7 +132,8 @@ static void rotating_has_sectors_and_turns(void **state)
         double turning_s = 0.0;
 
         for (double t_s = 0.0; t_s < 59.9; t_s += 0.1) {
-            struct motion a = path_at(&run->paths[i], t_s), b = path_at(&run->paths[i], t_s + 0.1);
+            struct motion a = path_motion_at(&run->paths[i], t_s),
+                          b = path_motion_at(&run->paths[i], t_s + 0.1);
             double mps2 = hypot(b.vx_mps - a.vx_mps, b.vy_mps - a.vy_mps) / 0.1;
 
             assert_true(mps2 < 2.01);
@@ -180,7 +181,7 @@ static void aircraft_of_two_radars_are_common(void **state)
         size_t both = 0;
 
         for (int t_s = 0; t_s < 600; t_s++) {
-            struct motion at = path_at(&run->paths[i], t_s);
+            struct motion at = path_motion_at(&run->paths[i], t_s);
             double first_m = range_of(&scene->sensors[0], &at);
             double second_m = range_of(&scene->sensors[1], &at);
             bool first = first_m >= 4000.0 && first_m <= 148000.0;
@@ -189,7 +190,7 @@ static void aircraft_of_two_radars_are_common(void **state)
             assert_true(first || second);
             both += first && second;
             for (size_t j = 0; j < i; j++) {
-                struct motion other = path_at(&run->paths[j], t_s);
+                struct motion other = path_motion_at(&run->paths[j], t_s);
 
                 assert_true(hypot(at.x_m - other.x_m, at.y_m - other.y_m) >= 9260.0);
             }

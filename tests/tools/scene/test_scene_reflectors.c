@@ -29,13 +29,13 @@ static void images_are_as_far_behind(void **state)
 
 static void a_share_of_the_plots_has_images(void **state)
 {
-    struct scene *scene =
-        scene_of(SCENE("400",
-                       "{\"interval_s\": 0.5, \"range_m\": [1, 5000], \"sigma_range_m\": 1, "
-                       "\"sigma_azimuth_rad\": 0.001, \"sigma_range_rate_mps\": 0.1, \"pd\": 0.8}",
-                       ", \"targets\": [{\"at_m\": [-1000, 200], \"velocity_mps\": [5, 0]}], "
-                       "\"reflectors\": [{\"from_m\": [-2000, 300], \"to_m\": [2000, 300], "
-                       "\"probability\": 0.4}]"));
+    struct scene *scene = scene_of_text(
+        SCENE("400",
+              "{\"interval_s\": 0.5, \"range_m\": [1, 5000], \"sigma_range_m\": 1, "
+              "\"sigma_azimuth_rad\": 0.001, \"sigma_range_rate_mps\": 0.1, \"pd\": 0.8}",
+              ", \"targets\": [{\"at_m\": [-1000, 200], \"velocity_mps\": [5, 0]}], "
+              "\"reflectors\": [{\"from_m\": [-2000, 300], \"to_m\": [2000, 300], "
+              "\"probability\": 0.4}]"));
     struct scene_run *run = scene_observe(scene, 2, 0);
     size_t seen = 0, images = 0;
     (void)state;
@@ -64,13 +64,13 @@ static void a_tracker_is_told_what_is_told(void **state)
 {
     char text[128] = "";
     struct scene *scene =
-        scene_of(SCENE("8", RADAR(""),
-                       ", \"reflectors\": [{\"from_m\": [1, 2], \"to_m\": [3, 4.5]}, "
-                       "{\"from_m\": [9, 2], \"to_m\": [3, 9], \"is_told\": false}, "
-                       "{\"from_m\": [5, 2], \"to_m\": [3, 4]}]"));
+        scene_of_text(SCENE("8", RADAR(""),
+                            ", \"reflectors\": [{\"from_m\": [1, 2], \"to_m\": [3, 4.5]}, "
+                            "{\"from_m\": [9, 2], \"to_m\": [3, 9], \"is_told\": false}, "
+                            "{\"from_m\": [5, 2], \"to_m\": [3, 4]}]"));
     FILE *file = fmemopen(text, sizeof text, "w");
     (void)state;
-    scene_reflectors_write(&scene->reflectors, file);
+    scene_reflectors_write_settings(&scene->reflectors, file);
     fclose(file);
     assert_string_equal(text, "reflectors = 1 2 3 4.5, 5 2 3 4\n");
     scene_free(scene);

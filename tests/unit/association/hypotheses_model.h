@@ -50,8 +50,9 @@ static inline double model_log_sum(const struct model_track *track)
     return log(sum);
 }
 
-static inline enum rho_status model_move(const struct model_track *track, struct rho_imm *imm,
-                                         int64_t from_us, int64_t to_us, int is_prediction)
+static inline enum rho_status model_step_filter(const struct model_track *track,
+                                                struct rho_imm *imm, int64_t from_us, int64_t to_us,
+                                                int is_prediction)
 {
     struct rho_imm_step step;
 
@@ -80,13 +81,13 @@ static inline void model_predict(struct model_track *track, int64_t time_us)
     for (int i = 0; i < track->num; ++i) {
         struct model_answer *at = &track->answers[i];
 
-        assert_int_equal(model_move(track, &at->imm, at->time_us, time_us, 1), RHO_OK);
+        assert_int_equal(model_step_filter(track, &at->imm, at->time_us, time_us, 1), RHO_OK);
         at->time_us = time_us;
     }
 }
 
 /* The heaviest first; of equals the one that was there first. */
-static inline void model_sort(struct model_child *children, int num)
+static inline void model_sort_by_weight(struct model_child *children, int num)
 {
     for (int i = 1; i < num; ++i) {
         const struct model_child child = children[i];
@@ -100,10 +101,10 @@ static inline void model_sort(struct model_child *children, int num)
 }
 
 /* The best plots of one answer; *num_near gets how many there were in the gate. */
-static inline int model_candidates(const struct model_track *track, int parent,
-                                   const struct rho_hypotheses_scan *scan, int num_plots,
-                                   double log_pd, const struct rho_hypotheses_clutter *clutter,
-                                   struct model_child *out)
+static inline int model_best_children(const struct model_track *track, int parent,
+                                      const struct rho_hypotheses_scan *scan, int num_plots,
+                                      double log_pd, const struct rho_hypotheses_clutter *clutter,
+                                      struct model_child *out)
 {
     const struct model_answer *at = &track->answers[parent];
     int num = 0;
@@ -114,8 +115,8 @@ static inline int model_candidates(const struct model_track *track, int parent,
         struct rho_imm_plot seen;
 
         rho_imm_open_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
-        if (model_move(track, &moved, at->time_us, scan->time_us + scan->plots[row].offset_us, 0) !=
-                RHO_OK ||
+        if (model_step_filter(track, &moved, at->time_us,
+                              scan->time_us + scan->plots[row].offset_us, 0) != RHO_OK ||
             !rho_imm_score_plot(&moved, &seen, &child.match)) {
             continue;
         }
@@ -126,7 +127,7 @@ static inline int model_candidates(const struct model_track *track, int parent,
         child.weight -= child.match.has_range_rate ? (double)clutter->log_per_range_rate : 0.0;
         out[num++] = child;
     }
-    model_sort(out, num);
+    model_sort_by_weight(out, num);
     return num < RHO_HYPOTHESES_CHILDREN ? num : RHO_HYPOTHESES_CHILDREN;
 }
 
@@ -147,9 +148,9 @@ static inline int model_is_repeated(const struct model_track *track, const struc
     return 0;
 }
 
-static inline struct model_answer model_grow(struct model_track *track,
-                                             const struct rho_hypotheses_scan *scan,
-                                             const struct model_child *child)
+static inline struct model_answer model_answer_of_child(struct model_track *track,
+                                                        const struct rho_hypotheses_scan *scan,
+                                                        const struct model_child *child)
 {
     const struct model_answer *parent = &track->answers[child->parent];
     struct model_answer out = *parent;
@@ -160,7 +161,7 @@ static inline struct model_answer model_grow(struct model_track *track,
         struct rho_imm_plot seen;
 
         rho_imm_open_plot(&seen, &scan->plots[row], scan->measures, scan->sensor);
-        if (model_move(track, &out.imm, out.time_us, time_us, 0) == RHO_OK &&
+        if (model_step_filter(track, &out.imm, out.time_us, time_us, 0) == RHO_OK &&
             rho_imm_update(&out.imm, &track->model, &seen, &child->match) == RHO_OK) {
             out.time_us = time_us;
         } else {
@@ -181,9 +182,9 @@ static inline struct model_answer model_grow(struct model_track *track,
  * The whole scan but for the prediction. Returns ln of the children's likelihoods over the
  * parents'.
  */
-static inline double model_scan(struct model_track *track, const struct rho_hypotheses_scan *scan,
-                                int num_plots, double log_pd,
-                                const struct rho_hypotheses_clutter *clutter)
+static inline double model_take_scan(struct model_track *track,
+                                     const struct rho_hypotheses_scan *scan, int num_plots,
+                                     double log_pd, const struct rho_hypotheses_clutter *clutter)
 {
     static struct model_child children[MODEL_CHILDREN], candidates[MODEL_PLOTS];
     struct model_child kept[RHO_HYPOTHESES_OF_TRACK];
@@ -192,7 +193,7 @@ static inline double model_scan(struct model_track *track, const struct rho_hypo
     int num = 0, num_kept = 0;
 
     for (int i = 0; i < track->num; ++i) {
-        const int n = model_candidates(track, i, scan, num_plots, log_pd, clutter, candidates);
+        const int n = model_best_children(track, i, scan, num_plots, log_pd, clutter, candidates);
 
         for (int k = 0; k < n; ++k) {
             const int16_t owner = scan->claims ? scan->claims[candidates[k].row] : -1;
@@ -204,7 +205,7 @@ static inline double model_scan(struct model_track *track, const struct rho_hypo
         children[num++] = (struct model_child){
             .weight = track->answers[i].weight + scan->log_miss, .parent = i, .row = -1};
     }
-    model_sort(children, num);
+    model_sort_by_weight(children, num);
     for (int i = 0; i < num && num_kept < RHO_HYPOTHESES_OF_TRACK; ++i) {
         if (children[i].weight >= children[0].weight + (double)RHO_HYPOTHESES_WEIGHT_MIN &&
             !model_is_repeated(track, kept, num_kept, &children[i])) {
@@ -212,7 +213,7 @@ static inline double model_scan(struct model_track *track, const struct rho_hypo
         }
     }
     for (int i = 0; i < num_kept; ++i) {
-        next[i] = model_grow(track, scan, &kept[i]);
+        next[i] = model_answer_of_child(track, scan, &kept[i]);
     }
     memcpy(track->answers, next, (size_t)num_kept * sizeof next[0]);
     track->num = num_kept;

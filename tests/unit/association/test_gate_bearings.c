@@ -108,7 +108,7 @@ static void the_distance_is_that_of_the_linearised_bearing(void **state)
 /* Places drawn from the covariance, and bearings with their noise: one in a thousand is outside. */
 static void one_in_a_thousand_is_outside(void **state)
 {
-    struct rho_kalman kalman = opened(2, 2500.0f, 100.0f);
+    struct rho_kalman kalman = opened_filter(2, 2500.0f, 100.0f);
     struct rho_gate gate;
     int outside = 0;
 
@@ -134,7 +134,7 @@ static void one_in_a_thousand_is_outside(void **state)
 /* North-east at the scan's time, farther to the east at the bearing's. */
 static void own_times_count(void **state)
 {
-    struct rho_kalman kalman = opened(2, 100.0f, 1.0f);
+    struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f);
     struct rho_gate gate;
     struct rho_gate_result result;
     struct rho_bearing bearing = {.bearing_rad = 0.5f, .sigma_rad = 0.001f};
@@ -168,7 +168,7 @@ static void what_is_no_number_or_no_bearing_is_outside(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY, 1e30f};
     struct rho_bearing bearing = {.bearing_rad = 1.1f, .sigma_rad = 0.01f};
-    struct rho_kalman kalman = opened(2, 100.0f, 1.0f); /* at (100, 200) m */
+    struct rho_kalman kalman = opened_filter(2, 100.0f, 1.0f); /* at (100, 200) m */
     struct rho_gate gate;
     struct rho_gate_result result;
 

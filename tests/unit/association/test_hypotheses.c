@@ -2,7 +2,7 @@
 /* Hypotheses of tracks against the same rules in the plainest way (hypotheses_model.h). */
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 #include "hypotheses_model.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
@@ -253,7 +253,7 @@ static void assert_estimate(const struct model_track *track, uint16_t slot, int6
             struct rho_imm imm = at->imm;
             const double share = at->weight >= SHOWN_MIN ? exp(at->weight) : 0.0;
 
-            assert_int_equal(model_move(track, &imm, at->time_us, time_us, 0), RHO_OK);
+            assert_int_equal(model_step_filter(track, &imm, at->time_us, time_us, 0), RHO_OK);
             for (int which = 0; which < 2; ++which) {
                 const double part = share * (which ? imm.probability : 1.0 - imm.probability);
                 const float *x = which ? imm.state : imm.steady.state;
@@ -355,7 +355,7 @@ static void follow(const struct scene *scene, int num_scans)
         (void)score_all(&pool, slot, &scan, num_plots, scene->pd, &clutter);
         assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, &outcome), RHO_OK);
         const double gain =
-            model_scan(&track, &scan, num_plots, (double)LOG_PD(scene->pd), &clutter);
+            model_take_scan(&track, &scan, num_plots, (double)LOG_PD(scene->pd), &clutter);
         assert_same(&track, slot);
         assert_float_equal(outcome.gain_nat, gain, 2e-3 + 1e-4 * fabs(gain));
         assert_int_equal(outcome.row, track.answers[0].picks[RHO_HYPOTHESES_MEMORY - 1]);
@@ -417,7 +417,7 @@ static void plots_of_others_are_left_out_by_the_plain_rules(void **state)
             model_predict(&track, scan.time_us);
             (void)score_all(&pool, slot, &scan, num_plots, scene->pd, &clutter);
             assert_int_equal(rho_hypotheses_commit(&pool, slot, &scan, &outcome), RHO_OK);
-            (void)model_scan(&track, &scan, num_plots, (double)LOG_PD(scene->pd), &clutter);
+            (void)model_take_scan(&track, &scan, num_plots, (double)LOG_PD(scene->pd), &clutter);
             assert_same(&track, slot);
             assert_true(outcome.row < 0 || claims[outcome.row] < 0 || claims[outcome.row] == 2);
         }

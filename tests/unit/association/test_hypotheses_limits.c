@@ -4,7 +4,7 @@
  */
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 
 #include "rhotrack/detail/hypotheses.h"
 

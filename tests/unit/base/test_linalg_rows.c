@@ -2,7 +2,7 @@
 /* Scalar updates by rows, and turned frames, against full matrices in double precision. */
 #include <float.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 #include "kalman_checks.h"
 
 /* In sigmas of the estimate before. Worst of the cases below: 1.2e-6, 2.7e-6 and 1.1e-5. */
@@ -65,7 +65,7 @@ static void a_row_update_agrees_with_the_joseph_form(void **state)
         float row[STATES], nis[2] = {0.0f, GUARD};
 
         random_row(&e, row);
-        const struct dense_measurement measured = dense_row(row, innovation, variance);
+        const struct dense_measurement measured = dense_row_measurement(row, innovation, variance);
         const double expected_nis = dense_update(&expected, &measured);
         assert_int_equal(update(&e, row, innovation, variance, nis), RHO_OK);
         assert_near_dense(e.state, e.covariance, &expected, &before, UPDATE_RELATIVE);
@@ -177,7 +177,7 @@ static void a_sharp_row_leaves_a_vague_estimate_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
-        struct rho_kalman e = opened(3, 1e8f, 1e8f);
+        struct rho_kalman e = opened_filter(3, 1e8f, 1e8f);
 
         for (int k = 0; k < 20; ++k) {
             float row[STATES];
@@ -206,7 +206,7 @@ static void assert_refuses(struct rho_kalman e, const float row[STATES], float i
 
 static void a_row_update_refuses_bad_numbers(void **state)
 {
-    const struct rho_kalman e = opened(3, 4.0f, 9.0f);
+    const struct rho_kalman e = opened_filter(3, 4.0f, 9.0f);
     const float no_variance[] = {0.0f, -0.0f, -1.0f, NAN, INFINITY, -INFINITY};
     const float no_innovation[] = {NAN, INFINITY, -INFINITY, FLT_MAX, 1e25f};
     const float no_element[] = {NAN, INFINITY, -INFINITY, FLT_MAX};
@@ -236,13 +236,13 @@ static void a_row_update_refuses_a_bad_estimate(void **state)
     (void)state;
     for (size_t k = 0; k < NUM(bad); ++k) {
         for (int i = 0; i < STATES; ++i) {
-            struct rho_kalman e = opened(3, 4.0f, 9.0f);
+            struct rho_kalman e = opened_filter(3, 4.0f, 9.0f);
 
             e.state[i] = bad[k];
             assert_refuses(e, some_row, 1.0f, 1.0f, RHO_ERROR_VALUE);
         }
         for (int place = 0; place < PACKED; ++place) {
-            struct rho_kalman e = opened(3, 4.0f, 9.0f);
+            struct rho_kalman e = opened_filter(3, 4.0f, 9.0f);
 
             e.covariance[place] = bad[k];
             assert_refuses(e, some_row, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
@@ -253,14 +253,14 @@ static void a_row_update_refuses_a_bad_estimate(void **state)
 /* Negative along the row, though no variance is; sums and quotients beyond float. */
 static void a_row_update_refuses_what_it_cannot_divide_by(void **state)
 {
-    struct rho_kalman e = opened(3, 4.0f, 9.0f);
+    struct rho_kalman e = opened_filter(3, 4.0f, 9.0f);
     const float sum[STATES] = {1.0f, 1.0f}, nothing[STATES] = {0.0f};
 
     (void)state;
     e.covariance[RHO_AT(1, 0)] = -5.0f;
     assert_refuses(e, sum, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
     assert_refuses(e, sum, 1.0f, 1e6f, RHO_ERROR_SINGULAR);
-    e = opened(3, 4.0f, 9.0f);
+    e = opened_filter(3, 4.0f, 9.0f);
     assert_refuses(e, nothing, 1.0f, FLT_TRUE_MIN, RHO_ERROR_SINGULAR);
     e.covariance[0] = FLT_MAX;
     assert_refuses(e, sum, 1.0f, FLT_MAX, RHO_ERROR_SINGULAR);
@@ -268,7 +268,7 @@ static void a_row_update_refuses_what_it_cannot_divide_by(void **state)
 
 static void a_row_update_checks_its_pointers(void **state)
 {
-    struct rho_kalman e = opened(3, 4.0f, 9.0f);
+    struct rho_kalman e = opened_filter(3, 4.0f, 9.0f);
     const struct rho_kalman before = e;
     float nis = GUARD;
 
@@ -389,7 +389,7 @@ static void many_turns_leave_it_positive_definite(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES / 20; ++n) {
-        struct rho_kalman e = opened(3, 1e8f, 1e8f);
+        struct rho_kalman e = opened_filter(3, 1e8f, 1e8f);
 
         e.covariance[RHO_AT(n % STATES, n % STATES)] = 1.0f;
         for (int k = 0; k < 200; ++k) {
@@ -403,7 +403,7 @@ static void many_turns_leave_it_positive_definite(void **state)
 
 static void what_is_zero_turns_to_zero(void **state)
 {
-    struct rho_kalman e = opened(1, 4.0f, 9.0f);
+    struct rho_kalman e = opened_filter(1, 4.0f, 9.0f);
     const struct rho_kalman before = e;
     const struct plane plane = {1, 2, 0.6f, 0.8f}, velocities = {4, 5, 0.6f, 0.8f};
 

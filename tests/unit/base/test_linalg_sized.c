@@ -6,7 +6,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 #include "kalman_checks.h"
 
 /* In sigmas of the estimate before. */

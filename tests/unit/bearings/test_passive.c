@@ -437,7 +437,7 @@ static void a_ninth_frame_lets_the_oldest_leave(void **state)
     assert_int_equal(passive.batch.num_scans, 8);
     assert_true(passive.batch.time_us[0] == 10000000 && passive.batch.time_us[7] == 80000000);
     assert_int_equal(start_passive(&other), RHO_OK);
-    assert_int_equal(push_from(&other, &scene, 1), RHO_OK);
+    assert_int_equal(push_scans_from(&other, &scene, 1), RHO_OK);
     assert_int_equal(rho_passive_search(&other), RHO_OK);
     assert_int_equal(passive.num_tracks, 2);
     assert_true(same_tracks());
@@ -467,7 +467,7 @@ static void a_push_forgets_the_last_search(void **state)
     draw(&from, 12);
     assert_int_equal(start_passive(&passive), RHO_OK);
     scene.scans = 8;
-    assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+    assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
     assert_int_equal(passive.num_tracks, 0);
     assert_int_equal(rho_passive_search(&passive), RHO_OK);
     assert_int_equal(passive.num_tracks, 2);
@@ -509,7 +509,7 @@ static void search_without_third(enum third third, float hits_min)
     config.hits_min = hits_min;
     config.field_of_view_rad = (float)(2.0 * PI); /* the density's lower limit, in either case */
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
-    assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+    assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
     assert_int_equal(rho_passive_search(&passive), RHO_OK);
     assert_true(are_tracks_sound(&passive));
 }
@@ -591,7 +591,7 @@ static unsigned find_with(double sigma_a_rad, double sigma_b_rad, unsigned runs)
         for (unsigned k = 0; k < scene.scans; k++) {
             for (unsigned s = 0; s < 2; s++) {
                 scene.sigma_from_rad = scene.sigma_to_rad = s ? sigma_b_rad : sigma_a_rad;
-                see(&scene, k, s);
+                see_look(&scene, k, s);
             }
         }
         search_into(&passive); /* its tracks have a covariance */
@@ -623,9 +623,9 @@ static void targets_beyond_200_km_are_found(void **state)
         set_scan_times(&scene);
         scene.target[0] =
             (struct target){.x_m = 250e3, .y_m = 5e3, .vx_mps = -250.0, .vy_mps = 40.0};
-        see_all(&scene);
+        see_all_looks(&scene);
         assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
-        assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+        assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
         assert_int_equal(rho_passive_search(&passive), RHO_OK);
         found += passive.num_tracks == 1 && miss_m(&passive.tracks[0], &scene.target[0]) < 15e3;
     }
@@ -643,7 +643,7 @@ static void bearings_of_one_sensor_alone_are_no_track(void **state)
     for (unsigned run = 0; run < 60; run++) {
         draw(&from, 200 + run);
         assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
-        assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+        assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
         assert_int_equal(rho_passive_search(&passive), RHO_OK);
         for (unsigned i = 0; i < passive.num_tracks; i++) {
             unsigned hits[2] = {0, 0};

@@ -405,7 +405,7 @@ static void expect_sound_search(void)
 
 static void push_all(void)
 {
-    assert_int_equal(push_from(&passive, &scene, 0), RHO_OK);
+    assert_int_equal(push_scans_from(&passive, &scene, 0), RHO_OK);
 }
 
 static void fill_looks(void)
@@ -577,7 +577,7 @@ static void targets_on_the_bases_extension_are_no_certain_tracks(void **state)
         scene = scene_of(2, 1, 0.1, 1.0, 0.0);
         set_scan_times(&scene);
         scene.target[0] = (struct target){.y_m = uniform(20e3, 70e3), .vy_mps = -200.0};
-        see_all(&scene);
+        see_all_looks(&scene);
         start();
         push_all();
         expect_sound_search();
@@ -594,7 +594,7 @@ static void a_target_through_a_sensor_does_no_harm(void **state)
     scene = scene_of(2, 1, 0.1, 1.0, 0.0);
     set_scan_times(&scene);
     scene.target[0] = (struct target){.x_m = 4e3, .y_m = -10e3, .vx_mps = -100.0};
-    see_all(&scene); /* it is at sensor 0 at the fifth scan */
+    see_all_looks(&scene); /* it is at sensor 0 at the fifth scan */
     start();
     push_all();
     expect_sound_search();
@@ -719,7 +719,7 @@ static void random_configurations_break_nothing(void **state)
     for (unsigned run = 0; run < 300; run++) {
         struct rho_passive_config config = some_config();
         if (rho_passive_init(&passive, sizeof passive, &config) == RHO_OK) {
-            enum rho_status status = push_from(&passive, &scene, 0);
+            enum rho_status status = push_scans_from(&passive, &scene, 0);
             assert_true(status == RHO_OK || status == RHO_ERROR_VALUE);
             taken += status == RHO_OK;
             expect_sound_search();

@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "frame_chain.h"
+#include "bearing_frame_chain.h"
 
 #define RUNS 20
 #define START_MNAT 4605 /* a hundred to one: what the tracker asks for */
@@ -49,7 +49,7 @@ static const struct rho_passive_track *found_of(unsigned target)
 
 static void search_anew(void)
 {
-    see_all(&scene);
+    see_all_looks(&scene);
     assert_int_equal(search_scene(&passive, &scene), RHO_OK);
     assert_true(are_tracks_sound(&passive));
 }
@@ -138,7 +138,7 @@ static void test_the_margin_of_a_lone_target_is_its_score(void **state)
 static unsigned started_after(unsigned frames)
 {
     start_chain(5.0f);
-    fly(0, frames, 10.0);
+    fly_frames(0, frames, 10.0);
     return tracker.counters.tracks_started;
 }
 

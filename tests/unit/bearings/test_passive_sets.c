@@ -37,7 +37,7 @@ static void draw_formation(unsigned targets, double apart_m, double mps, double 
         scene.target[i] = (struct target){40e3 + uniform(-200.0, 200.0), y_m + apart_m * i,
                                           -200.0 + uniform(-mps, mps), vy_mps + uniform(-mps, mps)};
     }
-    see_all(&scene);
+    see_all_looks(&scene);
 }
 
 /* ---- what could have been given -------------------------------------------------------------- */

@@ -109,8 +109,9 @@ static inline void wide_predict(struct wide_model *m, const struct wide_step *st
 }
 
 /* p h^T by columns, and h p h^T + r. */
-static inline void wide_project(const struct wide_model *m, const struct wide_rows *z,
-                                double ph[WIDE][WIDE_ROWS], double s[WIDE_ROWS][WIDE_ROWS])
+static inline void wide_innovation_covariance(const struct wide_model *m, const struct wide_rows *z,
+                                              double ph[WIDE][WIDE_ROWS],
+                                              double s[WIDE_ROWS][WIDE_ROWS])
 {
     for (int a = 0; a < z->num; ++a) {
         for (int i = 0; i < WIDE; ++i) {
@@ -136,7 +137,7 @@ static inline double wide_log_density(const struct wide_model *m, const struct w
 {
     double ph[WIDE][WIDE_ROWS], s[WIDE_ROWS][WIDE_ROWS], inverse[WIDE_ROWS][WIDE_ROWS];
 
-    wide_project(m, z, ph, s);
+    wide_innovation_covariance(m, z, ph, s);
     const double log_det = wide_invert(z->num, s, inverse);
     *distance2 = 0.0;
     for (int a = 0; a < z->num; ++a) {
@@ -152,7 +153,7 @@ static inline void wide_update(struct wide_model *m, const struct wide_rows *z)
     double ph[WIDE][WIDE_ROWS], s[WIDE_ROWS][WIDE_ROWS], inverse[WIDE_ROWS][WIDE_ROWS];
     double gain[WIDE][WIDE_ROWS] = {{0.0}}, rest[WIDE][WIDE], half[WIDE][WIDE] = {{0.0}};
 
-    wide_project(m, z, ph, s);
+    wide_innovation_covariance(m, z, ph, s);
     wide_invert(z->num, s, inverse);
     for (int i = 0; i < WIDE; ++i) {
         for (int b = 0; b < z->num; ++b) {
@@ -291,7 +292,8 @@ reference_step(const struct reference *r, const struct rho_imm_model *model, dou
 }
 
 /* Without mixing. */
-static inline void reference_move(struct reference *r, const struct rho_imm_model *model, double dt)
+static inline void reference_predict_unmixed(struct reference *r, const struct rho_imm_model *model,
+                                             double dt)
 {
     for (int which = 0; which < 2; ++which) {
         const struct wide_step step = reference_step(r, model, dt, which);
@@ -300,8 +302,8 @@ static inline void reference_move(struct reference *r, const struct rho_imm_mode
     }
 }
 
-static inline struct wide_model reference_mean(const struct wide_model models[2],
-                                               const double share[2])
+static inline struct wide_model reference_mixed_model(const struct wide_model models[2],
+                                                      const double share[2])
 {
     struct wide_model mean = {.x = {0.0}};
 
@@ -331,7 +333,7 @@ static const int chain_models[3] = {STEADY, STEADY, MANOEUVRE};
  * True where manoeuvres end: those of low odds give nothing back to the steady model, where any
  * target is calm.
  */
-static inline int reference_returns(const struct rho_imm_model *model, double probability)
+static inline int reference_manoeuvre_ends(const struct rho_imm_model *model, double probability)
 {
     return !(model->calm_s > 0.0f) || probability >= 0.16 * (1.0 - probability);
 }
@@ -341,8 +343,8 @@ static inline int reference_returns(const struct rho_imm_model *model, double pr
  * as a chain of two in continuous time; calm ones leave by their own rate, no sooner than agile
  * ones; an agile target that stays steady settles.
  */
-static inline void reference_chain(const struct rho_imm_model *model, double dt, int returns,
-                                   double change[3][3])
+static inline void reference_change_probabilities(const struct rho_imm_model *model, double dt,
+                                                  int returns, double change[3][3])
 {
     const double begins = 1.0 / model->steady_s, ends = 1.0 / model->maneuver_s;
     const double moved = -expm1(-dt * (begins + ends)) / (begins + ends);
@@ -367,7 +369,7 @@ static inline void reference_mix(struct reference *r, const struct rho_imm_model
     double change[3][3], share[2][2] = {{0.0}}, is[3] = {0.0};
     struct wide_model mixed[2];
 
-    reference_chain(model, dt, returns, change);
+    reference_change_probabilities(model, dt, returns, change);
     for (int from = 0; from < 3; ++from) {
         for (int to = 0; to < 3; ++to) {
             const double passes = was[from] * change[from][to];
@@ -381,7 +383,7 @@ static inline void reference_mix(struct reference *r, const struct rho_imm_model
 
         share[to][0] /= sum;
         share[to][1] /= sum;
-        mixed[to] = reference_mean(r->models, share[to]);
+        mixed[to] = reference_mixed_model(r->models, share[to]);
     }
     r->probability = is[PULLING];
     r->calm = is[CALM] / (is[CALM] + is[AGILE]);
@@ -407,7 +409,7 @@ static inline void reference_predict(struct reference *r, const struct rho_imm_m
     if (dt > 0.0) {
         reference_mix(r, model, dt, returns);
     }
-    reference_move(r, model, dt);
+    reference_predict_unmixed(r, model, dt);
 }
 
 static inline void reference_start(struct reference *r, const struct rho_imm_model *model,
@@ -445,7 +447,7 @@ struct reference_plot {
     const struct rho_sensor *sensor;
 };
 
-static inline void reference_noise(const struct reference_plot *seen, double r[3][3])
+static inline void reference_plot_noise(const struct reference_plot *seen, double r[3][3])
 {
     const struct rho_plot *plot = seen->plot;
     const int axes = seen->measures & RHO_MEASURES_Z ? 3 : 2;
@@ -485,7 +487,7 @@ static inline void reference_add_place(const struct reference *r, const struct w
     const int axes = r->has_z && (seen->measures & RHO_MEASURES_Z) ? 3 : 2;
     double noise[3][3];
 
-    reference_noise(seen, noise);
+    reference_plot_noise(seen, noise);
     for (int i = 0; i < axes; ++i) {
         z->h[i][i] = 1.0;
         z->y[i] = place[i] - m->x[i];
@@ -542,8 +544,8 @@ struct reference_match {
     double nearest2; /* of both models */
 };
 
-static inline void reference_judge(double probability, const double log_density[2],
-                                   struct reference_match *match)
+static inline void reference_combine_densities(double probability, const double log_density[2],
+                                               struct reference_match *match)
 {
     const double best = fmax(log_density[0], log_density[1]);
     const double steady = (1.0 - probability) * exp(log_density[0] - best);
@@ -553,8 +555,10 @@ static inline void reference_judge(double probability, const double log_density[
     match->probability = manoeuvre / (steady + manoeuvre);
 }
 
-static inline double reference_view(const struct reference *r, const struct wide_model *m,
-                                    const struct reference_plot *seen, double *distance2)
+static inline double reference_density_by_model(const struct reference *r,
+                                                const struct wide_model *m,
+                                                const struct reference_plot *seen,
+                                                double *distance2)
 {
     struct wide_rows z = {.num = 0};
 
@@ -568,16 +572,17 @@ static inline double reference_view(const struct reference *r, const struct wide
     return wide_log_density(m, &z, distance2);
 }
 
-static inline struct reference_match reference_weigh(const struct reference *r,
-                                                     const struct reference_plot *seen)
+static inline struct reference_match reference_match_plot(const struct reference *r,
+                                                          const struct reference_plot *seen)
 {
     struct reference_match match;
     double log_density[2];
 
     for (int which = 0; which < 2; ++which) {
-        log_density[which] = reference_view(r, &r->models[which], seen, &match.distance2[which]);
+        log_density[which] =
+            reference_density_by_model(r, &r->models[which], seen, &match.distance2[which]);
     }
-    reference_judge(r->probability, log_density, &match);
+    reference_combine_densities(r->probability, log_density, &match);
     match.nearest2 = fmin(match.distance2[0], match.distance2[1]);
     return match;
 }
@@ -609,7 +614,7 @@ static inline void reference_update(struct reference *r, const struct rho_imm_mo
         if (opens) {
             double noise[3][3];
 
-            reference_noise(seen, noise);
+            reference_plot_noise(seen, noise);
             m->x[2] = seen->plot->z_m;
             m->p[2][2] = noise[2][2];
             m->p[5][5] = pow(model->speed_sigma_mps, 2);
@@ -647,7 +652,7 @@ static inline double reference_bearing(struct reference *r, double x, double y, 
         z[which].r[0][0] = pow(sigma * range, 2) + (across * along + both * both) / (range * range);
         log_density[which] = wide_log_density(m, &z[which], &distance2);
     }
-    reference_judge(r->probability, log_density, &match);
+    reference_combine_densities(r->probability, log_density, &match);
     wide_update(&r->models[0], &z[0]);
     wide_update(&r->models[1], &z[1]);
     r->is_apart = 0;
@@ -737,7 +742,7 @@ static inline void reference_compare_mean(const struct rho_imm *imm, const struc
                                           struct reference_worst *worst)
 {
     const double share[2] = {1.0 - r->probability, r->probability};
-    const struct wide_model mean = reference_mean(r->models, share);
+    const struct wide_model mean = reference_mixed_model(r->models, share);
     struct rho_kalman estimate;
     float accel_mps2[3];
 

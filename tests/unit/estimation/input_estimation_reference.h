@@ -251,7 +251,7 @@ static inline void ref_augmented_update(struct ref_augmented *a, const struct re
 }
 
 /* An input that never was is measured to be 0, without noise. */
-static inline void ref_augmented_condition(struct ref_augmented *a, int k)
+static inline void ref_augmented_remove_input(struct ref_augmented *a, int k)
 {
     double column[REF_ALL];
     const double pivot = a->p[k][k], value = a->x[k];
@@ -290,7 +290,7 @@ static inline double ref_augmented_decide(struct ref_augmented *a, const struct 
             break;
         }
         if (!(a->present >> weakest & 1)) {
-            ref_augmented_condition(a, 6 + weakest);
+            ref_augmented_remove_input(a, 6 + weakest);
         }
         ref_augmented_forget_axis(a, weakest, s->v0);
         left &= ~(1 << weakest);
@@ -346,8 +346,8 @@ static inline void ref_two_stage_predict(struct ref_two_stage *t, const struct r
 /*
  * (11) to (13): v := v - v n' (n v n' + s)^-1 n v, u := u + v n' s^-1 (innovation - n u); n = h m.
  */
-static inline void ref_two_stage_learn(struct ref_two_stage *t, int num, ref_matrix n,
-                                       ref_matrix inverse, const double innovation[])
+static inline void ref_two_stage_estimate_input(struct ref_two_stage *t, int num, ref_matrix n,
+                                                ref_matrix inverse, const double innovation[])
 {
     ref_matrix v = {{0.0}}, nv, total, s, gain, taken, back = {{0.0}};
 
@@ -410,7 +410,7 @@ static inline void ref_two_stage_update(struct ref_two_stage *t, const struct re
             t->m[i][j] -= taken[i][j];
         }
     }
-    ref_two_stage_learn(t, z->num, n, inverse, innovation);
+    ref_two_stage_estimate_input(t, z->num, n, inverse, innovation);
 }
 
 /* The corrected estimate: x + M u, P + M V M^T, (14) to (18). */

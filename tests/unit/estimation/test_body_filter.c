@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "draws.h"
+#include "random_draws.h"
 #include "rhotrack/detail/body_filter.h"
 
 /* n plots of a body of 12 by 3 m, each axis with so much noise. */

@@ -3,7 +3,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 #include "imm_reference.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
@@ -489,13 +489,13 @@ static void move_both(struct pair *pair, float dt_s, int is_prediction)
                                    : rho_imm_predict_unmixed(&pair->imm, &step),
                      RHO_OK);
     if (is_prediction) {
-        const int returns = reference_returns(&pair->model, before.probability);
+        const int returns = reference_manoeuvre_ends(&pair->model, before.probability);
 
         reference_predict(&pair->reference, &pair->model, dt_s, returns);
         reference_predict(&same, &pair->model, dt_s, returns);
     } else {
-        reference_move(&pair->reference, &pair->model, dt_s);
-        reference_move(&same, &pair->model, dt_s);
+        reference_predict_unmixed(&pair->reference, &pair->model, dt_s);
+        reference_predict_unmixed(&same, &pair->model, dt_s);
     }
     compare(pair, &same, &before);
 }
@@ -511,8 +511,8 @@ static void show_both(struct pair *pair, const struct rho_plot *plot, uint32_t m
 {
     const struct reference_plot seen_by_same = {plot, measures, sensor};
     const struct reference before = reference_of(&pair->imm);
-    const struct reference_match here = reference_weigh(&before, &seen_by_same);
-    const struct reference_match there = reference_weigh(&pair->reference, &seen_by_same);
+    const struct reference_match here = reference_match_plot(&before, &seen_by_same);
+    const struct reference_match there = reference_match_plot(&pair->reference, &seen_by_same);
     struct reference same = before;
     struct rho_imm_plot seen;
     struct rho_imm_match match;
@@ -675,7 +675,7 @@ static void mixing_is_right_where_a_model_is_certain(void **state)
         struct reference expected = before;
 
         reference_predict(&expected, &model, step.dt_s,
-                          reference_returns(&model, before.probability));
+                          reference_manoeuvre_ends(&model, before.probability));
         assert_int_equal(rho_imm_predict(&imm, &step), RHO_OK);
         assert_float_equal(imm.probability, expected.probability, 2e-7);
         /* of all targets: of steady ones there may be but a unit of rounding */

@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 
 #include "rhotrack/detail/imm.h"
 

@@ -3,7 +3,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 
 #include "rhotrack/detail/hypotheses.h"
 #include "rhotrack/detail/imm.h"

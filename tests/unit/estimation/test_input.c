@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Input estimation against an augmented Kalman filter in double precision, and its decisions. */
-#include "dense.h"
+#include "dense_filter.h"
 #include "input_estimation_reference.h"
 #include "kalman_checks.h"
 
@@ -174,7 +174,7 @@ static struct rho_input_config config_of(const struct scene *scene)
 static struct pair start_pair(const struct scene *scene, const double truth[6])
 {
     struct pair pair = {.config = config_of(scene)};
-    struct rho_kalman kalman = opened(3, 500.0f, 500.0f);
+    struct rho_kalman kalman = opened_filter(3, 500.0f, 500.0f);
 
     for (int i = 0; i < STATES; ++i) {
         kalman.state[i] = (float)truth[i];

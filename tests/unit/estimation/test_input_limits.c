@@ -6,7 +6,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 #include "kalman_checks.h"
 
 #include "rhotrack/detail/input.h"
@@ -23,7 +23,7 @@ static struct rho_input_config paper(void)
 
 static struct rho_input started(const struct rho_input_config *config, int num_axes)
 {
-    const struct rho_kalman kalman = opened(num_axes, 500.0f, 500.0f);
+    const struct rho_kalman kalman = opened_filter(num_axes, 500.0f, 500.0f);
     struct rho_input input;
 
     assert_int_equal(rho_input_start(&input, config, &kalman), RHO_OK);
@@ -100,7 +100,7 @@ static void the_default_is_the_papers(void **state)
 static void configurations_are_checked(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY, -1.0f};
-    const struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+    const struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
     struct rho_input input;
 
     (void)state;
@@ -496,7 +496,7 @@ static void assert_sound(const struct rho_input *input)
 {
     struct rho_kalman estimate;
 
-    assert_sane(&input->bare);
+    assert_sane_covariance(&input->bare);
     assert_true(is_positive_definite(&input->bare));
     assert_true(is_variance_positive_definite(input->variance));
     for (int axis = 0; axis < 3; ++axis) {
@@ -681,7 +681,7 @@ static void a_gate_that_an_input_widens_stays_definite(void **state)
     config.sigma_mps2 = 2000.0f;
     config.noise_m = config.noise_mps = 0.0f;
     for (int n = 0; n < 2000; ++n) {
-        const struct rho_kalman sharp = opened(3, 1e-6f, 1e-6f);
+        const struct rho_kalman sharp = opened_filter(3, 1e-6f, 1e-6f);
         struct rho_kalman estimate;
         struct rho_input input;
 

@@ -139,7 +139,7 @@ static void opening_an_axis_uncouples_it(void **state)
 
 static void a_closed_axis_stays_zero(void **state)
 {
-    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
 
     (void)state;
     for (int k = 0; k < 20; ++k) {
@@ -165,7 +165,7 @@ static void a_closed_axis_stays_zero(void **state)
 
 static void no_time_changes_nothing(void **state)
 {
-    struct rho_kalman kalman = opened(3, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
     const struct rho_kalman before = kalman;
 
     (void)state;
@@ -176,7 +176,7 @@ static void no_time_changes_nothing(void **state)
 
 static void one_long_step_equals_several_short_ones(void **state)
 {
-    struct rho_kalman once = opened(3, 25.0f, 400.0f), often = once;
+    struct rho_kalman once = opened_filter(3, 25.0f, 400.0f), often = once;
 
     (void)state;
     for (int i = 0; i < 3; ++i) {
@@ -196,7 +196,7 @@ static void one_long_step_equals_several_short_ones(void **state)
 
 static void forth_and_back_is_the_identity(void **state)
 {
-    struct rho_kalman kalman = opened(3, 25.0f, 400.0f);
+    struct rho_kalman kalman = opened_filter(3, 25.0f, 400.0f);
 
     (void)state;
     kalman.state[3] = 250.0f;
@@ -216,7 +216,7 @@ static void forth_and_back_is_the_identity(void **state)
 
 static void going_back_adds_no_noise(void **state)
 {
-    struct rho_kalman noisy = opened(3, 25.0f, 400.0f), quiet = noisy;
+    struct rho_kalman noisy = opened_filter(3, 25.0f, 400.0f), quiet = noisy;
 
     (void)state;
     assert_int_equal(rho_kalman_predict(&noisy, -3.0f, 1000.0f), RHO_OK);
@@ -228,7 +228,7 @@ static void going_back_adds_no_noise(void **state)
 
 static void an_update_by_hand(void **state)
 {
-    struct rho_kalman kalman = opened(1, 12.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(1, 12.0f, 9.0f);
     float nis[2] = {0.0f, GUARD};
 
     (void)state;

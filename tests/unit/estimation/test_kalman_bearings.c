@@ -188,7 +188,7 @@ static void the_noise_added_is_what_the_row_leaves_out(void **state)
 {
     (void)state;
     for (int n = 0; n < 12; ++n) {
-        struct rho_kalman kalman = opened(2, 9e4f, 100.0f);
+        struct rho_kalman kalman = opened_filter(2, 9e4f, 100.0f);
         struct rho_kalman_bearing seen;
         const double here[2] = {0.0, 0.0};
 
@@ -299,7 +299,7 @@ static void the_most_precise_sensor_is_believed(void **state)
 
         draw_place(place);
         const double range = pow(10.0, uniform(3.0, 5.0));
-        struct rho_kalman kalman = opened(2, 1.0f, 4.0f);
+        struct rho_kalman kalman = opened_filter(2, 1.0f, 4.0f);
 
         stand(kalman.state, place, range, some_direction(n));
         const struct dense before = dense_of(kalman.state, kalman.covariance);
@@ -326,7 +326,7 @@ static void one_sharp_sensor_for_long(void **state)
         const double place[2] = {0.0, 0.0};
         const float sigma = n % 2 ? 1e-6f : 1e-4f;
         const double range = pow(10.0, uniform(4.0, 5.0)), direction = some_direction(n);
-        struct rho_kalman kalman = opened(2, 1e8f, 1e5f);
+        struct rho_kalman kalman = opened_filter(2, 1e8f, 1e5f);
 
         stand(kalman.state, place, range, direction);
         for (int k = 0; k < 80; ++k) {
@@ -337,7 +337,7 @@ static void one_sharp_sensor_for_long(void **state)
                                                        (float)remainder(bearing, 2.0 * DENSE_PI),
                                                        sigma),
                              RHO_OK);
-            assert_sane(&kalman);
+            assert_sane_covariance(&kalman);
             assert_true(is_positive_definite(&kalman));
             assert_int_equal(rho_kalman_predict(&kalman, 1.0f, 1.0f), RHO_OK);
             assert_true(is_positive_definite(&kalman));
@@ -347,7 +347,7 @@ static void one_sharp_sensor_for_long(void **state)
 
 static void bearings_leave_a_closed_axis_zero(void **state)
 {
-    struct rho_kalman kalman = opened(2, 1e6f, 1e4f);
+    struct rho_kalman kalman = opened_filter(2, 1e6f, 1e4f);
 
     (void)state;
     for (int k = 0; k < 40; ++k) {
@@ -368,7 +368,7 @@ static void bearings_leave_a_closed_axis_zero(void **state)
 /* East of the sensor a bearing to the north of it moves the estimate north, and not along. */
 static void a_bearing_by_hand(void **state)
 {
-    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
 
     (void)state;
     kalman.state[0] = 10000.0f;
@@ -385,7 +385,7 @@ static void a_bearing_by_hand(void **state)
 
 static void an_estimate_at_the_sensor_is_left_alone(void **state)
 {
-    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
     struct rho_kalman_bearing seen, guard;
 
     (void)state;
@@ -417,7 +417,7 @@ static void updates_refuse_bad_arguments(void **state)
     /* 1e4 rad is finite, and no angle */
     const float bad_bearings[] = {NAN, INFINITY, -INFINITY, FLT_MAX, 1e4f};
     const float bad_sigmas[] = {0.0f, -0.0f, -0.1f, NAN, INFINITY, -INFINITY, FLT_MAX};
-    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
 
     (void)state;
     assert_int_equal(rho_kalman_update_bearing(NULL, 0.0f, 0.0f, 1.0f, 0.1f), RHO_ERROR_NULL);
@@ -428,11 +428,11 @@ static void updates_refuse_bad_arguments(void **state)
         assert_refused(kalman, 1.0f, bad_sigmas[k], RHO_ERROR_VALUE);
     }
     for (int i = 0; i < 2; ++i) {
-        kalman = opened(2, 4.0f, 9.0f);
+        kalman = opened_filter(2, 4.0f, 9.0f);
         kalman.covariance[RHO_AT(i, i)] = NAN;
         assert_refused(kalman, 1.0f, 0.1f, RHO_ERROR_VALUE);
     }
-    kalman = opened(2, 4.0f, 9.0f);
+    kalman = opened_filter(2, 4.0f, 9.0f);
     kalman.covariance[RHO_AT(3, 3)] = INFINITY; /* touches nothing that is seen */
     kalman.covariance[RHO_AT(3, 0)] = INFINITY;
     assert_refused(kalman, 1.0f, 0.1f, RHO_ERROR_SINGULAR);

@@ -6,7 +6,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 #include "kalman_checks.h"
 
 /*
@@ -160,7 +160,7 @@ static void a_closed_axis_is_left_out(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
-        struct rho_kalman kalman = opened(2, 400.0f, 900.0f), other = kalman;
+        struct rho_kalman kalman = opened_filter(2, 400.0f, 900.0f), other = kalman;
         const struct look look = some_look(&kalman, STATES);
         struct look level = {.num = 0};
         int kept[STATES] = {0};
@@ -191,7 +191,7 @@ static void a_vague_start_with_a_sharp_ellipse(void **state)
 {
     (void)state;
     for (int n = 0; n < 100; ++n) {
-        struct rho_kalman kalman = opened(3, 5e8f, 5e8f);
+        struct rho_kalman kalman = opened_filter(3, 5e8f, 5e8f);
 
         for (int k = 0; k < 60; ++k) {
             const double angle = uniform(0.0, 6.3), c = cos(angle), s = sin(angle), wide = 9e4;
@@ -206,7 +206,7 @@ static void a_vague_start_with_a_sharp_ellipse(void **state)
 
             assert_int_equal(rho_kalman_update_correlated(&kalman, 3, elements, values, covariance),
                              RHO_OK);
-            assert_sane(&kalman);
+            assert_sane_covariance(&kalman);
             assert_true(is_positive_definite(&kalman));
             assert_int_equal(rho_kalman_predict(&kalman, 1.0f, 0.0f), RHO_OK);
             assert_true(is_positive_definite(&kalman));
@@ -220,13 +220,13 @@ static void sharp_and_vague_at_random(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES; ++n) {
-        struct rho_kalman kalman = opened(3, 5e8f, 5e8f);
+        struct rho_kalman kalman = opened_filter(3, 5e8f, 5e8f);
 
         for (int k = 0; k < 10; ++k) {
             const struct look look = some_look(&kalman, 1 + k % STATES);
 
             assert_int_equal(update(&kalman, &look), RHO_OK);
-            assert_sane(&kalman);
+            assert_sane_covariance(&kalman);
             assert_true(is_positive_definite(&kalman));
         }
     }
@@ -246,7 +246,7 @@ static void assert_refuses(struct rho_kalman kalman, const struct look *look,
 static void bad_measurements_are_refused(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY};
-    const struct rho_kalman kalman = opened(3, 4.0f, 9.0f);
+    const struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
     const struct look good = {
         .num = 2, .elements = {1, 3}, .values = {1.0f, 2.0f}, .covariance = {4.0f, 1.0f, 4.0f}};
     struct look look;
@@ -288,14 +288,14 @@ static void a_late_failure_undoes_what_was_done(void **state)
         .num = 2, .elements = {1, 3}, .values = {1.0f, 3e38f}, .covariance = {4.0f, 1.0f, 4.0f}};
 
     (void)state;
-    assert_refuses(opened(3, 4.0f, 9.0f), &look, RHO_ERROR_VALUE);
+    assert_refuses(opened_filter(3, 4.0f, 9.0f), &look, RHO_ERROR_VALUE);
 }
 
 static void null_is_refused(void **state)
 {
     const int elements[1] = {0};
     const float one[1] = {1.0f};
-    struct rho_kalman kalman = opened(3, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
 
     (void)state;
     assert_int_equal(rho_kalman_update_correlated(NULL, 1, elements, one, one), RHO_ERROR_NULL);
@@ -308,7 +308,7 @@ static void null_is_refused(void **state)
 
 static void noise_is_added_to_open_axes(void **state)
 {
-    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
     const struct rho_kalman before = kalman;
 
     (void)state;
@@ -327,7 +327,7 @@ static void noise_is_added_to_open_axes(void **state)
 static void bad_noise_is_refused(void **state)
 {
     const float bad[] = {NAN, INFINITY, -INFINITY, -1e-9f, 1.1f * RHO_KALMAN_VARIANCE_MAX};
-    struct rho_kalman kalman = opened(3, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
     const struct rho_kalman before = kalman;
 
     (void)state;

@@ -18,7 +18,7 @@ static void open_axis_refuses_bad_arguments(void **state)
                                    nextafterf(RHO_KALMAN_VARIANCE_MAX, INFINITY)};
     const float bad_positions[] = {NAN, INFINITY, -INFINITY};
     const int bad_axes[] = {-1, 3, INT32_MAX, INT32_MIN};
-    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
     const struct rho_kalman before = kalman;
 
     (void)state;
@@ -53,7 +53,7 @@ static void assert_predict_refuses(struct rho_kalman kalman, float dt_s, float n
 
 static void the_longest_step_is_accepted(void **state)
 {
-    struct rho_kalman kalman = opened(3, 1.0f, 1e-3f);
+    struct rho_kalman kalman = opened_filter(3, 1.0f, 1e-3f);
 
     (void)state;
     assert_int_equal(rho_kalman_predict(&kalman, 1e5f, 0.0f), RHO_OK);
@@ -64,7 +64,7 @@ static void the_longest_step_is_accepted(void **state)
 
 static void predict_refuses_bad_arguments(void **state)
 {
-    const struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+    const struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
     const float bad_times[] = {NAN, INFINITY, -INFINITY, 1.0001e5f, -1.0001e5f, FLT_MAX};
     const float bad_densities[] = {NAN, INFINITY, -INFINITY, -1e-9f, -FLT_MAX};
 
@@ -82,13 +82,13 @@ static void predict_refuses_bad_arguments(void **state)
 static void predict_refuses_results_beyond_the_limit(void **state)
 {
     (void)state;
-    assert_predict_refuses(opened(3, 1.0f, 1e4f), 1e5f, 0.0f); /* position: 1e14 */
-    assert_predict_refuses(opened(3, 1.0f, 1e4f), -1e5f, 0.0f);
-    assert_predict_refuses(opened(1, 1.0f, 1e12f), 0.001f, 1e9f); /* velocity */
-    assert_predict_refuses(opened(3, 1.0f, 1.0f), 1.0f, FLT_MAX);
-    assert_predict_refuses(opened(3, 1.0f, 1.0f), 1e5f, 1.0f);
+    assert_predict_refuses(opened_filter(3, 1.0f, 1e4f), 1e5f, 0.0f); /* position: 1e14 */
+    assert_predict_refuses(opened_filter(3, 1.0f, 1e4f), -1e5f, 0.0f);
+    assert_predict_refuses(opened_filter(1, 1.0f, 1e12f), 0.001f, 1e9f); /* velocity */
+    assert_predict_refuses(opened_filter(3, 1.0f, 1.0f), 1.0f, FLT_MAX);
+    assert_predict_refuses(opened_filter(3, 1.0f, 1.0f), 1e5f, 1.0f);
     for (int axis = 0; axis < 3; ++axis) {
-        struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+        struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
 
         kalman.state[axis] = FLT_MAX;
         kalman.state[axis + 3] = FLT_MAX;
@@ -103,15 +103,15 @@ static void predict_refuses_a_bad_estimate(void **state)
     (void)state;
     for (size_t k = 0; k < NUM(bad); ++k) {
         for (int i = 0; i < STATES; ++i) {
-            struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+            struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
 
             kalman.state[i] = bad[k];
             assert_predict_refuses(kalman, 1.0f, 1.0f);
-            kalman = opened(3, 1.0f, 1.0f);
+            kalman = opened_filter(3, 1.0f, 1.0f);
             kalman.covariance[RHO_AT(i, i)] = i < 3 && bad[k] < 0.0f ? NAN : bad[k];
             assert_predict_refuses(kalman, 1.0f, 1.0f);
         }
-        struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+        struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
         kalman.covariance[RHO_AT(3, 0)] = bad[k] < 0.0f ? NAN : bad[k];
         assert_predict_refuses(kalman, 1.0f, 1.0f);
     }
@@ -130,7 +130,7 @@ static void assert_update_refuses(struct rho_kalman kalman, int element, float v
 
 static void update_refuses_bad_arguments(void **state)
 {
-    const struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+    const struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
     const float bad_values[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX};
     const float bad_variances[] = {0.0f, -0.0f, -1.0f, NAN, INFINITY, -INFINITY};
     const int bad_elements[] = {-1, STATES, INT32_MAX, INT32_MIN};
@@ -155,16 +155,16 @@ static void update_refuses_a_bad_estimate(void **state)
     (void)state;
     for (size_t k = 0; k < NUM(bad); ++k) {
         for (int i = 0; i < STATES; ++i) {
-            struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+            struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
 
             kalman.covariance[RHO_AT(i, i)] = bad[k];
             assert_update_refuses(kalman, i, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
-            kalman = opened(3, 1.0f, 1.0f);
+            kalman = opened_filter(3, 1.0f, 1.0f);
             kalman.state[i] = bad[k];
             assert_update_refuses(kalman, 2, 1.0f, 1.0f, RHO_ERROR_VALUE);
         }
     }
-    struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+    struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
     kalman.covariance[RHO_AT(1, 1)] = -2.0f;
     assert_update_refuses(kalman, 1, 1.0f, 3.0f, RHO_ERROR_SINGULAR);
 }
@@ -176,7 +176,8 @@ static void a_worthless_measurement_changes_nothing(void **state)
 
     (void)state;
     for (size_t i = 0; i < NUM(variances); ++i) {
-        struct rho_kalman kalman = opened(3, RHO_KALMAN_VARIANCE_MIN, RHO_KALMAN_VARIANCE_MIN);
+        struct rho_kalman kalman =
+            opened_filter(3, RHO_KALMAN_VARIANCE_MIN, RHO_KALMAN_VARIANCE_MIN);
         const struct rho_kalman before = kalman;
 
         assert_int_equal(rho_kalman_update(&kalman, 0, 5.0f, variances[i], NULL), RHO_OK);
@@ -191,11 +192,11 @@ static void updates_keep_the_variance_floor(void **state)
 {
     (void)state;
     for (int element = 0; element < STATES; ++element) {
-        struct rho_kalman kalman = opened(3, 1.0f, 1.0f);
+        struct rho_kalman kalman = opened_filter(3, 1.0f, 1.0f);
 
         assert_int_equal(rho_kalman_update(&kalman, element, 1.0f, 1e-30f, NULL), RHO_OK);
         assert_true(kalman.covariance[RHO_AT(element, element)] == RHO_KALMAN_VARIANCE_MIN);
-        assert_sane(&kalman);
+        assert_sane_covariance(&kalman);
         assert_true(is_positive_definite(&kalman));
     }
 }
@@ -206,7 +207,7 @@ static void updates_keep_the_variance_floor(void **state)
 static void a_vague_start_with_a_sharp_sensor(void **state)
 {
     const float vague = 5e8f;
-    struct rho_kalman kalman = opened(3, vague, vague);
+    struct rho_kalman kalman = opened_filter(3, vague, vague);
 
     (void)state;
     for (int k = 0; k < 60; ++k) {
@@ -220,7 +221,7 @@ static void a_vague_start_with_a_sharp_sensor(void **state)
             assert_int_equal(rho_kalman_update(&kalman, axis, position, 1.0f, NULL), RHO_OK);
             assert_true(is_positive_definite(&kalman));
         }
-        assert_sane(&kalman);
+        assert_sane_covariance(&kalman);
     }
     /* A straight line through 60 points of variance 1: 4 / n and 12 / n^3. */
     for (int axis = 0; axis < 3; ++axis) {
@@ -294,7 +295,7 @@ static void a_million_hostile_calls(void **state)
         if (status != RHO_OK) {
             assert_changed_nothing(&kalman, &before);
         }
-        assert_sane(&kalman);
+        assert_sane_covariance(&kalman);
         assert_true(is_positive_definite(&kalman));
     }
     assert_in_range(accepted, 500000, 900000); /* neither all refused nor none */

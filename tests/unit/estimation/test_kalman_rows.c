@@ -2,7 +2,7 @@
 /* The filter's updates by rows and by range rates, against full matrices in double precision. */
 #include <float.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 #include "kalman_checks.h"
 
 /* In sigmas of the estimate before. Worst of the cases below: 1.4e-6 and 9.4e-6. */
@@ -41,7 +41,7 @@ static void rows_agree_with_the_joseph_form(void **state)
         for (int i = 0; i < STATES; ++i) {
             row[i] = (float)normal();
         }
-        const struct dense_measurement measured = dense_row(row, 12.5, 4.0);
+        const struct dense_measurement measured = dense_row_measurement(row, 12.5, 4.0);
         const double expected_nis = dense_update(&expected, &measured);
         assert_int_equal(rho_kalman_update_row(&kalman, row, 12.5f, 4.0f, &nis), RHO_OK);
         assert_near_dense(kalman.state, kalman.covariance, &expected, &before, ROW_RELATIVE);
@@ -54,7 +54,7 @@ static void rows_agree_with_the_joseph_form(void **state)
 static void a_row_by_hand(void **state)
 {
     const float mean[STATES] = {0.5f, 0.5f};
-    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
     float nis = GUARD;
 
     (void)state;
@@ -72,7 +72,7 @@ static void a_row_by_hand(void **state)
 
 static void rows_leave_a_closed_axis_zero(void **state)
 {
-    struct rho_kalman kalman = opened(2, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(2, 4.0f, 9.0f);
 
     (void)state;
     for (int k = 0; k < 20; ++k) {
@@ -93,7 +93,7 @@ static void rows_keep_the_variance_floor(void **state)
 
     (void)state;
     for (int element = 0; element < STATES; ++element) {
-        struct rho_kalman floor = opened(3, 2e-9f, 2e-9f);
+        struct rho_kalman floor = opened_filter(3, 2e-9f, 2e-9f);
         const struct rho_kalman before = floor;
         float row[STATES] = {0.0f}, floor_nis = GUARD;
 
@@ -101,7 +101,7 @@ static void rows_keep_the_variance_floor(void **state)
         assert_int_equal(
             rho_kalman_update_row(&floor, row, 3e-5f, RHO_KALMAN_VARIANCE_MIN, &floor_nis), RHO_OK);
         assert_true(floor.covariance[RHO_AT(element, element)] == RHO_KALMAN_VARIANCE_MIN);
-        assert_sane(&floor);
+        assert_sane_covariance(&floor);
         for (size_t k = 0; k < NUM(variances); ++k) {
             struct rho_kalman kalman = before;
             float nis = GUARD;
@@ -119,7 +119,7 @@ static void a_vague_start_with_sharp_rows(void **state)
 {
     (void)state;
     for (int n = 0; n < NUM_CASES / 10; ++n) {
-        struct rho_kalman kalman = opened(3, 1e8f, 1e8f);
+        struct rho_kalman kalman = opened_filter(3, 1e8f, 1e8f);
 
         for (int k = 0; k < 60; ++k) {
             float row[STATES];
@@ -129,7 +129,7 @@ static void a_vague_start_with_sharp_rows(void **state)
             }
             assert_int_equal(rho_kalman_update_row(&kalman, row, (float)normal(), 1.0f, NULL),
                              RHO_OK);
-            assert_sane(&kalman);
+            assert_sane_covariance(&kalman);
             assert_true(is_positive_definite(&kalman));
             assert_int_equal(rho_kalman_predict(&kalman, 1.0f, 0.0f), RHO_OK);
             assert_true(is_positive_definite(&kalman));
@@ -152,7 +152,7 @@ static void assert_row_refused(struct rho_kalman kalman, const float *row, float
 
 static void update_row_refuses_bad_arguments(void **state)
 {
-    const struct rho_kalman kalman = opened(3, 4.0f, 9.0f);
+    const struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
     const float bad_innovations[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX};
     const float bad_variances[] = {0.0f, -0.0f, -1.0f, NAN, INFINITY, -INFINITY};
     const float bad_elements[] = {NAN, INFINITY, -INFINITY, FLT_MAX};
@@ -186,17 +186,17 @@ static void update_row_refuses_a_bad_estimate(void **state)
     (void)state;
     for (size_t k = 0; k < NUM(bad); ++k) {
         for (int i = 0; i < STATES; ++i) {
-            kalman = opened(3, 4.0f, 9.0f);
+            kalman = opened_filter(3, 4.0f, 9.0f);
             kalman.state[i] = bad[k];
             assert_row_refused(kalman, some_row, 1.0f, 1.0f, RHO_ERROR_VALUE);
         }
         for (int place = 0; place < PACKED; ++place) {
-            kalman = opened(3, 4.0f, 9.0f);
+            kalman = opened_filter(3, 4.0f, 9.0f);
             kalman.covariance[place] = bad[k];
             assert_row_refused(kalman, some_row, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
         }
     }
-    kalman = opened(3, 4.0f, 9.0f);
+    kalman = opened_filter(3, 4.0f, 9.0f);
     kalman.covariance[RHO_AT(1, 0)] = -5.0f; /* x + y would have a variance of -2 */
     assert_row_refused(kalman, sum, 1.0f, 3.0f, RHO_ERROR_SINGULAR);
 }
@@ -241,7 +241,7 @@ static void range_rates_agree_with_the_linearised_filter(void **state)
 /* Head on along x: the velocity is measured, and nothing across it. */
 static void a_range_rate_by_hand(void **state)
 {
-    struct rho_kalman kalman = opened(1, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(1, 4.0f, 9.0f);
 
     (void)state;
     kalman.state[0] = -500.0f;
@@ -254,7 +254,7 @@ static void a_range_rate_by_hand(void **state)
 
 static void an_estimate_at_the_sensor_has_no_range_rate(void **state)
 {
-    struct rho_kalman kalman = opened(3, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
 
     (void)state;
     kalman.state[0] = 1200.5f;
@@ -271,7 +271,7 @@ static void an_estimate_at_the_sensor_has_no_range_rate(void **state)
 /* Where the sensor may be on any side, a range rate says little of the velocity. */
 static void close_to_the_sensor_a_range_rate_weighs_little(void **state)
 {
-    struct rho_kalman near = opened(2, 900.0f, 1e4f), far = near;
+    struct rho_kalman near = opened_filter(2, 900.0f, 1e4f), far = near;
 
     (void)state;
     near.state[1] = far.state[1] = 0.0f;
@@ -298,7 +298,7 @@ static void range_rates_refuse_bad_arguments(void **state)
 {
     const float bad_rates[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX};
     const float bad_variances[] = {0.0f, -0.0f, -1.0f, NAN, INFINITY, -INFINITY};
-    struct rho_kalman kalman = opened(3, 4.0f, 9.0f);
+    struct rho_kalman kalman = opened_filter(3, 4.0f, 9.0f);
 
     (void)state;
     assert_int_equal(rho_kalman_update_range_rate(NULL, NULL, 1.0f, 1.0f), RHO_ERROR_NULL);
@@ -309,11 +309,11 @@ static void range_rates_refuse_bad_arguments(void **state)
         assert_rate_refused(kalman, 1.0f, bad_variances[k], RHO_ERROR_VALUE);
     }
     for (int i = 0; i < STATES; ++i) {
-        kalman = opened(3, 4.0f, 9.0f);
+        kalman = opened_filter(3, 4.0f, 9.0f);
         kalman.covariance[RHO_AT(i, i)] = i < 3 ? INFINITY : NAN;
         assert_rate_refused(kalman, 1.0f, 1.0f, RHO_ERROR_SINGULAR);
     }
-    kalman = opened(3, 4.0f, 9.0f);
+    kalman = opened_filter(3, 4.0f, 9.0f);
     kalman.state[4] = NAN;
     assert_rate_refused(kalman, 1.0f, 1.0f, RHO_ERROR_VALUE);
 }

@@ -3,7 +3,7 @@
  * Fifty scans of a radar, from polar plot to estimate, beside the same in double precision: another
  * conversion, another form of the update, the same formulas on paper.
  */
-#include "dense.h"
+#include "dense_filter.h"
 #include "kalman_checks.h"
 
 #define NUM_SCANS 50

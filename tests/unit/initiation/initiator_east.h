@@ -14,7 +14,7 @@
 
 static const struct rho_extent east = {1000.0f, 41000.0f, -20000.0f, 20000.0f}; /* not the origin */
 
-static inline struct rho_initiator_config usual(void)
+static inline struct rho_initiator_config usual_config(void)
 {
     struct rho_initiator_config config;
     rho_initiator_config_default(&config);

@@ -4,7 +4,7 @@
  * what it scores.
  */
 #include "initiator_east.h"
-#include "straight.h"
+#include "straight_fit.h"
 
 #define Z RHO_MEASURES_Z
 #define RATE RHO_MEASURES_RANGE_RATE
@@ -14,11 +14,11 @@
 /* Three targets in clutter; odd windows have plots with times of their own. */
 static void random_window(int window, double sigma_cross_m)
 {
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = usual_config();
     config.score_min_nat = -3.0f;
     config.area = (struct rho_extent){1000.0f, 6000.0f, -2500.0f, 2500.0f};
     random_state = (uint64_t)window + 1;
-    start(&config);
+    start_initiator(&config);
     double path[3][4];
     for (int i = 0; i < 3; i++) {
         double heading = uniform(0.0, 2.0 * PI), v_mps = uniform(50.0, 350.0);
@@ -29,16 +29,16 @@ static void random_window(int window, double sigma_cross_m)
         add_clutter(&config.area, 40);
         for (int i = 0; i < 3; i++) {
             double t_s = SCAN_S * (k - 3);
-            add(path[i][0] + path[i][2] * t_s + 10.0 * normal(),
-                path[i][1] + path[i][3] * t_s + 10.0 * normal(), 10.0, 10.0);
+            add_plot(path[i][0] + path[i][2] * t_s + 10.0 * normal(),
+                     path[i][1] + path[i][3] * t_s + 10.0 * normal(), 10.0, 10.0);
         }
         for (uint32_t i = 0; i < num_plots; i++) {
             plots[i].sigma_cross_m = (float)sigma_cross_m;
             plots[i].offset_us = window % 2 ? (int32_t)uniform(0.0, 1.9e6) : 0;
         }
-        push(SCAN_S * k);
+        push_plots(SCAN_S * k);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
 }
 
 static void noise_of_nearly_equal_axes_gives_what_isotropic_noise_gives(void **state)
@@ -78,20 +78,20 @@ struct middle {
 
 static void pass_by(struct middle off, uint32_t measures, const struct rho_sensor *sensor)
 {
-    struct rho_initiator_config config = usual();
-    start(&config);
+    struct rho_initiator_config config = usual_config();
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         const struct middle by = k == 3 ? off : (struct middle){0};
         double dx_m = 20000.0 - sensor->x_m, dy_m = 100.0 * SCAN_S * (k - 3) - sensor->y_m;
         struct rho_plot *plot =
-            add(20000.0 + by.dx_m, 100.0 * SCAN_S * (k - 3) + by.dy_m, 15.0, 180.0);
+            add_plot(20000.0 + by.dx_m, 100.0 * SCAN_S * (k - 3) + by.dy_m, 15.0, 180.0);
         plot->z_m = (float)(1000.0 + by.dz_m);
         plot->sigma_up_m = 40.0f;
         plot->range_rate_mps = (float)(100.0 * dy_m / hypot(dx_m, dy_m) + by.rate_mps);
         plot->sigma_range_rate_mps = 1.0f;
         push_scan((struct rho_scan){.measures = measures}, SCAN_S * k, sensor);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 1);
 }
 
@@ -130,16 +130,16 @@ static void a_sensor_elsewhere_turns_the_ellipses(void **state)
  */
 static int votes_off(double sigmas, int is_across, double sigma_range_m, double sigma_cross_m)
 {
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = usual_config();
     const struct rho_sensor far = sensor_at(-800000.0, 0.0); /* lines of sight are parallel */
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         double dx_m = k == 3 && !is_across ? sigmas * sigma_range_m : 0.0;
         double dy_m = k == 3 && is_across ? sigmas * sigma_cross_m : 0.0;
-        add(20000.0 + dx_m, 100.0 * SCAN_S * (k - 3) + dy_m, sigma_range_m, sigma_cross_m);
+        add_plot(20000.0 + dx_m, 100.0 * SCAN_S * (k - 3) + dy_m, sigma_range_m, sigma_cross_m);
         push_scan((struct rho_scan){0}, SCAN_S * k, &far);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 1);
     return initiator.candidates[0].mask >> 3 & 1u;
 }
@@ -211,18 +211,18 @@ static void a_known_height_tells_the_range_rates_of_scans_that_measure_none(void
 {
     (void)state;
     const struct rho_sensor origin = sensor_at(0.0, 0.0);
-    struct rho_initiator_config config = usual();
-    start(&config);
+    struct rho_initiator_config config = usual_config();
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         double x_m = 15000.0 + 200.0 * SCAN_S * k;
-        struct rho_plot *plot = add(x_m, 0.0, 15.0, 45.0);
+        struct rho_plot *plot = add_plot(x_m, 0.0, 15.0, 45.0);
         plot->z_m = 5000.0f;
         plot->sigma_up_m = 45.0f;
         plot->range_rate_mps = (float)(200.0 * x_m / hypot(x_m, 5000.0));
         plot->sigma_range_rate_mps = 1.0f;
         push_scan((struct rho_scan){.measures = k % 2 ? RATE : RATE | Z}, SCAN_S * k, &origin);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(initiator.candidates[0].mask, 0x7f);
 }
@@ -266,7 +266,7 @@ static void random_track(const uint32_t measures[SCANS])
             range2 += d_m * d_m;
         }
         of->rate_mps = (float)(rate / sqrt(range2) + 0.5 * of->sigma_rate_mps * normal());
-        struct rho_plot *plot = add(of->at_m[0], of->at_m[1], of->sigma_m[0], of->sigma_m[1]);
+        struct rho_plot *plot = add_plot(of->at_m[0], of->at_m[1], of->sigma_m[0], of->sigma_m[1]);
         plot->offset_us = offset_us;
         plot->z_m = (float)of->at_m[2];
         plot->sigma_up_m = (float)of->sigma_m[2];
@@ -284,7 +284,7 @@ static void expect_straight(void)
                                    .v_max_mps = 400.0,
                                    .pd = PD,
                                    .clutter_per_m2 = 1.0 / area_m2}; /* one plot a scan */
-    struct straight_fit fit = straight_through(seen, SCANS, &log_fisher);
+    struct straight_fit fit = straight_fit_through(seen, SCANS, &log_fisher);
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(track->hits, SCANS);
     assert_int_equal(track->has_z, fit.axes == 3);
@@ -299,12 +299,12 @@ static void expect_straight(void)
 
 static void expect_straight_tracks(const uint32_t measures[SCANS])
 {
-    struct rho_initiator_config config = usual();
+    struct rho_initiator_config config = usual_config();
     random_state = 7;
     for (int i = 0; i < 200; i++) {
-        start(&config);
+        start_initiator(&config);
         random_track(measures);
-        search(RHO_SEARCH_BATCH);
+        search_window(RHO_SEARCH_BATCH);
         expect_straight();
     }
 }

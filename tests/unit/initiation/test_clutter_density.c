@@ -38,12 +38,12 @@ static double density_at(int32_t sensor_id, double x_m, double y_m)
 static void two_sensors(int first, int second)
 {
     struct rho_initiator_config config = usual();
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&around, k % 2 ? second : first);
         push_scan((struct rho_scan){.sensor_id = k % 2 ? 2 : 1}, SCAN_S * k, NULL);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
 }
 
 static void the_sensor_with_more_clutter_has_more_but_not_more_than_it_showed(void **state)
@@ -75,12 +75,12 @@ static void one_sensor_and_unknown_ones_have_the_mean(void **state)
 {
     (void)state;
     struct rho_initiator_config config = usual();
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&around, 5 * k); /* uneven scans of one sensor are no sensors */
         push_scan((struct rho_scan){.sensor_id = -7}, SCAN_S * k, NULL);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     for (double x_m = -9000.0; x_m < 10000.0; x_m += 1000.0) {
         double own = density_at(-7, x_m, 2000.0);
         assert_float_equal(own, density_at(0, x_m, 2000.0), 0.0);
@@ -94,7 +94,7 @@ static void a_search_after_every_scan_knows_the_sensors_too(void **state)
 {
     (void)state;
     two_sensors(4, 16);
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
     double ratio = density_at(2, 0.0, 0.0) / density_at(1, 0.0, 0.0);
     assert_float_equal(ratio, 14.5 / 5.5, 0.01);
 }
@@ -112,20 +112,20 @@ static void add_polar_clutter(const struct rho_sensor *radar, int count, int mor
         int hot = i >= count;
         double range_m = hot ? uniform(0.5, 0.75) * RANGE_M : uniform(0.0, RANGE_M);
         double azimuth = hot ? uniform(0.2, 0.4) * PI : uniform(-PI, PI);
-        add(radar->x_m + range_m * cos(azimuth), radar->y_m + range_m * sin(azimuth), 10.0,
-            sigma_cross_m);
+        add_plot(radar->x_m + range_m * cos(azimuth), radar->y_m + range_m * sin(azimuth), 10.0,
+                 sigma_cross_m);
     }
 }
 
 static void radar_window(const struct rho_sensor *radar, int count, int more, double sigma_cross_m)
 {
     struct rho_initiator_config config = usual();
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_polar_clutter(radar, count, more, sigma_cross_m);
         push_scan((struct rho_scan){.sensor_id = radar->sensor_id}, SCAN_S * k, radar);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
 }
 
 /*
@@ -179,13 +179,13 @@ static void windows_without_ranges_have_a_density_everywhere(void **state)
     const struct rho_sensor radar = sensor_at(0.0, 0.0);
     for (int count = 0; count < 3; count++) {
         for (int kind = RHO_SEARCH_BATCH; kind <= RHO_SEARCH_NEWEST; kind++) {
-            start(&config);
+            start_initiator(&config);
             for (int k = 0; k < SCANS; k++) {
                 for (int i = 0; i < count; i++) {
-                    add(0.0, 0.0, 10.0, 100.0);
+                    add_plot(0.0, 0.0, 10.0, 100.0);
                 }
                 push_scan((struct rho_scan){0}, SCAN_S * k, &radar);
-                search((enum rho_search)kind);
+                search_window((enum rho_search)kind);
                 density_at(0, 0.0, 0.0);
                 density_at(0, 5000.0, -5000.0);
             }
@@ -220,13 +220,13 @@ static void radars_window(const struct rho_sensor radars[2], const int counts[2]
                           enum rho_search kind)
 {
     struct rho_initiator_config config = usual();
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_polar_clutter(&radars[k % 2], counts[k % 2], 0, 100.0);
         push_scan((struct rho_scan){.sensor_id = radars[k % 2].sensor_id}, SCAN_S * k,
                   &radars[k % 2]);
     }
-    search(kind);
+    search_window(kind);
 }
 
 /* The mean of a radar's densities at a range, over what they are, as mean_share. */
@@ -290,16 +290,16 @@ static const struct rho_density_map *sector_map(int count, double sector_rad)
     struct rho_initiator_config config = usual();
     const struct rho_sensor radar = sensor_at(0.0, 0.0);
     int added = 0;
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         for (; added < count * (k + 1) / SCANS; added++) {
             const double azimuth_rad = sector_rad * ((double)added / (count - 1) - 0.5);
             const double range_m = 500.0 + 7000.0 * (added * 7 % count) / (count - 1.0);
-            add(range_m * cos(azimuth_rad), range_m * sin(azimuth_rad), 10.0, 100.0);
+            add_plot(range_m * cos(azimuth_rad), range_m * sin(azimuth_rad), 10.0, 100.0);
         }
         push_scan((struct rho_scan){0}, SCAN_S * k, &radar);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     return &initiator.density[0];
 }
 
@@ -326,15 +326,15 @@ static void expect_level(double sigma_cross_m, const struct rho_sensor *even,
                          const struct rho_sensor *odd)
 {
     struct rho_initiator_config config = usual();
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         const struct rho_sensor *sensor = k % 2 ? odd : even;
         for (int i = 0; i < 5; i++) {
-            add(uniform(-9000.0, 9000.0), uniform(-9000.0, 9000.0), 10.0, sigma_cross_m);
+            add_plot(uniform(-9000.0, 9000.0), uniform(-9000.0, 9000.0), 10.0, sigma_cross_m);
         }
         push_scan((struct rho_scan){.sensor_id = sensor->sensor_id}, SCAN_S * k, sensor);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     for (double x_m = 0.0; x_m < 10000.0; x_m += 500.0) {
         double mean = 5.0 / around_m2;
         assert_float_equal(density_at(even->sensor_id, x_m, x_m), mean, 1e-4 * mean);
@@ -362,14 +362,14 @@ static void a_radar_with_clutter_even_on_the_ground_has_a_map_of_the_ground(void
     const struct rho_sensor middle = sensor_at(0.0, 0.0);
     struct rho_initiator_config config = usual();
     for (int window = 0; window < 20; window++) {
-        start(&config);
+        start_initiator(&config);
         for (int k = 0; k < SCANS; k++) {
             for (int i = 0; i < 30; i++) {
-                add(uniform(-10000.0, 10000.0), uniform(-10000.0, 10000.0), 10.0, 100.0);
+                add_plot(uniform(-10000.0, 10000.0), uniform(-10000.0, 10000.0), 10.0, 100.0);
             }
             push_scan((struct rho_scan){0}, SCAN_S * k, &middle);
         }
-        search(RHO_SEARCH_BATCH);
+        search_window(RHO_SEARCH_BATCH);
         double mean = 30.0 / around_m2;
         assert_float_equal(density_at(0, 100.0, 100.0), mean, 0.5 * mean);
         assert_float_equal(density_at(0, 9000.0, 9000.0), mean, 0.5 * mean);

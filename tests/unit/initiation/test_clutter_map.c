@@ -18,12 +18,12 @@ static void start(uint64_t seed, float v_min_mps)
 {
     const struct rho_sensor radar = {.pd = 0.9f, .range_max_m = (float)RANGE_M};
 
-    draw(seed);
+    use_usual_configs(seed);
     rho_initiator_config_default(&initiation);
     config.v_min_mps = initiation.v_min_mps = v_min_mps;
     config.v_max_mps = initiation.v_max_mps = 350.0f;
     config.accel_max_mps2 = 20.0f;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
 }
 
@@ -36,8 +36,8 @@ static struct rho_plot *see(double x_m, double y_m)
 {
     const double range_m = hypot(x_m, y_m), cross_m = 0.003 * range_m;
     const double along = 30.0 * normal(), across = cross_m * normal();
-    struct rho_plot *plot = add(x_m + (along * x_m - across * y_m) / range_m,
-                                y_m + (along * y_m + across * x_m) / range_m, 30.0);
+    struct rho_plot *plot = add_plot(x_m + (along * x_m - across * y_m) / range_m,
+                                     y_m + (along * y_m + across * x_m) / range_m, 30.0);
 
     plot->sigma_cross_m = (float)cross_m;
     return plot;
@@ -100,7 +100,7 @@ static int turn_on(int *turn, int turns, double share, int clutter)
     for (int end = *turn + turns; *turn < end; (*turn)++) {
         see_towers(share);
         see_clutter(clutter);
-        step(TURN_S * *turn);
+        step_at(TURN_S * *turn);
         for (unsigned i = 0; i < report.num_tracks; i++) {
             const struct rho_track_report *track = &report.tracks[i];
 
@@ -202,7 +202,7 @@ static void a_target_that_passes_keeps_its_plots(void **state)
             see(tower_x_m(3), y_m); /* row 0 */
             see_towers(0.5);
             see_clutter(10);
-            step(TURN_S * turn);
+            step_at(TURN_S * turn);
             for (unsigned k = 0; k < report.num_tracks && i == -15; k++) {
                 track_id = report.tracks[k].plot == 0 ? report.tracks[k].track_id : track_id;
             }
@@ -270,7 +270,7 @@ static void learn_beside(double speed_mps, double *looks, double *returns)
             see(70000.0 * cos(azimuth_rad), 70000.0 * sin(azimuth_rad));
             random_state = after; /* clutter is the same */
         }
-        step(TURN_S * turn);
+        step_at(TURN_S * turn);
     }
     for (unsigned unseen = 1; unseen < 10; unseen += unseen < 3 ? 1 : unseen - 1) {
         for (unsigned hits = 1; hits < 7; hits += hits < 3 ? 1 : 3) {
@@ -307,8 +307,8 @@ static void a_target_that_crawls_has_moved_in_the_end(void **state)
     int early = 0, late = 0;
     start(9, 0.0f);
     for (int turn = 0; turn < 120; turn++) {
-        add(20000.0 + 8.0 * TURN_S * turn, 5000.0, 30.0);
-        step(TURN_S * turn);
+        add_plot(20000.0 + 8.0 * TURN_S * turn, 5000.0, 30.0);
+        step_at(TURN_S * turn);
         if (report.num_tracks != 1) {
             continue;
         }
@@ -412,12 +412,12 @@ static void taught_echoes_that_are_not_there_are_forgotten(void **state)
         assert_int_equal(
             rho_clutter_map_teach(map_of(), 0, 20000.0f, 0.0f, 30.0f, 30.0f, kept[k].hits), RHO_OK);
         for (int scan = 0; scan < kept[k].scans; scan++) {
-            step(1e9 + TURN_S * scan); /* whatever the time is */
+            step_at(1e9 + TURN_S * scan); /* whatever the time is */
             assert_int_equal(map_of()->echoes[0].hits, kept[k].hits);
             assert_true(map_of()->echoes[0].along[0] == 900.0f);
             assert_true(map_of()->echoes[0].x_m == 20000.0f);
         }
-        step(1e9 + TURN_S * kept[k].scans);
+        step_at(1e9 + TURN_S * kept[k].scans);
         assert_int_equal(map_of()->echoes[0].hits, 0);
     }
 }
@@ -430,7 +430,7 @@ static void what_nobody_looks_at_is_kept(void **state)
     assert_int_equal(rho_clutter_map_teach(map_of(), 7, 20000.0f, 0.0f, 30.0f, 30.0f, 6), RHO_OK);
     assert_int_equal(rho_clutter_map_teach(map_of(), 0, 90000.0f, 0.0f, 30.0f, 30.0f, 6), RHO_OK);
     for (int scan = 0; scan < 150; scan++) {
-        step(TURN_S * scan);
+        step_at(TURN_S * scan);
     }
     assert_int_equal(map_of()->echoes[0].hits, 6);
     assert_int_equal(map_of()->echoes[1].hits, 6);
@@ -525,7 +525,7 @@ static void scans_of_more_plots_than_there_is_room_for(void **state)
         see_clutter_from(70000.0, RHO_MAX_PLOTS + 100);
         scan.num_plots = num_plots;
         assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
-        check_sums();
+        check_fate_sums();
         num_plots = 0;
     }
     assert_int_equal(count_known_towers(), TOWERS);
@@ -606,7 +606,7 @@ static double repeats_at_range_rate(double range_rate_mps)
         }
         for (int i = 0; i < TOWERS; i++) {
             if (turn == 60) {
-                struct rho_plot *plot = add(tower_x_m(i), tower_y_m(i), 30.0);
+                struct rho_plot *plot = add_plot(tower_x_m(i), tower_y_m(i), 30.0);
 
                 plot->range_rate_mps = (float)range_rate_mps;
             } else if (uniform(0.0, 1.0) < 0.5) {
@@ -638,7 +638,7 @@ static void see_in_room(double x_m, double y_m, double speed_mps)
 {
     const double range_m = hypot(x_m, y_m), sigma_m = 0.15;
     const double dx_m = sigma_m * normal(), dy_m = sigma_m * normal();
-    struct rho_plot *plot = add(x_m + dx_m, y_m + dy_m, sigma_m);
+    struct rho_plot *plot = add_plot(x_m + dx_m, y_m + dy_m, sigma_m);
     const double rate_mps = 0.1 * normal();
 
     plot->range_rate_mps = (float)(speed_mps * x_m / range_m + rate_mps);
@@ -671,11 +671,11 @@ static void reflectors_in_a_room_hold_no_tracks(void **state)
     int early = 0, late = 0, walks = 0;
 
     (void)state;
-    draw(77);
+    use_usual_configs(77);
     rho_initiator_config_default(&initiation);
     config.v_max_mps = initiation.v_max_mps = 30.0f;
     config.accel_max_mps2 = 8.0f;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     for (int k = 0; k < 400; k++) {
         const double t_s = 0.05 * k;
@@ -756,9 +756,9 @@ static void echoes_of_millimetres_keep_their_variances(void **state)
     start(141, 100.0f);
     for (int turn = 0; turn < 200; turn++) {
         for (int i = 0; i < TOWERS && turn % 20 < 3; i++) {
-            (void)add(tower_x_m(i), tower_y_m(i) + 0.001 * normal(), 0.001 * (i + 1));
+            (void)add_plot(tower_x_m(i), tower_y_m(i) + 0.001 * normal(), 0.001 * (i + 1));
         }
-        step(TURN_S * turn + 0.0137 * (double)(turn * turn % 71));
+        step_at(TURN_S * turn + 0.0137 * (double)(turn * turn % 71));
         for (unsigned i = 0; i < RHO_MAX_ECHOES; i++) {
             const struct rho_echo *echo = &map_of()->echoes[i];
 

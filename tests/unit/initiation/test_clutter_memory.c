@@ -48,7 +48,7 @@ static void add_spot(double x_m, double y_m, int count)
     const double half_m = 0.5 * fmin(HOT_SIDE_M, 0.9 * cell_m);
     for (int i = 0; i < count; i++) {
         const double at_m = x_m + uniform(-half_m, half_m);
-        add(at_m, y_m + uniform(-half_m, half_m), 10.0, 10.0);
+        add_plot(at_m, y_m + uniform(-half_m, half_m), 10.0, 10.0);
     }
 }
 
@@ -56,7 +56,7 @@ static double time_s;
 
 static void push_next(void)
 {
-    push(time_s);
+    push_plots(time_s);
     time_s += SCAN_S;
 }
 
@@ -68,7 +68,7 @@ static void push_scans(int scans, int hot)
         add_spot(middle_m(5000.0), middle_m(5000.0), hot);
         push_next();
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
 }
 
 static double density_at(double x_m, double y_m)
@@ -89,7 +89,7 @@ static void begin(void)
     const struct rho_initiator_config config = usual(1);
     random_state = 1;
     time_s = 0.0;
-    start(&config);
+    start_initiator(&config);
 }
 
 /* ---- learned --------------------------------------------------------------------------------- */
@@ -150,18 +150,18 @@ static void scores_know_hot_spots(void **state)
         begin();
         for (int k = 0; k < 100; k++) {
             add_spot(middle_m(5000.0), middle_m(5000.0), is_hot ? HOT_PLOTS : 0);
-            add(-9990.0, -9990.0, 10.0, 10.0);
-            add(9990.0, 9990.0, 10.0, 10.0);
+            add_plot(-9990.0, -9990.0, 10.0, 10.0);
+            add_plot(9990.0, 9990.0, 10.0, 10.0);
             push_next();
         }
         /* so that the windows are the same */
         for (int k = 0; k < SCANS; k++) {
-            add(middle_m(5000.0) - 100.0 + 40.0 * k, middle_m(5000.0), 10.0, 10.0);
-            add(-9990.0, -9990.0, 10.0, 10.0);
-            add(9990.0, 9990.0 - 1500.0 * k, 10.0, 10.0);
+            add_plot(middle_m(5000.0) - 100.0 + 40.0 * k, middle_m(5000.0), 10.0, 10.0);
+            add_plot(-9990.0, -9990.0, 10.0, 10.0);
+            add_plot(9990.0, 9990.0 - 1500.0 * k, 10.0, 10.0);
             push_next();
         }
-        search(RHO_SEARCH_NEWEST);
+        search_window(RHO_SEARCH_NEWEST);
         score_mnat[is_hot] = 0;
         for (unsigned i = 0; i < initiator.num_candidates; i++) {
             if (fabs((double)initiator.candidates[i].x_m - 5000.0) < 2000.0) {
@@ -221,7 +221,7 @@ static void what_left_the_window_is_remembered_once(void **state)
     begin();
     for (int k = 0; k < 40; k++) {
         for (int i = 0; i < 1 + k % 3; i++) {
-            add(300.0 * i, 0.0, 10.0, 10.0);
+            add_plot(300.0 * i, 0.0, 10.0, 10.0);
         }
         push_next();
         uint32_t gone = 0;
@@ -238,11 +238,11 @@ static void plots_that_started_tracks_are_not_remembered(void **state)
     (void)state;
     begin();
     for (int k = 0; k < SCANS; k++) {
-        add(300.0 * k, 0.0, 10.0, 10.0);
-        add(-9990.0, uniform(-9990.0, 9990.0), 10.0, 10.0);
+        add_plot(300.0 * k, 0.0, 10.0, 10.0);
+        add_plot(-9990.0, uniform(-9990.0, 9990.0), 10.0, 10.0);
         push_next();
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(rho_initiator_consume(&initiator, &initiator.candidates[0]), SCANS);
     for (int k = 0; k < SCANS; k++) {
@@ -284,17 +284,17 @@ static void an_area_that_changes_lays_it_anew(void **state)
     (void)state;
     random_state = 1;
     time_s = 0.0;
-    start(&config);
+    start_initiator(&config);
     for (size_t i = 0; i < NUM(sides_m); i++) {
         const double side_m = sides_m[i];
         for (int k = 0; k < 150; k++) {
             for (int n = 0; n < 20; n++) {
                 const double x_m = uniform(-side_m, side_m);
-                add(x_m, uniform(-side_m, side_m), 10.0, 10.0);
+                add_plot(x_m, uniform(-side_m, side_m), 10.0, 10.0);
             }
             push_next();
             if (k % 10 == 9) {
-                search(RHO_SEARCH_NEWEST);
+                search_window(RHO_SEARCH_NEWEST);
                 density_at(0.0, 0.0);
                 density_at(side_m, -side_m);
                 density_at(2e6, 2e6);
@@ -312,14 +312,14 @@ static void push_wide(double side_m, int scans)
     for (int k = 0; k < scans; k++) {
         for (int n = 0; n < COLD_PLOTS; n++) {
             const double x_m = uniform(-side_m, side_m);
-            add(x_m, uniform(-side_m, side_m), 10.0, 10.0);
+            add_plot(x_m, uniform(-side_m, side_m), 10.0, 10.0);
         }
         for (int n = 0; n < 4; n++) {
-            add(0.5 * side_m, 0.5 * side_m, 10.0, 10.0);
+            add_plot(0.5 * side_m, 0.5 * side_m, 10.0, 10.0);
         }
         push_next();
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
 }
 
 /*
@@ -334,14 +334,14 @@ static void hot_spots_are_learned_anew_where_the_area_has_grown(void **state)
     (void)state;
     random_state = 1;
     time_s = 0.0;
-    start(&config);
+    start_initiator(&config);
     push_wide(1e4, 100);
     assert_true(density_at(5e3, 5e3) > 10.0 * density_at(-5e3, -5e3));
     for (int k = 0; k < 40; k++) {
         add_clutter(&(struct rho_extent){-1e5f, 1e5f, -1e5f, 1e5f}, COLD_PLOTS);
         push_next();
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
     for (double x_m = 3e4; x_m <= 7e4; x_m += 1e3) {
         hot_there = fmax(hot_there, density_at(x_m, x_m));
     }
@@ -354,15 +354,15 @@ static void scans_without_plots_harm_nothing(void **state)
 {
     const struct rho_initiator_config config = usual(0);
     (void)state;
-    start(&config);
+    start_initiator(&config);
     time_s = 0.0;
     for (int k = 0; k < 300; k++) {
         push_next();
     }
-    search(RHO_SEARCH_NEWEST);
-    add(5.0, 5.0, 10.0, 10.0);
+    search_window(RHO_SEARCH_NEWEST);
+    add_plot(5.0, 5.0, 10.0, 10.0);
     push_next();
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
     density_at(5.0, 5.0);
     assert_int_equal(remembered(), 0);
 }
@@ -381,7 +381,7 @@ static void sizes_follow_the_capacity(void **state)
 static struct rho_clutter_memory *have_memory(unsigned scans)
 {
     begin();
-    add(0.0, 0.0, 10.0, 10.0);
+    add_plot(0.0, 0.0, 10.0, 10.0);
     push_next();
     initiator.memory = (struct rho_clutter_memory){
         .x_min_m = -5000.0f,

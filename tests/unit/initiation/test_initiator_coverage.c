@@ -12,19 +12,19 @@
 static int32_t score_with_a_miss(struct rho_scan scan, const struct rho_sensor *even,
                                  const struct rho_sensor *odd)
 {
-    struct rho_initiator_config config = usual();
-    start(&config);
+    struct rho_initiator_config config = usual_config();
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         if (k == 2) {
-            add(40000.0, 19000.0, 10.0, 10.0);
+            add_plot(40000.0, 19000.0, 10.0, 10.0);
         } else {
-            add(20000.0 + 100.0 * SCAN_S * k, 0.0, 10.0, 10.0);
+            add_plot(20000.0 + 100.0 * SCAN_S * k, 0.0, 10.0, 10.0);
         }
         const struct rho_sensor *sensor = k % 2 ? odd : even;
         scan.sensor_id = sensor ? sensor->sensor_id : 0;
         push_scan(scan, SCAN_S * k, sensor);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     assert_int_equal(initiator.num_candidates, 1);
     assert_int_equal(initiator.candidates[0].mask, 0x7b);
     return initiator.candidates[0].score_mnat;

@@ -49,13 +49,13 @@ static void see(const struct flight *flight, double t_s)
     const double range_m = hypot(state.x_m, state.y_m) + 15.0 * normal();
     const double azimuth_rad = atan2(state.y_m, state.x_m) + 0.003 * normal();
     struct rho_plot *plot =
-        add(range_m * cos(azimuth_rad), range_m * sin(azimuth_rad), 15.0, 0.003 * range_m);
+        add_plot(range_m * cos(azimuth_rad), range_m * sin(azimuth_rad), 15.0, 0.003 * range_m);
     plot->offset_us = (int32_t)lround(1e6 * flight->own_s);
     plot->range_rate_mps = (float)(rate_of(&state) + normal());
     plot->sigma_range_rate_mps = 1.0f;
     for (int i = 0; i < CLUTTER; i++) {
         const double r_m = uniform(1000.0, 80000.0), angle_rad = uniform(-PI, PI);
-        plot = add(r_m * cos(angle_rad), r_m * sin(angle_rad), 15.0, 0.003 * r_m);
+        plot = add_plot(r_m * cos(angle_rad), r_m * sin(angle_rad), 15.0, 0.003 * r_m);
         plot->range_rate_mps = (float)uniform(-350.0, 350.0);
         plot->sigma_range_rate_mps = 1.0f;
     }
@@ -71,11 +71,11 @@ static unsigned fly(const struct flight *flight, uint32_t measures, float turn_m
     config.turn_mps2 = turn_mps2;
     config.area_is_fixed = 1;
     config.area = around;
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         see(flight, TURN_S * k);
         push_scan((struct rho_scan){.measures = measures}, TURN_S * k, &sensor);
-        search(RHO_SEARCH_NEWEST);
+        search_window(RHO_SEARCH_NEWEST);
         for (unsigned i = 0; i < initiator.num_candidates; i++) {
             const struct rho_candidate *found = &initiator.candidates[i];
             unsigned own = 0;

@@ -37,19 +37,19 @@ static void search_even_clutter(int radars)
     const struct rho_initiator_config config = usual();
     const struct rho_sensor radar = sensor_at(0.0, 0.0);
     random_state = 5;
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&square, CLUTTER);
         for (int i = 0; i < TARGETS; i++) {
             double x_m = -4000.0 + 80.0 * SCAN_S * k + 10.0 * normal();
             double y_m = 1800.0 * i - 6500.0 + 10.0 * normal();
             if ((i + k) % 6 > 0) {
-                add(x_m, y_m, 10.0, 10.0);
+                add_plot(x_m, y_m, 10.0, 10.0);
             }
         }
         push_from(k, 1 + k % radars, &radar);
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
 }
 
 static void long_spans_that_cannot_start_a_track_cost_nothing(void **state)
@@ -76,7 +76,7 @@ static void long_spans_that_cannot_start_a_track_cost_nothing(void **state)
 static void add_every_second(int k, double y_m)
 {
     if (k % 2 == 0) {
-        add(-7000.0 + 60.0 * SCAN_S * k, y_m, 10.0, 10.0);
+        add_plot(-7000.0 + 60.0 * SCAN_S * k, y_m, 10.0, 10.0);
     }
 }
 
@@ -99,13 +99,13 @@ static void misses_of_a_radar_that_does_not_look_there_do_not_count(void **state
     struct rho_sensor second = sensor_at(0.0, -8000.0);
     second.range_max_m = 11000.0f;
     random_state = 5;
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&square, CLUTTER);
         add_every_second(k, 6500.0);
         push_from(k, 1 + k % 2, k % 2 ? &second : &first);
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
     assert_true(has_every_second(6500.0));
 }
 
@@ -116,13 +116,13 @@ static void fewer_votes_are_enough_where_clutter_is_thin(void **state)
     const struct rho_sensor radar = sensor_at(0.0, 0.0);
     const struct rho_extent south = {-8000.0f, 8000.0f, -8000.0f, 0.0f};
     random_state = 5;
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&south, CLUTTER);
         add_every_second(k, 6000.0);
         push_from(k, 1, &radar);
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
     assert_true(has_every_second(6000.0));
 }
 

@@ -18,14 +18,14 @@ static unsigned fits_with_span(double span_mps)
     config.score_min_nat = -30.0f;
     config.false_tracks_per_hour = 0.0f;
     sensor.range_rate_span_mps = (float)span_mps;
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < 3; k++) {
-        struct rho_plot *plot = add(40000.0 - 400.0 * k, 0.0, 100.0, 100.0);
+        struct rho_plot *plot = add_plot(40000.0 - 400.0 * k, 0.0, 100.0, 100.0);
         plot->range_rate_mps = (float)remainder(-200.0, span_mps);
         plot->sigma_range_rate_mps = 0.3f;
         push_scan((struct rho_scan){.measures = RHO_MEASURES_RANGE_RATE}, 2.0 * k, &sensor);
     }
-    search(RHO_SEARCH_BATCH);
+    search_window(RHO_SEARCH_BATCH);
     return initiator.work.fits;
 }
 

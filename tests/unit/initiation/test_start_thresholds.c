@@ -37,27 +37,27 @@ static void push_window(const struct rho_initiator_config *config, int count, in
                         double scan_s)
 {
     random_state = 3;
-    start(config);
+    start_initiator(config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&config->area, count);
         for (int i = 0; i < targets && i <= k; i++) {
             double y_m = -2000.0 + 1000.0 * i + 8.0 * normal();
-            add(100.0 * scan_s * (k - 3) + 8.0 * normal(), y_m, 10.0, 10.0);
+            add_plot(100.0 * scan_s * (k - 3) + 8.0 * normal(), y_m, 10.0, 10.0);
         }
-        push(scan_s * k);
+        push_plots(scan_s * k);
     }
 }
 
 static void search_clutter(const struct rho_initiator_config *config, int count)
 {
     push_window(config, count, 0, SCAN_S);
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
 }
 
 static void search_targets(const struct rho_initiator_config *config, int count)
 {
     push_window(config, count, 5, SCAN_S);
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
 }
 
 static unsigned confirmed(void)
@@ -77,16 +77,16 @@ static void a_clear_sky_confirms_a_target_at_its_third_plot(void **state)
     for (int i = 0; i < 200; i++) {
         struct rho_initiator_config config = usual(1.0f);
         double heading = uniform(0.0, 2.0 * PI), v_mps = uniform(120.0, 380.0);
-        start(&config);
+        start_initiator(&config);
         for (int empty = 0; empty < i % 5; empty++) {
-            push(SCAN_S * empty);
+            push_plots(SCAN_S * empty);
         }
         for (int k = 0; k < 3; k++) {
             double way_m = v_mps * SCAN_S * (k - 1);
-            add(way_m * cos(heading) + uniform(-10.0, 10.0),
-                way_m * sin(heading) + uniform(-10.0, 10.0), 10.0, 10.0);
-            push(SCAN_S * (k + i % 5));
-            search(RHO_SEARCH_NEWEST);
+            add_plot(way_m * cos(heading) + uniform(-10.0, 10.0),
+                     way_m * sin(heading) + uniform(-10.0, 10.0), 10.0, 10.0);
+            push_plots(SCAN_S * (k + i % 5));
+            search_window(RHO_SEARCH_NEWEST);
             assert_int_equal(initiator.num_candidates, k == 2);
         }
         assert_int_equal(confirmed(), 1);
@@ -194,7 +194,7 @@ static void a_batch_goes_by_the_least_score_whatever_the_rate(void **state)
         struct rho_initiator_config config = usual(r == 0 ? 0.0f : rates[r - 1]);
         config.score_min_nat = -12.0f;
         push_window(&config, 60, 5, SCAN_S);
-        search(RHO_SEARCH_BATCH);
+        search_window(RHO_SEARCH_BATCH);
         assert_int_equal(initiator.start_mnat, -12000);
         assert_int_equal(initiator.confirm_mnat, -12000);
         if (r == 0) {
@@ -215,7 +215,7 @@ static void the_same_scans_give_the_same_thresholds(void **state)
         struct rho_initiator_config config = usual(0.3f);
         search_targets(&config, counts[c]);
         before = initiator;
-        search(RHO_SEARCH_NEWEST);
+        search_window(RHO_SEARCH_NEWEST);
         assert_memory_equal(&before, &initiator, sizeof before);
         search_targets(&config, counts[c]);
         assert_memory_equal(&before, &initiator, sizeof before);
@@ -238,7 +238,7 @@ static void a_shorter_scan_interval_confirms_as_half_the_rate_does(void **state)
         fast.v_min_mps *= 2.0f;
         fast.v_max_mps *= 2.0f;
         push_window(&fast, counts[c], 0, 0.5 * SCAN_S);
-        search(RHO_SEARCH_NEWEST);
+        search_window(RHO_SEARCH_NEWEST);
         assert_float_equal(initiator.confirm_mnat, half_mnat, 5.0);
     }
 }
@@ -270,7 +270,7 @@ static void search_with_range_rates(uint32_t measures, int count)
 {
     struct rho_initiator_config config = usual(1.0f);
     random_state = 3;
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&square, count);
         for (uint32_t i = 0; i < num_plots; i++) {
@@ -279,7 +279,7 @@ static void search_with_range_rates(uint32_t measures, int count)
         }
         push_scan((struct rho_scan){.measures = measures}, SCAN_S * k, NULL);
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
 }
 
 static void range_rates_ask_for_fewer_votes_in_the_same_clutter(void **state)
@@ -317,7 +317,7 @@ static double false_tracks_an_hour(int scans, double mean, uint32_t measures)
     config.area = (struct rho_extent){0.0f, 4000.0f, -1000.0f, 1500.0f};
     rho_tracker_config_default(&maintain);
     maintain.v_max_mps = config.v_max_mps;
-    start(&config);
+    start_initiator(&config);
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &maintain), RHO_OK);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &away), RHO_OK);
     for (int k = 0; k < scans; k++) {
@@ -370,13 +370,13 @@ static void clutter_starts_tracks_that_process_noise_bends(void **state)
     config.pd = 0.95f;
     config.process_noise_mps2 = 10.0f;
     config.area = (struct rho_extent){-47500.0f, 47500.0f, -47500.0f, 47500.0f};
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < searches; k++) {
         for (int i = poisson(100.0); i > 0; i--) {
-            add(uniform(-47500.0, 47500.0), uniform(-47500.0, 47500.0), 50.0, 50.0);
+            add_plot(uniform(-47500.0, 47500.0), uniform(-47500.0, 47500.0), 50.0, 50.0);
         }
-        push(10.0 * k);
-        search(RHO_SEARCH_NEWEST);
+        push_plots(10.0 * k);
+        search_window(RHO_SEARCH_NEWEST);
         starts += initiator.num_candidates;
         for (unsigned i = 0; i < initiator.num_candidates; i++) {
             (void)rho_initiator_consume(&initiator, &initiator.candidates[i]);
@@ -478,12 +478,12 @@ static void a_pause_is_three_intervals(void **state)
     const struct rho_initiator_config config = usual(1.0f);
     (void)state;
     random_state = 3;
-    start(&config);
+    start_initiator(&config);
     for (int k = 0; k < SCANS; k++) {
         add_clutter(&config.area, 25);
-        push(SCAN_S * k + (k == SCANS - 1 ? 30.0 : 0.0));
+        push_plots(SCAN_S * k + (k == SCANS - 1 ? 30.0 : 0.0));
     }
-    search(RHO_SEARCH_NEWEST);
+    search_window(RHO_SEARCH_NEWEST);
     assert_float_equal(initiator.start_mnat, -10000, 1.0);
     assert_float_equal(initiator.confirm_mnat, -655, 1.0);
 }

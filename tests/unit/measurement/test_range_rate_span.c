@@ -100,8 +100,8 @@ static void spans_beyond_the_limits_are_refused(void **state)
     (void)state;
     const float good[] = {0.0f, 1.0f, 30.0f, 4e4f};
     const float bad[] = {-1.0f, 0.5f, 4.1e4f, NAN, INFINITY};
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         struct rho_sensor sensor = radar_of(good[i]);
         assert_true(rho_measurement_is_sensor(&sensor));
@@ -267,12 +267,12 @@ static void add_scan(double t_s, float span_mps, int clutter)
     double x_m = 4e4 - 200.0 * t_s, y_m = 5e3 + 150.0 * t_s, range_m = hypot(x_m, y_m);
     double rate_mps = (x_m * -200.0 + y_m * 150.0) / range_m;
     double noise_x_m = 15.0 * normal(), noise_y_m = 15.0 * normal(), noise_mps = normal();
-    struct rho_plot *plot = add(x_m + noise_x_m, y_m + noise_y_m, 15.0);
+    struct rho_plot *plot = add_plot(x_m + noise_x_m, y_m + noise_y_m, 15.0);
     plot->range_rate_mps = folded(rate_mps + noise_mps, span_mps);
     plot->sigma_range_rate_mps = 1.0f;
     for (int i = 0; i < clutter; i++) {
         double at_x_m = uniform(3e4, 5e4), at_y_m = uniform(0.0, 1e4);
-        plot = add(at_x_m, at_y_m, 15.0);
+        plot = add_plot(at_x_m, at_y_m, 15.0);
         plot->range_rate_mps = folded(uniform(-400.0, 400.0), span_mps);
         plot->sigma_range_rate_mps = 1.0f;
     }
@@ -283,10 +283,10 @@ static struct rho_candidate best_of_batch(float span_mps)
     struct rho_sensor sensor = radar_of(span_mps);
     uint8_t fates[64];
     uint32_t unused = 0;
-    draw(5);
+    use_usual_configs(5);
     initiation.area_is_fixed = 1;
     initiation.area = (struct rho_extent){3e4f, 5e4f, 0.0f, 1e4f};
-    begin();
+    begin_tracker();
     for (int scan = 0; scan < 5; scan++) {
         add_scan(4.0 * scan, span_mps, 30);
         struct rho_scan pushed = {.time_us = 4000000 * scan,
@@ -328,8 +328,8 @@ static void initiation_finds_what_its_twin_finds(void **state)
 static struct rho_track_report follow(float span_mps)
 {
     struct rho_sensor sensor = radar_of(span_mps);
-    draw(9);
-    begin();
+    use_usual_configs(9);
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
     for (int scan = 0; scan < 20; scan++) {
         add_scan(4.0 * scan, span_mps, 20);

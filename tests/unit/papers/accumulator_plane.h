@@ -50,7 +50,7 @@ static inline int num_rho(void)
     return accumulator.rho_cells;
 }
 
-static inline int bits(unsigned mask)
+static inline int count_bits(unsigned mask)
 {
     int n = 0;
     for (; mask; mask &= mask - 1u) {
@@ -82,7 +82,7 @@ struct cell {
     int theta, rho;
 };
 
-static inline struct cell wrapped(int theta, int rho)
+static inline struct cell wrapped_cell(int theta, int rho)
 {
     struct cell cell = {theta, rho};
     if (theta < 0 || theta >= num_theta()) {
@@ -98,7 +98,7 @@ static inline int votes_at(struct cell cell)
         return 0;
     }
     unsigned value = plane[cell.theta * num_rho() + cell.rho];
-    return of->votes == RHO_VOTES_SCANS ? bits(value) : (int)value;
+    return of->votes == RHO_VOTES_SCANS ? count_bits(value) : (int)value;
 }
 
 static inline int beats(struct cell other, struct cell cell)
@@ -113,7 +113,7 @@ static inline int is_peak(struct cell cell)
         for (int rho = -1; rho <= 1; rho++) {
             int is_corner = theta != 0 && rho != 0, is_self = theta == 0 && rho == 0;
             if (!is_self && !(is_corner && of->neighbours == 4) &&
-                beats(wrapped(cell.theta + theta, cell.rho + rho), cell)) {
+                beats(wrapped_cell(cell.theta + theta, cell.rho + rho), cell)) {
                 return 0;
             }
         }
@@ -165,14 +165,14 @@ static inline struct rho_accumulator_config paper_cells(void)
                                            .neighbours = 8};
 }
 
-static inline void prepare(const struct rho_accumulator_config *config)
+static inline void prepare_accumulator(const struct rho_accumulator_config *config)
 {
     of = config;
     assert_int_equal(rho_accumulator_init(&accumulator, sizeof accumulator, config), RHO_OK);
 }
 
 /* So many points over so many scans in a square. */
-static inline void scatter(unsigned num_scans, unsigned count, double half_m)
+static inline void scatter_points(unsigned num_scans, unsigned count, double half_m)
 {
     points.num_scans = num_scans;
     for (unsigned i = 0; i < count; i++) {
@@ -184,16 +184,16 @@ static inline void scatter(unsigned num_scans, unsigned count, double half_m)
     }
 }
 
-static inline void find(uint32_t max_peaks)
+static inline void find_peaks(uint32_t max_peaks)
 {
     assert_int_equal(rho_accumulator_find(&accumulator, &points, peaks, max_peaks, &result),
                      RHO_OK);
 }
 
-static inline void expect_the_same(const struct rho_accumulator_config *config)
+static inline void expect_same_peaks(const struct rho_accumulator_config *config)
 {
-    prepare(config);
-    find(PEAKS_MAX);
+    prepare_accumulator(config);
+    find_peaks(PEAKS_MAX);
     uint32_t count = expect_peaks();
     assert_int_equal(result.num_peaks, count);
     assert_int_equal(result.peaks_dropped, 0);

@@ -15,19 +15,19 @@ static struct rho_hough hough;
 static struct rho_hough_result result;
 static struct rho_accumulator_peak peaks[CELLS_MAX];
 
-static inline void prepare(void)
+static inline void prepare_hough(void)
 {
     assert_int_equal(rho_hough_init(&hough, sizeof hough, &config), RHO_OK);
 }
 
 static inline void find_some(uint32_t max_peaks)
 {
-    prepare();
+    prepare_hough();
     memset(&result, 0x5a, sizeof result);
     assert_int_equal(rho_hough_find(&hough, &points, peaks, max_peaks, &result), RHO_OK);
 }
 
-static inline void find(void)
+static inline void find_peaks(void)
 {
     find_some(CELLS_MAX);
     assert_int_equal(result.cells_dropped, 0);
@@ -36,16 +36,16 @@ static inline void find(void)
 }
 
 /* The paper's values for its first scene, 2000 x 3142 cells. */
-static inline void paper(enum rho_hough_method method)
+static inline void use_paper_values(enum rho_hough_method method)
 {
     rho_hough_config_default(&config, method);
     config.rho_max_m = 5000.0f;
 }
 
 /* The same, and every cell that has votes is listed. */
-static inline void paper_all(enum rho_hough_method method)
+static inline void use_paper_values_all_cells(enum rho_hough_method method)
 {
-    paper(method);
+    use_paper_values(method);
     config.tau = 0.0f;
     config.keeps_all_cells = 1;
 }
@@ -223,7 +223,7 @@ static inline struct vote_bounds larger(struct vote_bounds a, struct vote_bounds
                                 fmax(a.most, b.most)};
 }
 
-static inline void add_up(void)
+static inline void add_up_votes(void)
 {
     qsort(votes, num_votes, sizeof *votes, by_cell);
     num_cells = 0;
@@ -247,7 +247,7 @@ static inline void add_up(void)
     }
 }
 
-static inline void expect(void)
+static inline void expect_reference(void)
 {
     memset(&counted, 0, sizeof counted);
     num_votes = 0;
@@ -256,7 +256,7 @@ static inline void expect(void)
     } else {
         vote_pairs();
     }
-    add_up();
+    add_up_votes();
 }
 
 /* ---- cells beside cells ---------------------------------------------------------------------- */
@@ -363,7 +363,7 @@ static inline int suppresses(const struct peak *a, const struct peak *b)
 }
 
 /* Of listed, those with enough votes, best first, and of them those that stay. */
-static inline size_t choose(size_t num)
+static inline size_t choose_peaks(size_t num)
 {
     double most = 0.0;
     size_t above = 0, kept = 0;
@@ -396,7 +396,7 @@ static inline size_t choose_from_cells(void)
         listed[i] = (struct peak){cells[i].bounds.value,
                                   {cells[i].key / num_rho(), cells[i].key % num_rho()}};
     }
-    return choose(num_cells);
+    return choose_peaks(num_cells);
 }
 
 static inline size_t choose_from_listed(void)
@@ -405,7 +405,7 @@ static inline size_t choose_from_listed(void)
         listed[i] = (struct peak){(double)peaks[i].votes / RHO_HOUGH_VOTE,
                                   {peaks[i].theta_cell, peaks[i].rho_cell}};
     }
-    return choose(result.num_peaks);
+    return choose_peaks(result.num_peaks);
 }
 
 static inline void expect_peaks(size_t num)

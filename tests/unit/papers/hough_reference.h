@@ -225,7 +225,7 @@ static inline uint32_t key_of(struct place place)
 }
 
 /* How far another line is, by the nearer of its two points. */
-static inline struct line offset(struct line from, struct line to)
+static inline struct line line_offset(struct line from, struct line to)
 {
     double dtheta = to.theta - from.theta, rho = to.rho;
     if (fabs(dtheta) > REFERENCE_PI / 2.0) {
@@ -327,7 +327,7 @@ struct nearest {
     int is_vague;
 };
 
-static inline void take(struct nearest *nearest, struct near near)
+static inline void take_nearest(struct nearest *nearest, struct near near)
 {
     for (int i = 0; i < 3; i++) {
         if (!nearest->best[i].kernel || near.mu > nearest->best[i].mu) {
@@ -349,10 +349,10 @@ static inline struct nearest nearest_of(const struct pair *pair, const struct pa
         if (fabs(fabs(pair->line.rho) - fabs(kernel->line.rho)) > 3.0 * (double)config.eps_rho_m) {
             continue; /* far off, on either side */
         }
-        struct line away = offset(pair->line, kernel->line);
+        struct line away = line_offset(pair->line, kernel->line);
         enum verdict counts = both(kernel->gated, is_near(away));
         if (counts != NO) {
-            take(&nearest, (struct near){kernel, closeness(away)});
+            take_nearest(&nearest, (struct near){kernel, closeness(away)});
             nearest.is_vague |= counts == MAYBE;
         }
         if (counts == YES) {
@@ -377,7 +377,7 @@ static inline struct vote_bounds indeterminacy(const struct pair *pair,
     if (nearest->is_vague || is_tied || hypot(dx, dy) < 200.0) {
         return (struct vote_bounds){0.0, 0.0, 1.0};
     }
-    struct line away = offset(pair->line, line_along(x, y, dx, dy));
+    struct line away = line_offset(pair->line, line_along(x, y, dx, dy));
     double mu = closeness(away);
     enum verdict counts = is_near(away);
     return (struct vote_bounds){counts == NO ? 0.0 : mu, counts == YES ? mu : 0.0,

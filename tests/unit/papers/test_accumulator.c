@@ -28,11 +28,11 @@ static void peaks_are_those_of_the_whole_plane_at_the_papers_cells(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
-    scatter(7, 60, 2500.0);
-    expect_the_same(&config);
-    scatter(7, 1500, 2900.0); /* more than are remembered one by one */
+    scatter_points(7, 60, 2500.0);
+    expect_same_peaks(&config);
+    scatter_points(7, 1500, 2900.0); /* more than are remembered one by one */
     config.min_votes = 5;
-    expect_the_same(&config);
+    expect_same_peaks(&config);
 }
 
 static void peaks_are_those_of_the_whole_plane_at_coarse_cells(void **state)
@@ -48,8 +48,8 @@ static void peaks_are_those_of_the_whole_plane_at_coarse_cells(void **state)
             .neighbours = (uint8_t)(4 * (run % 3))};
         unsigned num_scans = 1 + (unsigned)run % RHO_ACCUMULATOR_SCANS_MAX;
         unsigned count = (unsigned)uniform(0.0, run % 3 ? 250.0 : POINTS_MAX);
-        scatter(num_scans, count, 25000.0);
-        expect_the_same(&config);
+        scatter_points(num_scans, count, 25000.0);
+        expect_same_peaks(&config);
     }
 }
 
@@ -74,8 +74,8 @@ static void a_line_is_found_where_it_is(void **state)
         double course = (10.0 * heading + 3.0) * DEG_RAD;
         lay_line(7, 800.0, 300.0, 400.0 * cos(course), 400.0 * sin(course));
         config.min_votes = 7;
-        prepare(&config);
-        find(16);
+        prepare_accumulator(&config);
+        find_peaks(16);
         assert_true(result.num_peaks >= 1);
         assert_int_equal(peaks[0].mask, 0x7f);
         double theta = rho_accumulator_theta_rad(&accumulator, peaks[0].theta_cell);
@@ -96,8 +96,8 @@ static void a_line_at_the_end_of_theta_is_one_peak(void **state)
         double tilt_rad = (i - 10) * 2e-4;
         lay_line(7, 2002.5 - 1200.0 * tilt_rad, -1200.0, 400.0 * tilt_rad, 400.0);
         config.min_votes = 7;
-        prepare(&config);
-        find(PEAKS_MAX);
+        prepare_accumulator(&config);
+        find_peaks(PEAKS_MAX);
         uint32_t kept = suppress(result.num_peaks, NULL, 0);
         assert_int_equal(kept, 1);
     }
@@ -115,12 +115,12 @@ static void a_scan_votes_once_in_a_cell(void **state)
     scan_end[0] = 10;
     scan_end[1] = 11;
     scan_end[2] = 12;
-    prepare(&config);
-    find(4);
+    prepare_accumulator(&config);
+    find_peaks(4);
     assert_int_equal(peaks[0].votes, 3);
     config.votes = RHO_VOTES_POINTS;
-    prepare(&config);
-    find(4);
+    prepare_accumulator(&config);
+    find_peaks(4);
     assert_int_equal(peaks[0].votes, 12);
     assert_int_equal(peaks[0].mask, 0);
 }
@@ -129,16 +129,16 @@ static void the_best_are_kept_and_the_others_counted(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
-    scatter(7, 200, 2500.0);
+    scatter_points(7, 200, 2500.0);
     config.min_votes = 2;
-    prepare(&config);
-    find(PEAKS_MAX);
+    prepare_accumulator(&config);
+    find_peaks(PEAKS_MAX);
     uint32_t all = result.num_peaks, votes = result.votes;
     assert_true(all > 100);
     assert_int_equal(votes, 200u * accumulator.theta_cells);
     memcpy(expected, peaks, all * sizeof peaks[0]);
     for (uint32_t most = 0; most < 100; most += 9) {
-        find(most);
+        find_peaks(most);
         assert_int_equal(result.num_peaks, most);
         assert_int_equal(result.peaks_dropped, all - most);
         assert_memory_equal(peaks, expected, most * sizeof peaks[0]);
@@ -151,29 +151,29 @@ static void a_share_of_the_most_votes_is_a_threshold(void **state)
     (void)state;
     struct rho_accumulator_config config = paper_cells();
     for (int run = 0; run < 8; run++) {
-        scatter(7, run % 2 ? 200 : 1500, 2500.0);
+        scatter_points(7, run % 2 ? 200 : 1500, 2500.0);
         config.min_votes = 2;
         config.min_share = 0.0f;
         config.neighbours = run % 3 ? 8 : 0;
         config.votes = run % 4 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
-        prepare(&config);
-        find(PEAKS_MAX);
+        prepare_accumulator(&config);
+        find_peaks(PEAKS_MAX);
         uint32_t most = result.votes_max, least = (uint32_t)ceil(0.6 * most), count = 0;
         while (count < result.num_peaks && peaks[count].votes >= least) {
             count++;
         }
         memcpy(expected, peaks, count * sizeof peaks[0]);
         config.min_share = 0.6f;
-        prepare(&config);
+        prepare_accumulator(&config);
         for (uint32_t room = count + 1; room <= PEAKS_MAX;
              room = room < PEAKS_MAX ? PEAKS_MAX : room + 1) {
-            find(room);
+            find_peaks(room);
             assert_int_equal(result.num_peaks, count);
             assert_int_equal(result.votes_max, most);
             assert_int_equal(result.peaks_dropped, 0);
             assert_memory_equal(peaks, expected, count * sizeof peaks[0]);
         }
-        find(count / 2);
+        find_peaks(count / 2);
         assert_int_equal(result.num_peaks, count / 2);
         assert_true(result.peaks_dropped >= count - count / 2);
         assert_memory_equal(peaks, expected, count / 2 * sizeof peaks[0]);
@@ -203,7 +203,7 @@ static void points_beyond_the_largest_rho_do_not_vote(void **state)
     config.min_votes = 1;
     config.rho_max_m = 1000.0f;
     lay_line(1, 3000.0, 0.0, 0.0, 0.0);
-    expect_the_same(&config);
+    expect_same_peaks(&config);
     /* |3000 cos theta| < 1000: of pi, 2 asin(1 / 3) */
     double share = 2.0 * asin(1.0 / 3.0) / 3.14159265358979;
     assert_float_equal(result.votes, share * accumulator.theta_cells, 3.0);
@@ -214,9 +214,9 @@ static void what_was_in_it_before_does_not_matter(void **state)
     (void)state;
     struct rho_accumulator_config config = paper_cells();
     static struct rho_accumulator_peak first[64];
-    scatter(7, 100, 2500.0);
-    prepare(&config);
-    find(64);
+    scatter_points(7, 100, 2500.0);
+    prepare_accumulator(&config);
+    find_peaks(64);
     uint32_t count = result.num_peaks;
     memcpy(first, peaks, sizeof first);
     for (int run = 0; run < 2; run++) {
@@ -224,7 +224,7 @@ static void what_was_in_it_before_does_not_matter(void **state)
         memset(&accumulator.room, 0xa5, sizeof accumulator.room);
         memset(accumulator.touched, run ? 0x7f : 0xff, sizeof accumulator.touched);
         memset(accumulator.num_touched, 0xff, sizeof accumulator.num_touched);
-        find(64);
+        find_peaks(64);
         assert_int_equal(result.num_peaks, count);
         assert_memory_equal(peaks, first, count * sizeof peaks[0]);
     }
@@ -234,12 +234,12 @@ static void nothing_gives_nothing(void **state)
 {
     (void)state;
     struct rho_accumulator_config config = paper_cells();
-    prepare(&config);
+    prepare_accumulator(&config);
     points.num_scans = 0;
-    find(4);
+    find_peaks(4);
     assert_int_equal(result.num_peaks + result.votes + result.votes_max, 0);
-    scatter(4, 0, 1.0);
-    find(4);
+    scatter_points(4, 0, 1.0);
+    find_peaks(4);
     assert_int_equal(result.num_peaks + result.votes + result.votes_max, 0);
 }
 
@@ -265,11 +265,11 @@ static void suppression_keeps_the_best_of_each_neighbourhood(void **state)
     static struct rho_accumulator_peak unsuppressed[3000];
     static uint32_t scratch[4096];
     const uint32_t sizes[] = {0, 1, 16, 512, 4096}; /* none, and from too small to large */
-    scatter(7, 150, 2500.0);
+    scatter_points(7, 150, 2500.0);
     config.min_votes = 3;
     config.neighbours = 0;
-    prepare(&config);
-    find(3000);
+    prepare_accumulator(&config);
+    find_peaks(3000);
     uint32_t all = result.num_peaks, kept = 0;
     for (uint32_t i = 0; i < all; i++) {
         uint32_t k = 0;
@@ -336,8 +336,8 @@ static void bad_points_are_refused(void **state)
     struct rho_accumulator_config config = paper_cells();
     struct rho_accumulator_points none = {.num_scans = 1};
     const float bad[] = {NAN, INFINITY, -INFINITY, 2.1e6f, -FLT_MAX};
-    scatter(3, 30, 1000.0);
-    prepare(&config);
+    scatter_points(3, 30, 1000.0);
+    prepare_accumulator(&config);
     assert_int_equal(rho_accumulator_find(NULL, &points, peaks, 4, &result), RHO_ERROR_NULL);
     assert_int_equal(rho_accumulator_find(&accumulator, NULL, peaks, 4, &result), RHO_ERROR_NULL);
     assert_int_equal(rho_accumulator_find(&accumulator, &points, NULL, 4, &result), RHO_ERROR_NULL);

@@ -29,13 +29,13 @@ static int below(int n)
 static void expect_the_same_unpruned(struct rho_accumulator_config config, uint32_t room)
 {
     config.no_pruning = 1;
-    prepare(&config);
-    find(room);
+    prepare_accumulator(&config);
+    find_peaks(room);
     plain = result;
     memcpy(expected, peaks, plain.num_peaks * sizeof expected[0]);
     config.no_pruning = 0;
-    prepare(&config);
-    find(room);
+    prepare_accumulator(&config);
+    find_peaks(room);
     assert_int_equal(result.num_peaks, plain.num_peaks);
     assert_int_equal(result.peaks_dropped, plain.peaks_dropped);
     assert_int_equal(result.votes, plain.votes);

@@ -6,7 +6,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "dense.h"
+#include "dense_filter.h"
 
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/gate.h"

@@ -24,7 +24,7 @@ static struct rho_accumulator_peak peak_near(struct line line)
     for (uint32_t i = 0; i < result.num_peaks; i++) {
         struct line at = {rho_hough_rho_m(&hough, peaks[i].rho_cell),
                           rho_hough_theta_rad(&hough, peaks[i].theta_cell)};
-        struct line away = offset(line, at);
+        struct line away = line_offset(line, at);
         if (fabs(away.rho) < 10.0 && fabs(away.theta) < 0.003) {
             return peaks[i];
         }
@@ -38,8 +38,8 @@ static void the_three_targets_of_table_1_stand_out(void **state)
     const uint32_t highest[] = {7, 6, 6, 5};
     lay_table_1(7, 0.0, 0);
     for (size_t i = 0; i < NUM(highest); i++) {
-        paper(methods[i]);
-        find();
+        use_paper_values(methods[i]);
+        find_peaks();
         assert_in_range(result.votes_max, highest[i] * RHO_HOUGH_VOTE - 20,
                         highest[i] * RHO_HOUGH_VOTE);
         for (int target = 0; target < 3; target++) {
@@ -55,11 +55,11 @@ static void kernels_leave_only_the_targets_of_table_1(void **state)
 {
     (void)state;
     lay_table_1(7, 0.0, 0);
-    paper(RHO_HOUGH_NHT_A);
-    find();
+    use_paper_values(RHO_HOUGH_NHT_A);
+    find_peaks();
     assert_int_equal(result.num_peaks, 3);
-    paper(RHO_HOUGH_NHT_C);
-    find();
+    use_paper_values(RHO_HOUGH_NHT_C);
+    find_peaks();
     assert_int_equal(result.num_peaks, 3);
     assert_int_equal(result.votes, 3 * 5 * 289);
 }
@@ -91,10 +91,10 @@ static void the_plots_of_table_3_do_not_stand_out(void **state)
     const double highest[] = {3.0, 1.0, 1.0, 0.0533};
     lay_table_3();
     for (size_t i = 0; i < NUM(highest); i++) {
-        paper_all(methods[i]);
+        use_paper_values_all_cells(methods[i]);
         config.rho_max_m = 36000.0f;
-        find();
-        expect();
+        find_peaks();
+        expect_reference();
         expect_cells(methods[i] == RHO_HOUGH_NHT_A ? 8.0 : 0.0);
         assert_float_equal(result.votes_max / 65536.0, highest[i], 6e-5);
         assert_int_equal(result.pairs, i ? 54 : 0);
@@ -121,9 +121,9 @@ static void mirror_lines_are_two_peaks(void **state)
             }
         }
         for (size_t i = 0; i < NUM(methods); i++) {
-            paper(methods[i]);
+            use_paper_values(methods[i]);
             config.tau = 0.8f;
-            find();
+            find_peaks();
             assert_int_equal(result.num_peaks, 2);
             assert_int_equal(peaks[0].votes, peaks[1].votes);
             assert_int_equal(peaks[0].rho_cell + peaks[1].rho_cell, 1999);
@@ -141,10 +141,10 @@ static void hough_votes_as_in_double_precision(void **state)
     for (int run = 0; run < 6; run++) {
         lay_table_1(7 + (unsigned)run, 20.0, 0);
         add_plot(run % 2 ? 6000.0 : 4000.0, 100.0, 12.0); /* partly beyond rho_max */
-        paper_all(RHO_HOUGH_HT);
+        use_paper_values_all_cells(RHO_HOUGH_HT);
         config.votes = run % 3 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
-        find();
-        expect();
+        find_peaks();
+        expect_reference();
         expect_cells(0.0);
         assert_int_equal(result.pairs + result.candidates + result.cells, 0);
         for (uint32_t i = 0; i < result.num_peaks; i++) {
@@ -158,7 +158,7 @@ static void hough_votes_as_in_double_precision(void **state)
         config.votes_min = (float)(run % 4);
         config.keeps_all_cells = 0;
         size_t num = choose_from_listed();
-        find();
+        find_peaks();
         expect_peaks(num);
     }
 }
@@ -174,13 +174,13 @@ static void points_or_scans_are_counted(void **state)
             add_plot(300.0 * scan + 100.0 * i, 1002.5, 2.0 * scan);
         }
     }
-    paper(RHO_HOUGH_HT);
-    find();
+    use_paper_values(RHO_HOUGH_HT);
+    find_peaks();
     assert_int_equal(peaks[0].votes, 12 * RHO_HOUGH_VOTE);
     assert_int_equal(peaks[0].mask, 0);
     assert_int_equal(result.votes, 12 * 3142);
     config.votes = RHO_VOTES_SCANS;
-    find();
+    find_peaks();
     assert_int_equal(peaks[0].votes, 4 * RHO_HOUGH_VOTE);
     assert_int_equal(peaks[0].mask, 0xf);
 }
@@ -348,12 +348,12 @@ static void tracks_are_those_who_voted_and_the_line_through_them(void **state)
     random_state = 22;
     for (int run = 0; run < 20; run++) {
         lay_table_1(run % 3 ? 7 : 4, run % 2 ? 10.0 : 0.5, run < 10);
-        paper(methods[run % 5]);
+        use_paper_values(methods[run % 5]);
         config.uses_indeterminacy = run % 2;
         config.votes = run < 10 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
         config.tau = 0.3f;
         config.lambda_k = 10.0f;
-        find();
+        find_peaks();
         sure += expect_tracks(1 + result.num_peaks / 10);
     }
     assert_true(sure > 150);
@@ -366,14 +366,14 @@ static void tracks_hold_with_other_cells(void **state)
     random_state = 24;
     for (int run = 0; run < 20; run++) {
         lay_table_1(7, 10.0, 0);
-        paper(methods[run % 5]);
+        use_paper_values(methods[run % 5]);
         config.keeps_all_cells = 1;
         config.tau = 0.1f;
         config.rho_cell_m = (float)uniform(10.0, 60.0);
         config.theta_cell_rad = (float)(REFERENCE_PI / uniform(6.0, run < 10 ? 60.0 : 2000.0));
         config.eps_rho_m = (float)uniform(5.0, 100.0);
         config.eps_theta_rad = (float)fmin(uniform(0.5, 5.0) * (double)config.theta_cell_rad, 0.5);
-        find();
+        find_peaks();
         sure += expect_tracks(1 + result.num_peaks / 10);
     }
     assert_true(sure > 150);
@@ -390,10 +390,10 @@ static void tracks_hold_round_the_end_of_theta(void **state)
             add_plot(-1500.0 + 0.5 * normal(), -2000.0 + 250.0 * scan, (double)scan);
             add_plot(900.0 + 0.5 * normal(), 2000.0 - 250.0 * scan, (double)scan);
         }
-        paper(methods[run % 5]);
+        use_paper_values(methods[run % 5]);
         config.keeps_all_cells = 1;
         config.tau = 0.1f;
-        find();
+        find_peaks();
         assert_true(expect_tracks(1 + result.num_peaks / 10) > 5);
     }
 }
@@ -407,8 +407,8 @@ static void a_velocity_holds_for_any_time(void **state)
     (void)state;
     const float at_s[] = {0.0f, 100.0f, -600.0f, 3600.0f, 100000.0f};
     lay_table_1(7, 0.0, 0);
-    paper(RHO_HOUGH_IHT);
-    find();
+    use_paper_values(RHO_HOUGH_IHT);
+    find_peaks();
     for (size_t i = 0; i < NUM(at_s); i++) {
         look_up(peaks[0]);
         expect_track(peaks[0], at_s[i]);
@@ -423,8 +423,8 @@ static void a_cell_without_votes_has_no_track(void **state)
     for (size_t i = 0; i < NUM(methods); i++) {
         struct rho_hough_track track;
         memset(&track, 0x5a, sizeof track);
-        paper(methods[i]);
-        prepare();
+        use_paper_values(methods[i]);
+        prepare_hough();
         assert_int_equal(rho_hough_track(&hough, &points, 3141, 1999, 5.0f, &track), RHO_OK);
         assert_int_equal(track.votes + track.num_plots + track.mask + track.scans, 0);
         assert_int_equal(track.has_velocity, 0);
@@ -441,7 +441,7 @@ static void a_single_scan_has_a_place_and_no_velocity(void **state)
     start_scan();
     start_scan();
     add_plot(1000.0, 500.0, 3.0);
-    paper(RHO_HOUGH_HT);
+    use_paper_values(RHO_HOUGH_HT);
     find_some(1);
     look_up(peaks[0]);
     expect_track(peaks[0], 9.0f);

@@ -31,8 +31,10 @@ static void accept_config(void)
     assert_int_equal(rho_hough_init(&hough, sizeof hough, &config), RHO_OK);
 }
 
-#define REFUSED(field, value) (paper(RHO_HOUGH_NHT_C), config.field = (value), refuse_config())
-#define ACCEPTED(field, value) (paper(RHO_HOUGH_NHT_C), config.field = (value), accept_config())
+#define REFUSED(field, value)                                                                      \
+    (use_paper_values(RHO_HOUGH_NHT_C), config.field = (value), refuse_config())
+#define ACCEPTED(field, value)                                                                     \
+    (use_paper_values(RHO_HOUGH_NHT_C), config.field = (value), accept_config())
 
 static void bad_planes_are_refused(void **state)
 {
@@ -57,7 +59,7 @@ static void bad_planes_are_refused(void **state)
     ACCEPTED(eps_rho_m, 5.0f * 127.0f);
     REFUSED(eps_theta_rad, 0.128f);
     ACCEPTED(eps_theta_rad, 0.127f);
-    paper(RHO_HOUGH_MHT);
+    use_paper_values(RHO_HOUGH_MHT);
     config.theta_cell_rad = 0.1f;
     config.eps_theta_rad = 0.5f;
     accept_config();
@@ -93,7 +95,7 @@ static void bad_thresholds_are_refused(void **state)
     REFUSED(votes_min, 66000.0f);
     REFUSED(method, (enum rho_hough_method)5);
     REFUSED(method, (enum rho_hough_method)77);
-    paper(RHO_HOUGH_HT);
+    use_paper_values(RHO_HOUGH_HT);
     config.votes = (enum rho_accumulator_votes)2;
     refuse_config();
 }
@@ -101,7 +103,7 @@ static void bad_thresholds_are_refused(void **state)
 static void other_sizes_and_null_are_refused(void **state)
 {
     (void)state;
-    paper(RHO_HOUGH_IHT);
+    use_paper_values(RHO_HOUGH_IHT);
     memset(&hough, 0x5a, sizeof hough);
     was = hough;
     assert_int_equal(rho_hough_init(NULL, sizeof hough, &config), RHO_ERROR_NULL);
@@ -132,8 +134,8 @@ static void defaults_are_the_papers(void **state)
 static void a_cell_is_where_it_says(void **state)
 {
     (void)state;
-    paper(RHO_HOUGH_MHT);
-    prepare();
+    use_paper_values(RHO_HOUGH_MHT);
+    prepare_hough();
     assert_float_equal(rho_hough_theta_rad(&hough, 0), 0.0005, 1e-9);
     assert_float_equal(rho_hough_theta_rad(&hough, 3141), 3.1415, 1e-6);
     assert_float_equal(rho_hough_rho_m(&hough, 0), -4997.5, 1e-3);
@@ -173,8 +175,8 @@ static void null_is_refused(void **state)
         without[1].at.y_m = NULL;
         without[2].at.scan_end = NULL;
         without[3].t_s = NULL;
-        paper(methods[i]);
-        prepare();
+        use_paper_values(methods[i]);
+        prepare_hough();
         for (size_t k = 0; k < NUM(without); k++) {
             refuse(RHO_ERROR_NULL, &without[k]);
         }
@@ -195,8 +197,8 @@ static void numbers_that_are_not_finite_or_too_large_are_refused(void **state)
     lay_table_1(3, 0.0, 0);
     for (size_t i = 0; i < NUM(methods) * NUM(of) * NUM(bad); i++) {
         float *value = &of[i / NUM(bad) % NUM(of)][i % 9], before = *value;
-        paper(methods[i / NUM(bad) / NUM(of)]);
-        prepare();
+        use_paper_values(methods[i / NUM(bad) / NUM(of)]);
+        prepare_hough();
         *value = of[i / NUM(bad) % NUM(of)] == t_s ? bad[i % 3] : bad[i % NUM(bad)];
         refuse(RHO_ERROR_VALUE, &points);
         *value = before;
@@ -213,8 +215,8 @@ static void cells_outside_the_plane_and_bad_times_are_refused(void **state)
     track_was = track;
     lay_table_1(3, 0.0, 0);
     for (size_t i = 0; i < NUM(methods); i++) {
-        paper(methods[i]);
-        prepare();
+        use_paper_values(methods[i]);
+        prepare_hough();
         for (size_t k = 0; k < NUM(outside); k++) {
             assert_int_equal(
                 rho_hough_track(&hough, &points, outside[k][0], outside[k][1], 0.0f, &track),
@@ -229,8 +231,8 @@ static void scans_out_of_order_or_too_many_are_refused(void **state)
 {
     (void)state;
     for (size_t i = 0; i < NUM(methods); i++) {
-        paper(methods[i]);
-        prepare();
+        use_paper_values(methods[i]);
+        prepare_hough();
         lay_table_1(4, 0.0, 0);
         scan_end[1] = 10; /* beyond the next scan's */
         refuse(RHO_ERROR_VALUE, &points);
@@ -254,12 +256,12 @@ static void a_scan_has_65535_plots_at_most(void **state)
         start_scan();
         add_plot(0.0, 300.0, 2.0);
         for (size_t i = 0; i < NUM(methods); i++) {
-            paper(methods[i]);
-            prepare();
+            use_paper_values(methods[i]);
+            prepare_hough();
             if (extra) {
                 refuse(RHO_ERROR_VALUE, &points);
             } else if (methods[i] == RHO_HOUGH_NHT_A || methods[i] == RHO_HOUGH_NHT_C) {
-                find();
+                find_peaks();
                 assert_int_equal(result.pairs, 65535);
                 assert_int_equal(result.votes, 0);
             }
@@ -284,10 +286,10 @@ static void limits_are_those_of_the_header(void **state)
     ACCEPTED(eps_rho_m, 0.001f);
     lay_table_1(3, 0.0, 0);
     t_s[4] = 0.999e9f;
-    paper(RHO_HOUGH_MHT);
-    find();
+    use_paper_values(RHO_HOUGH_MHT);
+    find_peaks();
     t_s[4] = 1.001e9f;
-    prepare();
+    prepare_hough();
     refuse(RHO_ERROR_VALUE, &points);
 }
 
@@ -296,12 +298,12 @@ static void a_threshold_between_two_numbers_is_not_rounded_down(void **state)
 {
     (void)state;
     lay_table_1(2, 0.0, 0);
-    paper_all(RHO_HOUGH_IHT);
+    use_paper_values_all_cells(RHO_HOUGH_IHT);
     config.votes_min = 1.0f;
-    find();
+    find_peaks();
     assert_int_equal(result.num_peaks, 3);
     config.votes_min = 1.000001f;
-    find();
+    find_peaks();
     assert_int_equal(result.num_peaks, 0);
 }
 
@@ -314,8 +316,8 @@ static void the_first_peaks_are_right_however_few_there_is_room_for(void **state
     random_state = 31;
     lay_table_1(7, 10.0, 1);
     for (size_t i = 1; i < NUM(methods); i++) {
-        paper_all(methods[i]);
-        find();
+        use_paper_values_all_cells(methods[i]);
+        find_peaks();
         uint32_t num = result.num_peaks, room = 0;
         memcpy(all, peaks, num * sizeof *all);
         for (; room < num; room = 5 * room + 1) {
@@ -343,10 +345,10 @@ static void a_share_as_threshold_drops_no_more_than_it_says(void **state)
     random_state = 32;
     lay_table_1(7, 10.0, 1);
     for (size_t i = 0; i < NUM(methods); i++) {
-        paper(methods[i]);
+        use_paper_values(methods[i]);
         config.keeps_all_cells = 1;
         config.tau = i ? 0.25f : 0.6f;
-        find();
+        find_peaks();
         uint32_t num = result.num_peaks;
         assert_true(num > 8);
         struct rho_accumulator_peak first[8];
@@ -376,18 +378,18 @@ static void more_pairs_of_one_direction_than_there_is_room_for_are_counted(void 
 {
     (void)state;
     lay_abreast(RHO_MAX_HOUGH_KERNELS);
-    paper_all(RHO_HOUGH_NHT_A);
+    use_paper_values_all_cells(RHO_HOUGH_NHT_A);
     config.v_min_mps = 150.0f;
     config.v_max_mps = 162.0f;
-    find(); /* as many as there is room for */
-    expect();
+    find_peaks(); /* as many as there is room for */
+    expect_reference();
     expect_cells(4.0);
     uint32_t cells_with_room = result.num_peaks;
     lay_abreast(RHO_MAX_HOUGH_KERNELS + 44);
     find_some(CELLS_MAX);
     assert_true(result.kernels_dropped >= 44);
     assert_true(result.num_peaks >= cells_with_room / 2);
-    expect();
+    expect_reference();
     for (uint32_t i = 0; i < result.num_peaks; i++) {
         const struct cell *cell =
             cell_of(peaks[i].theta_cell * (uint32_t)num_rho() + peaks[i].rho_cell);
@@ -402,7 +404,7 @@ static void more_pairs_of_one_direction_than_there_is_room_for_are_counted(void 
 
 static void expect_nothing(void)
 {
-    find();
+    find_peaks();
     assert_int_equal(result.num_peaks + result.pairs + result.candidates + result.votes, 0);
     assert_int_equal(result.cells + result.votes_max, 0);
 }
@@ -412,7 +414,7 @@ static void nothing_gives_nothing(void **state)
     (void)state;
     const struct rho_hough_points none = {.at = {.num_scans = 0}};
     for (size_t i = 0; i < NUM(methods); i++) {
-        paper_all(methods[i]);
+        use_paper_values_all_cells(methods[i]);
         points.at.num_scans = 0;
         expect_nothing();
         assert_int_equal(rho_hough_find(&hough, &none, peaks, 4, &result), RHO_OK);
@@ -440,8 +442,8 @@ static void a_scan_without_plots_parts_pairs(void **state)
                 add_plot(100.0 + 400.0 * scan, 1002.5, 2.0 * scan);
             }
         }
-        paper_all(methods[i]);
-        find();
+        use_paper_values_all_cells(methods[i]);
+        find_peaks();
         assert_int_equal(result.pairs, 4);
         assert_int_equal(result.candidates, 4);
         assert_int_equal(peaks[0].votes, RHO_HOUGH_VOTE * (i < 3 ? 4u : 2u));
@@ -458,11 +460,11 @@ static void plots_in_one_place_do_not_vote_as_a_pair(void **state)
         add_plot(-0.0, 0.0, 2.0 * scan);
     }
     for (size_t i = 1; i < NUM(methods); i++) {
-        paper_all(methods[i]);
+        use_paper_values_all_cells(methods[i]);
         config.v_min_mps = 0.0f;
         config.v_max_mps = 1000.0f;
-        find();
-        expect();
+        find_peaks();
+        expect_reference();
         expect_cells(4.0);
         assert_int_equal(result.pairs, 12);
         assert_true(result.candidates >= 6);
@@ -480,9 +482,9 @@ static void pairs_of_no_time_are_no_candidates(void **state)
             add_plot(300.0 * scan, 1002.5, 2.0 * scan * step);
         }
         for (size_t i = 0; i < NUM(methods); i++) {
-            paper_all(methods[i]);
+            use_paper_values_all_cells(methods[i]);
             config.v_min_mps = 0.0f;
-            find();
+            find_peaks();
             assert_int_equal(result.candidates, 0);
             assert_int_equal(result.votes_max, i > 1 ? 0 : RHO_HOUGH_VOTE * (methods[i] ? 4u : 5u));
         }
@@ -500,8 +502,8 @@ static void sixteen_scans_vote(void **state)
     const uint32_t highest[] = {16, 15, 15, 14, 14};
     for (size_t i = 0; i < NUM(methods); i++) {
         struct rho_hough_track track;
-        paper(methods[i]);
-        find();
+        use_paper_values(methods[i]);
+        find_peaks();
         assert_int_equal(peaks[0].votes, highest[i] * RHO_HOUGH_VOTE);
         assert_int_equal(
             rho_hough_track(&hough, &points, peaks[0].theta_cell, peaks[0].rho_cell, 15.0f, &track),
@@ -519,8 +521,8 @@ static void pairs_are_counted_without_a_search(void **state)
     uint32_t pairs = 7, candidates = 7;
     random_state = 33;
     lay_table_1(7, 10.0, 1);
-    paper(RHO_HOUGH_IHT);
-    find();
+    use_paper_values(RHO_HOUGH_IHT);
+    find_peaks();
     rho_hough_count_pairs(&hough, &points, &pairs, &candidates);
     assert_int_equal(pairs, result.pairs);
     assert_int_equal(candidates, result.candidates);
@@ -538,7 +540,7 @@ static void what_was_in_it_before_does_not_matter(void **state)
     lay_table_1(7, 10.0, 1);
     for (size_t i = 0; i < 4 * NUM(methods); i++) {
         memset(&hough, 0, sizeof hough);
-        paper(methods[i / 4]);
+        use_paper_values(methods[i / 4]);
         config.keeps_all_cells = i & 1;
         config.uses_indeterminacy = 1;
         find_some(20000);
@@ -546,12 +548,12 @@ static void what_was_in_it_before_does_not_matter(void **state)
         memcpy(first, peaks, sizeof first);
         memset(peaks, 0x77, sizeof first);
         memset(&hough, i & 2 ? 0xa5 : 0xff, sizeof hough);
-        prepare();
+        prepare_hough();
         memset(&hough.work, i & 2 ? 0x01 : 0xa5, sizeof hough.work);
         memset(&result, 0x13, sizeof result);
         for (int again = 0; again < 2; again++) {
             if (methods[i / 4] == RHO_HOUGH_HT && !again) {
-                prepare(); /* its accumulator was set up by init */
+                prepare_hough(); /* its accumulator was set up by init */
             }
             assert_int_equal(rho_hough_find(&hough, &points, peaks, 20000, &result), RHO_OK);
             assert_memory_equal(&result, &first_result, sizeof result);
@@ -570,8 +572,8 @@ static void methods_take_turns(void **state)
     lay_table_1(7, 10.0, 1);
     for (size_t i = 0; i < 15; i++) {
         size_t k = (i < 5 ? i : 3 * i + i / 5) % 5;
-        paper(methods[k]);
-        find();
+        use_paper_values(methods[k]);
+        find_peaks();
         assert_true(i < 5 || (result.num_peaks == num[k] && result.votes_max == most[k]));
         num[k] = result.num_peaks;
         most[k] = result.votes_max;

@@ -16,7 +16,7 @@ static uint32_t pictures[RHO_NUM_HOUGH_COMPONENTS][ROWS_MAX * COLUMNS_MAX];
 /* A plane that fits a picture cell by cell: 25 m and 8 mrad. */
 static void coarse(enum rho_hough_method method)
 {
-    paper_all(method);
+    use_paper_values_all_cells(method);
     config.rho_cell_m = 25.0f;
     config.theta_cell_rad = 0.008f;
     config.eps_rho_m = 40.0f;
@@ -52,14 +52,14 @@ static void a_vote_has_truth_indeterminacy_and_falsity(void **state)
     (void)state;
     lay_two_kernels();
     add_plot(500.0, 3000.0, 4.0); /* too far for a target of 400 m/s */
-    paper_all(RHO_HOUGH_NHT_A);
-    prepare();
+    use_paper_values_all_cells(RHO_HOUGH_NHT_A);
+    prepare_hough();
     struct rho_hough_memberships of = vote_of(4, 5);
     assert_float_equal(of.truth, 65536.0 * exp(-0.18), 4.0);
     assert_float_equal(of.indeterminacy, 65536.0 * exp(-0.10125), 4.0);
     assert_int_equal(of.falsity, 7); /* 65536 P_F^2 = 6.55 */
     config.lambda_k = 1e6f;
-    prepare();
+    prepare_hough();
     of = vote_of(4, 5);
     assert_int_equal(of.falsity, RHO_HOUGH_VOTE); /* a membership is 1 at most */
     of = vote_of(4, 6);
@@ -78,7 +78,7 @@ static double truth_of(unsigned first, unsigned second)
         for (unsigned j = scan_start(scan - 1); j < scan_end[scan - 1]; j++) {
             const double d_m = hypot((double)(x_m[j] - x_m[i]), (double)(y_m[j] - y_m[i]));
             const double dt_s = (double)(t_s[j] - t_s[i]);
-            const struct line off = offset(line, line_of_plots(i, j));
+            const struct line off = line_offset(line, line_of_plots(i, j));
             const double rho = fabs(off.rho) / (2.0 * (double)config.eps_rho_m);
             const double theta = fabs(off.theta) / (2.0 * (double)config.eps_theta_rad);
             const int is_near = rho < 1.001 && theta < 1.001;
@@ -115,7 +115,7 @@ static void truth_is_that_of_the_nearest_kernel(void **state)
     random_state = 31;
     lay_table_1(4, 0.5, 1);
     coarse(RHO_HOUGH_NHT_A);
-    prepare();
+    prepare_hough();
     for (unsigned i = scan_start(1); i < scan_end[2]; i++) {
         const unsigned scan = scan_of(i) + 1u;
         for (unsigned j = scan_start(scan); j < scan_end[scan]; j++) {
@@ -157,7 +157,7 @@ static void matrices_are_sums_of_memberships(void **state)
     random_state = 32;
     lay_table_1(5, 2.0, 1);
     coarse(RHO_HOUGH_NHT_A);
-    prepare();
+    prepare_hough();
     memset(sums, 0, sizeof sums);
     memset(is_unsure, 0, sizeof is_unsure);
     for (unsigned i = scan_start(1); i < scan_end[3]; i++) {
@@ -209,7 +209,7 @@ static void the_largest_sum_is_at_most_the_sum_of_the_largest(void **state)
         lay_table_1(6, 3.0, 1);
         coarse(reading ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
         config.lambda_k = 5000.0f; /* F 0.5: each of the three is the largest somewhere */
-        prepare();
+        prepare_hough();
         for (int c = RHO_HOUGH_TRUTH; c < RHO_NUM_HOUGH_COMPONENTS; c++) {
             draw_plane((enum rho_hough_component)c);
         }
@@ -243,7 +243,7 @@ static void the_plane_of_votes_is_that_of_the_search(void **state)
         coarse(methods[run / 2]);
         config.votes = run % 2 ? RHO_VOTES_SCANS : RHO_VOTES_POINTS;
         config.uses_indeterminacy = run % 2;
-        find();
+        find_peaks();
         draw_plane(RHO_HOUGH_VOTES);
         unsigned filled = 0;
         for (unsigned i = 0; i < (unsigned)hough.theta_cells * hough.rho_cells; i++) {
@@ -265,7 +265,7 @@ static void a_line_has_the_matrices_of_its_cell(void **state)
         random_state = 35;
         lay_table_1(6, 0.5, 1);
         coarse(reading ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
-        find();
+        find_peaks();
         for (int c = RHO_HOUGH_TRUTH; c <= RHO_HOUGH_FALSITY; c++) {
             draw_plane((enum rho_hough_component)c);
         }
@@ -293,7 +293,7 @@ static void a_window_has_the_most_of_each_block(void **state)
     random_state = 36;
     lay_table_1(5, 3.0, 1);
     coarse(RHO_HOUGH_NHT_C);
-    prepare();
+    prepare_hough();
     draw_plane(RHO_HOUGH_VOTES);
     struct rho_plane plane = {.first_theta = 40,
                               .theta_cells = 200,
@@ -324,7 +324,7 @@ static void what_is_no_vote_and_no_plane_is_refused(void **state)
     lay_two_kernels();
     add_plot(500.0, 3000.0, 4.0);
     coarse(RHO_HOUGH_IHT);
-    prepare();
+    prepare_hough();
     struct rho_plane plane = whole(RHO_HOUGH_TRUTH);
     assert_int_equal(rho_hough_plane(&hough, &points, RHO_HOUGH_TRUTH, &plane), RHO_ERROR_VALUE);
     assert_int_equal(rho_hough_plane(&hough, &points, RHO_NUM_HOUGH_COMPONENTS, &plane),

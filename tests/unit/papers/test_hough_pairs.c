@@ -24,14 +24,14 @@ static double slack(void)
 /* All cells, then the peaks that follow from them at half the most votes. */
 static void expect_the_same(void)
 {
-    find();
-    expect();
+    find_peaks();
+    expect_reference();
     expect_cells(slack());
     expect_counts();
     config.tau = 0.5f;
     config.keeps_all_cells = 0;
     size_t num = choose_from_listed();
-    find();
+    find_peaks();
     expect_peaks(num);
 }
 
@@ -44,7 +44,7 @@ static void clutter_votes_as_in_double_precision(void **state)
     for (int run = 0; run < 2; run++) {
         lay_table_1(7, 10.0, 1);
         for (size_t i = 0; i < NUM(methods); i++) {
-            paper_all(methods[i]);
+            use_paper_values_all_cells(methods[i]);
             expect_the_same();
             pairs += counted.voters;
             at_limits += counted.at_limits;
@@ -64,10 +64,10 @@ static void the_embedded_build_takes_theta_in_parts(void **state)
     random_state = 12;
     lay_table_1(7, 10.0, 1);
     for (size_t i = 0; i < NUM(methods); i++) {
-        paper_all(methods[i]);
+        use_paper_values_all_cells(methods[i]);
         config.lambda_k = 10.0f;
-        find();
-        expect();
+        find_peaks();
+        expect_reference();
         expect_cells(slack());
 #ifdef RHO_PROFILE_WORKSTATION
         assert_true(result.passes >= 1);
@@ -84,7 +84,7 @@ static void other_cells_and_limits_vote_as_in_double_precision(void **state)
     random_state = 13;
     for (int run = 0; run < 12; run++) {
         lay_table_1(3 + (unsigned)run % 5, run % 2 ? 10.0 : 0.5, run % 4 != 3);
-        paper_all(methods[run % 4]);
+        use_paper_values_all_cells(methods[run % 4]);
         config.rho_max_m = run % 3 ? 5000.0f : 2000.0f; /* some lines beyond it */
         config.rho_cell_m = run % 3 ? 20.0f : 4.0f;
         config.theta_cell_rad = (float)uniform(0.0008, 0.02);
@@ -125,7 +125,7 @@ static void few_rows_vote_as_in_double_precision(void **state)
         int rows = run < 24 ? 3 + run : 20 + 19 * (run - 24);
         double part = run % 3 ? uniform(0.0, 1.0) : run % 2 ? 0.02 : 0.98;
         lay_crowd(12);
-        paper_all(methods[run % 4]);
+        use_paper_values_all_cells(methods[run % 4]);
         config.theta_cell_rad = (float)(REFERENCE_PI / (rows + part));
         config.eps_theta_rad =
             (float)fmin(uniform(0.2, run % 7 ? 8.0 : 100.0) * (double)config.theta_cell_rad, 0.5);
@@ -145,7 +145,7 @@ static void parts_of_theta_vote_as_in_double_precision(void **state)
     for (int run = 0; run < 16; run++) {
         double part = run % 8 < 4 ? 0.02 : 0.98;
         lay_crowd(60);
-        paper_all(methods[run % 4]);
+        use_paper_values_all_cells(methods[run % 4]);
         config.theta_cell_rad = (float)(REFERENCE_PI / ((run < 8 ? 200.0 : 260.0) + part));
         config.eps_theta_rad = (run < 8 ? 0.6f : 1.1f) * config.theta_cell_rad;
         expect_the_same();
@@ -167,8 +167,8 @@ static void all_builds_give_the_same_lists(void **state)
     lay_table_1(7, 10.0, 1);
     for (size_t i = 0; i < NUM(methods); i++) {
         uint32_t hash = 2166136261u;
-        paper_all(methods[i]);
-        find();
+        use_paper_values_all_cells(methods[i]);
+        find_peaks();
         for (uint32_t k = 0; k < result.num_peaks; k++) {
             const uint32_t words[] = {peaks[k].theta_cell, peaks[k].rho_cell, peaks[k].votes};
             for (size_t byte = 0; byte < 12; byte++) {
@@ -200,7 +200,7 @@ static void lines_about_the_end_of_theta_vote_as_in_double_precision(void **stat
     random_state = 16;
     for (int run = 0; run < 24; run++) {
         lay_columns(run % 3 * 0.8, run / 3 % 2 * 0.001);
-        paper_all(methods[run % 4]);
+        use_paper_values_all_cells(methods[run % 4]);
         config.uses_indeterminacy = run & 8;
         expect_the_same();
     }
@@ -217,10 +217,10 @@ static void a_vertical_target_is_one_peak(void **state)
     unsigned kernels_beyond = 0;
     for (int run = 0; run < 10; run++) {
         lay_columns(0.1, 0.0);
-        paper(RHO_HOUGH_NHT_A);
+        use_paper_values(RHO_HOUGH_NHT_A);
         config.tau = 0.25f;
         config.votes_min = 1.8f;
-        find();
+        find_peaks();
         assert_int_equal(result.num_peaks, 8);
         assert_int_equal(result.votes, 40); /* 8 columns, 5 links each */
         assert_int_equal(result.candidates, 48);
@@ -248,8 +248,8 @@ static void a_vertical_line_is_in_the_first_row(void **state)
             add_plot(x, dy * (scan - 2.0), 2.0 * scan);
         }
         for (size_t m = 0; m < 3; m++) {
-            paper(methods[m]);
-            find();
+            use_paper_values(methods[m]);
+            find_peaks();
             assert_int_equal(result.num_peaks, 1);
             assert_int_equal(peaks[0].theta_cell, 0);
             assert_int_equal(peaks[0].rho_cell, i & 1 ? 699 : 1300);
@@ -267,8 +267,8 @@ static void a_vote_is_spread_round_the_end_of_theta(void **state)
         start_scan();
         add_plot(1502.5, 500.0 * scan, 2.0 * scan);
     }
-    paper_all(RHO_HOUGH_NHT_C);
-    find();
+    use_paper_values_all_cells(RHO_HOUGH_NHT_C);
+    find_peaks();
     assert_int_equal(result.votes, 289);
     assert_int_equal(result.num_peaks, 289);
     assert_int_equal(peaks[0].votes, RHO_HOUGH_VOTE);
@@ -293,10 +293,10 @@ static void a_vote_is_not_spread_beyond_the_largest_rho(void **state)
         start_scan();
         add_plot(500.0 * scan, 4982.5, 2.0 * scan); /* the fourth cell from the end */
     }
-    paper_all(RHO_HOUGH_NHT_C);
-    find();
+    use_paper_values_all_cells(RHO_HOUGH_NHT_C);
+    find_peaks();
     assert_int_equal(result.votes, 17 * (9 + 3));
-    expect();
+    expect_reference();
     expect_cells(slack());
 }
 

@@ -18,13 +18,13 @@ static void indeterminacy_raises_votes_as_in_double_precision(void **state)
     random_state = 14;
     for (int run = 0; run < 4; run++) {
         lay_table_1(7, 10.0, 1);
-        paper_all(run % 2 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
-        find();
+        use_paper_values_all_cells(run % 2 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
+        find_peaks();
         uint32_t num = result.num_peaks;
         memcpy(without, peaks, num * sizeof *peaks);
         config.uses_indeterminacy = 1;
-        find();
-        expect();
+        find_peaks();
+        expect_reference();
         expect_cells(PARTS);
         expect_counts();
         assert_int_equal(result.num_peaks, num);
@@ -38,10 +38,10 @@ static void two_kernels_vouch_for_the_line_between(void **state)
     (void)state;
     lay_two_kernels();
     for (int run = 0; run < 4; run++) {
-        paper_all(RHO_HOUGH_NHT_A);
+        use_paper_values_all_cells(RHO_HOUGH_NHT_A);
         config.uses_indeterminacy = run & 1;
         config.lambda_k = run & 2 ? 8800.0f : 1.0f; /* F 0.88: T does not reach it, I does */
-        find();
+        find_peaks();
         assert_int_equal(result.votes, run != 2);
         assert_int_equal(result.num_peaks, run != 2);
         assert_int_equal(result.cells, run != 2);
@@ -57,10 +57,10 @@ static void falsehood_above_a_vote_silences_it(void **state)
     random_state = 15;
     lay_table_1(7, 10.0, 1);
     for (float lambda = 1.0f; lambda < 2e4f; lambda *= 3.0f) {
-        paper_all(RHO_HOUGH_NHT_A);
+        use_paper_values_all_cells(RHO_HOUGH_NHT_A);
         config.lambda_k = lambda;
-        find();
-        expect();
+        find_peaks();
+        expect_reference();
         expect_cells(PARTS);
         expect_counts();
         assert_true(result.votes <= before);
@@ -76,11 +76,11 @@ static void pairs_without_votes_are_kernels(void **state)
 {
     (void)state;
     lay_table_1(3, 0.0, 0);
-    paper_all(RHO_HOUGH_NHT_A);
-    find();
+    use_paper_values_all_cells(RHO_HOUGH_NHT_A);
+    find_peaks();
     assert_int_equal(result.votes, 3);
     points.at.num_scans = 2;
-    find();
+    find_peaks();
     assert_int_equal(result.votes, 0);
 }
 
@@ -114,10 +114,10 @@ static void whole_numbers_choose_the_peaks_of_exact_arithmetic(void **state)
     for (int seed = 0; seed < 20; seed++) {
         lay_table_1(7, seed % 2 ? 10.0 : 0.6, 1);
         for (int variant = 0; variant < 4; variant += seed % 5 ? 2 : 1) {
-            paper(variant & 1 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
+            use_paper_values(variant & 1 ? RHO_HOUGH_NHT_C : RHO_HOUGH_NHT_A);
             config.lambda_k = variant & 2 ? 10.0f : 1.0f;
-            find();
-            expect();
+            find_peaks();
+            expect_reference();
             size_t num = choose_from_cells(), without = count_missing(num);
             same += num == result.num_peaks && without == 0;
             missing += without + (result.num_peaks > num ? result.num_peaks - num : 0);
@@ -141,7 +141,7 @@ static void of_equally_near_kernels_the_first_counts(void **state)
     (void)state;
     for (int run = 0; run < 12000; run++) {
         unsigned count = 0;
-        paper(RHO_HOUGH_NHT_A);
+        use_paper_values(RHO_HOUGH_NHT_A);
         config.uses_indeterminacy = 1;
         config.v_min_mps = 0.0f;
         config.eps_rho_m = 35.0f;
@@ -157,7 +157,7 @@ static void of_equally_near_kernels_the_first_counts(void **state)
             }
             scan_end[scan] = count;
         }
-        find();
+        find_peaks();
         for (uint32_t i = 0; i < result.num_peaks; i++) {
             struct rho_hough_track track;
             assert_int_equal(rho_hough_track(&hough, &points, peaks[i].theta_cell,

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "paper_reference.h"
+#include "passive_paper_reference.h"
 #include "rhotrack/detail/crossing.h"
 
 static struct rho_passive_paper paper;
@@ -213,7 +213,7 @@ static void set_scene(unsigned sensors, unsigned targets, const struct target *t
     scene.sigma_from_rad = scene.sigma_to_rad = RHO_LIMIT_SIGMA_RAD_MIN;
     set_scan_times(&scene);
     memcpy(scene.target, target, targets * sizeof *target);
-    see_all(&scene);
+    see_all_looks(&scene);
 }
 
 static void search_with(enum rho_ghost_rule rule, unsigned votes_min)

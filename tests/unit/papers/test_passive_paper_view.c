@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "paper_reference.h"
+#include "passive_paper_reference.h"
 
 static struct rho_passive_paper paper, paper_then;
 static struct rho_ghost_matrix matrix;

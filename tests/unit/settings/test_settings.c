@@ -23,7 +23,7 @@ static void begin_all(void)
     struct rho_sensor sensor = {.sensor_id = 1};
 
     apply();
-    begin();
+    begin_tracker();
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &search), RHO_OK);
     rho_settings_apply_sensor(&settings, &sensor);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);

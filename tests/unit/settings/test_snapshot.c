@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "draws.h"
+#include "random_draws.h"
 #include "rhotrack/initiator.h"
 #include "rhotrack/passive.h"
 #include "rhotrack/snapshot.h"

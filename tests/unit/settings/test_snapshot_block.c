@@ -33,11 +33,11 @@ static enum rho_status load(void)
 static void save(void)
 {
     struct rho_snapshot_part parts[2];
-    draw(5);
+    use_usual_configs(5);
     memset(&settings, 0, sizeof settings);
     rho_settings_preset(&settings, RHO_PRESET_COASTAL_HARBOUR);
     settings.range_max_m = 12345.0f;
-    begin();
+    begin_tracker();
     for (int i = 0; i < 5; i++) {
         assert_int_equal(rho_clutter_map_teach(&tracker.clutter_map, 7, 1000.0f * (float)i, 500.0f,
                                                10.0f, 20.0f, 50),
@@ -58,7 +58,7 @@ static void a_block_is_read_back(void **state)
     unsigned echoes = 0;
     (void)state;
     save();
-    begin(); /* the device was off */
+    begin_tracker(); /* the device was off */
     memset(&loaded, 0x3c, sizeof loaded);
     assert_null(rho_clutter_map_next(&tracker.clutter_map, &place));
     assert_int_equal(load(), RHO_OK);
@@ -69,8 +69,8 @@ static void a_block_is_read_back(void **state)
     }
     assert_int_equal(echoes, 5);
     assert_true(rho_tracker_is_sound(&tracker));
-    (void)add(3000.0, 500.0, 10.0);
-    step(1.0);
+    (void)add_plot(3000.0, 500.0, 10.0);
+    step_at(1.0);
     assert_int_equal(report.num_tracks, 0);
 }
 
@@ -81,7 +81,7 @@ static void a_damaged_block_changes_nothing(void **state)
     uint8_t *bytes = (uint8_t *)block;
     (void)state;
     save();
-    begin();
+    begin_tracker();
     memset(&loaded, 0x3c, sizeof loaded);
     before = tracker;
     const struct rho_settings nothing = loaded;

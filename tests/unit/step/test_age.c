@@ -12,15 +12,15 @@
 /* Scans with a plot of a target that is so fast until its track ends; 0: it does not. */
 static int scans_until_too_fast(double speed_mps, double sigma_m)
 {
-    draw(1);
+    use_usual_configs(1);
     config.gate = RHO_TRACKER_NEAREST;
     config.v_max_mps = (float)V_MAX_MPS;
     config.accel_max_mps2 = 0.5f;
-    begin();
+    begin_tracker();
     for (int k = 0; k < 60; k++) {
         const double slow_mps = 0.9 * V_MAX_MPS, late_s = k > 30 ? 2.0 * (k - 30) : 0.0;
-        add(5000.0 + slow_mps * 2.0 * k + (speed_mps - slow_mps) * late_s, 0.0, sigma_m);
-        step(2.0 * k);
+        add_plot(5000.0 + slow_mps * 2.0 * k + (speed_mps - slow_mps) * late_s, 0.0, sigma_m);
+        step_at(2.0 * k);
         if (tracker.counters.tracks_too_fast > 0) {
             return k - 30;
         }
@@ -48,9 +48,9 @@ static void what_is_surely_too_slow_is_no_target(void **state)
                                             .misses_in_row_max = 9};
     (void)state;
     for (int i = 0; i < 2; i++) {
-        draw(1);
+        use_usual_configs(1);
         config.v_min_mps = 30.0f;
-        begin();
+        begin_tracker();
         struct rho_track *track = &tracker.tracks[0];
         struct step at = {.tracker = &tracker, .report = &report};
         *track = (struct rho_track){.track_id = 1,

@@ -3,7 +3,7 @@
  * Frames of bearings, in many scenes: targets are found, followed as well as they can be, kept
  * apart, and let go.
  */
-#include "frame_chain.h"
+#include "bearing_frame_chain.h"
 
 /*
  * Of 1000 runs: 999 targets found with the first full batch and all soon, errors 1.001 to 1.015 of
@@ -35,7 +35,7 @@ static void expect_found_with(unsigned sensors)
         assert_int_equal(track->misses, 0);
         assert_int_equal(track->plot, -1);
         assert_int_equal(track->sensor_id, 10 + (int)sensors - 1);
-        assert_true(error_m(track, &scene.target[0], 70.0) < 5.0 * (double)track->sigma_m);
+        assert_true(track_error_m(track, &scene.target[0], 70.0) < 5.0 * (double)track->sigma_m);
         assert_int_equal(tracker.counters.tracks_started, 1);
         assert_int_equal(tracker.counters.tracks_confirmed, 1);
         assert_int_equal(tracker.counters.plots_initiated, sensors * BATCH);
@@ -68,7 +68,7 @@ static void tracks_start_where_odds_are_a_hundred_to_one(void **state)
             scene.target[i] = random_target(120.0);
         }
         start_chain(5.0f);
-        fly(0, BATCH, 10.0);
+        fly_frames(0, BATCH, 10.0);
         for (unsigned i = 0; i < passive.num_tracks; i++) {
             const struct rho_passive_track *found = &passive.tracks[i];
             const int is_fresh = found->scans >> (BATCH - 2) != 0;
@@ -129,15 +129,15 @@ static void a_later_target_is_found_while_others_are_followed(void **state)
         }
         start_chain(5.0f);
         scene.targets = 2;
-        fly(0, 14, 10.0);
+        fly_frames(0, 14, 10.0);
         uint32_t started = tracker.counters.tracks_started;
         scene.targets = 3;
-        fly(14, 14 + BATCH + 4, 10.0);
+        fly_frames(14, 14 + BATCH + 4, 10.0);
         double time_s = 10.0 * (14 + BATCH + 3);
-        const struct rho_track_report *track = track_of(&scene.target[2], time_s);
+        const struct rho_track_report *track = track_nearest_to(&scene.target[2], time_s);
         found += started == 2 && tracker.counters.tracks_started == 3 && track &&
-                 track->track_id == 3 && track_of(&scene.target[0], time_s) &&
-                 track_of(&scene.target[1], time_s);
+                 track->track_id == 3 && track_nearest_to(&scene.target[0], time_s) &&
+                 track_nearest_to(&scene.target[1], time_s);
     }
     print_message("a third target found while two are followed: %u of 20 runs\n", found);
     assert_true(found >= 17);
@@ -152,7 +152,7 @@ static void false_bearings_alone_make_no_track(void **state)
         random_state = seed;
         scene = scene_of(seed % 2 ? 2 : 3, 0, 0.1, 0.9, 4.0);
         start_chain(5.0f);
-        fly(0, 60, 10.0);
+        fly_frames(0, 60, 10.0);
         started += tracker.counters.tracks_started;
         assert_int_equal(
             tracker.counters.fates[RHO_FATE_HELD] + tracker.counters.fates[RHO_FATE_GHOST],
@@ -177,7 +177,7 @@ static void add_row(struct figures *figures, const struct rho_track_report *trac
 {
     const double truth[4] = {target_x_m(target, time_s), target_y_m(target, time_s), target->vx_mps,
                              target->vy_mps};
-    figures->error2 += pow(error_m(track, target, time_s), 2.0);
+    figures->error2 += pow(track_error_m(track, target, time_s), 2.0);
     figures->ekf_error2 += pow(ekf_error_m(ekf, target, time_s), 2.0);
     figures->nees += nees_of(track, truth);
     figures->rows++;
@@ -210,7 +210,7 @@ static void follow(unsigned sensors, double density, double truth_density, uint8
     start_chain(2.0f * (float)sqrt(density));
     use_gate(gate);
     scene.target[0] = random_target(frames * interval_s);
-    struct ekf ekf = ekf_of(&scene.target[0]);
+    struct ekf ekf = ekf_at_target(&scene.target[0]);
     for (unsigned k = 0; k < frames; k++) {
         ekf_predict(&ekf, k ? interval_s : 0.0, k < BATCH ? 0.0 : density);
         if (k >= BATCH && truth_density > 0.0) {

@@ -3,7 +3,7 @@
  * Frames of bearings: what becomes of each bearing, counters, capacities, late and refused frames,
  * no initiation.
  */
-#include "frame_chain.h"
+#include "bearing_frame_chain.h"
 
 #define NUM(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -22,7 +22,7 @@ static void fly_one(unsigned sensors)
     scene = scene_of(sensors, 1, 0.1, 1.0, 0.0);
     scene.target[0] = incomer;
     start_chain(5.0f);
-    fly(0, 12, 10.0);
+    fly_frames(0, 12, 10.0);
     assert_int_equal(report.num_tracks, 1);
 }
 
@@ -44,8 +44,8 @@ static void every_bearing_has_its_fate_in_its_place(void **state)
 {
     (void)state;
     fly_one(2);
-    look_round(12, 120.0);
-    struct look *look = scene.look[slot_of(12)];
+    see_frame(12, 120.0);
+    struct look *look = scene.look[scene_slot_of(12)];
     say(&look[0], 0.0);
     look[0].bearings[1].bearing_rad = NAN;
     say(&look[0], -1.4); /* to the south: meets nothing */
@@ -62,7 +62,7 @@ static void every_bearing_has_its_fate_in_its_place(void **state)
     say(&look[1], -0.5);
     say(&look[1], 2.0); /* to the other side of the base */
     look[1].bearings[look[1].count++] = target;
-    fill_frame(&scene, slot_of(12), &full);
+    fill_frame(&scene, scene_slot_of(12), &full);
     step_frame(&full.frame);
     const uint8_t expected[] = {RHO_FATE_CLAIMED, RHO_FATE_INVALID, RHO_FATE_GHOST,
                                 RHO_FATE_HELD,    RHO_FATE_INVALID, RHO_FATE_INVALID};
@@ -89,7 +89,7 @@ static void a_lonely_bearing_is_no_ghost(void **state)
     (void)state;
     start_chain(5.0f);
     scene = scene_of(2, 0, 0.1, 1.0, 0.0);
-    look_round(0, 0.0);
+    see_frame(0, 0.0);
     say(&scene.look[0][0], -1.4);
     fill_frame(&scene, 0, &full);
     step_frame(&full.frame);
@@ -256,7 +256,7 @@ static void a_full_table_starts_no_track_and_keeps_the_bearings(void **state)
     scene = scene_of(2, 1, 0.1, 1.0, 0.0);
     scene.target[0] = incomer;
     for (unsigned k = 0; k < BATCH + 2; k++) {
-        look_round(k, 10.0 * k);
+        see_frame(k, 10.0 * k);
         for (unsigned s = 0; s < 2; s++) {
             full.scans[s].sector_from_rad = -1.5f;
             full.scans[s].sector_to_rad = 1.5f;
@@ -276,7 +276,7 @@ static void a_late_frame_changes_nothing_but_counters(void **state)
     (void)state;
     fly_one(2);
     keep_snapshot();
-    look_round(12, 109.999999);
+    see_frame(12, 109.999999);
     step_frame(&full.frame);
     assert_int_equal(report.fates_total[RHO_FATE_STALE], 2);
     assert_int_equal(report.fates[0] + report.fates[1], 2 * RHO_FATE_STALE);
@@ -303,7 +303,7 @@ static void expect_status(struct rho_passive *of, enum rho_status status)
 /* A good frame that was never taken, with one thing wrong of it. */
 #define EXPECT_REFUSED(change, status)                                                             \
     do {                                                                                           \
-        fill_frame(&scene, slot_of(12), &full);                                                    \
+        fill_frame(&scene, scene_slot_of(12), &full);                                              \
         change;                                                                                    \
         expect_status(&passive, status);                                                           \
     } while (0)
@@ -311,7 +311,7 @@ static void expect_status(struct rho_passive *of, enum rho_status status)
 static void start_refusals(void)
 {
     fly_one(2);
-    look_round(12, 120.0);
+    see_frame(12, 120.0);
     keep_snapshot();
 }
 
@@ -334,7 +334,7 @@ static void what_was_never_initialised_is_refused(void **state)
     tracker.magic = tracker_then.magic = 0;
     EXPECT_REFUSED((void)0, RHO_ERROR_STATE);
     fly_one(2);
-    look_round(12, 120.0);
+    see_frame(12, 120.0);
     passive.magic = 0;
     keep_snapshot();
     EXPECT_REFUSED((void)0, RHO_ERROR_STATE);
@@ -370,13 +370,13 @@ static void what_the_batch_refuses_is_refused(void **state)
     EXPECT_REFUSED(full.scans[1] = full.scans[0], RHO_ERROR_VALUE);
     EXPECT_REFUSED(full.scans[1].sensor_id = 99, RHO_ERROR_VALUE);
     fly_one(RHO_MAX_PASSIVE_SENSORS < SCENE_SENSORS ? RHO_MAX_PASSIVE_SENSORS : SCENE_SENSORS);
-    look_round(12, 120.0);
+    see_frame(12, 120.0);
     keep_snapshot();
     if (RHO_MAX_PASSIVE_SENSORS <= SCENE_SENSORS) {
         EXPECT_REFUSED((full.scans[0].sensor_id = 99, full.scans[0].x_m = 5e3f),
                        RHO_ERROR_CAPACITY);
     }
-    fill_frame(&scene, slot_of(12), &full);
+    fill_frame(&scene, scene_slot_of(12), &full);
     full.scans[0].time_us += RHO_LIMIT_OFFSET_US; /* as far as it goes */
     step_frame(&full.frame);
 }
@@ -389,7 +389,7 @@ static void without_an_initiation_tracks_go_on_and_none_start(void **state)
     scene.targets = 2;
     scene.target[1] = (struct target){.x_m = 30e3, .y_m = -20e3, .vx_mps = -100.0, .vy_mps = 90.0};
     for (unsigned k = 12; k < 24; k++) {
-        look_round(k, 10.0 * k);
+        see_frame(k, 10.0 * k);
         assert_int_equal(rho_tracker_step_frame(&tracker, NULL, &full.frame, &report), RHO_OK);
         check_fates(&full.frame);
         assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);

@@ -3,7 +3,7 @@
  * Frames of bearings: identities, misses, sensors that are late, blind or look elsewhere, own times
  * of bearings.
  */
-#include "frame_chain.h"
+#include "bearing_frame_chain.h"
 
 #define MISS_NAT 2.302585 /* -ln(1 - pd) of the default */
 
@@ -17,7 +17,7 @@ static void fly_one(unsigned seed)
     start_chain(5.0f);
     use_gate(gate_of_tracks);
     scene.target[0] = random_target(240.0);
-    fly(0, 12, 10.0);
+    fly_frames(0, 12, 10.0);
     assert_int_equal(report.num_tracks, 1);
     assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
     assert_int_equal(report.tracks[0].hits, 12);
@@ -67,14 +67,14 @@ static void targets_that_cross_at_one_sensor_keep_their_identities(void **state)
         scene = scene_of(3, 2, 0.1, 0.95, 0.0);
         draw_crossing();
         start_chain(5.0f);
-        fly(0, 12, 6.0);
+        fly_frames(0, 12, 6.0);
         for (unsigned i = 0; i < 2; i++) {
-            track[i] = track_of(&scene.target[i], 66.0);
+            track[i] = track_nearest_to(&scene.target[i], 66.0);
             track_id[i] = track[i] ? track[i]->track_id : 0;
         }
-        fly(12, 24, 6.0);
+        fly_frames(12, 24, 6.0);
         for (unsigned i = 0; i < 2; i++) {
-            track[i] = track_of(&scene.target[i], 138.0);
+            track[i] = track_nearest_to(&scene.target[i], 138.0);
         }
         kept += tracker.counters.tracks_started == 2 && track[0] && track[1] &&
                 track[0]->track_id == track_id[0] && track[1]->track_id == track_id[1];
@@ -142,7 +142,7 @@ static void one_sensors_miss_takes_score_and_is_no_miss(void **state)
     static struct rho_tracker tracker_then;
     static struct rho_passive passive_then;
     fly_one(3);
-    look_round(12, 120.0);
+    see_frame(12, 120.0);
     tracker_then = tracker;
     passive_then = passive;
     full.scans[1].num_bearings = 0;
@@ -177,17 +177,17 @@ static void a_sensor_that_is_missing_does_no_harm(void **state)
         fly_one(seed);
         for (unsigned k = 12; k < 24; k++) {
             for (unsigned s = 0; s < 2; s++) {
-                scene.look[slot_of(k)][s].is_absent = uniform(0.0, 1.0) < 0.6;
+                scene.look[scene_slot_of(k)][s].is_absent = uniform(0.0, 1.0) < 0.6;
             }
             fly_frame(k, 10.0);
             assert_int_equal(report.num_tracks, 1);
             assert_int_equal(report.tracks[0].misses, 0);
         }
-        scene.look[slot_of(24)][0].is_absent = scene.look[slot_of(24)][1].is_absent = 0;
+        scene.look[scene_slot_of(24)][0].is_absent = scene.look[scene_slot_of(24)][1].is_absent = 0;
         fly_frame(24, 10.0);
         assert_int_equal(report.tracks[0].track_id, 1);
         assert_int_equal(tracker.counters.tracks_started, 1);
-        error2 += pow(error_m(&report.tracks[0], &scene.target[0], 240.0), 2.0);
+        error2 += pow(track_error_m(&report.tracks[0], &scene.target[0], 240.0), 2.0);
     }
     print_message("frames that miss a sensor: rms %.0f m after them\n", sqrt(error2 / 20.0));
     assert_true(sqrt(error2 / 20.0) < 400.0);
@@ -205,24 +205,24 @@ static void one_sensor_alone_keeps_a_track_going(void **state)
         fly_one(seed);
         double sigma_m = (double)report.tracks[0].sigma_m;
         for (unsigned k = 12; k < 22; k++) {
-            scene.look[slot_of(k)][1].is_absent = 1;
+            scene.look[scene_slot_of(k)][1].is_absent = 1;
             fly_frame(k, 10.0);
             assert_int_equal(report.num_tracks, 1);
             assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
         }
         assert_true((double)report.tracks[0].sigma_m > 1.5 * sigma_m);
-        share2 += pow(error_m(&report.tracks[0], &scene.target[0], 210.0) /
+        share2 += pow(track_error_m(&report.tracks[0], &scene.target[0], 210.0) /
                           (double)report.tracks[0].sigma_m,
                       2.0);
         for (unsigned k = 22; k < 24; k++) {
-            scene.look[slot_of(k)][1].is_absent = 0;
+            scene.look[scene_slot_of(k)][1].is_absent = 0;
             fly_frame(k, 10.0);
         }
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.tracks[0].track_id, 1);
         assert_int_equal(report.tracks[0].hits, 24);
         assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 2);
-        assert_true(error_m(&report.tracks[0], &scene.target[0], 230.0) <
+        assert_true(track_error_m(&report.tracks[0], &scene.target[0], 230.0) <
                     5.0 * (double)report.tracks[0].sigma_m);
     }
     print_message("one sensor alone: squared error %.2f of the variance\n", share2 / 20.0);
@@ -237,7 +237,7 @@ static void expect_misses(int is_seen)
     const float score_nat = report.tracks[0].score_nat;
     for (unsigned k = 12; k < 24; k++) {
         scene.targets = 0;
-        look_round(k, 10.0 * k);
+        see_frame(k, 10.0 * k);
         for (unsigned s = 0; s < 2 && !is_seen; s++) { /* the target is to the east */
             full.scans[s].sector_from_rad = 2.5f;
             full.scans[s].sector_to_rad = -2.5f;
@@ -339,7 +339,7 @@ static void fly_late_bearings(unsigned k, const double scan_s[2], const double o
 {
     static struct rho_bearing bearings[2];
     double at_s = 10.0 * k - 10.0;
-    look_round(k, 10.0 * k);
+    see_frame(k, 10.0 * k);
     for (unsigned s = 0; s < 2; s++) {
         full.scans[s].time_us += (int64_t)llround(scan_s[s] * 1e6);
         bearings[s] = bearing_at(&full.scans[s], offset_s[s]);
@@ -366,7 +366,7 @@ static void follow_late(const double scan_s[2], const double offset_s[2], struct
 {
     const struct target *target = &scene.target[0];
     fly_one(1 + bias->rows);
-    struct ekf ekf = ekf_from(&report.tracks[0]);
+    struct ekf ekf = ekf_from_track(&report.tracks[0]);
     for (unsigned k = 12; k < 24; k++) {
         fly_late_bearings(k, scan_s, offset_s, &ekf);
         assert_int_equal(report.num_tracks, 1);
@@ -377,7 +377,7 @@ static void follow_late(const double scan_s[2], const double offset_s[2], struct
             (((double)track->state[0] - target_x_m(target, 10.0 * k)) * target->vx_mps +
              ((double)track->state[1] - target_y_m(target, 10.0 * k)) * target->vy_mps) /
             speed_mps;
-        bias->error2 += pow(error_m(track, target, 10.0 * k), 2.0);
+        bias->error2 += pow(track_error_m(track, target, 10.0 * k), 2.0);
         bias->ekf_error2 += pow(ekf_error_m(&ekf, target, 10.0 * k), 2.0);
         bias->rows++;
     }
@@ -426,7 +426,7 @@ static uint32_t start_at_rate(float false_tracks_per_hour)
     config.false_tracks_per_hour = false_tracks_per_hour;
     assert_int_equal(rho_passive_init(&passive, sizeof passive, &config), RHO_OK);
     scene.target[0] = (struct target){.x_m = 20e3, .y_m = 2e3, .vx_mps = -20.0, .vy_mps = 150.0};
-    fly(0, BATCH, 10.0);
+    fly_frames(0, BATCH, 10.0);
     return tracker.counters.tracks_started;
 }
 

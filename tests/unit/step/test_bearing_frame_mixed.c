@@ -3,7 +3,7 @@
  * A radar's scans and frames of bearings update the same tracks; hostile frames; snapshots; the
  * same bytes.
  */
-#include "frame_chain.h"
+#include "bearing_frame_chain.h"
 
 #define RADAR_X_M (-5000.0f)
 #define RANGE_SIGMA_M 60.0
@@ -98,13 +98,13 @@ static void fly_radar_and_bearings(unsigned seed, int has_bearings, struct figur
     }
     assert_int_equal(report.num_tracks, 1);
     const uint32_t track_id = report.tracks[0].track_id;
-    struct ekf ekf = ekf_from(&report.tracks[0]);
+    struct ekf ekf = ekf_from_track(&report.tracks[0]);
     for (unsigned k = 12; k < 26; k++) {
         scan_radar(10.0 * k);
         assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
         ekf_predict(&ekf, k > 12 ? 6.0 : 10.0, DENSITY);
         ekf_take_plot(&ekf, (double)RADAR_X_M, 0.0, &plot);
-        look_round(k, 10.0 * k + 4.0);
+        see_frame(k, 10.0 * k + 4.0);
         ekf_predict(&ekf, 4.0, DENSITY);
         if (has_bearings) {
             step_frame(&full.frame);
@@ -117,7 +117,7 @@ static void fly_radar_and_bearings(unsigned seed, int has_bearings, struct figur
     assert_int_equal(report.tracks[0].track_id, track_id);
     assert_int_equal(tracker.counters.tracks_started, 1);
     const double time_s = 250.0 + (has_bearings ? 4.0 : 0.0);
-    const double error2 = pow(error_m(&report.tracks[0], &scene.target[0], time_s), 2.0);
+    const double error2 = pow(track_error_m(&report.tracks[0], &scene.target[0], time_s), 2.0);
     if (has_bearings) {
         figures->both2 += error2;
         figures->ekf2 += pow(ekf_error_m(&ekf, &scene.target[0], time_s), 2.0);
@@ -164,7 +164,7 @@ static void a_track_from_bearings_takes_the_radars_plots(void **state)
     unsigned claimed = 0;
     for (unsigned seed = 1; seed <= 20; seed++) {
         draw_one(seed);
-        fly(0, 10, 10.0);
+        fly_frames(0, 10, 10.0);
         assert_int_equal(report.num_tracks, 1);
         assert_int_equal(report.tracks[0].hits, 10);
         const uint32_t track_id = report.tracks[0].track_id;
@@ -184,7 +184,7 @@ static void a_track_from_bearings_takes_the_radars_plots(void **state)
         assert_int_equal(report.tracks[0].track_id, track_id);
         assert_int_equal(tracker.counters.tracks_started, 1);
         after_m += (double)report.tracks[0].sigma_m;
-        assert_true(error_m(&report.tracks[0], &scene.target[0], 210.0) <
+        assert_true(track_error_m(&report.tracks[0], &scene.target[0], 210.0) <
                     5.0 * (double)report.tracks[0].sigma_m);
     }
     print_message("%u of 200 plots claimed, sigma %.2f of before\n", claimed, after_m / before_m);
@@ -211,7 +211,7 @@ static void scans_and_frames_have_one_time(void **state)
     scan_radar(89.999999);
     assert_int_equal(report.fates[0], RHO_FATE_STALE);
     scan_radar(95.0);
-    look_round(10, 94.0);
+    see_frame(10, 94.0);
     step_frame(&full.frame);
     assert_int_equal(report.fates_total[RHO_FATE_STALE], 2);
     assert_int_equal(report.num_tracks, 1);
@@ -365,9 +365,9 @@ static void hostile_frames_break_nothing(void **state)
                 has_filters |=
                     tracker.num_tracks > 0 && tracker.tracks[0].filter != RHO_TRACK_KALMAN;
             }
-            look_round(k, 10.0 * (k % 40));
+            see_frame(k, 10.0 * (k % 40));
             for (unsigned s = 0; s < 3 && k % 40 >= 12; s++) {
-                spoil(&full.scans[s], &scene.look[slot_of(k)][s]);
+                spoil(&full.scans[s], &scene.look[scene_slot_of(k)][s]);
             }
             int64_t shift_us = time_us - full.frame.time_us;
             for (unsigned s = 0; s < 3; s++) {

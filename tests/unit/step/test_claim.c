@@ -27,14 +27,14 @@ static void go_back(void)
 /* One target, straight, as far as scan k. */
 static void fly_alone(uint8_t gate, uint32_t measures, int k)
 {
-    draw(gate, 77);
+    set_up_scene(gate, 77);
     scene.interval_s = interval_s;
     scene.measures = measures;
     scene.num_targets = 1;
     scene.target[0] = (struct target){-5000.0, 4000.0, 3000.0, 200.0, -0.4, 0.0, 0.0, 0.0};
-    begin();
+    begin_tracker();
     for (int i = 0; i < k; i++) {
-        step(i);
+        step_tracker(i);
     }
     assert_int_equal(report.num_tracks, 1);
 }
@@ -47,13 +47,13 @@ static void a_track_that_is_seen_again_is_confirmed(void **state)
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         fly_alone((uint8_t)gate, 0, 15);
         scene.pd = 0.0;
-        step(15);
+        step_tracker(15);
         assert_int_equal(report.tracks[0].status, RHO_TRACK_COASTING);
         assert_int_equal(report.tracks[0].misses, 1);
-        step(16);
+        step_tracker(16);
         assert_int_equal(report.tracks[0].misses, 2);
         scene.pd = 1.0;
-        step(17);
+        step_tracker(17);
         assert_int_equal(report.tracks[0].status, RHO_TRACK_CONFIRMED);
         assert_int_equal(report.tracks[0].hits, 16);
         assert_int_equal(report.tracks[0].misses, 2);
@@ -64,19 +64,19 @@ static void a_track_that_is_seen_again_is_confirmed(void **state)
 static double gain_of(uint32_t measures)
 {
     double before_nat = (double)report.tracks[0].score_nat;
-    struct rho_scan scan = scan_at(30);
+    struct rho_scan scan = scan_of_plots(30);
     struct target at = target_at(&scene.target[0], 30.0);
     keep();
     scene.measures = scan.measures = measures;
     num_plots = 0;
-    add_plot(&at, 0.0, 0);
+    add_target_plot(&at, 0.0, 0);
     plots[0].x_m = (float)at.x_m;
     plots[0].y_m = (float)at.y_m;
     plots[0].vx_mps = (float)(at.speed_mps * cos(at.course_rad));
     plots[0].vy_mps = (float)(at.speed_mps * sin(at.course_rad));
     plots[0].range_rate_mps = (plots[0].x_m * plots[0].vx_mps + plots[0].y_m * plots[0].vy_mps) /
                               hypotf(plots[0].x_m, plots[0].y_m);
-    take_scan(&scan, &initiator);
+    step_with_scan(&scan, &initiator);
     assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
     double gain_nat = (double)report.tracks[0].score_nat - before_nat;
     go_back();
@@ -112,15 +112,15 @@ static double hits_among(uint8_t gate, unsigned strangers)
     double score_nat = 0.0;
     fly_alone(gate, 0, 10);
     for (int k = 10; k < 80; k++) {
-        struct rho_scan scan = scan_at(k);
-        look(k, k);
+        struct rho_scan scan = scan_of_plots(k);
+        see_scan(k, k);
         for (unsigned i = 0; i < strangers; i++) {
             plots[num_plots++] = (struct rho_plot){.x_m = i % 2 ? 9e4f : -9e4f,
                                                    .y_m = i / 2 % 2 ? 9e4f : -9e4f,
                                                    .sigma_range_m = 10.0f,
                                                    .sigma_cross_m = 10.0f};
         }
-        take_scan(&scan, NULL);
+        step_with_scan(&scan, NULL);
         score_nat = k == 70 ? (double)report.tracks[0].score_nat : score_nat;
     }
     assert_int_equal(report.tracks[0].hits, 80);
@@ -142,13 +142,13 @@ static void without_an_initiator_strangers_are_clutter(void **state)
 static void confuse(int from, int to)
 {
     for (int k = from; k < to; k++) {
-        struct rho_scan scan = scan_at(k);
+        struct rho_scan scan = scan_of_plots(k);
         struct target at = target_at(&scene.target[0], k);
-        look(k, k);
+        see_scan(k, k);
         at.x_m += 35.0 * cos(2.0 * k);
         at.y_m += 35.0 * sin(2.0 * k);
-        add_plot(&at, 0.0, -1);
-        take_scan(&scan, &initiator);
+        add_target_plot(&at, 0.0, -1);
+        step_with_scan(&scan, &initiator);
     }
 }
 
@@ -163,17 +163,17 @@ static void a_look_elsewhere_changes_no_evidence(void **state)
         unsigned count = report.tracks[0].num_hypotheses;
         assert_true(gate == RHO_TRACKER_BEST ? count >= 3 : count == 1);
         for (int i = 1; i <= 6; i++) {
-            struct rho_scan scan = scan_at(18);
+            struct rho_scan scan = scan_of_plots(18);
             scan.time_us += 100000 * i;
             scan.sector_from_rad = -2.0f; /* the target is at 2 to 3 rad */
             scan.sector_to_rad = -1.0f;
             num_plots = 0;
-            take_scan(&scan, &initiator);
+            step_with_scan(&scan, &initiator);
             assert_float_equal(report.tracks[0].score_nat, score_nat, 0.0f);
             assert_int_equal(report.tracks[0].num_hypotheses, count);
             assert_int_equal(report.tracks[0].misses, 0);
         }
-        step(19);
+        step_tracker(19);
         assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 1);
         assert_true(distance_m(&report.tracks[0], 0, 19.0) < 60.0);
     }
@@ -191,17 +191,17 @@ static void looks_follow_the_prediction(void **state)
         struct target last = target_at(&scene.target[0], 14.0);
         struct target next = target_at(&scene.target[0], 18.0);
         double from_rad = atan2(last.y_m, last.x_m), to_rad = atan2(next.y_m, next.x_m);
-        struct rho_scan scan = scan_at(18);
+        struct rho_scan scan = scan_of_plots(18);
         scan.sector_from_rad = (float)((from_rad + to_rad) / 2.0);
         scan.sector_to_rad = (float)(from_rad + 0.5);
         assert_true(to_rad < from_rad - 0.05);
         num_plots = 0;
-        take_scan(&scan, &initiator);
+        step_with_scan(&scan, &initiator);
         assert_int_equal(report.tracks[0].misses, 0);
         scan.time_us += 1;
         scan.sector_to_rad = scan.sector_from_rad;
         scan.sector_from_rad = (float)(to_rad - 0.5);
-        take_scan(&scan, &initiator);
+        step_with_scan(&scan, &initiator);
         assert_int_equal(report.tracks[0].misses, 1);
     }
 }
@@ -281,7 +281,7 @@ static int choose(int k)
     double expected_m[3], least = INFINITY, second = INFINITY;
     const float *at = report.tracks[0].state;
     int best = -1;
-    struct rho_scan scan = scan_at(k);
+    struct rho_scan scan = scan_of_plots(k);
     keep();
     for (int axis = 0; axis < 3; axis++) {
         expected_m[axis] = (double)at[axis] + interval_s * (double)at[3 + axis];
@@ -291,7 +291,7 @@ static int choose(int k)
         struct target plot = {.x_m = expected_m[0], .y_m = expected_m[1], .z_m = expected_m[2]};
         plot.speed_mps = uniform(190.0, 210.0);
         plot.course_rad = uniform(-0.5, -0.3);
-        add_plot(&plot, 0.0, -1);
+        add_target_plot(&plot, 0.0, -1);
     }
     for (int i = 0; i < 5; i++) {
         double velocity_mps[3];
@@ -302,7 +302,7 @@ static int choose(int k)
         second = off < least ? least : fmin(off, second);
         least = fmin(off, least);
     }
-    take_scan(&scan, NULL);
+    step_with_scan(&scan, NULL);
     if (second - least < 0.02) {
         return 0;
     }
@@ -324,7 +324,7 @@ static void the_hough_gate_takes_the_plot_that_goes_on_straight(void **state)
                 told += choose(k);
                 go_back(); /* clutter would lead it astray */
             }
-            step(k);
+            step_tracker(k);
         }
         assert_true(told > 190);
     }
@@ -363,7 +363,7 @@ static void add_off_by(double y_m, double lower_mps, double upper_mps)
     const double q = upper_mps + b[0] * (double)v_mps[0] + b[1] * (double)v_mps[1];
     const double det = a[0] * b[1] - a[1] * b[0];
     struct target at = {.x_m = -5000.0 + 200.0 * 16, .y_m = y_m};
-    add_plot(&at, 0.0, -1);
+    add_target_plot(&at, 0.0, -1);
     plots[num_plots - 1].vx_mps = (float)((p * b[1] - q * a[1]) / det);
     plots[num_plots - 1].vy_mps = (float)((a[0] * q - b[0] * p) / det);
 }
@@ -371,15 +371,15 @@ static void add_off_by(double y_m, double lower_mps, double upper_mps)
 /* Two tracks, at y 0 and 400 m, whose velocities changed nearly along x and y. */
 static struct rho_scan fly_two(uint8_t status_of_upper)
 {
-    draw(RHO_TRACKER_HOUGH, 77);
+    set_up_scene(RHO_TRACKER_HOUGH, 77);
     config.hough_window_m = 2000.0f;
     scene.measures = RHO_MEASURES_VELOCITY;
     scene.num_targets = 2;
     scene.target[0] = (struct target){-5000.0, 0.0, 3000.0, 200.0, 0.0, 0.0, 0.0, 0.0};
     scene.target[1] = (struct target){-5000.0, 400.0, 3000.0, 200.0, 0.0, 0.0, 0.0, 0.0};
-    begin();
+    begin_tracker();
     for (int k = 0; k < 16; k++) {
-        step(k);
+        step_tracker(k);
     }
     assert_int_equal(report.num_tracks, 2);
     upper = tracker.tracks[1].kalman.state[1] > 200.0f;
@@ -391,7 +391,7 @@ static struct rho_scan fly_two(uint8_t status_of_upper)
     }
     tracker.tracks[upper].status = status_of_upper;
     num_plots = 0;
-    return scan_at(16);
+    return scan_of_plots(16);
 }
 
 /*
@@ -406,7 +406,7 @@ static void a_confirmed_track_gives_way_by_a_tenth_and_no_more(void **state)
         struct rho_scan scan = fly_two(RHO_TRACK_TENTATIVE);
         add_off_by(0.0, 10.0, 0.0);
         add_off_by(-1800.0, i ? 10.9 : 11.7, 0.0);
-        take_scan(&scan, NULL);
+        step_with_scan(&scan, NULL);
         assert_int_equal(report.tracks[lower].plot, i);
         assert_int_equal(report.tracks[upper].plot, i ? 0 : -1);
     }
@@ -424,7 +424,7 @@ static void residuals_below_a_millimetre_a_second_are_alike(void **state)
         struct rho_scan scan = fly_two(RHO_TRACK_CONFIRMED);
         add_off_by(200.0, 0.0, off_mps);
         add_off_by(210.0, off_mps, 1.0);
-        take_scan(&scan, NULL);
+        step_with_scan(&scan, NULL);
         assert_int_equal(report.tracks[lower].plot, i);
         assert_int_equal(report.tracks[upper].plot, 1 - i);
     }
@@ -447,7 +447,7 @@ static void the_hough_gate_begins_with_the_third_velocity(void **state)
             plots[i].x_m = at[0] + at[3];
             plots[i].y_m = at[1] + at[4] + 15.0f * (float)i;
         }
-        take_scan(&scan, NULL);
+        step_with_scan(&scan, NULL);
         assert_int_equal(report.tracks[lower].plot, velocities - 2);
     }
 }

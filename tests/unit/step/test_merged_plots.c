@@ -57,17 +57,17 @@ static int check_share(void)
 
 static void begin_pair(uint64_t seed)
 {
-    draw(seed);
+    use_usual_configs(seed);
     config.pd = (float)PD;
     initiation.pd = (float)PD;
-    begin();
+    begin_tracker();
 }
 
 static void see_with(double pd, double x_m, double y_m)
 {
     if (uniform(0.0, 1.0) < pd) {
         const double at_m = x_m + SIGMA_M * normal();
-        add(at_m, y_m + SIGMA_M * normal(), SIGMA_M);
+        add_plot(at_m, y_m + SIGMA_M * normal(), SIGMA_M);
     }
 }
 
@@ -121,7 +121,7 @@ static struct pair_run fly_together(uint64_t seed)
     begin_pair(seed);
     for (int k = 0; k < APPROACH + TOGETHER + PARTING; k++) {
         see_pair(SPEED_MPS * k, half_way_m(k));
-        step(k);
+        step_at(k);
         run.shared += (unsigned)check_share();
         run.least_tracks =
             k > 10 && report.num_tracks < run.least_tracks ? report.num_tracks : run.least_tracks;
@@ -160,7 +160,7 @@ static void crossing_targets_keep_their_velocities(void **state)
         begin_pair(seed);
         for (int k = 0; k < 60; k++) {
             see_pair(SPEED_MPS * k, 40.0 * (k - 30));
-            step(k);
+            step_at(k);
             shared += (unsigned)check_share();
             for (unsigned i = 0; i < report.num_tracks && k == 33; i++) {
                 error_mps += fabs(fabs((double)report.tracks[i].state[4]) - 40.0) / RUNS / 2.0;
@@ -190,7 +190,7 @@ static int outlive(uint64_t seed, double apart_m)
         if (k < 30) {
             see(SPEED_MPS * k, apart_m);
         }
-        step(k);
+        step_at(k);
         check_share();
         unsigned believed = 0;
         for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -226,7 +226,7 @@ static void a_pair_that_never_parts_is_not_kept_for_ever(void **state)
         int doubted = 0;
         for (int k = 0; k < 140; k++) {
             see_pair(SPEED_MPS * k, k < 30 ? 20.0 * (30 - k) : 0.0);
-            step(k);
+            step_at(k);
             check_share();
             for (unsigned i = 0; i < report.num_tracks && k > 40; i++) {
                 doubted |= report.tracks[i].status == RHO_TRACK_TENTATIVE;
@@ -246,15 +246,15 @@ static void a_pair_that_never_parts_is_not_kept_for_ever(void **state)
 static unsigned scans_shared(uint8_t gate, int from)
 {
     unsigned shared = 0;
-    draw(1);
+    use_usual_configs(1);
     config.gate = gate;
-    begin();
+    begin_tracker();
     for (int k = 0; k < from + 4; k++) {
-        add(SPEED_MPS * k, k < from ? 30.0 : 15.0, 10.0);
+        add_plot(SPEED_MPS * k, k < from ? 30.0 : 15.0, 10.0);
         if (k < from) {
-            add(SPEED_MPS * k, 0.0, 10.0);
+            add_plot(SPEED_MPS * k, 0.0, 10.0);
         }
-        step(k);
+        step_at(k);
         shared += (unsigned)check_share();
     }
     return shared;
@@ -273,17 +273,17 @@ static void old_tracks_share_in_each_gate_and_new_ones_do_not(void **state)
 static void a_plot_has_two_tracks_at_most(void **state)
 {
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (int k = 0; k < 20; k++) {
         if (k < 14) {
-            add(SPEED_MPS * k, 30.0, 10.0);
-            add(SPEED_MPS * k, 0.0, 10.0);
-            add(SPEED_MPS * k, -30.0, 10.0);
+            add_plot(SPEED_MPS * k, 30.0, 10.0);
+            add_plot(SPEED_MPS * k, 0.0, 10.0);
+            add_plot(SPEED_MPS * k, -30.0, 10.0);
         } else {
-            add(SPEED_MPS * k, 0.0, 10.0);
+            add_plot(SPEED_MPS * k, 0.0, 10.0);
         }
-        step(k);
+        step_at(k);
         assert_int_equal(check_share(), k >= 14);
     }
 }
@@ -292,12 +292,12 @@ static void a_plot_has_two_tracks_at_most(void **state)
 static void what_is_seen_apart_is_not_shared(void **state)
 {
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (int k = 0; k < 40; k++) {
-        add(SPEED_MPS * k, 15.0, 10.0);
-        add(SPEED_MPS * k, -15.0, 10.0);
-        step(k);
+        add_plot(SPEED_MPS * k, 15.0, 10.0);
+        add_plot(SPEED_MPS * k, -15.0, 10.0);
+        step_at(k);
         assert_int_equal(check_share(), 0);
         assert_int_equal(report.num_tracks, k < 3 ? 0 : 2);
     }
@@ -307,14 +307,14 @@ static void what_is_seen_apart_is_not_shared(void **state)
 static void one_that_is_far_shares_nothing(void **state)
 {
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (int k = 0; k < 40; k++) {
-        add(SPEED_MPS * k, 0.0, 10.0);
+        add_plot(SPEED_MPS * k, 0.0, 10.0);
         if (k != 20 && k != 30) {
-            add(SPEED_MPS * k, 50.0, 10.0);
+            add_plot(SPEED_MPS * k, 50.0, 10.0);
         }
-        step(k);
+        step_at(k);
         assert_int_equal(check_share(), 0);
     }
     assert_int_equal(report.num_tracks, 2);
@@ -328,18 +328,18 @@ static void one_that_is_far_shares_nothing(void **state)
 static unsigned scans_shared_apart(double along_m, double across_m, int is_one)
 {
     unsigned shared = 0;
-    draw(1);
+    use_usual_configs(1);
     config.accel_max_mps2 = 20.0f; /* each one's plots are in the other's gate */
-    begin();
+    begin_tracker();
     for (int k = 0; k < 24; k++) {
         const int is_missed = k >= 20 && k < 23;
         const double share = is_missed && is_one ? 0.5 : 0.0;
         for (int i = 0; i < 2 - is_missed; i++) {
-            struct rho_plot *plot = add(40000.0 - 4.0 * SPEED_MPS * k + (i + share) * along_m,
-                                        (i + share) * across_m, 30.0);
+            struct rho_plot *plot = add_plot(40000.0 - 4.0 * SPEED_MPS * k + (i + share) * along_m,
+                                             (i + share) * across_m, 30.0);
             plot->sigma_cross_m = 170.0f;
         }
-        step(4.0 * k);
+        step_at(4.0 * k);
         shared += (unsigned)check_share();
     }
     assert_int_equal(report.num_tracks, 2);
@@ -370,9 +370,9 @@ static void a_shared_plot_has_its_own_time(void **state)
             const double x_m = SPEED_MPS * (10.0 * k + offset_s);
             const int is_one = k >= 20;
             for (int i = 0; i < 2 - is_one; i++) {
-                add(x_m, is_one ? 30.0 : 60.0 * i, SIGMA_M)->offset_us = offset_s * 1000000;
+                add_plot(x_m, is_one ? 30.0 : 60.0 * i, SIGMA_M)->offset_us = offset_s * 1000000;
             }
-            step(10.0 * k);
+            step_at(10.0 * k);
         }
         assert_int_equal(report.num_tracks, 2);
         assert_int_equal(find_share().tracks, 1);
@@ -390,9 +390,9 @@ static void a_pair_that_was_missed_is_seen_again(void **state)
     begin_pair(6);
     for (int k = 0; k < 30; k++) {
         for (int i = 0; i < (k < 20 ? 2 : k < 22 ? 0 : 1); i++) {
-            add(SPEED_MPS * 10.0 * k, k < 20 ? 60.0 * i : 30.0, SIGMA_M);
+            add_plot(SPEED_MPS * 10.0 * k, k < 20 ? 60.0 * i : 30.0, SIGMA_M);
         }
-        step(10.0 * k);
+        step_at(10.0 * k);
     }
     unsigned confirmed = 0;
     for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -411,12 +411,12 @@ static double sigma_after(int is_shared)
     for (int k = 0; k < 23; k++) {
         const double x_m = SPEED_MPS * 10.0 * k;
         for (int i = 0; i < 2 && (k < 20 || (k == 22 && !is_shared)); i++) {
-            add(x_m, 60.0 * i, k < 20 ? SIGMA_M : sqrt(2.0) * SIGMA_M);
+            add_plot(x_m, 60.0 * i, k < 20 ? SIGMA_M : sqrt(2.0) * SIGMA_M);
         }
         if (k == 22 && is_shared) {
-            add(x_m, 30.0, SIGMA_M);
+            add_plot(x_m, 30.0, SIGMA_M);
         }
-        step(10.0 * k);
+        step_at(10.0 * k);
     }
     assert_int_equal(report.num_tracks, 2);
     assert_int_equal(find_share().tracks, is_shared);
@@ -445,12 +445,12 @@ static void a_shared_plot_beyond_the_capacity_is_told_by_its_row(void **state)
     for (int k = 0; k < 25; k++) {
         const double x_m = SPEED_MPS * 10.0 * k;
         for (int i = 0; i < RHO_MAX_PLOTS && k == 24; i++) {
-            add(x_m + 500.0 * i, 40000.0, SIGMA_M);
+            add_plot(x_m + 500.0 * i, 40000.0, SIGMA_M);
         }
         for (int i = 0; i < (k < 20 ? 2 : 1); i++) {
-            add(x_m, k < 20 ? 60.0 * i : 30.0, SIGMA_M);
+            add_plot(x_m, k < 20 ? 60.0 * i : 30.0, SIGMA_M);
         }
-        step(10.0 * k);
+        step_at(10.0 * k);
     }
     assert_int_equal(report.num_tracks, 2);
     assert_int_equal(find_share().plot, RHO_MAX_PLOTS);

@@ -14,7 +14,7 @@ static void starts_where_a_person_points(void **state)
     const struct rho_operator_start start = {
         .x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f, .vx_mps = 50.0f, .sigma_mps = 20.0f};
     (void)state;
-    prepare();
+    prepare_tracker();
     assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
     const struct rho_track_report *track = track_near(6000.0);
     assert_non_null(track);
@@ -25,8 +25,8 @@ static void starts_where_a_person_points(void **state)
     assert_true(fabsf(track->state[3] - 50.0f) < 1.0f);
     assert_true(rho_tracker_is_sound(&tracker));
     for (int i = 0; i < 3; i++) {
-        add_noisy(500.0 + 50.0 * (i + 1), 6000.0, 10.0);
-        see(next_k++, 1);
+        add_noisy_plot(500.0 + 50.0 * (i + 1), 6000.0, 10.0);
+        see_flights(next_k++, 1);
         assert_int_equal(track_near(6000.0)->track_id, 3);
         assert_int_equal(track_near(6000.0)->hits, i + 2);
     }
@@ -38,12 +38,12 @@ static void ends_where_nothing_follows(void **state)
 {
     const struct rho_operator_start start = {.x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f};
     (void)state;
-    prepare();
+    prepare_tracker();
     assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
     assert_true(track_near(6000.0)->sigma_mps > 100.0f);
-    run(config.coast_scans_max - 1, 1);
+    run_scans(config.coast_scans_max - 1, 1);
     assert_non_null(track_near(6000.0));
-    run(1, 1);
+    run_scans(1, 1);
     assert_null(track_near(6000.0));
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], 3);
@@ -54,17 +54,17 @@ static void refuses_starts_that_are_none(void **state)
     struct rho_operator_start start = {.x_m = 500.0f, .y_m = 6000.0f, .sigma_m = 50.0f};
     struct rho_operator_start bad[] = {start, start, start, start, start};
     (void)state;
-    draw(7);
-    begin();
+    use_usual_configs(7);
+    begin_tracker();
     report.time_us = 0;
     assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_ERROR_STATE);
-    prepare();
+    prepare_tracker();
     bad[0].x_m = NAN;
     bad[1].y_m = 3e6f;
     bad[2].sigma_m = 0.0f;
     bad[3].sigma_mps = -1.0f;
     bad[4].sigma_mps = NAN;
-    remember();
+    remember_state();
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         assert_int_equal(rho_tracker_start_at(&tracker, &bad[i], &report), RHO_ERROR_VALUE);
     }
@@ -90,7 +90,7 @@ static void starts_none_without_room_in_the_report(void **state)
 {
     struct rho_operator_start start = {.x_m = 1000.0f, .y_m = 5000.0f, .sigma_m = 20.0f};
     (void)state;
-    prepare();
+    prepare_tracker();
     while (tracker.num_tracks < RHO_MAX_TRACKS) {
         start.y_m += 100.0f;
         assert_int_equal(rho_tracker_start_at(&tracker, &start, &report), RHO_OK);
@@ -111,7 +111,7 @@ static void starts_none_without_room_in_the_report(void **state)
 static void drops_one_track(void **state)
 {
     (void)state;
-    prepare();
+    prepare_tracker();
     const uint32_t lost = track_near(2000.0)->track_id;
     const uint32_t kept = track_near(-2000.0)->track_id;
     assert_int_equal(rho_tracker_drop_track(&tracker, lost, &report), RHO_OK);
@@ -122,13 +122,13 @@ static void drops_one_track(void **state)
     assert_int_equal(tracker.counters.tracks_dropped, 1);
     assert_int_equal(tracker.counters.tracks_ended, 1);
     assert_true(rho_tracker_is_sound(&tracker));
-    remember();
+    remember_state();
     assert_int_equal(rho_tracker_drop_track(&tracker, lost, &report), RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_drop_track(&tracker, 0, &report), RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_drop_track(NULL, kept, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_drop_track(&tracker, kept, NULL), RHO_ERROR_NULL);
     check_unchanged();
-    run(8, 1); /* its target is found again, under another identity */
+    run_scans(8, 1); /* its target is found again, under another identity */
     assert_int_equal(track_near(2000.0)->track_id, 3);
     assert_int_equal(track_near(-2000.0)->track_id, kept);
 }
@@ -137,9 +137,9 @@ static void drops_one_track(void **state)
 static void drops_none_without_room_in_the_report(void **state)
 {
     (void)state;
-    prepare();
+    prepare_tracker();
     report.num_ended = RHO_MAX_TRACKS;
-    remember();
+    remember_state();
     assert_int_equal(rho_tracker_drop_track(&tracker, 1, &report), RHO_ERROR_CAPACITY);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 9, &report), RHO_ERROR_CAPACITY);
     check_unchanged();
@@ -153,7 +153,7 @@ static void drops_none_without_room_in_the_report(void **state)
 static void renumbers_upwards_and_back(void **state)
 {
     (void)state;
-    prepare();
+    prepare_tracker();
     const uint32_t old_id = track_near(2000.0)->track_id, other_id = 3 - old_id;
     assert_int_equal(rho_tracker_renumber_track(&tracker, old_id, 40, &report), RHO_OK);
     assert_int_equal(track_near(2000.0)->track_id, 40);
@@ -161,26 +161,26 @@ static void renumbers_upwards_and_back(void **state)
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], old_id);
     assert_int_equal(tracker.counters.tracks_ended, 0);
-    run(4, 1); /* each step checks that identities are in order */
+    run_scans(4, 1); /* each step checks that identities are in order */
     assert_int_equal(track_near(2000.0)->track_id, 40);
     assert_int_equal(track_near(2000.0)->hits, track_near(-2000.0)->hits);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 40, old_id, &report), RHO_OK);
     assert_int_equal(report.tracks[0].track_id, 1);
     assert_int_equal(report.tracks[1].track_id, 2);
     assert_true(rho_tracker_is_sound(&tracker));
-    run(4, 1);
+    run_scans(4, 1);
     assert_int_equal(track_near(2000.0)->track_id, old_id);
     /* no later track gets an identity that was given by hand */
     assert_int_equal(rho_tracker_drop_track(&tracker, old_id, &report), RHO_OK);
-    run(8, 1);
+    run_scans(8, 1);
     assert_int_equal(track_near(2000.0)->track_id, 41);
 }
 
 static void refuses_identities_that_are_taken(void **state)
 {
     (void)state;
-    prepare();
-    remember();
+    prepare_tracker();
+    remember_state();
     assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 2, &report), RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 1, &report), RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_renumber_track(&tracker, 1, 0, &report), RHO_ERROR_VALUE);
@@ -202,7 +202,7 @@ static void evidence_is_that_of_the_row(void **state)
     if (!RHO_KEEPS_OFFERS) {
         skip();
     }
-    prepare();
+    prepare_tracker();
     assert_true(rho_tracker_evidence_of(&tracker, 0, &evidence));
     assert_true(rho_tracker_evidence_of(&tracker, 1, &evidence));
     assert_int_equal(rho_tracker_renumber_track(&tracker, 2, 5, &report), RHO_OK);
@@ -217,13 +217,13 @@ static void evidence_is_that_of_the_row(void **state)
 static void a_frozen_track_coasts_until_it_is_thawed(void **state)
 {
     (void)state;
-    prepare();
+    prepare_tracker();
     const uint32_t frozen = track_near(2000.0)->track_id;
     const uint16_t hits = track_near(2000.0)->hits;
     assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 1, &report), RHO_OK);
     assert_int_equal(track_near(2000.0)->status, RHO_TRACK_COASTING);
     assert_int_equal(track_near(2000.0)->plot, -1);
-    run(4 * config.coast_scans_max, 0);
+    run_scans(4 * config.coast_scans_max, 0);
     const struct rho_track_report *track = track_near(2000.0);
     assert_non_null(track);
     assert_int_equal(track->track_id, frozen);
@@ -233,7 +233,7 @@ static void a_frozen_track_coasts_until_it_is_thawed(void **state)
     assert_true(fabs(track->state[0] - (-3000.0 + 100.0 * (next_k - 1))) < 400.0);
     assert_true(rho_tracker_is_sound(&tracker));
     assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 0, &report), RHO_OK);
-    run(6, 1);
+    run_scans(6, 1);
     assert_int_equal(report.num_tracks, 2);
     assert_int_equal(report_of(frozen)->hits, hits + 6);
     assert_int_equal(report_of(frozen)->status, RHO_TRACK_CONFIRMED);
@@ -243,25 +243,25 @@ static void a_frozen_track_coasts_until_it_is_thawed(void **state)
 static void a_frozen_track_takes_no_plots(void **state)
 {
     (void)state;
-    prepare();
+    prepare_tracker();
     const uint32_t frozen = track_near(2000.0)->track_id;
     const uint16_t hits = track_near(2000.0)->hits;
     assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 1, &report), RHO_OK);
-    run(3, 1);
+    run_scans(3, 1);
     assert_int_equal(report_of(frozen)->hits, hits);
     assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], 1);
     assert_int_equal(rho_tracker_freeze_track(&tracker, frozen, 0, &report), RHO_OK);
-    run(config.coast_scans_max - 1, 0);
+    run_scans(config.coast_scans_max - 1, 0);
     assert_non_null(report_of(frozen));
-    run(2 * config.coast_scans_max, 0);
+    run_scans(2 * config.coast_scans_max, 0);
     assert_null(report_of(frozen));
 }
 
 static void freezes_no_other_tracks(void **state)
 {
     (void)state;
-    prepare();
-    remember();
+    prepare_tracker();
+    remember_state();
     assert_int_equal(rho_tracker_freeze_track(&tracker, 3, 1, &report), RHO_ERROR_VALUE);
     assert_int_equal(rho_tracker_freeze_track(NULL, 1, 1, &report), RHO_ERROR_NULL);
     assert_int_equal(rho_tracker_freeze_track(&tracker, 1, 1, NULL), RHO_ERROR_NULL);
@@ -284,7 +284,7 @@ static void frames_leave_frozen_tracks_alone(void **state)
     struct rho_bearing_scan scans[3];
     (void)state;
     for (int is_frozen = 0; is_frozen < 2; is_frozen++) {
-        prepare();
+        prepare_tracker();
         const struct rho_track_report before = *track_near(2000.0);
         if (is_frozen) {
             assert_int_equal(rho_tracker_freeze_track(&tracker, before.track_id, 1, &report),
@@ -322,13 +322,13 @@ static void any_commands_keep_the_tracker_sound(void **state)
 {
     unsigned done = 0;
     (void)state;
-    prepare();
+    prepare_tracker();
     for (int i = 0; i < 400; i++) {
         for (int k = 0; k < 6; k++) {
             const double x_m = uniform(-5000.0, 5000.0);
-            (void)add(x_m, 5000.0, 10.0);
+            (void)add_plot(x_m, 5000.0, 10.0);
         }
-        see(next_k++, i % 3 != 0);
+        see_flights(next_k++, i % 3 != 0);
         const uint32_t id = 1 + (uint32_t)uniform(0.0, 6.0);
         const struct rho_operator_start start = {
             .x_m = 100.0f * (float)i, .y_m = -7000.0f, .sigma_m = 100.0f};
@@ -340,7 +340,7 @@ static void any_commands_keep_the_tracker_sound(void **state)
             done += rho_tracker_start_at(&tracker, &start, &report) == RHO_OK;
         }
         assert_true(rho_tracker_is_sound(&tracker));
-        check_sums();
+        check_fate_sums();
     }
     assert_true(done > 80);
 }

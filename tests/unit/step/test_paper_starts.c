@@ -24,10 +24,10 @@ static struct rho_scan scan_at(int k)
 {
     const double t_s = SCAN_S * k;
     num_plots = 0;
-    add(target_m(0, t_s) + 0.5 * normal(), target_m(1, t_s) + 0.5 * normal(), 0.5);
+    add_plot(target_m(0, t_s) + 0.5 * normal(), target_m(1, t_s) + 0.5 * normal(), 0.5);
     for (int i = 0; i < CLUTTER; i++) {
         const double x_m = uniform(-3500.0, 3500.0);
-        add(x_m, uniform(-3500.0, 3500.0), 0.5);
+        add_plot(x_m, uniform(-3500.0, 3500.0), 0.5);
     }
     return (struct rho_scan){
         .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = num_plots, .plots = plots};
@@ -35,8 +35,8 @@ static struct rho_scan scan_at(int k)
 
 static void begin_by(enum rho_hough_method method)
 {
-    draw(5);
-    begin();
+    use_usual_configs(5);
+    begin_tracker();
     rho_paper_starts_config_default(&lines, method);
     lines.hough.rho_max_m = 5000.0f;
     lines.hough.rho_cell_m = 25.0f; /* half a metre of noise turns a pair by a milliradian */
@@ -185,8 +185,8 @@ static void a_line_has_the_plots_near_its_motion(void **state)
         for (int k = 0; k < 4; k++) {
             const double t_s = SCAN_S * k, off_m = k == 1 ? (i ? 78.0 : 72.0) : 0.0;
             num_plots = 0;
-            add(target_m(0, t_s) + off_m * 90.0 / speed_mps,
-                target_m(1, t_s) + off_m * 220.0 / speed_mps, 0.5);
+            add_plot(target_m(0, t_s) + off_m * 90.0 / speed_mps,
+                     target_m(1, t_s) + off_m * 220.0 / speed_mps, 0.5);
             const struct rho_scan scan = {
                 .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = 1, .plots = plots};
             assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
@@ -276,10 +276,10 @@ static void lines_of_bearings_start_tracks(void **state)
     (void)state;
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         struct rho_passive_paper_config of_paper;
-        draw(6);
+        use_usual_configs(6);
         config.gate = (uint8_t)gate;
         config.input.is_estimated = 1;
-        begin();
+        begin_tracker();
         rho_passive_paper_config_default(&of_paper);
         assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
         for (int k = 0; k < 16; k++) {
@@ -303,8 +303,8 @@ static void bad_frames_are_refused(void **state)
 {
     (void)state;
     const struct rho_frame frame = frame_at(0);
-    draw(6);
-    begin();
+    use_usual_configs(6);
+    begin_tracker();
     struct rho_passive_paper_config of_paper;
     rho_passive_paper_config_default(&of_paper);
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
@@ -323,8 +323,8 @@ static void starts_from_estimates_are_checked(void **state)
     (void)state;
     struct rho_kalman estimate;
     const struct rho_frame frame = frame_at(0);
-    draw(6);
-    begin();
+    use_usual_configs(6);
+    begin_tracker();
     rho_kalman_init(&estimate);
     assert_int_equal(rho_tracker_start_estimate(&tracker, &estimate, 1, 4, 0, &report),
                      RHO_ERROR_STATE);

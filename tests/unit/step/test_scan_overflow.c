@@ -18,14 +18,14 @@
 static void see_target(int i, int k)
 {
     const double x_m = 8000.0 * (i % 10) + 400.0 * k + 20.0 * normal();
-    add(x_m, 8000.0 * (i / 10) + 20.0 * normal(), 20.0);
+    add_plot(x_m, 8000.0 * (i / 10) + 20.0 * normal(), 20.0);
 }
 
 static void see_clutter(uint32_t up_to)
 {
     while (num_plots < up_to) {
         const double x_m = uniform(-1e4, 11e4);
-        add(x_m, uniform(-1e4, 6e4), 20.0);
+        add_plot(x_m, uniform(-1e4, 6e4), 20.0);
     }
 }
 
@@ -44,7 +44,7 @@ static void fly_quietly(void)
         for (int i = 0; i < FIRST; i++) {
             see_target(i, k);
         }
-        step(2.0 * k);
+        step_at(2.0 * k);
     }
     assert_int_equal(report.num_tracks, FIRST);
     assert_int_equal(tracker.counters.tracks_confirmed, FIRST);
@@ -68,10 +68,10 @@ static void expect_first_tracks(int k)
 
 static void begin_overload(uint8_t gate)
 {
-    draw(11);
+    use_usual_configs(11);
     config.gate = gate;
     config.accel_max_mps2 = 30.0f;
-    begin();
+    begin_tracker();
 }
 
 /* Tracks that never were believed give way to what has more evidence, those that were do not. */
@@ -84,7 +84,7 @@ static void existing_tracks_are_kept_and_all_else_is_counted(void **state)
         const struct rho_tracker_counters then = tracker.counters;
         for (int k = QUIET; k < SCANS; k++) {
             see_too_much(k);
-            step(2.0 * k);
+            step_at(2.0 * k);
             expect_first_tracks(k);
             /* of those beyond only what tracks claim has another fate */
             assert_in_range(report.fates_total[RHO_FATE_NO_ROOM],
@@ -114,10 +114,10 @@ static void crowded_tracks_count_what_was_cut(void **state)
             see_target(i, k);
             for (int n = 0; n < 11; n++) {
                 const double x_m = 8000.0 * (i % 10) + 400.0 * k + uniform(-100.0, 100.0);
-                add(x_m, 8000.0 * (i / 10) + uniform(-100.0, 100.0), 20.0);
+                add_plot(x_m, 8000.0 * (i / 10) + uniform(-100.0, 100.0), 20.0);
             }
         }
-        step(2.0 * k);
+        step_at(2.0 * k);
         for (unsigned i = 0; i < report.num_tracks; i++) {
             assert_true(report.tracks[i].num_hypotheses >= 1);
         }
@@ -154,13 +154,13 @@ static unsigned fill_and_add(uint32_t gone, int late)
     for (int k = 0; k < 9; k++) {
         for (uint32_t i = 0; i < RHO_MAX_TRACKS; i++) {
             if (k < 5 || i >= gone) {
-                add(8000.0 * (i % 8) + 400.0 * k, 8000.0 * (i / 8), 400.0);
+                add_plot(8000.0 * (i % 8) + 400.0 * k, 8000.0 * (i / 8), 400.0);
             }
         }
         for (int i = 0; i < 4 && k >= late; i++) {
-            add(-4000.0 + 400.0 * k, 4000.0 + 8000.0 * i, 2.0);
+            add_plot(-4000.0 + 400.0 * k, 4000.0 + 8000.0 * i, 2.0);
         }
-        step(2.0 * k);
+        step_at(2.0 * k);
         assert_int_equal(report.num_tracks, k < 3 ? 0 : RHO_MAX_TRACKS);
         ended += report.num_ended;
     }
@@ -208,7 +208,7 @@ static void tracks_find_plots_beyond_the_capacity(void **state)
         for (int k = QUIET; k < SCANS; k++) {
             /* in the second part, in the third, and across the border of both */
             see_late(k, k % 3 == 0 ? RHO_MAX_PLOTS + 7 : k % 3 == 1 ? 700 : 2 * RHO_MAX_PLOTS - 9);
-            step(2.0 * k);
+            step_at(2.0 * k);
         }
         for (uint32_t id = 1; id <= FIRST; id++) {
             there += report_of(id) != NULL && report_of(id)->plot >= RHO_MAX_PLOTS;
@@ -225,7 +225,7 @@ static void a_claimed_plot_beyond_is_told_by_its_row(void **state)
     begin_overload(RHO_TRACKER_BEST);
     fly_quietly();
     see_late(QUIET, RHO_MAX_PLOTS + 50);
-    step(2.0 * QUIET);
+    step_at(2.0 * QUIET);
     for (uint32_t id = 1; id <= FIRST; id++) {
         const struct rho_track_report *track = report_of(id);
         assert_non_null(track);
@@ -249,10 +249,10 @@ static void tracks_of_what_has_gone_end_in_any_part(void **state)
         for (int band = 0; band < 4; band++) {
             for (uint32_t i = 0; i < RHO_MAX_PLOTS; i++) {
                 const double x_m = uniform(-1e4, 11e4), off_m = uniform(0.0, 1e4);
-                add(x_m, 2e4 - 1e4 * band + off_m, 20.0);
+                add_plot(x_m, 2e4 - 1e4 * band + off_m, 20.0);
             }
         }
-        step(2.0 * k);
+        step_at(2.0 * k);
         for (uint32_t id = 1; id <= FIRST; id++) {
             const struct rho_track_report *track = report_of(id);
             believed += track != NULL && track->status != RHO_TRACK_TENTATIVE;
@@ -271,7 +271,7 @@ static void plots_far_beyond_are_nobody_s(void **state)
     see_clutter(RHO_MAX_PLOTS + 10);
     plots[RHO_MAX_PLOTS + 3].x_m = NAN;
     see_late(QUIET, 4 * RHO_MAX_PLOTS);
-    step(2.0 * QUIET);
+    step_at(2.0 * QUIET);
     assert_int_equal(report.fates_total[RHO_FATE_INVALID], 1);
     for (uint32_t id = 1; id <= FIRST; id++) {
         const struct rho_track_report *track = report_of(id);

@@ -15,9 +15,9 @@
 
 static void begin_road(uint64_t seed)
 {
-    draw(seed);
+    use_usual_configs(seed);
     config.v_max_mps = initiation.v_max_mps = 50.0f;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_body_max(&tracker, LONGEST_M), RHO_OK);
 }
 
@@ -30,13 +30,13 @@ static double at_m(int k)
 static void see(double x_m, double y_m, double sigma_m)
 {
     if (uniform(0.0, 1.0) < 0.7) {
-        add_noisy(x_m, y_m, sigma_m);
+        add_noisy_plot(x_m, y_m, sigma_m);
     }
 }
 
 static void look(int k)
 {
-    step(STEP_S * k);
+    step_at(STEP_S * k);
     assert_true(rho_tracker_is_sound(&tracker));
 }
 
@@ -105,7 +105,7 @@ static int is_split(float width_m, float sigma_m, float of_plots)
     begin_road(3);
     for (int k = 0; k < 60; k++) {
         for (int i = -2; i <= 2; i++) {
-            add_noisy(at_m(k) + 2.0 * i, 0.2 * i, 0.1);
+            add_noisy_plot(at_m(k) + 2.0 * i, 0.2 * i, 0.1);
         }
         look(k);
     }
@@ -120,7 +120,7 @@ static int is_split(float width_m, float sigma_m, float of_plots)
     body->across.variance_m4 = width_m * width_m / 36.0f * sigma_m * sigma_m;
     body->across.prior_share = 0.0f;
     for (int i = -1; i <= 1; i += 2) {
-        (void)add(at_m(60) + 1.0 * i, 0.25 * (double)width_m * i, 0.1);
+        (void)add_plot(at_m(60) + 1.0 * i, 0.25 * (double)width_m * i, 0.1);
     }
     look(60);
     return report.num_tracks == 2;

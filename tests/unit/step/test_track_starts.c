@@ -123,11 +123,11 @@ static void look(int k)
     const double t_s = SCAN_S * k;
 
     num_plots = 0;
-    add(target_x_m(t_s) + 0.5 * normal(), target_y_m(t_s) + 0.5 * normal(), 0.5);
+    add_plot(target_x_m(t_s) + 0.5 * normal(), target_y_m(t_s) + 0.5 * normal(), 0.5);
     for (int i = 0; i < CLUTTER; i++) {
         const double x_m = uniform(-3500.0, 3500.0);
 
-        add(x_m, uniform(-3500.0, 3500.0), 0.5);
+        add_plot(x_m, uniform(-3500.0, 3500.0), 0.5);
     }
     struct rho_scan scan = {
         .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = num_plots, .plots = plots};
@@ -148,8 +148,8 @@ static void a_hough_transform_serves_a_tracker(void **state)
     lines.votes_min = 3.0f;
     assert_int_equal(rho_hough_init(&hough, sizeof hough, &lines), RHO_OK);
     memset(&window, 0, sizeof window);
-    draw(3);
-    begin();
+    use_usual_configs(3);
+    begin_tracker();
     for (int k = 0; k < SCANS; k++) {
         look(k);
         if (report.num_tracks == 0) {
@@ -180,8 +180,8 @@ static struct rho_track_plot three[3];
 /* Three plots of a target, and a step at the time of the last one. */
 static void see_three(void)
 {
-    draw(4);
-    begin();
+    use_usual_configs(4);
+    begin_tracker();
     for (int i = 0; i < 3; i++) {
         three[i] = (struct rho_track_plot){.time_us = INT64_C(2000000) * i,
                                            .sensor_id = 1,

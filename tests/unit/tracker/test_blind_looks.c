@@ -21,11 +21,11 @@ static void describe(float notch_mps, float blind_speed_mps)
 
 static void prepare(float v_max_mps, float accel_max_mps2, float v_min_mps)
 {
-    draw(3);
+    use_usual_configs(3);
     config.v_max_mps = initiation.v_max_mps = v_max_mps;
     config.v_min_mps = v_min_mps;
     config.accel_max_mps2 = accel_max_mps2;
-    begin();
+    begin_tracker();
 }
 
 /* Seen where its range rate over ground is beyond the notch of `true_notch_mps`. */
@@ -36,7 +36,7 @@ static int see(double t_s, double x_m, double y_m, double vx_mps, double vy_mps,
     const double rate_mps = (dx_m * vx_mps + dy_m * vy_mps) / hypot(dx_m, dy_m);
     const int is_seen = fabs(rate_mps) >= true_notch_mps;
     if (is_seen) {
-        add_noisy(x_m, y_m, sigma_m);
+        add_noisy_plot(x_m, y_m, sigma_m);
     }
     step_scan((struct rho_scan){.time_us = llround(t_s * 1e6), .sensor_id = SENSOR});
     return is_seen;
@@ -218,10 +218,10 @@ static void a_plot_in_the_notch_is_unlikely(void **state)
 static void see_among_clutter(double t_s, int is_seen)
 {
     for (int i = 0; i < 240; i++) {
-        add(9000.0 + 200.0 * (i % 60), -2600.0 + 400.0 * (i / 60), 30.0);
+        add_plot(9000.0 + 200.0 * (i % 60), -2600.0 + 400.0 * (i / 60), 30.0);
     }
     if (is_seen) {
-        add_noisy(8000.0 + 75.0 * t_s, 0.0, 30.0);
+        add_noisy_plot(8000.0 + 75.0 * t_s, 0.0, 30.0);
     }
     const struct rho_scan scan = {
         .time_us = llround(t_s * 1e6), .sensor_id = SENSOR, .num_plots = num_plots, .plots = plots};
@@ -269,7 +269,8 @@ static void fly_past(int k)
         const double rate_mps = 200.0 * along_m / range_m;
         const double noise_x = 20.0 * normal(), noise_y = 20.0 * normal();
         if (uniform(0.0, 1.0) < 0.9 && fabs(remainder(rate_mps, 60.0)) >= 12.0) {
-            (void)add(9000.0 * x - along_m * y + noise_x, 9000.0 * y + along_m * x + noise_y, 20.0);
+            (void)add_plot(9000.0 * x - along_m * y + noise_x, 9000.0 * y + along_m * x + noise_y,
+                           20.0);
         }
     }
     step_scan((struct rho_scan){.time_us = INT64_C(4000000) * k, .sensor_id = SENSOR});

@@ -20,10 +20,10 @@ static double own_s;
 static void prepare(float longest_m)
 {
     const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 1e3f};
-    draw(11);
+    use_usual_configs(11);
     own_s = 0.0;
     config.v_max_mps = initiation.v_max_mps = 60.0f;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     assert_int_equal(rho_tracker_set_body_max(&tracker, longest_m), RHO_OK);
 }
@@ -35,9 +35,9 @@ static void see(const struct vehicle *vehicle, int k)
         const double part = (i + uniform(0.0, 1.0)) / vehicle->scatterers - 0.5;
         const double side = uniform(-0.5, 0.5);
         if (uniform(0.0, 1.0) < 0.7) {
-            add_noisy(vehicle->x_m + vehicle->vx_mps * (STEP_S * k + own_s) +
-                          part * vehicle->length_m,
-                      vehicle->y_m + side * vehicle->width_m, 0.2);
+            add_noisy_plot(vehicle->x_m + vehicle->vx_mps * (STEP_S * k + own_s) +
+                               part * vehicle->length_m,
+                           vehicle->y_m + side * vehicle->width_m, 0.2);
             plots[num_plots - 1].offset_us = (int32_t)lround(1e6 * own_s);
         }
     }
@@ -220,9 +220,9 @@ static void bad_plots_and_full_scans(void **state)
     }
     prepare(15.0f);
     for (int k = 0; k < 20; k++) {
-        add(NAN, 60.0, 0.2);
+        add_plot(NAN, 60.0, 0.2);
         see(&truck, k);
-        add(0.0, 0.0, -1.0);
+        add_plot(0.0, 0.0, -1.0);
         const uint32_t seen = num_plots;
         look(k);
         assert_int_equal(report.fates_total[RHO_FATE_INVALID], 2);
@@ -231,7 +231,7 @@ static void bad_plots_and_full_scans(void **state)
     }
     assert_int_equal(report.num_tracks, 1);
     for (int i = 0; i < RHO_MAX_PLOTS + 10; i++) {
-        add(uniform(-900.0, 900.0), 500.0, 0.2);
+        add_plot(uniform(-900.0, 900.0), 500.0, 0.2);
     }
     look(20);
     assert_int_equal(report.num_plots, RHO_MAX_PLOTS + 10);
@@ -245,14 +245,14 @@ static void work_is_bounded(void **state)
     if (!RHO_BODIES) {
         skip();
     }
-    draw(11);
+    use_usual_configs(11);
     config.work_max = 4000;
     config.v_max_mps = initiation.v_max_mps = 60.0f;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_body_max(&tracker, 100.0f), RHO_OK);
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 120; i++) {
-            add_noisy(uniform(-20.0, 20.0), 60.0, 0.2);
+            add_noisy_plot(uniform(-20.0, 20.0), 60.0, 0.2);
         }
         look(k);
         assert_true(report.is_partial);
@@ -287,7 +287,7 @@ static void poor_azimuths_teach_sound_bodies(void **state)
     for (int k = 0; k < 400; k++) {
         for (int i = 0; i < 20; i++) {
             const double along_m = uniform(-0.5, 0.5), off_m = normal();
-            add(100.0 + 20.0 * STEP_S * k + along_m, 30.0 * off_m, 0.3)->sigma_cross_m = 30.0f;
+            add_plot(100.0 + 20.0 * STEP_S * k + along_m, 30.0 * off_m, 0.3)->sigma_cross_m = 30.0f;
         }
         look(k);
         assert_true(rho_tracker_is_sound(&tracker));
@@ -309,8 +309,8 @@ static void least_bodies_have_a_size(void **state)
         struct rho_body body;
         prepare(longest_m[i]);
         for (int k = 0; k < 30; k++) {
-            (void)add(30.0, 50.0, 0.2);
-            (void)add(30.0, 50.0, 0.2);
+            (void)add_plot(30.0, 50.0, 0.2);
+            (void)add_plot(30.0, 50.0, 0.2);
             look(k);
             assert_true(rho_tracker_is_sound(&tracker));
             if (rho_tracker_body_of(&tracker, 0, &body)) {
@@ -332,8 +332,8 @@ static void a_body_that_stands_is_half_as_long_as_the_longest(void **state)
     }
     prepare(15.0f);
     for (int k = 0; k < 10; k++) {
-        (void)add(29.0, 50.0, 0.2);
-        (void)add(31.0, 50.0, 0.2);
+        (void)add_plot(29.0, 50.0, 0.2);
+        (void)add_plot(31.0, 50.0, 0.2);
         look(k);
     }
     assert_int_equal(rho_tracker_body_of(&tracker, 0, &body), 1);

@@ -19,10 +19,10 @@ static struct step at;
 
 static void prepare(uint32_t measures)
 {
-    draw(1);
+    use_usual_configs(1);
     config.v_min_mps = initiation.v_min_mps = 30.0f;
     config.work_max = 0;
-    begin();
+    begin_tracker();
     memset(&report, 0, sizeof report);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     scan = (struct rho_scan){.sensor_id = 1, .measures = measures, .plots = plots};
@@ -82,7 +82,7 @@ static double denser_at(double along, double across)
 {
     prepare(0);
     have_echo();
-    (void)add(20000.0 + along * sqrt(500.0), across * sqrt(101.0), 10.0);
+    (void)add_plot(20000.0 + along * sqrt(500.0), across * sqrt(101.0), 10.0);
     look();
     return (double)map_of()->denser[0];
 }
@@ -112,7 +112,7 @@ static void work_is_counted(void **state)
     assert_int_equal(at.work, 0);
     prepare(RHO_MEASURES_RANGE_RATE);
     have_echo();
-    add(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
+    add_plot(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
     look();
     assert_int_equal(at.work, 10);
 }
@@ -132,7 +132,7 @@ static void range_rates_tell_an_echo(void **state)
         const double rate_mps = rates_mps[i % 4], seen = plots_seen[i / 4];
         prepare(RHO_MEASURES_RANGE_RATE);
         have_echo();
-        struct rho_plot *plot = add(20000.0, 0.0, 10.0);
+        struct rho_plot *plot = add_plot(20000.0, 0.0, 10.0);
         plot->range_rate_mps = (float)rate_mps;
         plot->sigma_range_rate_mps = 1.0f;
         map_of()->rate_plots = (float)seen;
@@ -154,7 +154,7 @@ static void an_echo_that_may_be_anywhere_is_lost(void **state)
     for (int i = 0; i < 2; i++) {
         prepare(0);
         have_echo()->along[0] = i ? 6.41e7f : 6.38e7f;
-        (void)add(0.0, 20000.0, 10.0);
+        (void)add_plot(0.0, 20000.0, 10.0);
         look();
         assert_int_equal(map_of()->echoes[0].hits, i ? 0 : 20);
     }
@@ -169,9 +169,9 @@ static void an_echo_takes_the_plot_that_it_explains(void **state)
             prepare(0);
             struct rho_echo *echo = have_echo();
             if (row == 1) {
-                (void)add(0.0, 20000.0, 10.0);
+                (void)add_plot(0.0, 20000.0, 10.0);
             }
-            (void)add(20000.0, 0.0, 10.0);
+            (void)add_plot(20000.0, 0.0, 10.0);
             look();
             assert_int_equal(echo->plot, row);
             assert_true(echo->weight > 0.0f);
@@ -191,7 +191,7 @@ static void range_rates_are_remembered_for_a_thousand_plots(void **state)
     for (int i = 0; i < 2; i++) {
         prepare(RHO_MEASURES_RANGE_RATE);
         have_echo();
-        add(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
+        add_plot(20000.0, 0.0, 10.0)->sigma_range_rate_mps = 1.0f;
         look();
         map_of()->echoes[0].weight = 0.9f;
         map_of()->rate_plots = before[i];
@@ -227,7 +227,7 @@ static int is_target(uint16_t hits, float v_min_mps, float moved_m)
     struct rho_track *track = &tracker.tracks[0];
     prepare(0);
     tracker.config.v_min_mps = v_min_mps;
-    (void)add(0.0, 20000.0, 10.0);
+    (void)add_plot(0.0, 20000.0, 10.0);
     look();
     tracker.num_tracks = 1;
     *track = (struct rho_track){.track_id = 1,
@@ -265,12 +265,12 @@ static int has_strobe(int count, int first, int eighths, double last_m, int othe
     prepare(0);
     for (int i = 0; i < count; i++) {
         const double range_m = RANGE_MAX_M / 8.0 * (first + i % eighths + 0.5);
-        (void)add(i == count - 1 && last_m > 0.0 ? last_m : range_m, 0.01 * range_m * bin_rad,
-                  10.0);
+        (void)add_plot(i == count - 1 && last_m > 0.0 ? last_m : range_m, 0.01 * range_m * bin_rad,
+                       10.0);
     }
     for (int i = 0; i < others; i++) {
         const double azimuth_rad = 3.0 * bin_rad + (2.0 * PI - 6.0 * bin_rad) * i / others;
-        (void)add(30000.0 * cos(azimuth_rad), 30000.0 * sin(azimuth_rad), 10.0);
+        (void)add_plot(30000.0 * cos(azimuth_rad), 30000.0 * sin(azimuth_rad), 10.0);
     }
     look();
     return map_of()->denser[0] > 0.0f;

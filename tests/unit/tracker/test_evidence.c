@@ -44,18 +44,18 @@ static uint32_t id_of(int is_north)
 static void add_pair(int k, double apart_m)
 {
     const double t_s = SCAN_S * k;
-    add(-9000.0 + 200.0 * t_s, 0.5 * apart_m, 10.0);
-    add(-9000.0 + 200.0 * t_s, -0.5 * apart_m, 10.0);
+    add_plot(-9000.0 + 200.0 * t_s, 0.5 * apart_m, 10.0);
+    add_plot(-9000.0 + 200.0 * t_s, -0.5 * apart_m, 10.0);
 }
 
 static void fly_pair(int scans, double apart_m, int gate)
 {
-    draw(1);
+    use_usual_configs(1);
     config.gate = (uint8_t)gate;
-    begin();
+    begin_tracker();
     for (int k = 0; k < scans; k++) {
         add_pair(k, apart_m);
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
     }
     assert_int_equal(report.num_tracks, 2);
 }
@@ -82,8 +82,8 @@ static void a_plot_between_two_targets_is_shared(void **state)
 {
     (void)state;
     fly_pair(10, 60.0, RHO_TRACKER_BEST);
-    add(-9000.0 + 200.0 * SCAN_S * 10, 0.0, 10.0);
-    step(SCAN_S * 10);
+    add_plot(-9000.0 + 200.0 * SCAN_S * 10, 0.0, 10.0);
+    step_at(SCAN_S * 10);
     assert_int_equal(report.num_tracks, 2);
     for (uint32_t id = 1; id <= 2; id++) {
         assert_true(look(id));
@@ -93,8 +93,8 @@ static void a_plot_between_two_targets_is_shared(void **state)
     /* and a plot that is near one of them is more its own than the other's */
     fly_pair(10, 60.0, RHO_TRACKER_BEST);
     const uint32_t north = id_of(1), south = id_of(0);
-    add(-9000.0 + 200.0 * SCAN_S * 10, 22.0, 10.0);
-    step(SCAN_S * 10);
+    add_plot(-9000.0 + 200.0 * SCAN_S * 10, 22.0, 10.0);
+    step_at(SCAN_S * 10);
     assert_true(look(north));
     const struct rho_tracker_evidence near = evidence;
     assert_true(look(south));
@@ -107,8 +107,8 @@ static void a_miss_is_clutter_alone(void **state)
 {
     (void)state;
     fly_pair(10, 4000.0, RHO_TRACKER_BEST);
-    add(-9000.0 + 200.0 * SCAN_S * 10, 2000.0, 10.0);
-    step(SCAN_S * 10);
+    add_plot(-9000.0 + 200.0 * SCAN_S * 10, 2000.0, 10.0);
+    step_at(SCAN_S * 10);
     assert_true(look(id_of(0)));
     assert_float_equal(evidence.clutter, 1.0, 0.0);
     assert_true(look(id_of(1)));
@@ -122,8 +122,8 @@ static void a_poor_plot_may_be_clutter(void **state)
     float before = 0.0f;
     for (int off = 0; off <= 6; off++) {
         fly_pair(10, 4000.0, RHO_TRACKER_NEAREST);
-        add(-9000.0 + 200.0 * SCAN_S * 10, 2000.0 + 15.0 * off, 10.0);
-        step(SCAN_S * 10);
+        add_plot(-9000.0 + 200.0 * SCAN_S * 10, 2000.0 + 15.0 * off, 10.0);
+        step_at(SCAN_S * 10);
         assert_true(look(id_of(1)));
         assert_true(evidence.clutter >= before);
         before = evidence.clutter;
@@ -138,8 +138,8 @@ static void evidence_stays_with_its_track(void **state)
     fly_pair(10, 4000.0, RHO_TRACKER_BEST);
     const int is_north = id_of(1) == 2;
     for (int k = 10; k < 40 && report.num_tracks == 2; k++) {
-        add(-9000.0 + 200.0 * SCAN_S * k, is_north ? 2000.0 : -2000.0, 10.0);
-        step(SCAN_S * k);
+        add_plot(-9000.0 + 200.0 * SCAN_S * k, is_north ? 2000.0 : -2000.0, 10.0);
+        step_at(SCAN_S * k);
         assert_true(look(2));
         assert_true(evidence.support > 0.99f);
     }
@@ -151,17 +151,17 @@ static void evidence_stays_with_its_track(void **state)
 static void a_track_of_this_step_and_one_not_looked_at_have_none(void **state)
 {
     (void)state;
-    draw(2);
-    begin();
+    use_usual_configs(2);
+    begin_tracker();
     for (int k = 0; report.num_tracks == 0 || k == 0; k++) {
         add_pair(k, 4000.0);
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
         assert_true(k < 8);
     }
     assert_int_equal(look(1), 0);
     for (int k = 4; k < 10; k++) {
         add_pair(k, 4000.0);
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
     }
     assert_int_equal(look(1), 1);
     /* a sector in the west: both fly in the east by now, nobody looks there */

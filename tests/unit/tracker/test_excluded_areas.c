@@ -10,13 +10,13 @@ static void plots_in_an_excluded_area_start_nothing(void **state)
 {
     (void)state;
     for (int is_excluded = 0; is_excluded < 2; is_excluded++) {
-        draw(7);
-        begin();
+        use_usual_configs(7);
+        begin_tracker();
         next_k = 0;
         if (is_excluded) {
             assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_OK);
         }
-        run(12, 1);
+        run_scans(12, 1);
         assert_int_equal(track_near(2000.0) == NULL, is_excluded);
         assert_non_null(track_near(-2000.0));
         assert_int_equal(tracker.counters.plots_excluded, is_excluded ? 12 : 0);
@@ -24,7 +24,7 @@ static void plots_in_an_excluded_area_start_nothing(void **state)
     }
     assert_true(rho_tracker_is_sound(&tracker));
     assert_int_equal(rho_tracker_include_place(&tracker, 0.0f, 2000.0f), RHO_OK);
-    run(8, 1);
+    run_scans(8, 1);
     assert_non_null(track_near(2000.0));
     assert_int_equal(tracker.counters.plots_excluded, 12);
 }
@@ -32,17 +32,17 @@ static void plots_in_an_excluded_area_start_nothing(void **state)
 static void tracks_pass_through_an_excluded_area(void **state)
 {
     (void)state;
-    prepare();
+    prepare_tracker();
     const uint32_t passing = track_near(2000.0)->track_id;
     const uint16_t hits = track_near(2000.0)->hits;
     assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_OK);
-    run(8, 1);
+    run_scans(8, 1);
     assert_int_equal(track_near(2000.0)->track_id, passing);
     assert_int_equal(track_near(2000.0)->hits, hits + 8);
     assert_int_equal(tracker.counters.plots_excluded, 0);
-    run(3 * config.coast_scans_max, 0);
+    run_scans(3 * config.coast_scans_max, 0);
     assert_null(track_near(2000.0));
-    run(8, 1); /* back again, its target starts none */
+    run_scans(8, 1); /* back again, its target starts none */
     assert_null(track_near(2000.0));
 }
 
@@ -50,12 +50,12 @@ static void refuses_areas_that_are_none(void **state)
 {
     struct rho_extent bad[] = {north, north, north, north};
     (void)state;
-    prepare();
+    prepare_tracker();
     bad[0].x_min_m = NAN;
     bad[1].x_max_m = 3e6f;
     bad[2].x_max_m = bad[2].x_min_m;
     bad[3].y_min_m = 4000.0f;
-    remember();
+    remember_state();
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         assert_int_equal(rho_tracker_exclude_area(&tracker, &bad[i]), RHO_ERROR_VALUE);
     }
@@ -69,7 +69,7 @@ static void refuses_areas_that_are_none(void **state)
                                         1.0f};
         assert_int_equal(rho_tracker_exclude_area(&tracker, &area), RHO_OK);
     }
-    remember();
+    remember_state();
     assert_int_equal(rho_tracker_exclude_area(&tracker, &north), RHO_ERROR_CAPACITY);
     assert_int_equal(rho_tracker_include_place(&tracker, 700.0f, 0.5f), RHO_ERROR_VALUE);
     check_unchanged();
@@ -88,16 +88,16 @@ static void comparisons_are_work(void **state)
     uint32_t work[2];
     (void)state;
     for (int is_told = 0; is_told < 2; is_told++) {
-        draw(7);
-        begin();
+        use_usual_configs(7);
+        begin_tracker();
         for (int i = 0; i < 4 && is_told; i++) {
             const struct rho_extent area = {-9000.0f, -8000.0f, 0.0f, 1.0f + (float)i};
             assert_int_equal(rho_tracker_exclude_area(&tracker, &area), RHO_OK);
         }
         for (int i = 0; i < 64; i++) {
-            (void)add(1000.0 * i, 0.0, 10.0);
+            (void)add_plot(1000.0 * i, 0.0, 10.0);
         }
-        step(0.0);
+        step_at(0.0);
         assert_int_equal(report.fates_total[RHO_FATE_HELD], 64);
         work[is_told] = tracker.work.work;
     }

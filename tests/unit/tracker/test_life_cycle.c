@@ -49,13 +49,13 @@ static struct radar usual_radar(void)
 
 static void start(uint64_t seed, double v_min_mps, double v_max_mps, double accel_mps2)
 {
-    draw(seed);
+    use_usual_configs(seed);
     rho_tracker_config_default(&config);
     rho_initiator_config_default(&initiation);
     config.v_min_mps = initiation.v_min_mps = (float)v_min_mps;
     config.v_max_mps = initiation.v_max_mps = (float)v_max_mps;
     config.accel_max_mps2 = (float)accel_mps2;
-    begin();
+    begin_tracker();
     memset(&tally, 0, sizeof tally);
     memset(targets, 0, sizeof targets);
     num_targets = 0;
@@ -111,7 +111,7 @@ static void add_polar(const struct radar *radar, double range_m, double azimuth_
 {
     const double x_m = radar->x_m + range_m * cos(azimuth_rad);
     const double y_m = radar->y_m + range_m * sin(azimuth_rad);
-    struct rho_plot *plot = add(x_m, y_m, radar->sigma_m);
+    struct rho_plot *plot = add_plot(x_m, y_m, radar->sigma_m);
     plot->sigma_cross_m = (float)(range_m * radar->sigma_rad);
 }
 
@@ -394,11 +394,11 @@ static void look_at_one(double t_s, int is_seen, int clutter)
 {
     if (is_seen) {
         const double x_m = -40e3 + 200.0 * t_s + 30.0 * normal();
-        add(x_m, 20e3 + 30.0 * normal(), 30.0);
+        add_plot(x_m, 20e3 + 30.0 * normal(), 30.0);
     }
     for (int i = 0; i < clutter; i++) {
         const double x_m = uniform(-60e3, 60e3);
-        add(x_m, uniform(-60e3, -10e3), 30.0);
+        add_plot(x_m, uniform(-60e3, -10e3), 30.0);
     }
     step_scan((struct rho_scan){.time_us = llround(t_s * 1e6), .sensor_id = 1});
 }
@@ -689,8 +689,8 @@ static void nothing_is_faster_than_v_max_for_long(void **state)
     for (int k = 0; k < 40; k++) {
         const double t_s = 4.0 * k, pulls_s = t_s > 80.0 ? t_s - 80.0 : 0.0;
         const double x_m = -70e3 + 300.0 * t_s + 0.5 * 10.0 * pulls_s * pulls_s;
-        add(x_m, 10e3, 30.0);
-        step(t_s);
+        add_plot(x_m, 10e3, 30.0);
+        step_at(t_s);
         if (300.0 + 10.0 * pulls_s > 1.3 * 350.0) {
             rows += count_believed() > 0;
         }
@@ -708,21 +708,21 @@ static void tentative_tracks_end_at_a_score(void **state)
 {
     double least_nat = 0.0;
     (void)state;
-    begin_by_rate(3);
+    begin_tracker_by_rate(3);
     config.pd = initiation.pd = 0.5f;
     config.coast_scans_max = 50;
     config.accel_max_mps2 = 5.0f;
-    begin();
+    begin_tracker();
     for (int k = 0; k < 40; k++) {
         const double before_nat = 1e-3 * tracker.start_mnat;
         for (int i = 0; i < 30; i++) {
             const double x_m = uniform(-2e4, 2e4);
-            add(x_m, uniform(-2e4, 2e4), 20.0);
+            add_plot(x_m, uniform(-2e4, 2e4), 20.0);
         }
         if (k < 8) {
-            add_noisy(200.0 * k, 0.0, 20.0);
+            add_noisy_plot(200.0 * k, 0.0, 20.0);
         }
-        step(2.0 * k);
+        step_at(2.0 * k);
         for (unsigned i = 0; i < report.num_tracks; i++) {
             if (!tracker.tracks[i].was_confirmed) {
                 least_nat = fmin(least_nat, (double)report.tracks[i].score_nat - before_nat);

@@ -16,7 +16,7 @@ static int turn;
 
 static void begin_turns(void)
 {
-    begin_by_rate(31);
+    begin_tracker_by_rate(31);
     turn = 0;
 }
 
@@ -43,9 +43,9 @@ static void fly(int turns, int num_targets, int has_turns)
                 y_m +=
                     side * -radius_m + (angle < 0.0 ? 0.0 : side * radius_m * (1.0 - cos(angle)));
             }
-            add_noisy(x_m, y_m, SIGMA_M);
+            add_noisy_plot(x_m, y_m, SIGMA_M);
         }
-        step(t_s);
+        step_at(t_s);
     }
 }
 
@@ -165,12 +165,12 @@ static void silence_teaches_nothing(void **state)
     fly(250, TARGETS, 0);
     assert_true(calm_s() >= 1200.0);
     const float straight_s = tracker.straight_s;
-    step(TURN_S * turn + 61.0);
+    step_at(TURN_S * turn + 61.0);
     assert_true(calm_s() <= 300.0);
     assert_true(tracker.straight_s < 0.1f * straight_s);
     fly(3, TARGETS, 0);
     assert_true(calm_s() <= 300.0);
-    step(TURN_S * turn + 3600.0);
+    step_at(TURN_S * turn + 3600.0);
     assert_true(tracker.straight_s < 0.2f * straight_s && calm_s() <= 300.0);
 }
 
@@ -181,7 +181,7 @@ static void slow_looks_are_no_silence(void **state)
     begin_turns();
     fly(300, TARGETS, 0);
     assert_true(calm_s() >= 1200.0);
-    step(TURN_S * (turn - 1) + 45.0);
+    step_at(TURN_S * (turn - 1) + 45.0);
     assert_true(calm_s() >= 1200.0);
 }
 
@@ -193,9 +193,9 @@ static void where_nothing_is_calm_nothing_is_learned(void **state)
     tracker.hypotheses.model.calm_s = 0.0f;
     fly(60, 2, 0);
     assert_true(calm_s() <= 0.0);
-    draw(3);
+    use_usual_configs(3);
     config.gate = RHO_TRACKER_NEAREST;
-    begin();
+    begin_tracker();
     turn = 0;
     fly(60, 2, 0);
     assert_true(tracker.straight_s <= 0.0f && report.num_tracks == 2);

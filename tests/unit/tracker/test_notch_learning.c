@@ -17,7 +17,7 @@ static int next;
 static void look(double speed_mps)
 {
     const double x_m = 3000.0 + speed_mps * 4.0 * next;
-    add_noisy(x_m, 0.0, 1.0);
+    add_noisy_plot(x_m, 0.0, 1.0);
     step_scan((struct rho_scan){.time_us = INT64_C(4000000) * next, .sensor_id = SENSOR});
     next++;
 }
@@ -25,9 +25,9 @@ static void look(double speed_mps)
 static struct rho_tracker_learned *prepare(double speed_mps)
 {
     const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 60e3f};
-    draw(5);
+    use_usual_configs(5);
     config.v_max_mps = initiation.v_max_mps = 200.0f;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     for (next = 0; next < 30;) {
         look(speed_mps);

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "draws.h"
+#include "random_draws.h"
 #include "rhotrack/tracker.h"
 
 #define TARGETS 10

@@ -14,10 +14,10 @@ static struct step at;
 
 static void prepare(uint32_t measures)
 {
-    draw(1);
+    use_usual_configs(1);
     config.v_max_mps = initiation.v_max_mps = 60.0f;
     config.work_max = 0;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     assert_int_equal(rho_tracker_set_body_max(&tracker, LONGEST_M), RHO_OK);
     scan = (struct rho_scan){.sensor_id = 1, .measures = measures, .plots = plots};
@@ -26,7 +26,7 @@ static void prepare(uint32_t measures)
 /* A plot of 0.5 m and 1 m/s, 1 km east of the radar. */
 static void see(double x_m, double y_m, double rate_mps)
 {
-    struct rho_plot *plot = add(1000.0 + x_m, y_m, 0.5);
+    struct rho_plot *plot = add_plot(1000.0 + x_m, y_m, 0.5);
     plot->range_rate_mps = (float)rate_mps;
     plot->sigma_range_rate_mps = 1.0f;
 }

@@ -20,9 +20,9 @@ static int other_targets_of[PLOTS_MAX];
 
 static void begin_scene(uint8_t gate)
 {
-    draw(7);
+    use_usual_configs(7);
     config.gate = gate;
-    begin();
+    begin_tracker();
     for (int i = 0; i < TARGETS; i++) {
         const double course_rad = uniform(-3.14159, 3.14159);
         const double x_m = uniform(-3e4, 3e4), y_m = uniform(-3e4, 3e4);
@@ -33,7 +33,7 @@ static void begin_scene(uint8_t gate)
 static void add_of(int target, double x_m, double y_m, double t_s)
 {
     targets_of[num_plots] = target;
-    add(x_m, y_m, 20.0)->offset_us = (int32_t)lround(t_s * 1e6);
+    add_plot(x_m, y_m, 20.0)->offset_us = (int32_t)lround(t_s * 1e6);
 }
 
 /* Plots of targets and of clutter; turn_s: at their own times, up to that much later. */
@@ -120,7 +120,7 @@ static unsigned compare_orders(uint8_t gate, double turn_s)
         memcpy(other_targets_of, targets_of, sizeof targets_of);
         assert_int_equal(rho_tracker_step(&other_tracker, &other_initiator, &scan, &other), RHO_OK);
         shuffle();
-        step(2.0 * k);
+        step_at(2.0 * k);
         expect_same_tracks();
         most = report.num_tracks > most ? report.num_tracks : most;
     }
@@ -148,16 +148,16 @@ static void plots_with_own_times_in_any_order_make_the_same_tracks(void **state)
 /* One track at the origin, flying along x at 300 m/s; nothing is started from here on. */
 static void begin_one(uint8_t gate)
 {
-    draw(3);
+    use_usual_configs(3);
     config.gate = gate;
-    begin();
+    begin_tracker();
     for (int k = 0; k < 8; k++) {
-        add(600.0 * (k - 8), 0.0, 20.0);
+        add_plot(600.0 * (k - 8), 0.0, 20.0);
         for (int i = 0; i < 4 && k == 0; i++) {
-            add(i & 1 ? 2e6 : -2e6, i & 2 ? 2e6 : -2e6,
-                20.0); /* what clutter is spread over stays the same */
+            add_plot(i & 1 ? 2e6 : -2e6, i & 2 ? 2e6 : -2e6,
+                     20.0); /* what clutter is spread over stays the same */
         }
-        step(2.0 * k);
+        step_at(2.0 * k);
     }
     assert_int_equal(report.num_tracks, 1);
 }
@@ -185,14 +185,14 @@ static int is_claimed_alike(double x_m, double y_m, int32_t offset_us, double si
     static struct rho_tracker then;
     struct rho_track_report alone;
     num_plots = 0;
-    add(x_m, y_m, sigma_m)->offset_us = offset_us;
+    add_plot(x_m, y_m, sigma_m)->offset_us = offset_us;
     take(&tracker, &then);
     alone = report.tracks[0];
     for (size_t i = 1; i < sizeof from_m / sizeof from_m[0]; i++) {
         num_plots = 0;
         for (int n = 0; n < 120; n++) {
             const double at_m = n == 0 ? from_m[i] : n == 1 ? to_m[i] : uniform(from_m[i], to_m[i]);
-            add(at_m, n % 2 ? 8e4 : -8e4, 20.0);
+            add_plot(at_m, n % 2 ? 8e4 : -8e4, 20.0);
         }
         plots[60].x_m = (float)x_m;
         plots[60].y_m = (float)y_m;
@@ -257,16 +257,16 @@ static void vague_plots_are_found_where_they_are(void **state)
 /* Flies along y at that x, alone, with others at all ends of where plots may be. */
 static void track_at(double x_m, int has_others)
 {
-    draw(5);
-    begin();
+    use_usual_configs(5);
+    begin_tracker();
     for (int k = 0; k < 8; k++) {
-        add(x_m, 400.0 * k, 20.0);
+        add_plot(x_m, 400.0 * k, 20.0);
         for (int i = 0; i < 4 && has_others; i++) {
-            add(i & 1 ? 2e6 : -2e6, i & 2 ? 2e6 : -2e6, 20.0);
+            add_plot(i & 1 ? 2e6 : -2e6, i & 2 ? 2e6 : -2e6, 20.0);
         }
-        add(NAN, 0.0, 20.0);
-        add(INFINITY, 0.0, 20.0);
-        step(2.0 * k);
+        add_plot(NAN, 0.0, 20.0);
+        add_plot(INFINITY, 0.0, 20.0);
+        step_at(2.0 * k);
         if (k >= 4) {
             assert_int_equal(report.fates[0], RHO_FATE_CLAIMED);
             assert_int_equal(report.fates_total[RHO_FATE_INVALID], 2);
@@ -293,13 +293,13 @@ static void plots_on_borders_are_claimed(void **state)
     enum { COUNT = 17 };
     (void)state;
     for (int shift = 0; shift < 3; shift++) {
-        draw(5);
-        begin();
+        use_usual_configs(5);
+        begin_tracker();
         for (int k = 0; k < 8; k++) {
             for (int i = 0; i < COUNT; i++) {
-                add(i * 4096.0 * (1 << shift), 300.0 * k, 1.0);
+                add_plot(i * 4096.0 * (1 << shift), 300.0 * k, 1.0);
             }
-            step(2.0 * k);
+            step_at(2.0 * k);
         }
         assert_int_equal(report.num_tracks, COUNT);
         assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], COUNT);

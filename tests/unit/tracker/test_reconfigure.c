@@ -14,10 +14,10 @@ static void run(int scans, double turn_mps2, int is_seen)
 {
     for (int i = 0; i < scans; i++, next_k++) {
         if (is_seen) {
-            add_noisy(x_m, y_m, 10.0);
-            add_noisy(4000.0 + 30.0 * next_k, 3000.0, 10.0);
+            add_noisy_plot(x_m, y_m, 10.0);
+            add_noisy_plot(4000.0 + 30.0 * next_k, 3000.0, 10.0);
         }
-        step(next_k);
+        step_at(next_k);
         x_m += vx_mps;
         y_m += vy_mps + 0.5 * turn_mps2;
         vy_mps += turn_mps2;
@@ -36,12 +36,12 @@ static void apply(void)
 
 static void prepare(void)
 {
-    draw(3);
+    use_usual_configs(3);
     rho_settings_default(&settings);
     settings.scan_interval_s = 1.0f;
     settings.accel_max_mps2 = 0.5f;
     rho_settings_apply(&settings, &config, &initiation, NULL);
-    begin();
+    begin_tracker();
     next_k = 0;
     x_m = -5000.0;
     y_m = 0.0;

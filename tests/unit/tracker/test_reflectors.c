@@ -13,9 +13,9 @@ static const struct rho_reflector wall = {-300.0f, 40.0f, 300.0f, 40.0f};
 static void prepare(unsigned num_walls)
 {
     const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 1e3f};
-    draw(5);
+    use_usual_configs(5);
     config.v_max_mps = initiation.v_max_mps = 60.0f;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     assert_int_equal(rho_tracker_set_reflectors(&tracker, &wall, num_walls), RHO_OK);
 }
@@ -26,7 +26,7 @@ struct car {
 
 static void see(const struct car *car, double t_s)
 {
-    add_noisy(car->x_m + car->vx_mps * t_s, car->y_m + car->vy_mps * t_s, 0.5);
+    add_noisy_plot(car->x_m + car->vx_mps * t_s, car->y_m + car->vy_mps * t_s, 0.5);
 }
 
 static struct car image_of(const struct car *car)
@@ -183,7 +183,7 @@ static void an_established_track_stays(void **state)
 /* Without noise, but stated as others: where tracks are is where cars are. */
 static void see_exactly(const struct car *car, double t_s)
 {
-    (void)add(car->x_m + car->vx_mps * t_s, car->y_m + car->vy_mps * t_s, 0.5);
+    (void)add_plot(car->x_m + car->vx_mps * t_s, car->y_m + car->vy_mps * t_s, 0.5);
 }
 
 static void tell(const struct rho_reflector *told)
@@ -323,7 +323,7 @@ static uint32_t work_of_wall(int has_plot)
             see_exactly(&plain, 0.1 * k);
             tell(is_told && k == 40 ? &wall : NULL);
             if (has_plot && k == 40) { /* in the corner of its box */
-                (void)add(image.x_m + image.vx_mps * 4.0 + 2.0, image.y_m + 2.0, 0.5);
+                (void)add_plot(image.x_m + image.vx_mps * 4.0 + 2.0, image.y_m + 2.0, 0.5);
             }
             look(k);
         }

@@ -20,14 +20,14 @@ static struct rho_sensor radar;
 
 static void begin_radar(uint64_t seed)
 {
-    draw(seed);
+    use_usual_configs(seed);
     config.pd = initiation.pd = 0.95f;
     radar = (struct rho_sensor){.sensor_id = SENSOR, .pd = 0.95f, .range_max_m = 2e5f};
 }
 
 static void begin_pair(void)
 {
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
 }
 
@@ -52,7 +52,7 @@ static void see(int k, double half_m, int in_range, int as_one)
         if (as_one && side > 0) {
             continue;
         }
-        add_noisy(x_m + (in_range ? off_m : 0.0), y_m + (in_range ? 0.0 : off_m), SIGMA_M);
+        add_noisy_plot(x_m + (in_range ? off_m : 0.0), y_m + (in_range ? 0.0 : off_m), SIGMA_M);
     }
 }
 
@@ -120,7 +120,7 @@ static unsigned overtake(float cell_mps)
             if (k >= 28 && k <= 32 && side > 0) {
                 continue; /* a miss */
             }
-            add_noisy(AT_M + speed_mps * (k - 30), 10.0 * side, SIGMA_M);
+            add_noisy_plot(AT_M + speed_mps * (k - 30), 10.0 * side, SIGMA_M);
             plots[num_plots - 1u].range_rate_mps = (float)speed_mps;
             plots[num_plots - 1u].sigma_range_rate_mps = 2.0f;
         }

@@ -13,7 +13,7 @@ static void look_around(const struct scene *scene, int64_t time_us)
         .time_us = time_us, .sensor_id = 2, .num_plots = TARGETS, .plots = plots};
 
     for (int i = 0; i < TARGETS; i++) {
-        plots[i] = plot_of(scene, i, (double)time_us * 1e-6, time_us);
+        plots[i] = target_plot(scene, i, (double)time_us * 1e-6, time_us);
     }
     assert_int_equal(rho_tracker_step(&tracker, NULL, &scan, &report), RHO_OK);
     assert_int_equal(report.fates_total[RHO_FATE_CLAIMED], TARGETS);
@@ -24,10 +24,10 @@ static void assert_all_seen_once(struct scene *scene, int turns)
 {
     int plots = 0;
 
-    fly(scene, turns);
+    fly_turns(scene, turns);
     assert_int_equal(report.num_tracks, TARGETS);
     for (int i = 0; i < TARGETS; i++) {
-        const struct rho_track_report *track = track_of(scene, i);
+        const struct rho_track_report *track = track_of_target(scene, i);
 
         assert_non_null(track);
         assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
@@ -80,7 +80,7 @@ static void a_track_takes_one_plot_a_pass(void **state)
     uint32_t second = 0;
     (void)state;
 
-    fly(&scene, 10);
+    fly_turns(&scene, 10);
     for (int sector = 0; sector < SECTORS; sector++) {
         const struct rho_track_report *track;
         struct rho_plot plot;
@@ -91,12 +91,12 @@ static void a_track_takes_one_plot_a_pass(void **state)
                                 .plots = &plot};
 
         if (sector % 4 < 2 && sector > 1) { /* of target sector / 4, at this edge, twice */
-            plot = plot_of(&scene, sector / 4, (double)scan.time_us * 1e-6, scan.time_us);
+            plot = target_plot(&scene, sector / 4, (double)scan.time_us * 1e-6, scan.time_us);
             scan.num_plots = 1;
         }
         assert_int_equal(rho_tracker_step(&tracker, &initiator, &scan, &report), RHO_OK);
         if (sector % 4 == 1 && sector > 1) {
-            track = track_of(&scene, sector / 4);
+            track = track_of_target(&scene, sector / 4);
             assert_non_null(track);
             assert_int_equal(track->plot, -1);
             second += report.fates_total[RHO_FATE_HELD];
@@ -104,7 +104,7 @@ static void a_track_takes_one_plot_a_pass(void **state)
     }
     assert_int_equal(second, TARGETS - 1);
     for (int i = 0; i < TARGETS; i++) {
-        assert_true(track_of(&scene, i)->misses <= 1);
+        assert_true(track_of_target(&scene, i)->misses <= 1);
     }
 }
 
@@ -117,7 +117,7 @@ static void another_radar_in_between_changes_nothing(void **state)
     for (int turning = -1; turning <= 1; turning += 2) {
         struct scene scene = {.turning = turning, .hidden = -1, .sectors = SECTORS};
 
-        start();
+        start_tracker();
         for (int turn = 0; turn < 12; turn++) {
             for (int sector = 0; sector < SECTORS; sector++) {
                 step_sector(&scene, turn, sector);
@@ -128,7 +128,7 @@ static void another_radar_in_between_changes_nothing(void **state)
         }
         assert_int_equal(report.num_tracks, TARGETS);
         for (int i = 0; i < TARGETS; i++) {
-            assert_int_equal(track_of(&scene, i)->misses, 0);
+            assert_int_equal(track_of_target(&scene, i)->misses, 0);
         }
     }
 }
@@ -145,8 +145,8 @@ static void misses_count_once_a_turn(void **state)
                                   .hidden_turn = 10};
             const struct rho_track_report *track;
 
-            fly(&scene, 12);
-            track = track_of(&scene, target);
+            fly_turns(&scene, 12);
+            track = track_of_target(&scene, target);
             assert_non_null(track);
             assert_in_range(track->misses, 1, 2); /* the edge of the turn is one of a sector, too */
             assert_int_equal(track->status, RHO_TRACK_COASTING);
@@ -163,7 +163,7 @@ static void tracks_start_as_early_as_from_whole_turns(void **state)
         struct scene scene = {
             .turning = 1, .speed_mps = 100.0, .hidden = -1, .sectors = k ? 1 : 32};
 
-        start();
+        start_tracker();
         for (int turn = 0; turn < 9 && report.num_tracks < TARGETS; turn++) {
             for (int sector = 0; sector < scene.sectors; sector++) {
                 step_sector(&scene, turn, sector);
@@ -182,7 +182,7 @@ static void reports_keep_up_with_the_antenna(void **state)
     int seen = 0;
     (void)state;
 
-    fly(&scene, 8);
+    fly_turns(&scene, 8);
     for (int sector = 0; sector < SECTORS; sector++) {
         uint32_t claimed = 0;
 
@@ -205,7 +205,7 @@ static void a_lost_sector_costs_little(void **state)
     struct scene scene = {.turning = 1, .speed_mps = 60.0, .hidden = -1, .sectors = SECTORS};
     (void)state;
 
-    start();
+    start_tracker();
     for (int turn = 0; turn < 14; turn++) {
         for (int sector = 0; sector < SECTORS; sector++) {
             if ((turn * SECTORS + sector) % 45 != 2) {

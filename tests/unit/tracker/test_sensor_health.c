@@ -12,14 +12,14 @@
 static void see(int k)
 {
     const double x_m = 500.0 * k + uniform(-8.0, 8.0);
-    add(x_m, uniform(-8.0, 8.0), 10.0);
+    add_plot(x_m, uniform(-8.0, 8.0), 10.0);
 }
 
 static void fly(int from, int to)
 {
     for (int k = from; k < to; k++) {
         see(k);
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
     }
 }
 
@@ -35,11 +35,11 @@ static void a_track_in_doubt_comes_back_with_its_identity(void **state)
 {
     (void)state;
     for (int misses = 3; misses <= 4; misses++) {
-        draw((uint64_t)misses);
-        begin();
+        use_usual_configs((uint64_t)misses);
+        begin_tracker();
         fly(0, LAST);
         for (int k = LAST; k < LAST + misses; k++) {
-            step(SCAN_S * k);
+            step_at(SCAN_S * k);
             assert_int_equal(status_of_first(),
                              k < LAST + 2 ? RHO_TRACK_COASTING : RHO_TRACK_TENTATIVE);
         }
@@ -57,15 +57,15 @@ static void a_track_in_doubt_comes_back_with_its_identity(void **state)
 static void a_track_that_ends_in_doubt_is_reported_as_ended(void **state)
 {
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     fly(0, LAST);
     for (int k = LAST; k < LAST + 4; k++) {
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
         assert_int_equal(report.num_ended, 0);
     }
     assert_int_equal(status_of_first(), RHO_TRACK_TENTATIVE);
-    step(SCAN_S * (LAST + 4));
+    step_at(SCAN_S * (LAST + 4));
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, 1);
     assert_int_equal(report.ended[0], 1);
@@ -77,25 +77,25 @@ static void a_track_that_ends_in_doubt_is_reported_as_ended(void **state)
 static void what_never_was_believed_is_not_reported_as_ended(void **state)
 {
     (void)state;
-    draw(1);
+    use_usual_configs(1);
     initiation.false_tracks_per_hour = 0.001f;
     initiation.scans = 4;
     initiation.min_scans = 3;
-    begin();
+    begin_tracker();
     for (int k = 0; k < 20 && tracker.counters.tracks_started == 0; k++) {
         for (int i = 0; i < 60; i++) {
             const double x_m = uniform(-2e4, 2e4);
-            add(x_m, uniform(-2e4, 2e4), 10.0);
+            add_plot(x_m, uniform(-2e4, 2e4), 10.0);
         }
         see(k);
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
     }
     if (tracker.counters.tracks_started == 0 || report.tracks[0].status != RHO_TRACK_TENTATIVE) {
         fail_msg("the scene starts no tentative track");
     }
     uint32_t ended = 0;
     for (int k = 20; k < 30 && report.num_tracks > 0; k++) {
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
         ended += report.num_ended;
     }
     assert_int_equal(report.num_tracks, 0);
@@ -111,17 +111,17 @@ static void what_never_was_believed_is_not_reported_as_ended(void **state)
 static void misses_of_a_weak_sensor_are_no_doubt(void **state)
 {
     (void)state;
-    draw(1);
+    use_usual_configs(1);
     config.pd = 0.5f;
     initiation.pd = 0.5f;
-    begin();
+    begin_tracker();
     fly(0, LAST);
     assert_int_equal(status_of_first(), RHO_TRACK_CONFIRMED);
     for (int k = LAST; k < LAST + 4; k++) {
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
         assert_int_equal(status_of_first(), RHO_TRACK_COASTING);
     }
-    step(SCAN_S * (LAST + 4));
+    step_at(SCAN_S * (LAST + 4));
     assert_int_equal(status_of_first(), RHO_TRACK_FREE);
     assert_int_equal(report.num_ended, 1);
 }
@@ -131,17 +131,17 @@ static void all_ends_of_a_step_are_reported(void **state)
 {
     enum { TRACKS = 16 };
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (int k = 0; k < LAST; k++) {
         for (int i = 0; i < TRACKS; i++) {
-            add(500.0 * k, 3000.0 * i + normal(), 10.0);
+            add_plot(500.0 * k, 3000.0 * i + normal(), 10.0);
         }
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
     }
     assert_int_equal(report.num_tracks, TRACKS);
     for (int k = LAST; k < LAST + 5; k++) {
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
     }
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(report.num_ended, TRACKS);
@@ -157,15 +157,15 @@ static void all_ends_of_a_step_are_reported(void **state)
 static void of_two_starts_with_the_same_newest_plot_one_waits(void **state)
 {
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (int k = 0; k < 6; k++) {
         const double y_m = 400.0 * (3 - k);
-        add(500.0 * k, y_m, 10.0);
+        add_plot(500.0 * k, y_m, 10.0);
         if (k != 3) {
-            add(500.0 * k, -y_m, 10.0);
+            add_plot(500.0 * k, -y_m, 10.0);
         }
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
         assert_int_equal(tracker.counters.tracks_started, k < 3 ? 0 : k == 3 ? 1 : 2);
     }
     assert_int_equal(report.num_tracks, 2);
@@ -176,12 +176,12 @@ static void of_two_starts_with_the_same_newest_plot_one_waits(void **state)
 static void starts_with_newest_plots_of_their_own_are_both_started(void **state)
 {
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (int k = 0; k < 4; k++) {
-        add(500.0 * k, 1000.0, 10.0);
-        add(500.0 * k, -1000.0, 10.0);
-        step(SCAN_S * k);
+        add_plot(500.0 * k, 1000.0, 10.0);
+        add_plot(500.0 * k, -1000.0, 10.0);
+        step_at(SCAN_S * k);
     }
     assert_int_equal(tracker.counters.tracks_started, 2);
 }
@@ -194,7 +194,7 @@ static void steady_times_out_of_range_are_refused(void **state)
     static const float good_s[] = {0.0f, 1e-6f, 60.0f, 1e5f};
     static struct rho_tracker then;
     (void)state;
-    draw(1);
+    use_usual_configs(1);
     memset(&tracker, 0x5a, sizeof tracker);
     memcpy(&then, &tracker, sizeof tracker);
     for (size_t i = 0; i < sizeof bad_s / sizeof bad_s[0]; i++) {
@@ -204,7 +204,7 @@ static void steady_times_out_of_range_are_refused(void **state)
     }
     for (size_t i = 0; i < sizeof good_s / sizeof good_s[0]; i++) {
         config.steady_s = good_s[i];
-        begin();
+        begin_tracker();
     }
 }
 
@@ -224,14 +224,14 @@ static struct flight fly_and_turn(float steady_s)
     struct flight flight = {0};
     for (int run = 0; run < RUNS; run++) {
         double x_m = 0.0, y_m = 0.0, course_rad = 0.4;
-        draw(100 + (uint64_t)run);
+        use_usual_configs(100 + (uint64_t)run);
         config.accel_max_mps2 = 40.0f;
         config.steady_s = steady_s;
-        begin();
+        begin_tracker();
         for (int k = 0; k < STRAIGHT + TURN; k++) {
             const double seen_m = x_m + 50.0 * normal();
-            add(seen_m, y_m + 50.0 * normal(), 50.0);
-            step(k);
+            add_plot(seen_m, y_m + 50.0 * normal(), 50.0);
+            step_at(k);
             const struct rho_track_report *track = report_of(1);
             if (track && k >= BEGIN) {
                 const double off_m =
@@ -290,9 +290,9 @@ static void a_short_steady_time_is_as_none(void **state)
     static struct rho_report other;
     (void)state;
     for (int i = 0; i < 2; i++) {
-        draw(1);
+        use_usual_configs(1);
         config.steady_s = i ? 1.0f : 0.0f;
-        begin();
+        begin_tracker();
         fly(0, 20);
         if (i == 0) {
             other = report;
@@ -309,14 +309,14 @@ static void what_stands_is_no_target_where_targets_move(void **state)
     for (int gate = 0; gate < RHO_NUM_TRACKER_GATES; gate++) {
         for (int has_least = 0; has_least < 2; has_least++) {
             unsigned ended = 0;
-            draw(3);
+            use_usual_configs(3);
             config.gate = (uint8_t)gate;
             config.v_min_mps = has_least ? 50.0f : 0.0f;
-            begin();
+            begin_tracker();
             for (int k = 0; k < 40; k++) {
                 /* it flies, then it has come upon something that stands */
-                add(k < 20 ? 400.0 * k - 8000.0 : 10.0 * normal(), 10.0 * normal(), 10.0);
-                step(2.0 * k);
+                add_plot(k < 20 ? 400.0 * k - 8000.0 : 10.0 * normal(), 10.0 * normal(), 10.0);
+                step_at(2.0 * k);
                 for (unsigned i = 0; i < report.num_ended; i++) {
                     ended += report.ended[i] == 1;
                 }
@@ -334,8 +334,8 @@ static void least_speeds_out_of_range_are_refused(void **state)
 {
     static const float bad[] = {-1.0f, NAN, INFINITY, 701.0f};
     (void)state;
-    draw(3);
-    begin();
+    use_usual_configs(3);
+    begin_tracker();
     static struct rho_tracker before;
     before = tracker;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {

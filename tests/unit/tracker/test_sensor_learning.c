@@ -67,8 +67,8 @@ static void look(const struct radar *radar, int k)
         const double pd = range_m < 0.5 * (double)RANGE_MAX_M ? radar->pd : radar->pd_far;
 
         if (uniform(0.0, 1.0) < pd) {
-            struct rho_plot *plot = add(place_m[0] + along_m * x - side_m * y,
-                                        place_m[1] + along_m * y + side_m * x, 1.0);
+            struct rho_plot *plot = add_plot(place_m[0] + along_m * x - side_m * y,
+                                             place_m[1] + along_m * y + side_m * x, 1.0);
             plot->sigma_range_m = (float)(radar->claim * radar->sigma_range_m);
             plot->sigma_cross_m = (float)(radar->claim * across_m *
                                           (radar->claim_across > 0.0 ? radar->claim_across : 1.0));
@@ -97,9 +97,9 @@ static struct rho_tracker_known known_after(const struct radar *radar, int scans
 
 static void prepare(uint64_t seed)
 {
-    draw(seed);
+    use_usual_configs(seed);
     config.accel_max_mps2 = 20.0f;
-    begin();
+    begin_tracker();
 }
 
 static void assert_between(double value, double least, double most)
@@ -137,7 +137,7 @@ static void noise_is_found_on_each_axis(void **state)
         radar.is_round = i == 3;
         prepare(10u + (uint64_t)i);
         config.learn_noise_min = 0.2f;
-        begin();
+        begin_tracker();
         const struct rho_tracker_known known = known_after(&radar, 150);
         assert_between((double)known.range_factor * claims[i], 0.82, 1.18);
         assert_between((double)known.cross_factor * claims[i], 0.82, 1.18);
@@ -171,13 +171,13 @@ static void bounds_hold_and_one_is_off(void **state)
     prepare(30);
     config.learn_noise_max = 1.5f;
     config.learn_pd_min = 0.8f;
-    begin();
+    begin_tracker();
     known = known_after(&radar, 120);
     assert_float_equal(known.range_factor, 1.5f, 0.0f);
     assert_float_equal(known.pd[1], 0.76f, 1e-6f);
     prepare(30);
     config.learn_noise_min = config.learn_noise_max = config.learn_pd_min = 1.0f;
-    begin();
+    begin_tracker();
     known = known_after(&radar, 120);
     assert_float_equal(known.range_factor, 1.0f, 0.0f);
     assert_float_equal(known.pd[1], 0.95f, 0.0f);
@@ -230,7 +230,7 @@ static unsigned doubts_with(float learn_pd_min)
         radar.pd_far = 0.5;
         prepare(seed);
         config.learn_pd_min = learn_pd_min;
-        begin();
+        begin_tracker();
         (void)known_after(&radar, 150);
     }
     return doubts;
@@ -255,10 +255,10 @@ static void the_gate_nearest_learns_nothing(void **state)
     radar.claim = 0.5;
     radar.pd_far = 0.5;
     radar.pd_stated = 0.95;
-    draw(52);
+    use_usual_configs(52);
     config.accel_max_mps2 = 20.0f;
     config.gate = RHO_TRACKER_NEAREST;
-    begin();
+    begin_tracker();
     const struct rho_tracker_known known = known_after(&radar, 150);
     assert_int_equal(known.innovations, 0);
     assert_int_equal(known.looks, 0);
@@ -395,7 +395,7 @@ static void bounds_are_checked(void **state)
                                    {0.7f, 10.1f, 0.5f}, {0.7f, 4.0f, 0.09f}, {0.7f, 4.0f, NAN}};
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        draw(80);
+        use_usual_configs(80);
         config.learn_noise_min = bad[i][0];
         config.learn_noise_max = bad[i][1];
         config.learn_pd_min = bad[i][2];
@@ -419,8 +419,8 @@ static void pass(int k, double notch_mps)
         const double x_noise = normal(), y_noise = normal();
         const double seen = fabs(75.0 * along_m / range_m) < notch_mps ? 0.03 : 0.9;
         if (uniform(0.0, 1.0) < seen) {
-            (void)add(along_m * cos(heading) - aside_m * sin(heading) + 30.0 * x_noise,
-                      along_m * sin(heading) + aside_m * cos(heading) + 30.0 * y_noise, 30.0);
+            (void)add_plot(along_m * cos(heading) - aside_m * sin(heading) + 30.0 * x_noise,
+                           along_m * sin(heading) + aside_m * cos(heading) + 30.0 * y_noise, 30.0);
         }
     }
     scan.num_plots = num_plots;
@@ -440,9 +440,9 @@ static float learned_notch(void)
 
 static void begin_flights(void)
 {
-    draw(17);
+    use_usual_configs(17);
     config.v_max_mps = initiation.v_max_mps = 200.0f;
-    begin();
+    begin_tracker();
     describe(&as_stated);
 }
 

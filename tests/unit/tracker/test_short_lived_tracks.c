@@ -15,7 +15,7 @@ static int turn;
 
 static void begin_turns(void)
 {
-    begin_by_rate(20);
+    begin_tracker_by_rate(20);
     turn = 0;
 }
 
@@ -24,17 +24,17 @@ static void see_sky(void)
 {
     for (int i = 0; i < 10; i++) {
         const double x_m = uniform(-40000.0, 80000.0);
-        (void)add(x_m, uniform(-60000.0, 60000.0), SIGMA_M);
+        (void)add_plot(x_m, uniform(-60000.0, 60000.0), SIGMA_M);
     }
     for (int i = 0; i < TARGETS; i++) {
-        add_noisy(-30000.0 + SPEED_MPS * TURN_S * (turn % 100), 40000.0 + 5000.0 * i, SIGMA_M);
+        add_noisy_plot(-30000.0 + SPEED_MPS * TURN_S * (turn % 100), 40000.0 + 5000.0 * i, SIGMA_M);
     }
 }
 
 static void take_turn(void)
 {
     see_sky();
-    step(TURN_S * turn++);
+    step_at(TURN_S * turn++);
 }
 
 /*
@@ -47,7 +47,7 @@ static int show(double x_m, double y_m, int hits)
     for (int k = 0; k < hits + 10; k++) {
         const double at_m = x_m + SPEED_MPS * TURN_S * k;
         if (k < hits) {
-            add_noisy(at_m, y_m, SIGMA_M);
+            add_noisy_plot(at_m, y_m, SIGMA_M);
         }
         take_turn();
         for (unsigned i = 0; i < report.num_tracks; i++) {
@@ -146,8 +146,8 @@ static void the_evidence_needed_is_as_derived(void **state)
     struct step at = {.tracker = &tracker};
     const double hit_nat = log(1.0 / 0.3), wanted = 3.0 * 1600.0 / 3600.0;
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     have(0, 100, 20);
     have(1, 16, 5); /* established */
     have(2, 15, 5); /* not yet: almost, by its evidence */
@@ -183,8 +183,8 @@ static void a_track_is_established_with_its_sixteenth_plot(void **state)
 {
     struct step at = {.tracker = &tracker};
     (void)state;
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (int16_t plot = -1; plot < 2; plot++) {
         for (uint16_t hits = 15; hits < 18; hits++) {
             tracker.established = 0.0f;

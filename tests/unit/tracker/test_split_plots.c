@@ -14,12 +14,12 @@
 
 static void begin_turns(uint64_t seed)
 {
-    draw(seed);
+    use_usual_configs(seed);
     initiation.scans = 7;
     initiation.min_scans = 0;
     initiation.false_tracks_per_hour = 1.0f;
     config.accel_max_mps2 = 20.0f;
-    begin();
+    begin_tracker();
 }
 
 /* Its plot, P_D .9; and with `second` a chance of another one up to 6 sigmas off on each axis. */
@@ -30,10 +30,10 @@ static void see(double x_m, double y_m, double second)
     if (!is_seen) {
         return;
     }
-    (void)add(x_m + dx_m, y_m + dy_m, SIGMA_M);
+    (void)add_plot(x_m + dx_m, y_m + dy_m, SIGMA_M);
     if (is_second) {
         const double off_m = uniform(-6.0, 6.0) * SIGMA_M, more_m = SIGMA_M * normal();
-        (void)add(x_m + off_m + more_m, y_m + uniform(-6.0, 6.0) * SIGMA_M, SIGMA_M);
+        (void)add_plot(x_m + off_m + more_m, y_m + uniform(-6.0, 6.0) * SIGMA_M, SIGMA_M);
     }
 }
 
@@ -41,7 +41,7 @@ static void see_clutter(void)
 {
     for (int i = 0; i < 10; i++) {
         const double x_m = uniform(-40000.0, 80000.0);
-        (void)add(x_m, uniform(-40000.0, 80000.0), SIGMA_M);
+        (void)add_plot(x_m, uniform(-40000.0, 80000.0), SIGMA_M);
     }
 }
 
@@ -81,7 +81,7 @@ static void one_target_has_one_track(void **state)
         for (int k = 0; k < 120; k++) {
             see_targets(k, 0.3);
             see_clutter();
-            step(TURN_S * k);
+            step_at(TURN_S * k);
             for (int i = 0; i < TARGETS && k >= 30; i++) {
                 const int num = num_near(-30000.0 + SPEED_MPS * TURN_S * k, 8000.0 * i, 1000.0);
                 others += num > 1 ? num - 1 : 0;
@@ -102,7 +102,7 @@ static void without_second_plots_none_are_expected(void **state)
     for (int k = 0; k < 120; k++) {
         see_targets(k, 0.0);
         see_clutter();
-        step(TURN_S * k);
+        step_at(TURN_S * k);
     }
     assert_float_equal(rate(), 0.0f, 0.01f);
 }
@@ -120,7 +120,7 @@ static void two_abreast_keep_two_tracks(void **state)
             see(x_m, -8000.0, 0.0);
             see(x_m, -8000.0 - 12.0 * SIGMA_M, 0.0);
             see_clutter();
-            step(TURN_S * k);
+            step_at(TURN_S * k);
             both += k >= 20 && num_near(x_m, -8000.0, 1000.0) >= 2;
         }
     }
@@ -144,7 +144,7 @@ static void one_that_separates_gets_a_track(void **state)
                 see(x_m + 60.0 * TURN_S * (k - 60), 0.0, 0.3);
             }
             see_clutter();
-            step(TURN_S * k);
+            step_at(TURN_S * k);
         }
         found += num_near(-30000.0 + SPEED_MPS * TURN_S * 65, 0.0, 1500.0) >= 2;
     }
@@ -166,9 +166,9 @@ static struct step at;
  */
 static void prepare(unsigned num_tracks)
 {
-    draw(1);
+    use_usual_configs(1);
     config.work_max = 0;
-    begin();
+    begin_tracker();
     memset(&report, 0, sizeof report);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     tracker.unclaimed_plots = 100.0f; /* on 100 by 100 km */
@@ -197,7 +197,7 @@ static void prepare(unsigned num_tracks)
 /* So many sigmas of 10 m from 20 km east. */
 static void put(double along, double across)
 {
-    (void)add(20000.0 + 10.0 * along, 10.0 * across, 10.0);
+    (void)add_plot(20000.0 + 10.0 * along, 10.0 * across, 10.0);
     tracker.clutter_map.denser[num_plots - 1] = 0.0f;
     report.fates[num_plots - 1] = RHO_FATE_HELD;
     scan.num_plots = at.num_inputs = at.num_gated = num_plots;

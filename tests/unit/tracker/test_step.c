@@ -15,9 +15,9 @@ static struct step at;
 
 static void prepare(void)
 {
-    draw(1);
+    use_usual_configs(1);
     config.work_max = 0;
-    begin();
+    begin_tracker();
     memset(&report, 0, sizeof report);
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     tracker.unclaimed_plots = 100.0f; /* on 100 by 100 km */
@@ -55,7 +55,7 @@ static struct rho_track *have_track(double azimuth_rad, double sigma_m)
 
 static void put(double x_m, double y_m)
 {
-    (void)add(x_m, y_m, 10.0);
+    (void)add_plot(x_m, y_m, 10.0);
     report.fates[num_plots - 1] = RHO_FATE_HELD;
     scan.num_plots = at.num_inputs = at.num_gated = num_plots;
 }
@@ -358,7 +358,7 @@ static void scans_may_be_late_by_a_minute(void **state)
     if (!RHO_SECTORS) {
         skip();
     }
-    draw(1);
+    use_usual_configs(1);
     config.late_max_s = 60.0f;
     assert_true(rho_tracker_is_late_max_usable(&config));
     config.late_max_s = 60.1f;

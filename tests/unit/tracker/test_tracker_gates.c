@@ -20,7 +20,7 @@ static const struct {
 
 static void draw_way(unsigned way, uint64_t seed)
 {
-    draw(ways[way].gate, seed);
+    set_up_scene(ways[way].gate, seed);
     if (ways[way].has_inputs) {
         estimate_inputs();
     }
@@ -77,7 +77,7 @@ static void let_all_end(int k)
     scene.clutter = 0.0;
     scene.num_sectors = 0;
     for (int i = 0; i < 14; i++) { /* established tracks are in doubt for twelve misses */
-        step(k + i);
+        step_tracker(k + i);
     }
     assert_int_equal(report.num_tracks, 0);
     assert_int_equal(tracker.hypotheses.num_free, RHO_MAX_HYPOTHESES);
@@ -91,9 +91,9 @@ static void every_gate_keeps_its_books(void **state)
             unsigned most = 0, followed = 0;
             draw_way(way, 100 + (uint64_t)kind);
             vary(kind);
-            begin();
+            begin_tracker();
             for (int k = 0; k < NUM_SCANS; k++) {
-                step(k);
+                step_tracker(k);
                 for (unsigned i = 0; i < report.num_tracks; i++) {
                     most = report.tracks[i].num_hypotheses > most ? report.tracks[i].num_hypotheses
                                                                   : most;
@@ -127,7 +127,7 @@ static void start_alike(unsigned way)
 {
     draw_way(way, 9);
     vary(ALL_OF_IT);
-    begin();
+    begin_tracker();
 }
 
 static void replays_and_snapshots_give_the_same_bytes(void **state)
@@ -137,13 +137,13 @@ static void replays_and_snapshots_give_the_same_bytes(void **state)
         static uint8_t snapshot[sizeof tracker + sizeof initiator];
         start_alike(way);
         for (int k = 0; k < 20; k++) {
-            step(k);
+            step_tracker(k);
         }
         memcpy(snapshot, &tracker, sizeof tracker);
         memcpy(snapshot + sizeof tracker, &initiator, sizeof initiator);
         random_then = random_state;
         for (int k = 20; k < NUM_SCANS; k++) {
-            step(k);
+            step_tracker(k);
         }
         memcpy(&tracker_then, &tracker, sizeof tracker);
         memcpy(&initiator_then, &initiator, sizeof initiator);
@@ -153,7 +153,7 @@ static void replays_and_snapshots_give_the_same_bytes(void **state)
         memcpy(&initiator, snapshot + sizeof tracker, sizeof initiator);
         random_state = random_then;
         for (int k = 20; k < NUM_SCANS; k++) {
-            step(k);
+            step_tracker(k);
         }
         assert_memory_equal(&report, &report_then, sizeof report);
         assert_memory_equal(&tracker, &tracker_then, sizeof tracker);
@@ -163,7 +163,7 @@ static void replays_and_snapshots_give_the_same_bytes(void **state)
         memset(&initiator, 0xa5, sizeof initiator);
         start_alike(way);
         for (int k = 0; k < NUM_SCANS; k++) {
-            step(k);
+            step_tracker(k);
         }
         assert_memory_equal(&report, &report_then, sizeof report);
         assert_memory_equal(&tracker, &tracker_then, sizeof tracker);
@@ -183,9 +183,9 @@ static void late_scans_show_the_tracks_at_their_time_and_change_nothing(void **s
         draw_way(way, 3);
         scene.num_targets = 1;
         scene.target[0] = (struct target){-4000.0, 500.0, 0.0, 200.0, 0.0, 20.0, 10.0, 30.0};
-        begin();
+        begin_tracker();
         for (int k = 0; k < 20; k++) {
-            step(k);
+            step_tracker(k);
         }
         memcpy(&tracker_then, &tracker, sizeof tracker);
         memcpy(&initiator_then, &initiator, sizeof initiator);
@@ -223,7 +223,7 @@ static void bad_gates_are_refused(void **state)
     (void)state;
     for (unsigned way = 0; way < NUM_WAYS; way++) {
         draw_way(way, 1);
-        begin(); /* good */
+        begin_tracker(); /* good */
         for (unsigned i = 0; i < sizeof cells_rad / sizeof cells_rad[0]; i++) {
             bad = config;
             bad.theta_cell_rad = cells_rad[i];
@@ -256,21 +256,21 @@ static void bad_gates_are_refused(void **state)
 static void good_ends_of_ranges_are_taken(void **state)
 {
     (void)state;
-    draw(RHO_TRACKER_HOUGH, 1);
+    set_up_scene(RHO_TRACKER_HOUGH, 1);
     config.planes = RHO_GATE_PLANE_YZ;
     config.theta_cell_rad = 1e-3f;
-    begin();
+    begin_tracker();
     config.planes = 1;
     config.theta_cell_rad = 1.5707963f;
-    begin();
+    begin_tracker();
     config.accel_max_mps2 = 0.0f;
     config.gate = RHO_TRACKER_BEST;
-    begin();
+    begin_tracker();
     config.accel_max_mps2 = 1000.0f;
     config.v_max_mps = 1.0f;
-    begin();
+    begin_tracker();
     config.v_max_mps = RHO_LIMIT_SPEED_MPS;
-    begin();
+    begin_tracker();
 }
 
 static void the_default_is_best(void **state)

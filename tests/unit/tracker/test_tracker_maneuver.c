@@ -41,7 +41,7 @@ static struct figures fly_turn(uint8_t gate, int has_inputs)
 {
     struct figures figures = {0};
     for (unsigned run = 0; run < NUM_RUNS; run++) {
-        draw(gate, 1000 + run);
+        set_up_scene(gate, 1000 + run);
         if (has_inputs) {
             estimate_inputs();
         }
@@ -49,9 +49,9 @@ static struct figures fly_turn(uint8_t gate, int has_inputs)
         scene.target[0] =
             (struct target){-6000.0, -3000.0, 0.0, 250.0, 0.3, TURN_MPS2, TURN_FROM_S, TURN_TO_S};
         scene.pd = 0.9;
-        begin();
+        begin_tracker();
         for (int k = 0; k < TURN_SCANS; k++) {
-            step(k);
+            step_tracker(k);
             if (k >= 8) {
                 note(&figures, k);
             }
@@ -158,12 +158,12 @@ static unsigned keep_apart(uint8_t gate, float accel_max_mps2, double apart_m)
     for (unsigned run = 0; run < NUM_RUNS; run++) {
         uint32_t ids[2] = {0, 0};
         unsigned same = 0;
-        draw(gate, 2000 + run);
+        set_up_scene(gate, 2000 + run);
         config.accel_max_mps2 = accel_max_mps2;
         fly_side_by_side(apart_m);
-        begin();
+        begin_tracker();
         for (int k = 0; k < 68; k++) {
-            step(k);
+            step_tracker(k);
             for (unsigned i = 0; i < 2; i++) {
                 const struct rho_track_report *track = follower_of(i, k, k < 60 ? 25.0 : 50.0);
                 ids[i] = k == 8 && track ? track->track_id : ids[i];
@@ -203,16 +203,16 @@ static void a_formation_claims_all_its_plots(void **state)
     (void)state;
     unsigned unclaimed = 0, started = 0, started_before = 0;
     for (unsigned run = 0; run < 20; run++) {
-        draw(RHO_TRACKER_BEST, 7000 + run);
+        set_up_scene(RHO_TRACKER_BEST, 7000 + run);
         config.accel_max_mps2 = 60.0f;
         scene.interval_s = 2.0;
         scene.num_targets = 8;
         for (unsigned i = 0; i < 8; i++) {
             scene.target[i] = (struct target){.x_m = -6000.0, .y_m = 60.0 * i, .speed_mps = 200.0};
         }
-        begin();
+        begin_tracker();
         for (int k = 0; k < 39; k++) {
-            step(k);
+            step_tracker(k);
             started_before = k < 10 ? tracker.counters.tracks_started : started_before;
             unclaimed += k < 10 ? 0 : num_plots - report.fates_total[RHO_FATE_CLAIMED];
         }
@@ -235,7 +235,7 @@ static unsigned follow_a_pull(uint8_t gate, double interval_s)
     unsigned kept = 0;
     for (unsigned run = 0; run < NUM_RUNS; run++) {
         uint32_t track_id = 0;
-        draw(gate, 3000 + run);
+        set_up_scene(gate, 3000 + run);
         scene.num_targets = 1;
         scene.interval_s = interval_s;
         scene.target[0] = (struct target){
@@ -243,9 +243,9 @@ static unsigned follow_a_pull(uint8_t gate, double interval_s)
             40.5 * interval_s};
         scene.pd = 0.75;
         scene.clutter = 10.0;
-        begin();
+        begin_tracker();
         for (int k = 0; k < 60; k++) {
-            step(k);
+            step_tracker(k);
             const struct rho_track_report *track = follower_of(0, interval_s * k, 150.0);
             track_id = k == 19 && track ? track->track_id : track_id;
             kept += k == 59 && track && track->track_id == track_id;
@@ -275,7 +275,7 @@ static void best_keeps_what_pulls_all_it_can(void **state)
  */
 static void crowd(uint8_t gate, uint64_t seed)
 {
-    draw(gate, seed);
+    set_up_scene(gate, seed);
     scene.num_targets = RHO_MAX_TRACKS < SCENE_TARGETS_MAX ? RHO_MAX_TRACKS : SCENE_TARGETS_MAX;
     for (unsigned i = 0; i < scene.num_targets; i++) {
         struct target *target = &scene.target[i];
@@ -288,7 +288,7 @@ static void crowd(uint8_t gate, uint64_t seed)
     scene.clutter = 200.0;
     scene.pd = 0.95;
     scene.interval_s = 2.0;
-    begin();
+    begin_tracker();
 }
 
 /* Targets that have a track after 32 scans of clutter. */
@@ -297,7 +297,8 @@ static unsigned fly_crowd(uint8_t gate, uint64_t seed, unsigned *least_free)
     unsigned followed = 0;
     crowd(gate, seed);
     for (int k = 0; k < 40; k++) {
-        step(k); /* looks that each track has one hypothesis at least, and that none is lost */
+        step_tracker(
+            k); /* looks that each track has one hypothesis at least, and that none is lost */
         *least_free =
             tracker.hypotheses.num_free < *least_free ? tracker.hypotheses.num_free : *least_free;
     }
@@ -332,7 +333,7 @@ static void a_small_pool_shares_what_there_is(void **state)
     scene.num_targets = 0;
     scene.clutter = 0.0;
     for (int k = 40; k < 54; k++) { /* established tracks are in doubt for twelve misses */
-        step(k);
+        step_tracker(k);
     }
     assert_int_equal(tracker.hypotheses.num_free, RHO_MAX_HYPOTHESES);
 }
@@ -349,7 +350,7 @@ static void tentative_tracks_give_their_hypotheses_back(void **state)
     }
     unsigned gave_way = 0;
     for (uint64_t seed = 1; seed <= 10; seed++) {
-        draw(RHO_TRACKER_BEST, seed);
+        set_up_scene(RHO_TRACKER_BEST, seed);
         initiation.false_tracks_per_hour = 1e-6f;
         scene.num_targets = SCENE_TARGETS_MAX;
         for (unsigned i = 0; i < SCENE_TARGETS_MAX; i++) {
@@ -359,11 +360,11 @@ static void tentative_tracks_give_their_hypotheses_back(void **state)
         }
         scene.pd = 0.7;
         scene.clean_scans = 0;
-        begin();
+        begin_tracker();
         for (int k = 0; k < 15; k++) {
             const uint32_t started = tracker.counters.tracks_started;
             const int is_full = tracker.num_tracks == RHO_MAX_TRACKS;
-            step(k);
+            step_tracker(k);
             gave_way += is_full ? tracker.counters.tracks_started - started : 0;
         }
     }

@@ -26,7 +26,7 @@ static void begin(double side, int area_is_fixed)
     config.v_max_mps = maintain.v_max_mps = 400.0f;
     config.area_is_fixed = area_is_fixed;
     config.area = (struct rho_extent){0.0f, (float)side, 0.0f, (float)side};
-    start(&config);
+    start_initiator(&config);
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &maintain), RHO_OK);
     side_m = side;
     time_s = 0.0;
@@ -48,7 +48,7 @@ static void step(uint32_t measures)
 static void clutter(int count, uint32_t measures)
 {
     for (int i = 0; i < count; i++) {
-        struct rho_plot *plot = add(uniform(0.0, side_m), uniform(0.0, side_m), 10.0, 10.0);
+        struct rho_plot *plot = add_plot(uniform(0.0, side_m), uniform(0.0, side_m), 10.0, 10.0);
         plot->z_m = (float)uniform(0.0, 20000.0);
         plot->sigma_up_m = 10.0f;
         plot->range_rate_mps = (float)uniform(-400.0, 400.0);
@@ -86,7 +86,7 @@ static void one_plot_far_out_does_not_thin_the_clutter(void **state)
     begin(10000.0, 0);
     for (int k = 0; k < 600; k++) {
         if (k == 20) {
-            add(1.9e6, 1.9e6, 10.0, 10.0);
+            add_plot(1.9e6, 1.9e6, 10.0, 10.0);
         }
         clutter(poisson(10.0), 0);
     }
@@ -135,7 +135,7 @@ static void a_radar_that_looks_into_a_sector_keeps_the_rate(void **state)
         int count = poisson(20.0);
         for (int i = 0; i < count; i++) {
             double range_m = uniform(1000.0, 65000.0), azimuth_rad = uniform(0.0, 0.2);
-            add(range_m * cos(azimuth_rad), range_m * sin(azimuth_rad), 15.0, 0.003 * range_m);
+            add_plot(range_m * cos(azimuth_rad), range_m * sin(azimuth_rad), 15.0, 0.003 * range_m);
         }
         step(0);
     }

@@ -35,7 +35,7 @@ static void assert_tracked(const struct scene *scene)
     assert_int_equal(report.num_tracks, TARGETS);
     assert_int_equal(tracker.counters.tracks_started, TARGETS);
     for (int i = 0; i < TARGETS; i++) {
-        const struct rho_track_report *track = track_of(scene, i);
+        const struct rho_track_report *track = track_of_target(scene, i);
 
         assert_non_null(track);
         assert_int_equal(track->status, RHO_TRACK_CONFIRMED);
@@ -50,11 +50,11 @@ static void assert_tracked(const struct scene *scene)
 static void fly_described(struct scene *scene, int from_turn, int at_sector, float x_m, float pd)
 {
     scene->sectors = SECTORS;
-    start();
+    start_tracker();
     for (int turn = 0; turn < 2 * TURNS; turn++) {
         for (int sector = 0; sector < SECTORS; sector++) {
             if (turn >= from_turn && sector == at_sector) {
-                describe(1, x_m, pd);
+                describe_sensor(1, x_m, pd);
             }
             step_sector(scene, turn, sector);
         }
@@ -65,7 +65,7 @@ static void the_same_description_changes_nothing(void **state)
 {
     struct scene without = {.turning = 1, .speed_mps = 80.0, .hidden = -1};
     (void)state;
-    fly(&without, 2 * TURNS);
+    fly_turns(&without, 2 * TURNS);
     keep();
     for (int at = 0; at < SECTORS; at += 5) {
         struct scene with = {.turning = 1, .speed_mps = 80.0, .hidden = -1};
@@ -106,7 +106,7 @@ static void a_forgotten_sensor_begins_anew(void **state)
     enum { TARGET = 5, QUARTERS = 4, SECTOR = 2, TURN = 4 };
     struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1, .sectors = QUARTERS};
     (void)state;
-    start();
+    start_tracker();
     for (int turn = 0; turn <= 2 * TURN + 1; turn++) {
         for (int sector = 0; sector < QUARTERS; sector++) {
             const int is_past = turn > TURN || (turn == TURN && sector > SECTOR);
@@ -117,15 +117,15 @@ static void a_forgotten_sensor_begins_anew(void **state)
             scene.hidden = turn <= 2 * TURN && is_past ? TARGET : -1;
             step_sector(&scene, turn, sector);
             if (turn == TURN && sector == SECTOR) {
-                assert_true(track_of(&scene, TARGET)->plot >= 0);
+                assert_true(track_of_target(&scene, TARGET)->plot >= 0);
                 assert_int_equal(rho_tracker_forget_sensor(&tracker, 1), RHO_OK);
                 assert_null(rho_tracker_look_of(&tracker, 1));
-                describe(1, 0.0f, 0.9f);
+                describe_sensor(1, 0.0f, 0.9f);
             }
             if (turn == 2 * TURN + 1 && sector == SECTOR) {
                 assert_int_equal(seen, QUARTERS * TURN + SECTOR + 1); /* as when it was seen */
-                assert_non_null(track_of(&scene, TARGET));
-                assert_true(track_of(&scene, TARGET)->plot >= 0);
+                assert_non_null(track_of_target(&scene, TARGET));
+                assert_true(track_of_target(&scene, TARGET)->plot >= 0);
             }
         }
     }
@@ -137,9 +137,9 @@ static void more_sensors_than_the_table_holds(void **state)
     enum { SENSORS = RHO_MAX_SENSORS + 3 };
     struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1};
     (void)state;
-    start();
+    start_tracker();
     for (int32_t id = 2; id <= RHO_MAX_SENSORS; id++) {
-        describe(id, 0.0f, 0.9f);
+        describe_sensor(id, 0.0f, 0.9f);
     }
     other_tracker = tracker;
     const struct rho_sensor beyond = {.sensor_id = SENSORS, .pd = 0.9f, .range_max_m = 1e5f};
@@ -153,7 +153,7 @@ static void more_sensors_than_the_table_holds(void **state)
                                       .plots = plots};
 
         for (int i = 0; i < TARGETS; i++) {
-            plots[i] = plot_of(&scene, i, k, scan.time_us);
+            plots[i] = target_plot(&scene, i, k, scan.time_us);
             scene.plots[i]++;
         }
         step_scan(&scene, &scan);
@@ -180,9 +180,9 @@ static void what_is_not_searched_is_not_missed(void **state)
         struct scene scene = {.turning = turning, .speed_mps = 80.0, .hidden = -1};
         int before[TARGETS];
 
-        fly(&scene, TURNS);
+        fly_turns(&scene, TURNS);
         for (int i = 0; i < TARGETS; i++) {
-            before[i] = track_of(&scene, i)->hits;
+            before[i] = track_of_target(&scene, i)->hits;
         }
         for (int turn = TURNS; turn < 2 * TURNS; turn++) {
             for (int sector = 6; sector < 14; sector++) { /* targets at their edges 8 and 12 */
@@ -191,7 +191,7 @@ static void what_is_not_searched_is_not_missed(void **state)
         }
         assert_int_equal(report.num_tracks, TARGETS);
         for (int i = 0; i < TARGETS; i++) {
-            const struct rho_track_report *track = track_of(&scene, i);
+            const struct rho_track_report *track = track_of_target(&scene, i);
             int edge = turning > 0 ? 4 * i : (SECTORS - 4 * i) % SECTORS;
 
             assert_non_null(track);
@@ -215,9 +215,9 @@ static void impossible_sectors_are_refused(void **state)
     uint8_t fates[TARGETS];
     uint32_t unused = 0;
     (void)state;
-    fly(&scene, TURNS);
+    fly_turns(&scene, TURNS);
     keep();
-    const struct rho_scan good = scan_of(&scene, TURNS, 0, plots);
+    const struct rho_scan good = sector_scan(&scene, TURNS, 0, plots);
     for (size_t i = 0; i < 2 * sizeof ends / sizeof ends[0]; i++) {
         struct rho_scan bad = good;
         struct rho_bearing_scan bearings = {.time_us = good.time_us, .sensor_id = 1};
@@ -255,7 +255,7 @@ static void a_late_sector_is_one_look_all_the_same(void **state)
             struct scene scene = {
                 .turning = turning, .speed_mps = 80.0, .hidden = -1, .sectors = SECTORS};
 
-            fly(&scene, TURNS);
+            fly_turns(&scene, TURNS);
             for (int turn = TURNS; turn < 2 * TURNS; turn++) {
                 for (int sector = 0; sector < SECTORS; sector++) {
                     step_sector(&scene, turn,
@@ -278,11 +278,11 @@ static void a_row_of_an_earlier_sector_counts_once(void **state)
         struct scene scene = {.turning = 1, .speed_mps = 80.0, .hidden = -1, .sectors = SECTORS};
         struct rho_plot kept[TARGETS];
 
-        start();
+        start_tracker();
         for (int turn = 0; turn < 2 * TURNS; turn++) {
             for (int sector = 0; sector < SECTORS; sector++) {
                 struct rho_plot plots[TARGETS];
-                struct rho_scan scan = scan_of(&scene, turn, sector, plots);
+                struct rho_scan scan = sector_scan(&scene, turn, sector, plots);
 
                 if (turn % 5 == 4 && sector == 12) { /* target 3's */
                     assert_int_equal(scan.num_plots, 1);
@@ -300,9 +300,9 @@ static void a_row_of_an_earlier_sector_counts_once(void **state)
         int plots = 0, hits = 0;
         for (int i = 0; i < TARGETS; i++) {
             plots += scene.plots[i];
-            hits += track_of(&scene, i)->hits;
-            assert_true(track_of(&scene, i)->hits <= scene.plots[i]);
-            assert_true(i == 3 || track_of(&scene, i)->hits == scene.plots[i]);
+            hits += track_of_target(&scene, i)->hits;
+            assert_true(track_of_target(&scene, i)->hits <= scene.plots[i]);
+            assert_true(i == 3 || track_of_target(&scene, i)->hits == scene.plots[i]);
         }
         assert_int_equal(scene.fates[RHO_FATE_CLAIMED] + scene.fates[RHO_FATE_HELD], plots);
         assert_int_equal(hits, scene.fates[RHO_FATE_CLAIMED] + tracker.counters.plots_initiated);
@@ -317,11 +317,11 @@ static void a_row_of_an_earlier_sector_counts_once(void **state)
 static void fly_measuring(struct scene *scene, int range_rates, int heights)
 {
     scene->sectors = SECTORS;
-    start();
+    start_tracker();
     for (int turn = 0; turn < TURNS; turn++) {
         for (int sector = 0; sector < SECTORS; sector++) {
             struct rho_plot plots[TARGETS];
-            struct rho_scan scan = scan_of(scene, turn, sector, plots);
+            struct rho_scan scan = sector_scan(scene, turn, sector, plots);
 
             if (scan.num_plots > 0 && range_rates > 0 && sector / 4 % range_rates == 0) {
                 scan.measures |= RHO_MEASURES_RANGE_RATE;

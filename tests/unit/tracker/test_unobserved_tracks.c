@@ -22,10 +22,10 @@ static void scan_of(int32_t sensor_id, double t_s, float from_rad, float to_rad)
  */
 static double kept_s(double silent_s)
 {
-    draw(1);
+    use_usual_configs(1);
     config.gate = RHO_TRACKER_NEAREST;
     config.accel_max_mps2 = 0.5f;
-    begin();
+    begin_tracker();
     for (int32_t id = 1; id <= OTHER; id++) {
         const struct rho_sensor sensor = {
             .sensor_id = id, .x_m = id == OTHER ? -9e5f : 0.0f, .pd = 0.9f, .range_max_m = 5e4f};
@@ -35,7 +35,7 @@ static double kept_s(double silent_s)
         scan_of(1, t_s, 2.5f, -2.5f);
     }
     for (double t_s = 120.0; t_s < silent_s; t_s += 1.0) {
-        add(10000.0 + 20.0 * t_s, 0.0, 10.0);
+        add_plot(10000.0 + 20.0 * t_s, 0.0, 10.0);
         scan_of(1, t_s, -0.5f, 0.5f);
     }
     assert_int_equal(report.num_tracks, 1);
@@ -62,8 +62,8 @@ static void a_sensor_that_turns_elsewhere_has_another_interval(void **state)
 /* Of a sensor that is heard at these times, in seconds. */
 static double interval_after(const double *at_s, int num)
 {
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     for (int i = 0; i < num; i++) {
         scan_of(1, at_s[i], 0.0f, 0.0f);
     }
@@ -84,17 +84,17 @@ static void the_interval_of_a_sensor_is_a_mean(void **state)
 /* Seconds between hits of a track that is seen every ten, and then once after so many. */
 static double seen_every_after(double last_gap_s)
 {
-    draw(1);
+    use_usual_configs(1);
     config.gate = RHO_TRACKER_NEAREST;
     config.accel_max_mps2 = 0.5f;
-    begin();
+    begin_tracker();
     for (int k = 0; k < 12; k++) {
-        add(10000.0 + 20.0 * 10.0 * k, 0.0, 10.0);
+        add_plot(10000.0 + 20.0 * 10.0 * k, 0.0, 10.0);
         scan_of(1, 10.0 * k, 0.0f, 0.0f);
     }
     assert_int_equal(report.num_tracks, 1);
     const double at_s = 110.0 + last_gap_s;
-    add(10000.0 + 20.0 * at_s, 0.0, 10.0);
+    add_plot(10000.0 + 20.0 * at_s, 0.0, 10.0);
     scan_of(1, at_s, 0.0f, 0.0f);
     assert_int_equal(report.num_tracks, 1);
     for (unsigned row = 0; row < tracker.num_tracks; row++) {
@@ -121,8 +121,8 @@ static struct rho_track *have_track(float range_m, uint8_t misses)
 {
     const struct rho_sensor sensor = {.sensor_id = 1, .pd = 0.9f, .range_max_m = range_m};
     struct rho_track *track = &tracker.tracks[0];
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &sensor), RHO_OK);
     tracker.num_tracks = tracker.num_paces = 1;
     tracker.paces[0].sensor_id = 1;

@@ -23,7 +23,7 @@ static void see_targets(int k)
 {
     for (int i = 0; i < TARGETS; i++) {
         const double x_m = target_x_m(i, k) + 20.0 * normal();
-        add(x_m, 5000.0 * (i % 3) + 20.0 * normal(), 20.0);
+        add_plot(x_m, 5000.0 * (i % 3) + 20.0 * normal(), 20.0);
     }
 }
 
@@ -32,16 +32,16 @@ static void see_crowd(int k, double spread_m)
 {
     for (int i = 0; i < CROWD; i++) {
         const double x_m = target_x_m(0, k) + spread_m * normal();
-        add(x_m, spread_m * normal(), 20.0);
+        add_plot(x_m, spread_m * normal(), 20.0);
     }
 }
 
 static void begin_with(uint32_t work_max, uint8_t gate)
 {
-    draw(11);
+    use_usual_configs(11);
     config.gate = gate;
     config.work_max = initiation.work_max = work_max;
-    begin();
+    begin_tracker();
 }
 
 static const uint8_t gates[] = {RHO_TRACKER_BEST, RHO_TRACKER_NEAREST, RHO_TRACKER_HOUGH};
@@ -67,7 +67,7 @@ static void a_step_does_no_more_than_it_may(void **state)
             begin_with(RHO_LIMIT_WORK, gates[g]);
             for (int k = 0; k < QUIET; k++) {
                 see_targets(k);
-                step(2.0 * k);
+                step_at(2.0 * k);
             }
             assert_int_equal(report.num_tracks, TARGETS);
             tracker.config.work_max = work_max;
@@ -93,14 +93,14 @@ static void what_is_left_out_is_counted(void **state)
     begin_with(WORK_MAX, RHO_TRACKER_BEST);
     for (int k = 0; k < QUIET; k++) {
         see_targets(k);
-        step(2.0 * k);
+        step_at(2.0 * k);
         assert_int_equal(report.is_partial, 0);
     }
     assert_int_equal(tracker.work.partial_steps, 0);
     assert_int_equal(tracker.work.plots_not_tried, 0);
     see_targets(QUIET);
     see_crowd(QUIET, 30.0);
-    step(2.0 * QUIET);
+    step_at(2.0 * QUIET);
     assert_int_equal(report.is_partial, 1);
     assert_int_equal(tracker.work.partial_steps, 1);
     assert_true(tracker.work.plots_not_tried > 0);
@@ -121,7 +121,7 @@ static void others_than_the_crowded_track_have_their_share(void **state)
                 see_crowd(k, 60.0);
             }
             random_state = drawn;
-            step(2.0 * k);
+            step_at(2.0 * k);
             assert_int_equal(report.is_partial, comes);
         }
         if (!is_crowded) {
@@ -154,7 +154,7 @@ static void a_limit_that_is_not_reached_changes_nothing(void **state)
             for (int k = 0; k < SCANS; k++) {
                 see_targets(k);
                 see_crowd(k, 300.0);
-                step(2.0 * k);
+                step_at(2.0 * k);
                 assert_int_equal(report.is_partial, 0);
             }
             if (run == 0) {
@@ -171,15 +171,15 @@ static void the_nearest_plots_are_weighed_first(void **state)
     (void)state;
     begin_with(WORK_MAX / 8u, RHO_TRACKER_BEST);
     for (int k = 0; k < QUIET; k++) {
-        add(200.0 * k + normal(), normal(), 20.0);
-        step(2.0 * k);
+        add_plot(200.0 * k + normal(), normal(), 20.0);
+        step_at(2.0 * k);
     }
     assert_int_equal(report.num_tracks, 1);
     for (int i = 0; i < CROWD; i++) {
-        add(200.0 * QUIET + 70.0 + 0.1 * i, 0.0, 20.0);
+        add_plot(200.0 * QUIET + 70.0 + 0.1 * i, 0.0, 20.0);
     }
-    add(200.0 * QUIET, 0.0, 20.0);
-    step(2.0 * QUIET);
+    add_plot(200.0 * QUIET, 0.0, 20.0);
+    step_at(2.0 * QUIET);
     assert_int_equal(report.is_partial, 1);
     assert_int_equal(report.tracks[0].plot, CROWD);
 }
@@ -190,14 +190,14 @@ static void echoes_are_looked_for_in_turns(void **state)
 {
     (void)state;
     unsigned partial = 0, before = 0;
-    draw(5);
+    use_usual_configs(5);
     config.work_max = 600;
-    begin();
+    begin_tracker();
     for (int k = 0; k < 2 * SCANS; k++) {
         const int is_heavy = k % 2 == 0;
         for (int i = 0; i < (is_heavy ? 100 : 3); i++) {
             const double x_m = 40.0 * (i % 10) + (is_heavy ? 0.0 : 90e3) + normal();
-            add(x_m, 40.0 * (i / 10) + normal(), 20.0);
+            add_plot(x_m, 40.0 * (i / 10) + normal(), 20.0);
         }
         step_without_search(k, is_heavy ? 1 : 2);
         if (!is_heavy) {
@@ -221,7 +221,7 @@ static uint32_t units_of_plot(uint8_t gate, uint32_t measures, int32_t offset_us
     uint32_t hypotheses = 0;
     begin_with(0, gate);
     for (int k = 0; k <= QUIET; k++) {
-        struct rho_plot *plot = add(200.0 * k, 0.0, 20.0);
+        struct rho_plot *plot = add_plot(200.0 * k, 0.0, 20.0);
         plot->sigma_up_m = 20.0f;
         plot->vx_mps = 100.0f;
         plot->sigma_mps = 5.0f;
@@ -261,11 +261,11 @@ static void plots_that_are_passed_over_cost_a_quarter_of_a_unit(void **state)
     }
     begin_with(0, RHO_TRACKER_NEAREST);
     for (int k = 0; k < QUIET; k++) {
-        (void)add(200.0 * k, 0.0, 20.0);
-        step(2.0 * k);
+        (void)add_plot(200.0 * k, 0.0, 20.0);
+        step_at(2.0 * k);
     }
     for (int i = 0; i < 256; i++) {
-        (void)add(200.0 * QUIET + 5000.0 * i, 0.0, 20.0);
+        (void)add_plot(200.0 * QUIET + 5000.0 * i, 0.0, 20.0);
     }
     step_without_search(2.0 * QUIET, 0);
     assert_int_equal(tracker.work.work, 12 + 256 / 8 / 4);
@@ -281,14 +281,14 @@ static void a_track_has_its_share_of_the_work(void **state)
     begin_with(RHO_LIMIT_WORK, RHO_TRACKER_NEAREST);
     for (int k = 0; k < QUIET; k++) {
         see_targets(k);
-        step(2.0 * k);
+        step_at(2.0 * k);
     }
     assert_int_equal(report.num_tracks, TARGETS);
     const float *at = report.tracks[0].state;
     tracker.config.work_max = 64 * 60 * 12 / 3;
     see_targets(QUIET);
     for (int i = 0; i < CROWD; i++) {
-        (void)add((double)at[0] + 2.0 * (double)at[3] + 0.1 * i, (double)at[1], 20.0);
+        (void)add_plot((double)at[0] + 2.0 * (double)at[3] + 0.1 * i, (double)at[1], 20.0);
     }
     step_without_search(2.0 * QUIET, 1);
     assert_in_range(tracker.work.plots_not_tried, CROWD - 60, CROWD + TARGETS - 60);
@@ -297,7 +297,7 @@ static void a_track_has_its_share_of_the_work(void **state)
 static void a_limit_beyond_what_counts_is_refused(void **state)
 {
     (void)state;
-    draw(1);
+    use_usual_configs(1);
     config.work_max = RHO_LIMIT_WORK + 1u;
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_ERROR_CONFIG);
 }

@@ -35,8 +35,8 @@ static struct rho_track_report *target, *image;
 
 static void begin_pair(void)
 {
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     assert_int_equal(rho_reflector_learning_init(&learning, sizeof learning), RHO_OK);
     memset(&report, 0, sizeof report);
     report.num_tracks = 2;
@@ -49,8 +49,8 @@ static void begin_pair(void)
 static void look(void)
 {
     for (int i = 0; i < 2; i++) {
-        (void)add((double)report.tracks[i].state[RHO_X], (double)report.tracks[i].state[RHO_Y],
-                  1.0);
+        (void)add_plot((double)report.tracks[i].state[RHO_X], (double)report.tracks[i].state[RHO_Y],
+                       1.0);
     }
     const struct rho_scan scan = {.num_plots = num_plots, .plots = plots};
     assert_int_equal(rho_reflector_learning_step(&learning, &tracker, &scan, &report), RHO_OK);

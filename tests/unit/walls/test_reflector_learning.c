@@ -19,9 +19,9 @@ static struct rho_reflector_learning learning;
 static void prepare(uint64_t seed)
 {
     const struct rho_sensor radar = {.sensor_id = SENSOR, .pd = 0.9f, .range_max_m = 1e3f};
-    draw(seed);
+    use_usual_configs(seed);
     config.v_max_mps = initiation.v_max_mps = 60.0f;
-    begin();
+    begin_tracker();
     assert_int_equal(rho_tracker_set_sensor(&tracker, &radar), RHO_OK);
     assert_int_equal(rho_reflector_learning_init(&learning, sizeof learning), RHO_OK);
 }
@@ -58,10 +58,10 @@ static void traffic(int k, double share)
             continue;
         }
         if (uniform(0.0, 1.0) < 0.9) {
-            add_noisy(x_m, y_m, 0.5);
+            add_noisy_plot(x_m, y_m, 0.5);
         }
         if (uniform(0.0, 1.0) < share) {
-            add_noisy(x_m, 2.0 * WALL_M - y_m, 0.5);
+            add_noisy_plot(x_m, 2.0 * WALL_M - y_m, 0.5);
         }
     }
 }
@@ -146,12 +146,12 @@ static void walls_on_both_sides_are_learned(void **state)
             double x_m, y_m;
             for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
                 if (i >= 0 && place_of(i, k, &x_m, &y_m)) {
-                    add_noisy(x_m, y_m, 0.5);
+                    add_noisy_plot(x_m, y_m, 0.5);
                     if (uniform(0.0, 1.0) < 0.6) {
-                        add_noisy(x_m, 2.0 * WALL_M - y_m, 0.5);
+                        add_noisy_plot(x_m, 2.0 * WALL_M - y_m, 0.5);
                     }
                     if (uniform(0.0, 1.0) < 0.5) {
-                        add_noisy(x_m, -2.0 * 10.0 - y_m, 0.5);
+                        add_noisy_plot(x_m, -2.0 * 10.0 - y_m, 0.5);
                     }
                 }
             }
@@ -171,7 +171,7 @@ static void without_images_nothing_is_learned(void **state)
             traffic(k, 0.0);
             for (int i = 0; i < 12; i++) { /* clutter, about as much before the line as behind */
                 const double x_m = uniform(-150.0, 150.0), y_m = uniform(5.0, 90.0);
-                (void)add(x_m, y_m, 0.5);
+                (void)add_plot(x_m, y_m, 0.5);
             }
             look(k);
         }
@@ -206,8 +206,8 @@ static void two_lanes_are_no_wall(void **state)
             double x_m, y_m;
             for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
                 if (i >= 0 && place_of(3 * i, 2 * EVERY * i + k, &x_m, &y_m)) {
-                    add_noisy(x_m, 40.0 - half_m + off_m[2 * i], sigma_m);
-                    add_noisy(x_m, 40.0 + half_m + off_m[2 * i + 1], sigma_m);
+                    add_noisy_plot(x_m, 40.0 - half_m + off_m[2 * i], sigma_m);
+                    add_noisy_plot(x_m, 40.0 + half_m + off_m[2 * i + 1], sigma_m);
                 }
             }
             look(k);
@@ -239,9 +239,9 @@ static void a_rail_beside_two_lanes_is_learned(void **state)
             for (int i = k / EVERY - DRIVE / EVERY; i <= k / EVERY; i++) {
                 if (i >= 0 && place_of(i, k, &x_m, &y_m)) {
                     y_m = WALL_M - (i % 2 ? 5.0 : 8.5) + off_m[i];
-                    add_noisy(x_m, y_m, 0.5);
+                    add_noisy_plot(x_m, y_m, 0.5);
                     if (uniform(0.0, 1.0) < 0.7) {
-                        add_noisy(x_m, 2.0 * WALL_M - y_m, 0.5);
+                        add_noisy_plot(x_m, 2.0 * WALL_M - y_m, 0.5);
                     }
                 }
             }
@@ -262,7 +262,7 @@ static void a_formation_is_no_wall(void **state)
     prepare(4);
     for (int k = 0; k < 600; k++) {
         for (int i = 0; i < 8; i++) {
-            add_noisy(12.0 * STEP_S * k - 300.0, 60.0 + 10.0 * i, 0.5);
+            add_noisy_plot(12.0 * STEP_S * k - 300.0, 60.0 + 10.0 * i, 0.5);
         }
         look(k);
         for (unsigned i = 0; i < RHO_LEARNED_REFLECTORS; i++) {
@@ -281,7 +281,7 @@ static void a_car_behind_a_learned_wall_is_found(void **state)
     for (int k = 0; k < 1500; k++) {
         traffic(k, 0.3);
         if (k >= 1200) { /* as far behind as images are, and slower */
-            add_noisy(0.6 * (k - 1200) - 100.0, 55.0, 0.5);
+            add_noisy_plot(0.6 * (k - 1200) - 100.0, 55.0, 0.5);
         }
         look(k);
         found += k >= 1230 && num_behind() >= 1;

@@ -33,8 +33,8 @@ static struct rho_learned_reflector *set_line(unsigned place, float y_m, float p
 
 static struct rho_learned_reflector *prepare(void)
 {
-    draw(1);
-    begin();
+    use_usual_configs(1);
+    begin_tracker();
     assert_int_equal(rho_reflector_learning_init(&learning, sizeof learning), RHO_OK);
     memset(&report, 0, sizeof report);
     num_seen = 0;
@@ -44,7 +44,7 @@ static struct rho_learned_reflector *prepare(void)
 static void see(double x_m, double y_m)
 {
     num_plots = 0;
-    seen[num_seen++] = *add(x_m, y_m, 1.0);
+    seen[num_seen++] = *add_plot(x_m, y_m, 1.0);
 }
 
 /* Such a target, 1 m uncertain, and its plot. */

@@ -8,28 +8,28 @@
 /* One sensor's scans 1 .. count, one a second. */
 static inline void begin_with(const struct rho_scan_assembler_config *config, int32_t count)
 {
-    start_with(config);
+    start_assembler_with(config);
     for (int32_t i = 1; i <= count; i++) {
         take_scan(1, i, i * SECOND_US);
-        next_is(i * SECOND_US, 1, i * SECOND_US);
+        expect_next_scan(i * SECOND_US, 1, i * SECOND_US);
     }
-    next_is_none(count * SECOND_US);
+    expect_no_scan(count * SECOND_US);
 }
 
-static inline void begin(int32_t count)
+static inline void begin_with_scans(int32_t count)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     begin_with(&config, count);
 }
 
 /* Scan `scan` at its time, received at now_us. */
-static inline void late(int32_t scan, int64_t now_us)
+static inline void take_late_scan(int32_t scan, int64_t now_us)
 {
     struct look look = {
         .time_us = scan * SECOND_US, .scan = scan, .sensor_id = 1, .count = 1, .tag = scan};
 
-    take(&look, now_us);
+    take_message(&look, now_us);
 }
 
 static inline struct look part_of(int32_t scan, int16_t part)

@@ -191,7 +191,7 @@ static inline bool same_numbers(const struct message_shape *shape, void *message
 /* ---- Contents ---- */
 
 /* splitmix64 */
-static inline uint64_t draw(uint64_t *state)
+static inline uint64_t draw_bits(uint64_t *state)
 {
     uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
 
@@ -203,11 +203,11 @@ static inline uint64_t draw(uint64_t *state)
 /* Elements of a random list: none, all, or any number. */
 static inline int draw_count(const struct message_shape *shape, uint64_t *state)
 {
-    const uint64_t kind = draw(state) % 8;
+    const uint64_t kind = draw_bits(state) % 8;
 
     return kind == 0   ? 0
            : kind == 1 ? shape->most
-                       : (int)(draw(state) % (uint64_t)(shape->most + 1));
+                       : (int)(draw_bits(state) % (uint64_t)(shape->most + 1));
 }
 
 /* Any bits in all numbers, a list of this many. */
@@ -217,7 +217,7 @@ static inline void fill_any(const struct message_shape *shape, void *message, in
     message_set_count(shape, message, count);
     for (struct walk w = walk_start(shape, message); walk_next(&w);) {
         if (w.member != &shape->counter) {
-            store_bits(w.at, w.member->width, draw(state));
+            store_bits(w.at, w.member->width, draw_bits(state));
         }
     }
 }
@@ -225,7 +225,7 @@ static inline void fill_any(const struct message_shape *shape, void *message, in
 /* A number that its rule allows. Members that others stay below come later, and are 30000 or so. */
 static inline void fill_good_number(const struct message_member *member, char *at, uint64_t *state)
 {
-    const uint64_t bits = draw(state);
+    const uint64_t bits = draw_bits(state);
 
     if (member->is_float) {
         const float share = (float)(bits >> 40) * 0x1p-24f;
@@ -257,7 +257,7 @@ static inline void fill_good(const struct message_shape *shape, void *message, i
     }
     for (struct walk w = walk_start(shape, message); walk_next(&w);) {
         if (w.member->rule == MEMBER_BELOW) {
-            store_bits(w.message + w.member->other, 2, 20000 + draw(state) % 12767);
+            store_bits(w.message + w.member->other, 2, 20000 + draw_bits(state) % 12767);
         }
     }
 }

@@ -36,7 +36,7 @@ static inline uint32_t random_below(uint32_t count)
  * ---- assemblers -------------------------------------------------------------------------------
  */
 
-static inline struct rho_scan_assembler_config usual(void)
+static inline struct rho_scan_assembler_config usual_config(void)
 {
     struct rho_scan_assembler_config config;
 
@@ -44,16 +44,16 @@ static inline struct rho_scan_assembler_config usual(void)
     return config;
 }
 
-static inline void start_with(const struct rho_scan_assembler_config *config)
+static inline void start_assembler_with(const struct rho_scan_assembler_config *config)
 {
     assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, config), RHO_OK);
 }
 
-static inline void start(void)
+static inline void start_assembler(void)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
-    start_with(&config);
+    start_assembler_with(&config);
 }
 
 /*
@@ -79,7 +79,7 @@ static inline int16_t parts_of(const struct look *look)
     return (int16_t)(look->num_parts > 0 ? look->num_parts : 1);
 }
 
-static inline size_t end_of(struct rho_message_writer *writer)
+static inline size_t end_of_message(struct rho_message_writer *writer)
 {
     size_t size = 0;
 
@@ -103,7 +103,7 @@ static inline size_t pack_plots(const struct look *look, uint8_t *buffer)
         struct rho_message_plot plot = {.x_m = (float)(look->tag + (int32_t)i), .y_m = 1.0f};
         assert_int_equal(rho_message_plot_scan_add(&writer, &plot), RHO_OK);
     }
-    return end_of(&writer);
+    return end_of_message(&writer);
 }
 
 static inline size_t pack_polar(const struct look *look, uint8_t *buffer)
@@ -121,7 +121,7 @@ static inline size_t pack_polar(const struct look *look, uint8_t *buffer)
         struct rho_message_polar_plot plot = {.range_m = (float)(look->tag + (int32_t)i)};
         assert_int_equal(rho_message_polar_scan_add(&writer, &plot), RHO_OK);
     }
-    return end_of(&writer);
+    return end_of_message(&writer);
 }
 
 static inline size_t pack_bearings(const struct look *look, uint8_t *buffer)
@@ -139,10 +139,10 @@ static inline size_t pack_bearings(const struct look *look, uint8_t *buffer)
         float bearing_rad = (float)(look->tag + (int32_t)i) * 1e-3f;
         assert_int_equal(rho_message_bearing_scan_add(&writer, &bearing_rad), RHO_OK);
     }
-    return end_of(&writer);
+    return end_of_message(&writer);
 }
 
-static inline size_t pack(const struct look *look, uint8_t *buffer)
+static inline size_t pack_message(const struct look *look, uint8_t *buffer)
 {
     return look->kind == RHO_SCAN_ASSEMBLER_PLOTS   ? pack_plots(look, buffer)
            : look->kind == RHO_SCAN_ASSEMBLER_POLAR ? pack_polar(look, buffer)
@@ -175,12 +175,12 @@ static inline enum rho_status take_bytes(const char *channel, const uint8_t *dat
 static inline enum rho_status take_status(const struct look *look, int64_t now_us)
 {
     uint8_t buffer[DATAGRAM];
-    size_t size = pack(look, buffer);
+    size_t size = pack_message(look, buffer);
 
     return take_bytes(channel_of(look->kind, look->sensor_id), buffer, size, now_us);
 }
 
-static inline void take(const struct look *look, int64_t now_us)
+static inline void take_message(const struct look *look, int64_t now_us)
 {
     assert_int_equal(take_status(look, now_us), RHO_OK);
 }
@@ -191,7 +191,7 @@ static inline void take_scan(int16_t sensor_id, int32_t scan, int64_t time_us)
     struct look look = {
         .time_us = time_us, .scan = scan, .sensor_id = sensor_id, .count = 1, .tag = scan};
 
-    take(&look, time_us);
+    take_message(&look, time_us);
 }
 
 /*
@@ -209,14 +209,14 @@ static inline int32_t item_sensor(void)
 }
 
 /* The next item is that sensor's scan of that time. */
-static inline void next_is(int64_t now_us, int32_t sensor_id, int64_t time_us)
+static inline void expect_next_scan(int64_t now_us, int32_t sensor_id, int64_t time_us)
 {
     assert_int_equal(rho_scan_assembler_next(&assembler, now_us, &item), 1);
     assert_int_equal(item_sensor(), sensor_id);
     assert_int_equal(item_time_us(), time_us);
 }
 
-static inline void next_is_none(int64_t now_us)
+static inline void expect_no_scan(int64_t now_us)
 {
     assert_int_equal(rho_scan_assembler_next(&assembler, now_us, &item), 0);
 }
@@ -232,7 +232,7 @@ static inline unsigned drain(int64_t now_us)
 }
 
 /* Counters that moved must be these: a field that is not named is 0. */
-static inline void counters_are(struct rho_scan_assembler_counters want)
+static inline void expect_counter_changes(struct rho_scan_assembler_counters want)
 {
     const uint32_t *is = (const uint32_t *)&assembler.counters, *must = (const uint32_t *)&want;
 
@@ -243,6 +243,6 @@ static inline void counters_are(struct rho_scan_assembler_counters want)
     }
 }
 
-#define COUNTERS_ARE(...) counters_are((struct rho_scan_assembler_counters){__VA_ARGS__})
+#define COUNTERS_ARE(...) expect_counter_changes((struct rho_scan_assembler_counters){__VA_ARGS__})
 
 #endif

@@ -18,7 +18,7 @@ static void take_part(int part, int num_parts, int64_t now_us)
 {
     struct look look = part_of(part, num_parts);
 
-    take(&look, now_us);
+    take_message(&look, now_us);
 }
 
 /* The item holds the plots of these parts, in their order. */
@@ -45,15 +45,15 @@ static void parts_come_in_any_order(void **state)
 
     (void)state;
     for (;;) { /* Heap's algorithm */
-        start();
+        start_assembler();
         for (unsigned k = 0; k < 5; k++) {
-            next_is_none(0);
+            expect_no_scan(0);
             take_part((int)order[k], 5, 0);
         }
-        next_is(0, 3, 5 * SECOND_US);
+        expect_next_scan(0, 3, 5 * SECOND_US);
         assert_int_equal(item.parts_missing, 0);
         holds_parts(31, 5);
-        next_is_none(INT64_MAX);
+        expect_no_scan(INT64_MAX);
         COUNTERS_ARE(.scans_accepted = 1);
         permutations++;
         while (i < 5 && swaps[i] >= i) {
@@ -77,7 +77,7 @@ static void a_scan_with_parts_missing_goes_out_when_held(void **state)
     for (unsigned mask = 1; mask < 15; mask++) {
         int64_t last_us = 0;
 
-        start();
+        start_assembler();
         for (int part = 3; part >= 0; part--) {
             if (mask >> part & 1u) {
                 last_us = 1000 * (3 - part);
@@ -85,15 +85,15 @@ static void a_scan_with_parts_missing_goes_out_when_held(void **state)
             }
         }
         assert_int_equal(rho_scan_assembler_due_us(&assembler), last_us + HOLD_US);
-        next_is_none(last_us + HOLD_US - 1);
+        expect_no_scan(last_us + HOLD_US - 1);
         COUNTERS_ARE(.scans_accepted = 1);
-        next_is(last_us + HOLD_US, 3, 5 * SECOND_US);
+        expect_next_scan(last_us + HOLD_US, 3, 5 * SECOND_US);
         holds_parts(mask, 4);
         assert_int_equal(item.parts_missing, 4 - (int)rho_count_bits(mask));
         COUNTERS_ARE(.scans_accepted = 1, .scans_incomplete = 1);
         take_part(mask & 1u ? 1 : 0, 4, last_us + HOLD_US); /* too late, or there before */
         COUNTERS_ARE(.scans_accepted = 1, .scans_incomplete = 1, .scans_duplicate = 1);
-        next_is_none(INT64_MAX);
+        expect_no_scan(INT64_MAX);
     }
 }
 
@@ -102,19 +102,19 @@ static void a_newer_scan_ends_the_one_before(void **state)
     struct look newer = part_of(0, 1);
 
     (void)state;
-    start();
+    start_assembler();
     take_part(0, 2, 0);
     newer.scan++;
     newer.time_us += SECOND_US;
-    take(&newer, 0);
-    next_is(0, 3, 5 * SECOND_US);
+    take_message(&newer, 0);
+    expect_next_scan(0, 3, 5 * SECOND_US);
     assert_int_equal(item.parts_missing, 1);
-    next_is(0, 3, 6 * SECOND_US);
-    next_is_none(0);
+    expect_next_scan(0, 3, 6 * SECOND_US);
+    expect_no_scan(0);
     COUNTERS_ARE(.scans_accepted = 2, .scans_incomplete = 1);
     take_part(1, 2, 0);
     COUNTERS_ARE(.scans_accepted = 2, .scans_incomplete = 1, .scans_duplicate = 1);
-    next_is_none(INT64_MAX);
+    expect_no_scan(INT64_MAX);
 }
 
 static void a_part_counts_once(void **state)
@@ -122,14 +122,14 @@ static void a_part_counts_once(void **state)
     struct look other = part_of(0, 2);
 
     (void)state;
-    start();
+    start_assembler();
     take_part(0, 2, 0);
     take_part(0, 2, 0);
     other.tag = 999; /* same part, other plots: the first one stays */
-    take(&other, 0);
+    take_message(&other, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 1, .scans_other = 1);
     take_part(1, 2, 0);
-    next_is(0, 3, 5 * SECOND_US);
+    expect_next_scan(0, 3, 5 * SECOND_US);
     holds_parts(3, 2);
     take_part(1, 2, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 2, .scans_other = 1);
@@ -138,10 +138,10 @@ static void a_part_counts_once(void **state)
 static void doubles_do_not_hold_a_scan_longer(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     take_part(0, 2, 0);
     take_part(0, 2, HOLD_US - 1);
-    next_is(HOLD_US, 3, 5 * SECOND_US);
+    expect_next_scan(HOLD_US, 3, 5 * SECOND_US);
 }
 
 /* A heading of plots with one thing changed. */
@@ -160,13 +160,13 @@ static void take_head(int64_t utime, int8_t kind, int16_t part, int16_t num_part
     uint8_t buffer[DATAGRAM];
 
     assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, sizeof buffer, &head), RHO_OK);
-    assert_int_equal(take_bytes("RHO_PLOTS_3", buffer, end_of(&writer), 0), RHO_OK);
+    assert_int_equal(take_bytes("RHO_PLOTS_3", buffer, end_of_message(&writer), 0), RHO_OK);
 }
 
 static void parts_that_contradict_are_refused(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     take_head(10, 2, 0, 2, -1.0f, 1.0f);
     take_head(11, 2, 1, 2, -1.0f, 1.0f);
     take_head(9, 2, 1, 2, -1.0f, 1.0f);
@@ -177,9 +177,9 @@ static void parts_that_contradict_are_refused(void **state)
     take_head(10, 2, 1, 2, -1.5f, 1.0f);
     take_head(10, 2, 1, 2, -1.0f, 1.5f);
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 8);
-    next_is_none(0);
+    expect_no_scan(0);
     take_head(10, 2, 1, 2, -1.0f, 1.0f);
-    next_is(0, 3, 10);
+    expect_next_scan(0, 3, 10);
     assert_true(item.scan.sector_from_rad == -1.0f && item.scan.sector_to_rad == 1.0f);
     assert_int_equal(item.scan.measures, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 8);
@@ -203,14 +203,14 @@ static void impossible_sectors_are_refused(void **state)
     uint32_t refused = 0;
 
     (void)state;
-    start();
+    start_assembler();
     for (size_t i = 0; i < 2; i++) {
         for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
             size_t at = 0;
 
             assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, sizeof buffer, &heads[i]),
                              RHO_OK);
-            const size_t size = end_of(&writer);
+            const size_t size = end_of_message(&writer);
             while (at + 4 < size && memcmp(&buffer[at], good, 4) != 0) {
                 at++;
             }
@@ -220,7 +220,7 @@ static void impossible_sectors_are_refused(void **state)
             COUNTERS_ARE(.messages_bad = ++refused);
         }
     }
-    next_is_none(SECOND_US);
+    expect_no_scan(SECOND_US);
 }
 
 static void take_polar(int part, float x_m, float y_m, float z_m)
@@ -236,13 +236,13 @@ static void take_polar(int part, float x_m, float y_m, float z_m)
     uint8_t buffer[DATAGRAM];
 
     assert_int_equal(rho_message_polar_scan_begin(&writer, buffer, sizeof buffer, &head), RHO_OK);
-    assert_int_equal(take_bytes("RHO_POLAR_3", buffer, end_of(&writer), 0), RHO_OK);
+    assert_int_equal(take_bytes("RHO_POLAR_3", buffer, end_of_message(&writer), 0), RHO_OK);
 }
 
 static void polar_parts_come_from_one_place(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     take_polar(0, 1.0f, 2.0f, 3.0f);
     take_polar(1, 1.5f, 2.0f, 3.0f);
     take_polar(1, 1.0f, 2.5f, 3.0f);
@@ -250,7 +250,7 @@ static void polar_parts_come_from_one_place(void **state)
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 3);
     take_polar(1, 0.0f, 0.0f, 0.0f); /* not said */
     take_polar(2, 1.0f, 2.0f, 3.0f);
-    next_is(0, 3, 0);
+    expect_next_scan(0, 3, 0);
     assert_true(item.sensor.x_m == 1.0f && item.sensor.y_m == 2.0f && item.sensor.z_m == 3.0f);
     assert_int_equal(item.has_sensor, 1);
     COUNTERS_ARE(.scans_accepted = 1, .scans_bad = 3);
@@ -261,13 +261,13 @@ static void empty_parts_are_parts(void **state)
     struct look look = part_of(1, 2);
 
     (void)state;
-    start();
+    start_assembler();
     look.count = 0;
-    take(&look, 0);
-    take(&look, 0);
+    take_message(&look, 0);
+    take_message(&look, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 1);
     take_part(0, 2, 0);
-    next_is(0, 3, 5 * SECOND_US);
+    expect_next_scan(0, 3, 5 * SECOND_US);
     holds_parts(1, 2);
     assert_int_equal(item.parts_missing, 0);
 }
@@ -275,12 +275,12 @@ static void empty_parts_are_parts(void **state)
 static void parts_beyond_the_capacity_are_refused(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     take_part(0, RHO_MAX_PARTS + 1, 0);
     COUNTERS_ARE(.scans_bad = 1);
     take_part(RHO_MAX_PARTS - 1 < 33 ? RHO_MAX_PARTS - 1 : 33, RHO_MAX_PARTS, 0);
     COUNTERS_ARE(.scans_bad = 1, .scans_accepted = 1);
-    next_is(INT64_MAX, 3, 5 * SECOND_US);
+    expect_next_scan(INT64_MAX, 3, 5 * SECOND_US);
     assert_int_equal(item.parts_missing, RHO_MAX_PARTS - 1);
 }
 
@@ -291,10 +291,10 @@ static void parts_beyond_the_capacity_are_refused(void **state)
 static void one_sensor_waits_for_nothing(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     for (int32_t scan = 0; scan < 10; scan++) {
         take_scan(1, scan, scan * SECOND_US);
-        next_is(scan * SECOND_US, 1, scan * SECOND_US);
+        expect_next_scan(scan * SECOND_US, 1, scan * SECOND_US);
         assert_int_equal(item.is_restart, 0);
         assert_int_equal(rho_scan_assembler_due_us(&assembler), INT64_MAX);
     }
@@ -307,48 +307,49 @@ static void a_scan_waits_for_the_other_sensor(void **state)
     int64_t now_us = 2 * SECOND_US;
 
     (void)state;
-    start();
+    start_assembler();
     take_scan(1, 1, SECOND_US);
     take_scan(2, 1, SECOND_US + 1);
     assert_int_equal(drain(INT64_MAX), 2);
-    take(&look, now_us); /* the other one is due to send one a microsecond later, or before */
-    next_is_none(now_us + HOLD_US - 1);
+    take_message(&look,
+                 now_us); /* the other one is due to send one a microsecond later, or before */
+    expect_no_scan(now_us + HOLD_US - 1);
     assert_int_equal(rho_scan_assembler_due_us(&assembler), now_us + HOLD_US);
     look = (struct look){.time_us = 2 * SECOND_US - 1, .scan = 2, .sensor_id = 2};
-    take(&look, now_us + 100);
-    next_is(now_us + 100, 2, 2 * SECOND_US - 1);
-    next_is_none(now_us + 100); /* the other's newest scan is older */
-    next_is(now_us + HOLD_US, 1, 2 * SECOND_US);
+    take_message(&look, now_us + 100);
+    expect_next_scan(now_us + 100, 2, 2 * SECOND_US - 1);
+    expect_no_scan(now_us + 100); /* the other's newest scan is older */
+    expect_next_scan(now_us + HOLD_US, 1, 2 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = 4);
 }
 
 static void equal_times_wait_for_nobody(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     take_scan(9, 1, SECOND_US);
     take_scan(-4, 1, SECOND_US);
-    next_is(SECOND_US, -4, SECOND_US); /* the lower number first */
-    next_is(SECOND_US, 9, SECOND_US);
-    next_is_none(INT64_MAX);
+    expect_next_scan(SECOND_US, -4, SECOND_US); /* the lower number first */
+    expect_next_scan(SECOND_US, 9, SECOND_US);
+    expect_no_scan(INT64_MAX);
 }
 
 static void of_one_sensor_plots_come_before_bearings(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     for (int kind = RHO_NUM_SCAN_ASSEMBLER_KINDS - 1; kind >= 0; kind--) {
         struct look look = {
             .time_us = 7, .scan = kind, .sensor_id = 5, .kind = (uint8_t)kind, .count = 1};
         if (kind > 0 || RHO_MAX_OPEN_SCANS > 2) {
-            take(&look, 0);
+            take_message(&look, 0);
         }
     }
     for (int kind = RHO_MAX_OPEN_SCANS > 2 ? 0 : 1; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
-        next_is(0, 5, 7);
+        expect_next_scan(0, 5, 7);
         assert_int_equal(item.kind, kind);
     }
-    next_is_none(INT64_MAX);
+    expect_no_scan(INT64_MAX);
 }
 
 static void an_older_scan_is_waited_for_while_its_parts_come(void **state)
@@ -357,14 +358,14 @@ static void an_older_scan_is_waited_for_while_its_parts_come(void **state)
                 later = {.time_us = 5 * SECOND_US + 1, .scan = 1, .sensor_id = 4};
 
     (void)state;
-    start();
-    take(&look, 0);
-    take(&later, 0);
-    next_is_none(HOLD_US - 2);
+    start_assembler();
+    take_message(&look, 0);
+    take_message(&later, 0);
+    expect_no_scan(HOLD_US - 2);
     take_part(1, 2, HOLD_US - 2);
-    next_is(HOLD_US - 2, 3, 5 * SECOND_US);
-    next_is_none(HOLD_US - 1); /* the other sensor's newest scan is older */
-    next_is(HOLD_US, 4, 5 * SECOND_US + 1);
+    expect_next_scan(HOLD_US - 2, 3, 5 * SECOND_US);
+    expect_no_scan(HOLD_US - 1); /* the other sensor's newest scan is older */
+    expect_next_scan(HOLD_US, 4, 5 * SECOND_US + 1);
 }
 
 /* Were the complete one to go out first, the others would be late for the tracker. */
@@ -375,21 +376,21 @@ static void older_scans_go_out_before_one_that_was_held(void **state)
                 later = {.time_us = 5 * SECOND_US + 2, .scan = 1, .sensor_id = 2};
 
     (void)state;
-    start();
+    start_assembler();
     older[1].sensor_id = 1;
     older[1].time_us++;
-    take(&later, 0);
+    take_message(&later, 0);
     for (unsigned i = num_older; i-- > 0;) {
-        take(&older[i], 7);
+        take_message(&older[i], 7);
     }
-    next_is_none(HOLD_US - 1);
+    expect_no_scan(HOLD_US - 1);
     assert_int_equal(rho_scan_assembler_due_us(&assembler), HOLD_US);
     for (unsigned i = 0; i < num_older; i++) {
-        next_is(HOLD_US, older[i].sensor_id, older[i].time_us);
+        expect_next_scan(HOLD_US, older[i].sensor_id, older[i].time_us);
         assert_int_equal(item.parts_missing, 1);
     }
-    next_is(HOLD_US, 2, later.time_us);
-    next_is_none(INT64_MAX);
+    expect_next_scan(HOLD_US, 2, later.time_us);
+    expect_no_scan(INT64_MAX);
     COUNTERS_ARE(.scans_accepted = num_older + 1, .scans_incomplete = num_older);
 }
 
@@ -400,17 +401,17 @@ static void an_older_scan_that_came_later_holds_nothing_up(void **state)
     int64_t now_us = 2 * SECOND_US + 1;
 
     (void)state;
-    start();
+    start_assembler();
     for (int16_t sensor_id = 1; sensor_id <= 3; sensor_id++) {
         take_scan(sensor_id, 1, SECOND_US + sensor_id);
         assert_int_equal(drain(INT64_MAX), 1);
     }
     take_scan(2, 2, now_us);
-    take(&older, now_us + HOLD_US / 2);
-    next_is_none(now_us + HOLD_US - 1); /* nothing of the third sensor yet */
+    take_message(&older, now_us + HOLD_US / 2);
+    expect_no_scan(now_us + HOLD_US - 1); /* nothing of the third sensor yet */
     assert_int_equal(rho_scan_assembler_due_us(&assembler), now_us + HOLD_US);
-    next_is(now_us + HOLD_US, 1, older.time_us);
-    next_is(now_us + HOLD_US, 2, now_us);
+    expect_next_scan(now_us + HOLD_US, 1, older.time_us);
+    expect_next_scan(now_us + HOLD_US, 2, now_us);
     COUNTERS_ARE(.scans_accepted = 5);
 }
 
@@ -420,36 +421,36 @@ static void younger_scans_are_not_cut_short(void **state)
     struct look part = part_of(0, 2), first = {.time_us = 5 * SECOND_US, .scan = 1, .sensor_id = 9};
 
     (void)state;
-    start();
-    take(&first, 0);
-    take(&part, 5);
-    next_is(HOLD_US, 9, first.time_us);
-    next_is_none(HOLD_US);
+    start_assembler();
+    take_message(&first, 0);
+    take_message(&part, 5);
+    expect_next_scan(HOLD_US, 9, first.time_us);
+    expect_no_scan(HOLD_US);
     take_part(1, 2, HOLD_US);
-    next_is(HOLD_US, part.sensor_id, part.time_us);
+    expect_next_scan(HOLD_US, part.sensor_id, part.time_us);
     assert_int_equal(item.parts_missing, 0);
 }
 
 static void hold_0_waits_for_nobody(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
     struct look look = part_of(0, 2);
 
     (void)state;
     config.hold_us = 0;
-    start_with(&config);
-    take(&look, 0);
+    start_assembler_with(&config);
+    take_message(&look, 0);
     assert_int_equal(rho_scan_assembler_due_us(&assembler), INT64_MAX);
-    next_is_none(INT64_MAX - 1); /* parts wait for a newer scan alone */
+    expect_no_scan(INT64_MAX - 1); /* parts wait for a newer scan alone */
     take_scan(4, 1, 6 * SECOND_US);
-    next_is(6 * SECOND_US, 4, 6 * SECOND_US);
-    next_is_none(6 * SECOND_US);
+    expect_next_scan(6 * SECOND_US, 4, 6 * SECOND_US);
+    expect_no_scan(6 * SECOND_US);
     look.scan++;
     look.time_us += 2 * SECOND_US;
-    take(&look, 7 * SECOND_US);
-    next_is(7 * SECOND_US, 3, 5 * SECOND_US);
-    next_is_none(7 * SECOND_US);
-    next_is(INT64_MAX, 3, 7 * SECOND_US);
+    take_message(&look, 7 * SECOND_US);
+    expect_next_scan(7 * SECOND_US, 3, 5 * SECOND_US);
+    expect_no_scan(7 * SECOND_US);
+    expect_next_scan(INT64_MAX, 3, 7 * SECOND_US);
 }
 
 static void a_sensor_that_died_delays_no_more_than_hold(void **state)
@@ -457,7 +458,7 @@ static void a_sensor_that_died_delays_no_more_than_hold(void **state)
     unsigned waited = 0;
 
     (void)state;
-    start();
+    start_assembler();
     take_scan(1, 0, 0);
     take_scan(2, 0, 0);
     assert_int_equal(drain(0), 2);
@@ -466,7 +467,7 @@ static void a_sensor_that_died_delays_no_more_than_hold(void **state)
 
         take_scan(1, scan, now_us);
         if (!rho_scan_assembler_next(&assembler, now_us, &item)) {
-            next_is(now_us + HOLD_US, 1, now_us);
+            expect_next_scan(now_us + HOLD_US, 1, now_us);
             waited++;
         }
     }
@@ -487,7 +488,7 @@ static void delays_within_hold_keep_the_order(void **state)
     unsigned in = 0, out = 0;
 
     (void)state;
-    start();
+    start_assembler();
     random_state = 5;
     for (int64_t now_us = 0; now_us < STEPS * 10000; now_us += 1000) {
         for (unsigned s = 0; s < SENSORS; s++) {
@@ -500,7 +501,7 @@ static void delays_within_hold_keep_the_order(void **state)
                                     .scan = ++due[s].scan,
                                     .sensor_id = (int16_t)s,
                                     .count = 2};
-                take(&look, now_us);
+                take_message(&look, now_us);
                 due[s].time_us = -1;
                 in++;
             }
@@ -519,13 +520,13 @@ static void delays_within_hold_keep_the_order(void **state)
 static void a_reception_clock_that_goes_back_holds_nothing(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     take_scan(1, 0, 0);
     take_scan(2, 0, 0);
     assert_int_equal(drain(0), 2);
     take_scan(1, 1, 10 * SECOND_US);
-    next_is_none(10 * SECOND_US - HOLD_US);
-    next_is(10 * SECOND_US - HOLD_US - 1, 1, 10 * SECOND_US);
+    expect_no_scan(10 * SECOND_US - HOLD_US);
+    expect_next_scan(10 * SECOND_US - HOLD_US - 1, 1, 10 * SECOND_US);
 }
 
 int main(void)

@@ -10,7 +10,7 @@ static int64_t given_us;
 
 static void begin(void)
 {
-    start();
+    start_assembler();
     memset(numbers, 0, sizeof numbers);
     restarts = 0;
 }
@@ -24,7 +24,7 @@ static int push(int16_t sensor_id, int64_t time_us, int64_t now_us)
     uint32_t before = assembler.counters.scans_accepted;
     struct look look = {.time_us = time_us, .scan = ++numbers[sensor_id], .sensor_id = sensor_id};
 
-    take(&look, now_us);
+    take_message(&look, now_us);
     while (rho_scan_assembler_next(&assembler, now_us + HOLD_US, &item)) {
         restarts += (unsigned)item.is_restart;
         given_us = item_time_us();
@@ -283,12 +283,12 @@ static void the_first_scan_on_another_clock_says_so_whosever_it_is(void **state)
     }
     assert_false(push(0, 7 * SECOND_US + HOUR_US - 9, 7 * SECOND_US)); /* alone against two */
     first.scan = ++numbers[1];
-    take(&first, 7 * SECOND_US); /* two against one */
+    take_message(&first, 7 * SECOND_US); /* two against one */
     older.scan = ++numbers[2];
-    take(&older, 7 * SECOND_US); /* goes out before */
-    next_is(7 * SECOND_US + HOLD_US, 2, older.time_us);
+    take_message(&older, 7 * SECOND_US); /* goes out before */
+    expect_next_scan(7 * SECOND_US + HOLD_US, 2, older.time_us);
     assert_int_equal(item.is_restart, 1);
-    next_is(7 * SECOND_US + HOLD_US, 1, first.time_us);
+    expect_next_scan(7 * SECOND_US + HOLD_US, 1, first.time_us);
     assert_int_equal(item.is_restart, 0);
 }
 
@@ -301,18 +301,18 @@ static void what_waits_when_the_clock_is_set_is_late(void **state)
     run(3, 0, 5, 0);
     for (int64_t t = 5; t < 8; t++) {
         if (t == 7) {
-            take(&look, 7 * SECOND_US); /* waits for the others */
+            take_message(&look, 7 * SECOND_US); /* waits for the others */
         }
         for (int16_t s = 0; s < 2; s++) {
             struct look jump = {
                 .time_us = t * SECOND_US + HOUR_US, .scan = ++numbers[s], .sensor_id = s};
-            take(&jump, t * SECOND_US);
+            take_message(&jump, t * SECOND_US);
         }
     }
     assert_int_equal(assembler.counters.scans_late, 1);
-    next_is(8 * SECOND_US, 1, 7 * SECOND_US + HOUR_US);
+    expect_next_scan(8 * SECOND_US, 1, 7 * SECOND_US + HOUR_US);
     assert_int_equal(item.is_restart, 1);
-    next_is_none(INT64_MAX);
+    expect_no_scan(INT64_MAX);
 }
 
 static void parts_of_a_scan_off_the_clock_are_no_doubles(void **state)
@@ -323,7 +323,7 @@ static void parts_of_a_scan_off_the_clock_are_no_doubles(void **state)
     for (int part = 0; part < 3; part++) {
         struct look look = {
             .time_us = HOUR_US, .scan = 1, .sensor_id = 4, .part = (int16_t)part, .num_parts = 3};
-        take(&look, 4 * SECOND_US);
+        take_message(&look, 4 * SECOND_US);
     }
     COUNTERS_ARE(.scans_accepted = 5, .clock_jumps = 3);
 }

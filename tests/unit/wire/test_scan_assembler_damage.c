@@ -95,13 +95,13 @@ static void run(const struct radar *of, unsigned before, unsigned behind)
     uint8_t bytes[DATAGRAM];
 
     sender = of;
-    start();
+    start_assembler();
     random_state = 7;
     sent = intact = there = 0;
     for (int64_t scan = 0; scan < scans; scan++, sent++) {
         for (int part = 0; part < of->parts; part++) {
             struct look look = look_of(scan, part);
-            size_t size = pack(&look, bytes);
+            size_t size = pack_message(&look, bytes);
 
             send_damaged(bytes, size, scan > 5 ? before : 0, look.time_us + 5000);
             send_bytes(bytes, size, look.time_us + 5000);

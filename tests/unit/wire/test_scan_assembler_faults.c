@@ -104,7 +104,7 @@ static size_t write_message(const struct message *message, uint8_t *buffer)
             assert_int_equal(rho_message_plot_scan_add(&writer, &plot), RHO_OK);
         }
     }
-    return end_of(&writer);
+    return end_of_message(&writer);
 }
 
 /*
@@ -325,12 +325,12 @@ static void send_faulty(enum fault fault, int32_t look, int64_t time_us, int64_t
 
 static void start_chain(uint8_t gate)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
     struct rho_tracker_config tracker_config;
     struct rho_initiator_config initiator_config;
 
     config.gives_other = 1;
-    start_with(&config);
+    start_assembler_with(&config);
     for (int32_t radar = 0; radar < NUM_RADARS; radar++) {
         struct rho_scan_assembler_sensor sensor = config.other;
         sensor.sensor.sensor_id = radar + 1;
@@ -479,7 +479,7 @@ static void every_fault_has_its_counter(void **state)
         default:
             break;
         }
-        counters_are(want);
+        expect_counter_changes(want);
     }
 }
 

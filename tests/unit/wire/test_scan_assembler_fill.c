@@ -19,7 +19,7 @@ static void set_sensor(const struct rho_scan_assembler_sensor *sensor)
 
 static struct rho_scan_assembler_sensor known_sensor(void)
 {
-    struct rho_scan_assembler_sensor known = usual().other;
+    struct rho_scan_assembler_sensor known = usual_config().other;
 
     known.sensor = (struct rho_sensor){.sensor_id = 7,
                                        .x_m = 100.0f,
@@ -54,10 +54,10 @@ static void take_plot(int16_t sensor_id, int8_t kind, const struct rho_message_p
 
     assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, sizeof buffer, &head), RHO_OK);
     assert_int_equal(rho_message_plot_scan_add(&writer, plot), RHO_OK);
-    assert_int_equal(
-        take_bytes(channel_of(RHO_SCAN_ASSEMBLER_PLOTS, sensor_id), buffer, end_of(&writer), 0),
-        RHO_OK);
-    next_is(0, sensor_id, 1000 - bias_us);
+    assert_int_equal(take_bytes(channel_of(RHO_SCAN_ASSEMBLER_PLOTS, sensor_id), buffer,
+                                end_of_message(&writer), 0),
+                     RHO_OK);
+    expect_next_scan(0, sensor_id, 1000 - bias_us);
     assert_int_equal(item.scan.num_plots, 1);
 }
 
@@ -94,7 +94,7 @@ static void a_plot_keeps_its_values(void **state)
     (void)state;
     for (int8_t kind = 2; kind <= 6; kind++) {
         if (kind != 5) {
-            start();
+            start_assembler();
             take_plot(3, kind, &plot, 0);
             assert_int_equal(item.kind, RHO_SCAN_ASSEMBLER_PLOTS);
             assert_int_equal(item.scan.measures, measures[kind]);
@@ -112,7 +112,7 @@ static void noise_is_the_messages_the_sensors_or_the_defaults(void **state)
     (void)state;
     for (int is_known = 0; is_known < 2; is_known++) {
         for (int is_said = 0; is_said < 2; is_said++) {
-            start();
+            start_assembler();
             if (is_known) {
                 set_sensor(&known);
             }
@@ -133,13 +133,13 @@ static void noise_is_the_messages_the_sensors_or_the_defaults(void **state)
 static void gives_other_gives_all_items_a_sensor(void **state)
 {
     const struct rho_message_plot plot = {.x_m = 0};
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     config.gives_other = 1;
     config.other.sensor.pd = 0.55f;
     config.other.sensor.sensor_id = 99;
-    start_with(&config);
+    start_assembler_with(&config);
     take_plot(3, 2, &plot, 0);
     assert_int_equal(item.has_sensor, 1);
     assert_int_equal(item.sensor.sensor_id, 3);
@@ -160,7 +160,7 @@ static void take_polar(const struct rho_message_polar_scan_head *head, unsigned 
         assert_int_equal(rho_message_polar_scan_add(&writer, &plots[i]), RHO_OK);
     }
     assert_int_equal(take_bytes(channel_of(RHO_SCAN_ASSEMBLER_POLAR, head->sensor_id), buffer,
-                                end_of(&writer), 0),
+                                end_of_message(&writer), 0),
                      RHO_OK);
 }
 
@@ -182,8 +182,8 @@ static void polar_plots_are_what_measurement_makes_of_them(void **state)
                                                    .has_elevation = (int8_t)(round & 1u),
                                                    .has_range_rate = (int8_t)(round >> 1 & 1u)};
         int is_known = round >> 2 & 1, is_said = round >> 3 & 1, has_place = round >> 4 & 1;
-        struct rho_scan_assembler_noise noise = is_known ? known.noise : usual().other.noise;
-        struct rho_sensor sensor = is_known ? known.sensor : usual().other.sensor;
+        struct rho_scan_assembler_noise noise = is_known ? known.noise : usual_config().other.noise;
+        struct rho_sensor sensor = is_known ? known.sensor : usual_config().other.sensor;
 
         if (is_said) {
             head.sigma_range_m = noise.sigma_range_m = 31.0f;
@@ -205,12 +205,12 @@ static void polar_plots_are_what_measurement_makes_of_them(void **state)
                                                        .range_rate_mps = uniform(-99.0f, 99.0f),
                                                        .snr_db = uniform(0.0f, 50.0f)};
         }
-        start();
+        start_assembler();
         if (is_known) {
             set_sensor(&known);
         }
         take_polar(&head, 5, plots);
-        next_is(0, 7, is_known ? 5 - KNOWN_BIAS_US : 5);
+        expect_next_scan(0, 7, is_known ? 5 - KNOWN_BIAS_US : 5);
         assert_int_equal(item.kind, RHO_SCAN_ASSEMBLER_POLAR);
         assert_int_equal(item.has_sensor, is_known || has_place);
         assert_memory_equal(&item.sensor, &sensor, sizeof sensor);
@@ -251,10 +251,10 @@ static void plots_without_a_place_keep_their_row_and_are_invalid(void **state)
     struct rho_tracker_config config;
 
     (void)state;
-    start();
+    start_assembler();
     set_sensor(&known);
     take_polar(&head, 5, plots);
-    next_is(0, 7, -KNOWN_BIAS_US);
+    expect_next_scan(0, 7, -KNOWN_BIAS_US);
     assert_int_equal(item.scan.num_plots, 5);
     rho_tracker_config_default(&config);
     assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
@@ -280,12 +280,12 @@ static void bearings_have_the_sensors_biases_taken_off(void **state)
 
     (void)state;
     for (int sign = -1; sign <= 1; sign++) {
-        start();
+        start_assembler();
         known.sensor.azimuth_bias_rad = 0.02f * (float)sign;
         known.sensor.time_bias_s = 0.25f * (float)sign;
         set_sensor(&known);
-        take(&look, 0);
-        next_is(0, 7, 9 - KNOWN_BIAS_US * sign);
+        take_message(&look, 0);
+        expect_next_scan(0, 7, 9 - KNOWN_BIAS_US * sign);
         assert_int_equal(item.kind, RHO_SCAN_ASSEMBLER_BEARINGS);
         assert_int_equal(item.has_sensor, 1);
         assert_true(item.bearings.x_m == 5.0f && item.bearings.y_m == -6.0f);
@@ -311,12 +311,12 @@ static void bearings_noise_is_the_messages_or_the_defaults(void **state)
     (void)state;
     for (int is_said = 0; is_said < 2; is_said++) {
         head.sigma_rad = is_said ? 0.25f : 0.0f;
-        start();
+        start_assembler();
         assert_int_equal(rho_message_bearing_scan_begin(&writer, buffer, sizeof buffer, &head),
                          RHO_OK);
         assert_int_equal(rho_message_bearing_scan_add(&writer, &bearing_rad), RHO_OK);
-        assert_int_equal(take_bytes("RHO_BEARINGS_3", buffer, end_of(&writer), 0), RHO_OK);
-        next_is(0, 3, 0);
+        assert_int_equal(take_bytes("RHO_BEARINGS_3", buffer, end_of_message(&writer), 0), RHO_OK);
+        expect_next_scan(0, 3, 0);
         assert_true(item.bearings.bearings[0].sigma_rad == (is_said ? 0.25f : 0.00175f));
         assert_true(item.bearings.bearings[0].bearing_rad == 1.0f);
         assert_int_equal(item.bearings.bearings[0].offset_us, 0);
@@ -338,7 +338,7 @@ static void scans_are_in_order_without_their_time_biases(void **state)
 
     (void)state;
     for (uint8_t kind = 0; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
-        start();
+        start_assembler();
         known.sensor.time_bias_s = -1.0f;
         set_sensor(&known);
         for (int32_t k = 1; k <= 20; k++) {
@@ -347,10 +347,10 @@ static void scans_are_in_order_without_their_time_biases(void **state)
 
             behind.sensor_id = 7;
             behind.time_us -= SECOND_US / 2;
-            take(&right, k * SECOND_US);
-            next_is(INT64_MAX, 3, k * SECOND_US);
-            take(&behind, k * SECOND_US + SECOND_US / 2);
-            next_is(INT64_MAX, 7, k * SECOND_US + SECOND_US / 2);
+            take_message(&right, k * SECOND_US);
+            expect_next_scan(INT64_MAX, 3, k * SECOND_US);
+            take_message(&behind, k * SECOND_US + SECOND_US / 2);
+            expect_next_scan(INT64_MAX, 7, k * SECOND_US + SECOND_US / 2);
         }
         assert_int_equal(assembler.counters.scans_accepted, 40);
         assert_int_equal(assembler.counters.clock_jumps, 0);
@@ -370,13 +370,13 @@ static void a_scan_waits_for_one_that_was_made_before_it(void **state)
     (void)state;
     known.sensor.time_bias_s = 1.0f; /* it was made at 2 s */
     for (int comes_first = 0; comes_first < 2; comes_first++) {
-        start();
+        start_assembler();
         set_sensor(&known);
         ahead.scan = right.scan = 1;
-        take(comes_first ? &ahead : &right, 0);
-        take(comes_first ? &right : &ahead, HOLD_US / 2);
-        next_is(INT64_MAX, 3, 2 * SECOND_US - 5000);
-        next_is(INT64_MAX, 7, 2 * SECOND_US);
+        take_message(comes_first ? &ahead : &right, 0);
+        take_message(comes_first ? &right : &ahead, HOLD_US / 2);
+        expect_next_scan(INT64_MAX, 3, 2 * SECOND_US - 5000);
+        expect_next_scan(INT64_MAX, 7, 2 * SECOND_US);
     }
 }
 
@@ -390,10 +390,10 @@ static void times_beyond_their_limit_are_refused(void **state)
         for (int beyond = 0; beyond < 2; beyond++) {
             struct look look = {.time_us = times_us[i], .scan = 1, .sensor_id = 7};
 
-            start();
+            start_assembler();
             known.sensor.time_bias_s = i == (unsigned)beyond ? -10.0f : 10.0f;
             set_sensor(&known);
-            take(&look, 0);
+            take_message(&look, 0);
             assert_int_equal(assembler.counters.messages_bad, beyond);
             assert_int_equal(assembler.counters.scans_accepted, 1 - beyond);
         }

@@ -8,10 +8,10 @@
 static void a_late_one_takes_nobodys_room(void **state)
 {
     (void)state;
-    begin(5);
-    late(7, 7 * SECOND_US);
-    next_is(8 * SECOND_US, 1, 7 * SECOND_US);
-    next_is_none(8 * SECOND_US);
+    begin_with_scans(5);
+    take_late_scan(7, 7 * SECOND_US);
+    expect_next_scan(8 * SECOND_US, 1, 7 * SECOND_US);
+    expect_no_scan(8 * SECOND_US);
     for (int16_t i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct look look = {.time_us = 7 * SECOND_US + 1,
                             .scan = 1,
@@ -19,10 +19,10 @@ static void a_late_one_takes_nobodys_room(void **state)
                             .kind = RHO_SCAN_ASSEMBLER_POLAR,
                             .num_parts = 2};
         if (i < RHO_MAX_SENSORS - 1) {
-            take(&look, 8 * SECOND_US);
+            take_message(&look, 8 * SECOND_US);
         }
     }
-    late(6, 8 * SECOND_US);
+    take_late_scan(6, 8 * SECOND_US);
     if (RHO_MAX_OPEN_SCANS < RHO_MAX_SENSORS) {
         COUNTERS_ARE(.scans_accepted = 6 + RHO_MAX_OPEN_SCANS, .scans_late = 1, .scans_lost = 1);
     }
@@ -36,7 +36,7 @@ static int32_t begin_with_wrong_numbers(const struct rho_scan_assembler_config *
 {
     int32_t scan = 0;
 
-    start_with(config);
+    start_assembler_with(config);
     for (int32_t i = 1; i <= 9; i++) {
         take_scan(1, i, i * SECOND_US);
         for (int32_t k = 1; k < 100; k++) {
@@ -64,21 +64,21 @@ static struct look lie(int32_t last, int64_t now_us)
 
         more.scan -= k;
         more.time_us -= k * 10000;
-        take(&more, now_us);
-        next_is_none(now_us);
+        take_message(&more, now_us);
+        expect_no_scan(now_us);
     }
     return look;
 }
 
 static void late_scans_of_wrong_numbers_cut_no_scan_short(void **state)
 {
-    const struct rho_scan_assembler_config config = usual();
+    const struct rho_scan_assembler_config config = usual_config();
     const int64_t now_us = 10 * SECOND_US;
     const int32_t last = begin_with_wrong_numbers(&config);
     struct look look = part_of(10, 0), more;
 
     (void)state;
-    take(&look, now_us);
+    take_message(&look, now_us);
     more = lie(last, now_us);
     /* one waits for its parts at most, and none where there is no room */
     assert_int_equal(assembler.counters.scans_accepted, 9 + 9 * 99 + 2 + (RHO_MAX_OPEN_SCANS > 2));
@@ -86,12 +86,12 @@ static void late_scans_of_wrong_numbers_cut_no_scan_short(void **state)
     if (RHO_MAX_OPEN_SCANS > 2) {
         more.scan++;
         more.time_us += 10000;
-        take(&more, now_us);
-        next_is_none(now_us);
+        take_message(&more, now_us);
+        expect_no_scan(now_us);
     }
     look.part = 1;
-    take(&look, now_us + 1);
-    next_is(now_us + 1, 1, now_us);
+    take_message(&look, now_us + 1);
+    expect_next_scan(now_us + 1, 1, now_us);
     assert_int_equal(item.parts_missing, 0);
 }
 
@@ -100,27 +100,27 @@ static void one_of_a_sensor_waits_for_its_parts_and_whole_ones_pass_it(void **st
     struct look first = part_of(8, 0), second = part_of(7, 0);
 
     (void)state;
-    begin(5);
-    late(9, 9 * SECOND_US);
-    next_is(10 * SECOND_US, 1, 9 * SECOND_US);
-    next_is_none(10 * SECOND_US);
-    take(&first, 10 * SECOND_US);
-    take(&second, 10 * SECOND_US);
+    begin_with_scans(5);
+    take_late_scan(9, 9 * SECOND_US);
+    expect_next_scan(10 * SECOND_US, 1, 9 * SECOND_US);
+    expect_no_scan(10 * SECOND_US);
+    take_message(&first, 10 * SECOND_US);
+    take_message(&second, 10 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = 7, .scans_late = 2, .scans_lost = 3);
-    late(6, 10 * SECOND_US);
-    next_is(10 * SECOND_US, 1, 6 * SECOND_US);
+    take_late_scan(6, 10 * SECOND_US);
+    expect_next_scan(10 * SECOND_US, 1, 6 * SECOND_US);
     first.part = second.part = 1;
-    take(&first, 10 * SECOND_US);
-    next_is(10 * SECOND_US, 1, 8 * SECOND_US);
+    take_message(&first, 10 * SECOND_US);
+    expect_next_scan(10 * SECOND_US, 1, 8 * SECOND_US);
     second.num_parts = 1; /* it was not remembered */
     second.part = 0;
-    take(&second, 10 * SECOND_US);
+    take_message(&second, 10 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = 9, .scans_late = 4, .scans_lost = 3);
 }
 
 static void late_scans_of_wrong_numbers_shut_no_sensor_out(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     for (int is_held = 0; is_held < 2; is_held++) {
@@ -142,7 +142,7 @@ static void late_scans_of_wrong_numbers_shut_no_sensor_out(void **state)
  */
 static void late_ones_give_way(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
     const unsigned late_ones = RHO_MAX_OPEN_SCANS < 4 ? RHO_MAX_OPEN_SCANS - 1 : 3;
     unsigned others = 0;
 
@@ -151,23 +151,23 @@ static void late_ones_give_way(void **state)
     begin_with(&config, 5);
     take_scan(2, 1, 5 * SECOND_US + 1);
     assert_int_equal(drain(INT64_MAX), 1);
-    late(9, 9 * SECOND_US);
+    take_late_scan(9, 9 * SECOND_US);
     for (int32_t scan = 8; scan > 8 - (int32_t)late_ones; scan--) {
-        late(scan, 9 * SECOND_US);
+        take_late_scan(scan, 9 * SECOND_US);
     }
-    next_is_none(9 * SECOND_US); /* sensor 2 may have an older one */
+    expect_no_scan(9 * SECOND_US); /* sensor 2 may have an older one */
     for (int16_t id = 10; id < 10 + RHO_MAX_OPEN_SCANS - 1; id++, others++) {
         struct look look = {.time_us = 6 * SECOND_US - 1 + id, .sensor_id = id, .num_parts = 2};
 
         if (others < RHO_MAX_SENSORS - 2) {
-            take(&look, 9 * SECOND_US);
+            take_message(&look, 9 * SECOND_US);
         }
     }
     assert_int_equal(assembler.counters.scans_late, late_ones);
     assert_int_equal(assembler.counters.sensors_no_room, 0);
     assert_int_equal(assembler.counters.scans_incomplete, 0);
-    next_is_none(9 * SECOND_US);
-    next_is(9 * SECOND_US + HOLD_US, 10, 6 * SECOND_US + 9);
+    expect_no_scan(9 * SECOND_US);
+    expect_next_scan(9 * SECOND_US + HOLD_US, 10, 6 * SECOND_US + 9);
 }
 
 /* A late one does not send a newer scan out before an older one whose parts are still coming. */
@@ -177,7 +177,7 @@ static void a_late_one_makes_nobody_late(void **state)
     struct look open = part_of(9, 0), whole = {.time_us = 9 * SECOND_US + 1, .scan = 6};
 
     (void)state;
-    start();
+    start_assembler();
     for (int32_t i = 1; i <= 5; i++) {
         for (int16_t id = 1; id <= 3; id++) {
             take_scan(id, i, i * SECOND_US);
@@ -186,22 +186,22 @@ static void a_late_one_makes_nobody_late(void **state)
     }
     take_scan(3, 7, 7 * SECOND_US);
     (void)drain(INT64_MAX);
-    take(&open, now_us);
+    take_message(&open, now_us);
     whole.sensor_id = 2;
-    take(&whole, now_us);
+    take_message(&whole, now_us);
     for (int16_t id = 10; id < 10 + RHO_MAX_OPEN_SCANS - 2; id++) {
         struct look look = {.time_us = now_us, .sensor_id = id, .num_parts = 2};
 
-        take(&look, now_us);
+        take_message(&look, now_us);
     }
     take_scan(3, 6, 6 * SECOND_US); /* no room for it */
     assert_int_equal(assembler.counters.scans_late, 1);
-    next_is_none(now_us);
+    expect_no_scan(now_us);
     open.part = 1;
-    take(&open, now_us);
-    next_is(now_us + HOLD_US, 1, 9 * SECOND_US);
+    take_message(&open, now_us);
+    expect_next_scan(now_us + HOLD_US, 1, 9 * SECOND_US);
     assert_int_equal(item.parts_missing, 0);
-    next_is(now_us + HOLD_US, 2, 9 * SECOND_US + 1);
+    expect_next_scan(now_us + HOLD_US, 2, 9 * SECOND_US + 1);
 }
 
 int main(void)

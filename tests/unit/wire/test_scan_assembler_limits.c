@@ -10,11 +10,11 @@ static struct rho_scan_assembler before;
 
 static void more_than_flood_per_s_are_not_looked_at(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     config.flood_per_s = 5;
-    start_with(&config);
+    start_assembler_with(&config);
     take_scan(1, 0, 0); /* the first one is a stranger's */
     for (int i = 0; i < 9; i++) {
         take_scan(1, 0, 1);
@@ -24,21 +24,21 @@ static void more_than_flood_per_s_are_not_looked_at(void **state)
     COUNTERS_ARE(.scans_accepted = 2, .scans_other = 5, .messages_flooded = 4);
     take_scan(1, 1, SECOND_US - 1);
     COUNTERS_ARE(.scans_accepted = 2, .scans_other = 5, .messages_flooded = 5);
-    next_is(SECOND_US, 1, 0);
-    next_is(SECOND_US, 2, 2);
-    next_is_none(SECOND_US);
+    expect_next_scan(SECOND_US, 1, 0);
+    expect_next_scan(SECOND_US, 2, 2);
+    expect_no_scan(SECOND_US);
     take_scan(1, 1, SECOND_US);
     COUNTERS_ARE(.scans_accepted = 3, .scans_other = 5, .messages_flooded = 5);
 }
 
 static void strangers_share_one_measure(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
     uint8_t junk[3] = {0};
 
     (void)state;
     config.flood_per_s = 5;
-    start_with(&config);
+    start_assembler_with(&config);
     for (int16_t id = 0; id < 9; id++) {
         assert_int_equal(take_bytes(channel_of(0, id), junk, sizeof junk, 0), RHO_OK);
     }
@@ -47,32 +47,32 @@ static void strangers_share_one_measure(void **state)
 
 static void a_reception_clock_that_goes_back_fills_the_bucket(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
     struct look look = {.sensor_id = 1};
 
     (void)state;
     config.flood_per_s = 1;
-    start_with(&config);
-    take(&look, 100 * SECOND_US);
-    take(&look, 100 * SECOND_US);
-    take(&look, 100 * SECOND_US);
+    start_assembler_with(&config);
+    take_message(&look, 100 * SECOND_US);
+    take_message(&look, 100 * SECOND_US);
+    take_message(&look, 100 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 1, .messages_flooded = 1);
-    take(&look, 99 * SECOND_US);
-    take(&look, 99 * SECOND_US);
+    take_message(&look, 99 * SECOND_US);
+    take_message(&look, 99 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 2, .messages_flooded = 2);
 }
 
 static void what_is_taken_again_is_drawn_once(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
     struct look look = {.num_parts = 2};
 
     (void)state;
     config.flood_per_s = RHO_MAX_OPEN_SCANS + 1;
-    start_with(&config);
+    start_assembler_with(&config);
     for (int16_t id = 0; id < RHO_MAX_OPEN_SCANS; id++) {
         look.sensor_id = id;
-        take(&look, 0);
+        take_message(&look, 0);
     }
     look.sensor_id = RHO_MAX_OPEN_SCANS;
     for (int i = 0; i < 10; i++) {
@@ -98,7 +98,7 @@ static void fill_table(int32_t scans)
 static void the_sensor_heard_longest_ago_gives_way(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     fill_table(1);
     take_scan(1000, 0, SECOND_US);
     assert_int_equal(drain(INT64_MAX), 1);
@@ -113,7 +113,7 @@ static void proven_sensors_do_not_give_way_while_they_are_heard(void **state)
     const uint32_t known = 3 * RHO_MAX_SENSORS;
 
     (void)state;
-    start();
+    start_assembler();
     fill_table(3);
     take_scan(1000, 0, 3 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = known, .sensors_no_room = 1);
@@ -129,7 +129,7 @@ static void forged_sensors_never_drive_out_proven_ones(void **state)
     uint32_t forged = 0;
 
     (void)state;
-    start();
+    start_assembler();
     random_state = 11;
     fill_table(3);
     for (int32_t scan = 3; scan < 40; scan++) {
@@ -143,7 +143,7 @@ static void forged_sensors_never_drive_out_proven_ones(void **state)
                                     .sensor_id = (int16_t)(1000 + random_below(30000)),
                                     .kind = (uint8_t)random_below(3),
                                     .count = 1};
-                take(&look, now_us);
+                take_message(&look, now_us);
                 forged++;
             }
             take_scan(id, scan, now_us);
@@ -159,11 +159,11 @@ static void a_proven_sensor_off_the_clock_gives_way(void **state)
     int32_t scan = 3;
 
     (void)state;
-    start();
+    start_assembler();
     fill_table(3);
     for (int i = 0; i < 3; i++, scan++) { /* sensor 1 is an hour ahead */
         struct look look = {.sensor_id = 1, .scan = scan, .time_us = (3600 + scan) * SECOND_US};
-        take(&look, 3 * SECOND_US);
+        take_message(&look, 3 * SECOND_US);
     }
     take_scan(1000, 0, 4 * SECOND_US);
     assert_int_equal(assembler.counters.sensors_no_room, 0);
@@ -173,10 +173,10 @@ static void a_proven_sensor_off_the_clock_gives_way(void **state)
 static void one_number_on_three_channels_is_three_sensors(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     for (uint8_t kind = 0; kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; kind++) {
         struct look look = {.sensor_id = 5, .kind = kind, .time_us = kind};
-        take(&look, 0);
+        take_message(&look, 0);
         assert_int_equal(drain(INT64_MAX), 1);
     }
     COUNTERS_ARE(.scans_accepted = 3);
@@ -185,20 +185,20 @@ static void one_number_on_three_channels_is_three_sensors(void **state)
 static void a_sensor_that_gives_way_leaves_its_scan(void **state)
 {
     struct look look = {.sensor_id = 500, .time_us = 5, .num_parts = 2, .count = 1};
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     config.hold_us = 10000000;
-    start_with(&config);
-    take(&look, 0);
+    start_assembler_with(&config);
+    take_message(&look, 0);
     for (int16_t id = 0; id < RHO_MAX_SENSORS; id++) { /* the last one takes its place */
         look = (struct look){.sensor_id = id, .time_us = 4};
-        take(&look, 1);
-        next_is(1, id, 4);
-        next_is_none(1);
+        take_message(&look, 1);
+        expect_next_scan(1, id, 4);
+        expect_no_scan(1);
         assert_int_equal(assembler.counters.scans_incomplete, id == RHO_MAX_SENSORS - 1);
     }
-    next_is(20000000, 500, 5);
+    expect_next_scan(20000000, 500, 5);
     assert_int_equal(item.parts_missing, 1);
     assert_int_equal(item.scan.num_plots, 1);
 }
@@ -213,26 +213,26 @@ static void without_room_the_oldest_goes_out_and_the_message_is_taken(void **sta
     struct rho_scan_assembler_bucket was;
 
     (void)state;
-    start();
+    start_assembler();
     for (int16_t id = 0; id < RHO_MAX_OPEN_SCANS; id++) {
         look.sensor_id = id;
         look.time_us = 100 - id;
-        take(&look, 0);
-        next_is_none(0);
+        take_message(&look, 0);
+        expect_no_scan(0);
     }
     look.sensor_id = 500;
     was = assembler.strangers;
     assert_int_equal(take_status(&look, 0), RHO_ERROR_CAPACITY);
     assert_memory_equal(&was, &assembler.strangers, sizeof was);
     COUNTERS_ARE(.scans_accepted = RHO_MAX_OPEN_SCANS);
-    next_is(0, 0, 100); /* the first that is not proven */
+    expect_next_scan(0, 0, 100); /* the first that is not proven */
     assert_int_equal(item.parts_missing, 1);
     assert_int_equal(take_status(&look, 0), RHO_ERROR_CAPACITY); /* the item is still read */
     assert_true(item.scan.plots[0].x_m == 0.0f);
-    next_is_none(0); /* there is room now */
-    take(&look, 0);
+    expect_no_scan(0); /* there is room now */
+    take_message(&look, 0);
     COUNTERS_ARE(.scans_accepted = RHO_MAX_OPEN_SCANS + 1, .scans_incomplete = 1);
-    next_is_none(0);
+    expect_no_scan(0);
 }
 
 static void complete_scans_make_room_before_open_ones(void **state)
@@ -241,9 +241,9 @@ static void complete_scans_make_room_before_open_ones(void **state)
                 whole = {.sensor_id = 2, .time_us = 90};
 
     (void)state;
-    start();
-    take(&open, 0);
-    take(&whole, 0);
+    start_assembler();
+    take_message(&open, 0);
+    take_message(&whole, 0);
     for (int16_t id = 3; id < 3 + 2 * RHO_MAX_OPEN_SCANS; id++) {
         struct look more = {.sensor_id = id, .time_us = 90 + id};
         while (take_status(&more, 0) == RHO_ERROR_CAPACITY) {
@@ -253,7 +253,7 @@ static void complete_scans_make_room_before_open_ones(void **state)
         }
     }
     open.part = 1;
-    take(&open, 0);
+    take_message(&open, 0);
     COUNTERS_ARE(.scans_accepted = 2 + 2 * RHO_MAX_OPEN_SCANS);
 }
 
@@ -262,23 +262,23 @@ static void strangers_do_not_cut_short_the_scans_of_proven_sensors(void **state)
     const uint32_t known = 4 * RHO_MAX_OPEN_SCANS;
 
     (void)state;
-    start();
+    start_assembler();
     for (int32_t scan = 0; scan < 4; scan++) {
         for (int16_t id = 0; id < RHO_MAX_OPEN_SCANS; id++) {
             struct look look = {.sensor_id = id,
                                 .scan = scan,
                                 .time_us = scan * SECOND_US,
                                 .num_parts = (int16_t)(scan == 3 ? 2 : 1)};
-            take(&look, scan * SECOND_US);
+            take_message(&look, scan * SECOND_US);
         }
         assert_int_equal(drain(scan * SECOND_US), scan == 3 ? 0 : RHO_MAX_OPEN_SCANS);
     }
     for (int16_t id = 100; id < 200; id++) {
         struct look look = {.sensor_id = id, .time_us = 3 * SECOND_US};
-        take(&look, 3 * SECOND_US);
+        take_message(&look, 3 * SECOND_US);
     }
     COUNTERS_ARE(.scans_accepted = known, .sensors_no_room = 100);
-    next_is_none(3 * SECOND_US);
+    expect_no_scan(3 * SECOND_US);
 }
 
 /*
@@ -290,21 +290,21 @@ static void strangers_do_not_make_the_scans_of_proven_sensors_late(void **state)
     struct look open = {.sensor_id = 1, .scan = 4, .time_us = 4 * SECOND_US, .num_parts = 2};
 
     (void)state;
-    start();
+    start_assembler();
     for (int32_t scan = 1; scan < 4; scan++) {
         take_scan(1, scan, scan * SECOND_US);
         assert_int_equal(drain(scan * SECOND_US), 1);
     }
-    take(&open, 4 * SECOND_US);
+    take_message(&open, 4 * SECOND_US);
     for (int16_t id = 100; id < 120; id++) {
         struct look look = {.sensor_id = id, .time_us = 4 * SECOND_US + id};
 
-        take(&look, 4 * SECOND_US);
-        next_is_none(4 * SECOND_US);
+        take_message(&look, 4 * SECOND_US);
+        expect_no_scan(4 * SECOND_US);
     }
     open.part = 1;
-    take(&open, 4 * SECOND_US);
-    next_is(4 * SECOND_US, 1, 4 * SECOND_US);
+    take_message(&open, 4 * SECOND_US);
+    expect_next_scan(4 * SECOND_US, 1, 4 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = 3 + RHO_MAX_OPEN_SCANS,
                  .sensors_no_room = 20 - (RHO_MAX_OPEN_SCANS - 1));
 }
@@ -315,7 +315,7 @@ static void there_is_always_progress(void **state)
     unsigned pressed = 0;
 
     (void)state;
-    start();
+    start_assembler();
     random_state = 9;
     for (int32_t i = 0; i < 50000; i++) {
         struct look look = {.time_us = i * 100 + (int32_t)random_below(3000),
@@ -350,7 +350,7 @@ static void of_too_many_plots_the_first_stay(void **state)
     (void)state;
     random_state = 2;
     for (unsigned round = 0; round < 200 && TOTAL > RHO_MAX_PLOTS; round++) {
-        start();
+        start_assembler();
         for (unsigned i = 0; i < PARTS; i++) {
             unsigned at = random_below(i + 1);
             order[i] = order[at];
@@ -362,9 +362,9 @@ static void of_too_many_plots_the_first_stay(void **state)
                                 .num_parts = PARTS,
                                 .count = 34,
                                 .tag = (int32_t)order[i] * 34};
-            take(&look, 0);
+            take_message(&look, 0);
         }
-        next_is(0, 1, 0);
+        expect_next_scan(0, 1, 0);
         assert_int_equal(item.scan.num_plots, RHO_MAX_PLOTS);
         for (unsigned i = 0; i < RHO_MAX_PLOTS && i < TOTAL; i++) {
             assert_true(item.scan.plots[i].x_m == (float)i);
@@ -381,9 +381,9 @@ static void of_too_many_bearings_the_first_stay(void **state)
         struct look look = {.sensor_id = 1, .kind = RHO_SCAN_ASSEMBLER_BEARINGS, .count = count};
         uint32_t kept = count < RHO_MAX_BEARINGS ? count : RHO_MAX_BEARINGS;
 
-        start();
-        take(&look, 0);
-        next_is(0, 1, 0);
+        start_assembler();
+        take_message(&look, 0);
+        expect_next_scan(0, 1, 0);
         assert_int_equal(item.bearings.num_bearings, kept);
         COUNTERS_ARE(.scans_accepted = 1, .bearings_in = count, .plots_no_room = count - kept);
     }
@@ -421,7 +421,7 @@ static void only_sensors_channels_are_taken(void **state)
     uint8_t bytes[4] = {0};
 
     (void)state;
-    start();
+    start_assembler();
     before = assembler;
     for (unsigned i = 0; i < sizeof others / sizeof others[0]; i++) {
         assert_int_equal(take_bytes(others[i], bytes, sizeof bytes, 0), RHO_ERROR_TYPE);
@@ -430,11 +430,11 @@ static void only_sensors_channels_are_taken(void **state)
     for (unsigned i = 0; i < 3; i++) {
         struct look look = {.sensor_id = good[i].sensor_id};
         uint8_t buffer[DATAGRAM];
-        size_t size = pack(&look, buffer);
+        size_t size = pack_message(&look, buffer);
 
         assert_int_equal(take_bytes(good[i].channel, buffer, size, 0), RHO_OK);
-        next_is(INT64_MAX, good[i].sensor_id, 0);
-        next_is_none(0);
+        expect_next_scan(INT64_MAX, good[i].sensor_id, 0);
+        expect_no_scan(0);
     }
 }
 
@@ -446,8 +446,8 @@ static void wrong_bytes_are_counted_by_what_is_wrong(void **state)
 
     (void)state;
     for (look.kind = 0; look.kind < RHO_NUM_SCAN_ASSEMBLER_KINDS; look.kind++) {
-        start();
-        size = pack(&look, buffer);
+        start_assembler();
+        size = pack_message(&look, buffer);
         for (size_t length = 0; length <= size + 1; length++) {
             if (length != size) {
                 assert_int_equal(take_bytes(channel_of(look.kind, 1), buffer, length, 0), RHO_OK);
@@ -466,7 +466,7 @@ static void wrong_bytes_are_counted_by_what_is_wrong(void **state)
         memset(buffer + size - 2, 0xff, 2);
         assert_int_equal(take_bytes(channel_of(look.kind, 1), buffer, size, 0), RHO_OK);
         COUNTERS_ARE(.messages_bad = (uint32_t)size + 3, .messages_wrong_type = 2);
-        next_is_none(INT64_MAX);
+        expect_no_scan(INT64_MAX);
     }
 }
 
@@ -480,15 +480,15 @@ static void refused(struct rho_scan_assembler_config config)
 
 #define REFUSE(field, value)                                                                       \
     do {                                                                                           \
-        struct rho_scan_assembler_config config = usual();                                         \
+        struct rho_scan_assembler_config config = usual_config();                                  \
         config.field = (value);                                                                    \
         refused(config);                                                                           \
     } while (0)
 #define ALLOW(field, value)                                                                        \
     do {                                                                                           \
-        struct rho_scan_assembler_config config = usual();                                         \
+        struct rho_scan_assembler_config config = usual_config();                                  \
         config.field = (value);                                                                    \
-        start_with(&config);                                                                       \
+        start_assembler_with(&config);                                                             \
     } while (0)
 
 static void configurations_beyond_their_ranges_are_refused(void **state)
@@ -528,7 +528,7 @@ static void configurations_beyond_their_ranges_are_refused(void **state)
 
 static void init_and_sensors_are_checked(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
     struct rho_scan_assembler_sensor sensor = config.other;
 
     (void)state;
@@ -542,7 +542,7 @@ static void init_and_sensors_are_checked(void **state)
     assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler, NULL), RHO_ERROR_NULL);
     assert_int_equal(rho_scan_assembler_init(&assembler, sizeof assembler - 1, &config),
                      RHO_ERROR_SIZE);
-    start();
+    start_assembler();
     before = assembler;
     assert_int_equal(rho_scan_assembler_set_sensor(NULL, &sensor), RHO_ERROR_NULL);
     assert_int_equal(rho_scan_assembler_set_sensor(&assembler, NULL), RHO_ERROR_NULL);
@@ -577,16 +577,16 @@ static void a_copy_goes_on_like_the_original(void **state)
     struct rho_scan_assembler_counters counters;
 
     (void)state;
-    start();
+    start_assembler();
     take_scan(1, 0, 0);
     take_scan(2, 0, 5);
     copy = assembler;
     for (int round = 0; round < 2; round++) {
-        next_is(0, 1, 0);
-        next_is(5 + HOLD_US, 2, 5);
+        expect_next_scan(0, 1, 0);
+        expect_next_scan(5 + HOLD_US, 2, 5);
         take_scan(1, 1, SECOND_US);
-        next_is(INT64_MAX, 1, SECOND_US);
-        next_is_none(INT64_MAX);
+        expect_next_scan(INT64_MAX, 1, SECOND_US);
+        expect_no_scan(INT64_MAX);
         if (round > 0) {
             assert_memory_equal(&counters, &assembler.counters, sizeof counters);
         }

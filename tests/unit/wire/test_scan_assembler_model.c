@@ -25,7 +25,7 @@ static unsigned given, taken, pressed, restarted, skipped;
 static void compare_counters(void)
 {
     if (memcmp(&assembler.counters, &model.counters, sizeof assembler.counters) != 0) {
-        counters_are(model.counters);
+        expect_counter_changes(model.counters);
     }
 }
 
@@ -198,7 +198,7 @@ static void run(uint32_t seed, unsigned steps, unsigned faults,
                 const struct rho_scan_assembler_config *config)
 {
     random_state = seed;
-    start_with(config);
+    start_assembler_with(config);
     model_start(config);
     now_us = random_below(2) ? 0 : INT64_C(-3000000000);
     for (unsigned i = 0; i < SENSORS; i++) {
@@ -240,7 +240,7 @@ static void run(uint32_t seed, unsigned steps, unsigned faults,
 
 static void the_assembler_does_what_the_model_does(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     given = taken = pressed = restarted = skipped = 0;

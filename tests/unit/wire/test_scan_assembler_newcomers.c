@@ -13,7 +13,7 @@ static int32_t turn;
 
 static void begin(const struct rho_scan_assembler_config *config)
 {
-    start_with(config);
+    start_assembler_with(config);
     turn = 0;
 }
 
@@ -28,13 +28,13 @@ static void radar(void)
         assert_true(rho_scan_assembler_next(&assembler, time_us + HOLD_US, &item));
     }
     assert_int_equal(item_time_us(), time_us);
-    next_is_none(time_us + HOLD_US);
+    expect_no_scan(time_us + HOLD_US);
     assert_int_equal(assembler.out_us, time_us);
 }
 
 static int64_t begin_with_a_radar(void)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     begin(&config);
     while (turn <= TURNS) {
@@ -48,7 +48,7 @@ static int is_taken(int16_t sensor_id, int32_t scan, int64_t time_us, int64_t no
     const uint32_t before = assembler.counters.scans_accepted;
     struct look look = {.time_us = time_us, .scan = scan, .sensor_id = sensor_id, .count = 1};
 
-    take(&look, now_us);
+    take_message(&look, now_us);
     return assembler.counters.scans_accepted > before;
 }
 
@@ -59,13 +59,13 @@ static void what_is_ahead_waits_for_the_clock_of_who_was_heard(void **state)
     (void)state;
     assert_true(is_taken(9, 0, now_us + SECOND_US, now_us));
     assert_int_equal(rho_scan_assembler_due_us(&assembler), now_us + SECOND_US + HOLD_US);
-    next_is_none(now_us + SECOND_US + HOLD_US - 1);
-    next_is(now_us + SECOND_US + HOLD_US, 9, now_us + SECOND_US);
+    expect_no_scan(now_us + SECOND_US + HOLD_US - 1);
+    expect_next_scan(now_us + SECOND_US + HOLD_US, 9, now_us + SECOND_US);
     radar();
     assert_true(is_taken(9, 1, now_us + 5 * SECOND_US, now_us + 2 * SECOND_US));
     assert_int_equal(assembler.clock_us, (turn - 1) * INTERVAL_US);
     radar(); /* goes out before */
-    next_is(now_us + 5 * SECOND_US + HOLD_US, 9, now_us + 5 * SECOND_US);
+    expect_next_scan(now_us + 5 * SECOND_US + HOLD_US, 9, now_us + 5 * SECOND_US);
     COUNTERS_ARE(.scans_accepted = TURNS + 5);
 }
 
@@ -85,11 +85,11 @@ static void it_makes_no_other_wait_and_gives_way(void **state)
     }
     assembler.newcomers = 0;
     assert_false(is_taken(80, 0, now_us + 3 * SECOND_US, now_us));
-    next_is_none(now_us);
-    take(&look, look.time_us);
+    expect_no_scan(now_us);
+    take_message(&look, look.time_us);
     look.part = 1;
-    take(&look, look.time_us + HOLD_US / 2);
-    next_is(look.time_us + HOLD_US / 2 + HOLD_US, RADAR, look.time_us);
+    take_message(&look, look.time_us + HOLD_US / 2);
+    expect_next_scan(look.time_us + HOLD_US / 2 + HOLD_US, RADAR, look.time_us);
     assert_int_equal(item.parts_missing, 0);
     assert_int_equal(assembler.counters.sensors_no_room, 2);
 }
@@ -104,17 +104,17 @@ static void it_cuts_no_scan_short(void **state)
     if (RHO_MAX_OPEN_SCANS < 2) {
         return;
     }
-    take(&look, time_us);
+    take_message(&look, time_us);
     assert_true(is_taken(9, 0, time_us + 1, time_us));
     for (look.part = 1; look.part < 3; look.part++) {
         int64_t now_us = time_us + look.part * (HOLD_US - 1);
 
-        next_is_none(now_us);
-        take(&look, now_us);
+        expect_no_scan(now_us);
+        take_message(&look, now_us);
     }
-    next_is(time_us + 4 * HOLD_US, RADAR, time_us);
+    expect_next_scan(time_us + 4 * HOLD_US, RADAR, time_us);
     assert_int_equal(item.parts_missing, 0);
-    next_is(time_us + 4 * HOLD_US, 9, time_us + 1);
+    expect_next_scan(time_us + 4 * HOLD_US, 9, time_us + 1);
 }
 
 static void many_of_them_do_not_move_the_clock(void **state)
@@ -139,7 +139,7 @@ static void many_of_them_do_not_move_the_clock(void **state)
  */
 static int32_t scans_until_followed(int32_t turns, int64_t every_us)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
     int64_t from_us = turns * INTERVAL_US, sent_us = from_us - every_us;
     int32_t scans = 0;
 
@@ -177,8 +177,8 @@ static void an_honest_one_loses_nothing(void **state)
         int64_t now_us = from_us + (i * 2 + 1) * INTERVAL_US / 2;
 
         assert_true(is_taken(3, i, now_us, now_us));
-        next_is_none(now_us + HOLD_US - 1);
-        next_is(now_us + HOLD_US, 3, now_us);
+        expect_no_scan(now_us + HOLD_US - 1);
+        expect_next_scan(now_us + HOLD_US, 3, now_us);
         given++;
         radar();
     }
@@ -211,7 +211,7 @@ static void who_falls_silent_holds_nobody(void **state)
 
 static void in_a_record_nobody_is_new(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     config.is_record = 1;
@@ -220,7 +220,7 @@ static void in_a_record_nobody_is_new(void **state)
         radar();
     }
     assert_true(is_taken(9, 0, turn * INTERVAL_US - 2, turn * INTERVAL_US - SECOND_US));
-    next_is(turn * INTERVAL_US - SECOND_US + HOLD_US, 9, turn * INTERVAL_US - 2);
+    expect_next_scan(turn * INTERVAL_US - SECOND_US + HOLD_US, 9, turn * INTERVAL_US - 2);
 }
 
 /*
@@ -236,22 +236,22 @@ static void newcomers_share_plots_and_turns(void **state)
 
     (void)state;
     for (; look.part < look.num_parts; look.part++) {
-        take(&look, now_us);
+        take_message(&look, now_us);
     }
     COUNTERS_ARE(.scans_accepted = TURNS + 2, .messages_flooded = (uint32_t)look.num_parts - parts);
     look = (struct look){.time_us = now_us, .sensor_id = 8};
-    take(&look, now_us); /* the next one has its turn behind the radar's */
+    take_message(&look, now_us); /* the next one has its turn behind the radar's */
     assert_int_equal(assembler.counters.messages_flooded, 13 - parts);
     look.sensor_id = known.sensor.sensor_id = 7;
     look.count = 34;
     assert_int_equal(rho_scan_assembler_set_sensor(&assembler, &known), RHO_OK);
     drain(INT64_MAX);
-    take(&look, now_us); /* one that is described has its own */
+    take_message(&look, now_us); /* one that is described has its own */
     assert_int_equal(assembler.counters.messages_flooded, 13 - parts);
     assert_int_equal(assembler.counters.scans_accepted, TURNS + 3);
     assembler.config.allowed[assembler.config.num_allowed++] = look.sensor_id = 6;
     drain(INT64_MAX);
-    take(&look, now_us); /* and one that is allowed by name */
+    take_message(&look, now_us); /* and one that is allowed by name */
     assert_int_equal(assembler.counters.scans_accepted, TURNS + 4);
 }
 
@@ -265,25 +265,25 @@ static void parts_of_a_scan_without_a_turn_are_flooded_too(void **state)
 
     (void)state;
     for (; look.part < look.num_parts; look.part++) {
-        take(&look, now_us);
+        take_message(&look, now_us);
     }
     COUNTERS_ARE(.scans_accepted = TURNS + 2);
     look.scan = 2;
     look.time_us += 2 * SECOND_US;
     for (look.part = 0; look.part < look.num_parts; look.part++) {
-        take(&look, now_us + 2 * SECOND_US);
+        take_message(&look, now_us + 2 * SECOND_US);
         COUNTERS_ARE(.scans_accepted = TURNS + 2, .scans_lost = 1,
                      .messages_flooded = look.part + 1u);
     }
     look.tag = 7;
     for (look.part = 0; look.part < look.num_parts; look.part++) { /* other contents, no twin */
-        take(&look, now_us + 2 * SECOND_US);
+        take_message(&look, now_us + 2 * SECOND_US);
     }
     COUNTERS_ARE(.scans_accepted = TURNS + 2, .scans_lost = 1, .messages_flooded = 6);
     look.scan = 1;
     look.time_us -= SECOND_US;
     for (look.part = 0; look.part < look.num_parts; look.part++) {
-        take(&look, now_us + 2 * SECOND_US);
+        take_message(&look, now_us + 2 * SECOND_US);
     }
     COUNTERS_ARE(.scans_accepted = TURNS + 2, .scans_lost = 1, .messages_flooded = 9);
 }
@@ -306,9 +306,9 @@ static void a_newcomer_is_no_surer_than_the_config(void **state)
         assert_int_equal(rho_message_plot_scan_begin(&writer, buffer, DATAGRAM, &head), RHO_OK);
         assert_int_equal(rho_message_plot_scan_add(&writer, &plot), RHO_OK);
         assert_int_equal(take_bytes(channel_of(RHO_SCAN_ASSEMBLER_PLOTS, head.sensor_id), buffer,
-                                    end_of(&writer), head.utime),
+                                    end_of_message(&writer), head.utime),
                          RHO_OK);
-        next_is(head.utime + HOLD_US, head.sensor_id, head.utime);
+        expect_next_scan(head.utime + HOLD_US, head.sensor_id, head.utime);
         assert_float_equal(item.scan.plots[0].sigma_range_m, i == 0 ? 10.0f : 0.001f, 0.0f);
     }
 }
@@ -319,13 +319,13 @@ static void a_newcomer_is_no_surer_than_the_config(void **state)
 
 static void sensors_that_are_not_allowed_are_counted(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     config.num_allowed = 2;
     config.allowed[0] = -5;
     config.allowed[1] = 12;
-    start_with(&config);
+    start_assembler_with(&config);
     take_scan(12, 0, 0);
     take_scan(-5, 0, 0);
     take_scan(5, 0, 0);
@@ -345,14 +345,14 @@ static void two_senders_of_one_number_are_told(void **state)
     struct look look = {.time_us = SECOND_US, .sensor_id = 4, .count = 3};
 
     (void)state;
-    start();
-    take(&look, 0);
-    take(&look, 0);
+    start_assembler();
+    take_message(&look, 0);
+    take_message(&look, 0);
     assert_int_equal(assembler.sources[0].has_two_senders, 0);
-    next_is(0, 4, SECOND_US);
-    take(&look, 0);
+    expect_next_scan(0, 4, SECOND_US);
+    take_message(&look, 0);
     look.tag = 7;
-    take(&look, 0);
+    take_message(&look, 0);
     COUNTERS_ARE(.scans_accepted = 1, .scans_duplicate = 2, .scans_other = 1);
     assert_int_equal(assembler.sources[0].has_two_senders, 1);
 }

@@ -12,20 +12,20 @@ static int push(int32_t scan, int64_t time_us, int64_t now_us)
     struct look look = {.time_us = time_us, .scan = scan, .epoch = epoch, .sensor_id = 1};
     uint32_t before = assembler.counters.scans_accepted;
 
-    take(&look, now_us);
+    take_message(&look, now_us);
     if (assembler.counters.scans_accepted > before) {
-        next_is(now_us + HOLD_US, 1, time_us);
-        next_is_none(now_us + HOLD_US);
+        expect_next_scan(now_us + HOLD_US, 1, time_us);
+        expect_no_scan(now_us + HOLD_US);
         return 1;
     }
-    next_is_none(now_us + HOLD_US);
+    expect_no_scan(now_us + HOLD_US);
     return 0;
 }
 
 /* Scans 1 .. count, one a second, from `scan` on. */
 static void begin(int32_t scan, int32_t count)
 {
-    start();
+    start_assembler();
     epoch = 0;
     for (int32_t i = 0; i < count; i++) {
         assert_true(push(scan + i, i * SECOND_US, i * SECOND_US));
@@ -65,7 +65,7 @@ static void as_many_as_skip_max_and_no_more(void **state)
 {
     for (int32_t more = 0; more < 2; more++) {
         (void)state;
-        start();
+        start_assembler();
         for (int32_t i = 1; i <= 3; i++) {
             assert_true(push(i, i * 100000, i * 100000));
         }
@@ -95,7 +95,7 @@ static void old_numbers_are_double_or_late(void **state)
 static void memory_reaches_31_numbers_back(void **state)
 {
     (void)state;
-    start();
+    start_assembler();
     for (int32_t i = 0; i < 40; i++) {
         assert_true(push(i, i * 100000, i * 100000));
     }
@@ -179,10 +179,10 @@ static void refused_scans_of_a_restart_may_come_again(void **state)
     for (int32_t i = 1; i <= 5; i++) {
         look.scan = i <= 3 ? i : i - 3; /* 1, 2, 3, 1, 2 */
         look.time_us = (look.scan - 1) * SECOND_US;
-        take(&look, 20 * SECOND_US);
+        take_message(&look, 20 * SECOND_US);
     }
     for (int32_t i = 1; i <= 3; i++) {
-        next_is(21 * SECOND_US, 1, (i - 1) * SECOND_US);
+        expect_next_scan(21 * SECOND_US, 1, (i - 1) * SECOND_US);
         assert_int_equal(item.is_restart, i == 1);
     }
     COUNTERS_ARE(.scans_accepted = 12, .scans_duplicate = 2, .scans_late = 2, .sensor_restarts = 1);
@@ -210,12 +210,12 @@ static void copies_behind_are_no_restart(void **state)
 
 static void follow_scans_say_how_many(void **state)
 {
-    struct rho_scan_assembler_config config = usual();
+    struct rho_scan_assembler_config config = usual_config();
 
     (void)state;
     for (uint16_t follow = 2; follow <= 255; follow = (uint16_t)(follow + 23)) {
         config.follow_scans = follow;
-        start_with(&config);
+        start_assembler_with(&config);
         epoch = 0;
         assert_true(push(1, 0, 0));
         epoch = 1;
@@ -352,7 +352,7 @@ static void intervals_may_change_while_nothing_is_lost(void **state)
     int64_t time_us = 0;
 
     (void)state;
-    start();
+    start_assembler();
     epoch = 0;
     for (int32_t i = 0; i < 1000; i++) {
         random_state += (uint64_t)i;
@@ -367,7 +367,7 @@ static void losses_at_a_steady_pace_cost_nothing_more(void **state)
     uint32_t sent = 0;
 
     (void)state;
-    start();
+    start_assembler();
     random_state = 3;
     for (int32_t i = 0; i < 3000; i++) {
         int64_t time_us = i * 500000 + random_below(100000);
@@ -396,7 +396,7 @@ static void times_at_the_ends_of_their_range(void **state)
 
     (void)state;
     for (int sign = -1; sign <= 1; sign += 2) {
-        start();
+        start_assembler();
         epoch = 0;
         for (int i = 0; i < 8; i++) {
             struct look look = {.time_us = (i / 2 % 2 ? end_us - i : -end_us + i) * sign,

@@ -91,10 +91,10 @@ static const struct message *nth(const char *channel, unsigned n)
 static void begin_by(enum rho_hough_method method, int gate)
 {
     struct rho_paper_starts_config lines;
-    draw(5);
+    use_usual_configs(5);
     config.gate = (uint8_t)gate;
     config.input.is_estimated = 1;
-    begin();
+    begin_tracker();
     rho_paper_starts_config_default(&lines, method);
     lines.hough.rho_max_m = 5000.0f;
     lines.hough.rho_cell_m = 25.0f;
@@ -108,10 +108,10 @@ static void step_plots(int k, int clutter)
 {
     const double t_s = SCAN_S * k;
     num_plots = 0;
-    add(-3000.0 + 220.0 * t_s + 0.5 * normal(), 1500.0 - 90.0 * t_s + 0.5 * normal(), 0.5);
+    add_plot(-3000.0 + 220.0 * t_s + 0.5 * normal(), 1500.0 - 90.0 * t_s + 0.5 * normal(), 0.5);
     for (int i = 0; i < clutter; i++) {
         const double x = uniform(-3500.0, 3500.0);
-        add(x, uniform(-3500.0, 3500.0), 0.5);
+        add_plot(x, uniform(-3500.0, 3500.0), 0.5);
     }
     const struct rho_scan scan = {
         .time_us = (int64_t)(1e6 * t_s), .sensor_id = 1, .num_plots = num_plots, .plots = plots};
@@ -348,8 +348,8 @@ static void step_bearings(int k, unsigned sensors, unsigned targets)
 static void begin_bearings(void)
 {
     struct rho_passive_paper_config of_paper;
-    draw(6);
-    begin();
+    use_usual_configs(6);
+    begin_tracker();
     rho_passive_paper_config_default(&of_paper);
     assert_int_equal(rho_passive_paper_init(&paper, sizeof paper, &of_paper), RHO_OK);
 }
@@ -527,15 +527,15 @@ static void tracks_take_turns(void **state)
     (void)state;
     struct rho_message_hypotheses of;
     unsigned shown_times[9] = {0}, sent = 0;
-    draw(7);
-    begin();
+    use_usual_configs(7);
+    begin_tracker();
     memset(&starts, 0, sizeof starts);
     show_kinds(1u << RHO_SHOW_HYPOTHESES, 3);
     for (int k = 0; k < 40; k++) {
         for (int i = 0; i < 8; i++) {
-            add(200.0 * SCAN_S * k, 3000.0 * i, 10.0);
+            add_plot(200.0 * SCAN_S * k, 3000.0 * i, 10.0);
         }
-        step(SCAN_S * k);
+        step_at(SCAN_S * k);
         if (report.num_tracks == 8) {
             collect(0, 1000000 * (int64_t)k);
             assert_true(num_messages <= 3);

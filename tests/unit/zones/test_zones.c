@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "draws.h"
+#include "random_draws.h"
 #include "rhotrack/zones.h"
 
 static struct rho_zones zones;

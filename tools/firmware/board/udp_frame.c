@@ -27,7 +27,7 @@ static unsigned get16(const uint8_t *in)
 }
 
 /* The Internet checksum's sum goes on over these bytes. */
-static uint32_t add(uint32_t sum, const uint8_t *bytes, size_t size)
+static uint32_t add_to_sum(uint32_t sum, const uint8_t *bytes, size_t size)
 {
     for (size_t i = 0; i + 1 < size; i += 2) {
         sum += get16(bytes + i);
@@ -35,7 +35,7 @@ static uint32_t add(uint32_t sum, const uint8_t *bytes, size_t size)
     return size % 2 ? sum + ((uint32_t)bytes[size - 1] << 8) : sum;
 }
 
-static unsigned fold(uint32_t sum)
+static unsigned fold_sum(uint32_t sum)
 {
     while (sum >> 16) {
         sum = (sum & 0xffff) + (sum >> 16);
@@ -46,7 +46,7 @@ static unsigned fold(uint32_t sum)
 /* Sum of a UDP datagram with its pseudo header: 0xffff where its checksum is right. */
 static unsigned sum_udp(const uint8_t *ip, const uint8_t *udp, size_t size)
 {
-    return fold(add(add(PROTOCOL_UDP + (uint32_t)size, ip + 12, 8), udp, size));
+    return fold_sum(add_to_sum(add_to_sum(PROTOCOL_UDP + (uint32_t)size, ip + 12, 8), udp, size));
 }
 
 static void put_ethernet(uint8_t *frame, const struct udp_frame_host *from)
@@ -70,7 +70,7 @@ static void put_ip(uint8_t *ip, const struct udp_frame_host *from, uint8_t proto
     put16(ip + 10, 0);
     memcpy(ip + 12, from->address, 4);
     memcpy(ip + 16, group, 4);
-    put16(ip + 10, ~fold(add(0, ip, head_size)) & 0xffffu);
+    put16(ip + 10, ~fold_sum(add_to_sum(0, ip, head_size)) & 0xffffu);
 }
 
 size_t udp_frame_build(uint8_t *frame, const struct udp_frame_host *from, uint16_t number,
@@ -95,7 +95,7 @@ static size_t ip_head_size(const uint8_t *ip, size_t size)
 {
     size_t head = 4u * (ip[0] & 15u);
     if (ip[0] >> 4 != 4 || head < IP_HEAD || get16(ip + 2) > size ||
-        get16(ip + 2) < head + UDP_HEAD || fold(add(0, ip, head)) != 0xffff) {
+        get16(ip + 2) < head + UDP_HEAD || fold_sum(add_to_sum(0, ip, head)) != 0xffff) {
         return 0;
     }
     return ip[9] == PROTOCOL_UDP && (get16(ip + 6) & 0x3fff) == 0 && memcmp(ip + 16, group, 4) == 0
@@ -140,5 +140,5 @@ void udp_frame_join(uint8_t frame[UDP_FRAME_JOIN], const struct udp_frame_host *
     put_ip(ip, from, PROTOCOL_IGMP, 0, IP_HEAD + 4, IP_HEAD + 4 + 8);
     igmp[0] = IGMP_REPORT;
     memcpy(igmp + 4, group, 4);
-    put16(igmp + 2, ~fold(add(0, igmp, 8)) & 0xffffu);
+    put16(igmp + 2, ~fold_sum(add_to_sum(0, igmp, 8)) & 0xffffu);
 }

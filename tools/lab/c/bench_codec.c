@@ -6,8 +6,8 @@
 #include <time.h>
 
 #include "base/common.h"
-#include "base/grid.h"
 #include "base/random.h"
+#include "base/text_table.h"
 #include "bench_node.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/message.h"
@@ -110,7 +110,7 @@ static double cost_ns(const struct message *message, enum action action, uint8_t
     return best_ns;
 }
 
-void bench_codec(cJSON *json, struct grid *grid, struct verdicts *verdicts)
+void bench_codec(cJSON *json, struct text_table *table, struct verdicts *verdicts)
 {
     static uint8_t bytes[RHO_MESSAGE_PLOT_SCAN_MAX_SIZE + RHO_MESSAGE_TRACK_LIST_MAX_SIZE];
 
@@ -128,8 +128,8 @@ void bench_codec(cJSON *json, struct grid *grid, struct verdicts *verdicts)
                 cJSON_AddNumberToObject(json, name, ns[action]);
             }
         }
-        grid_row(grid, "%s|%zu|%.0f|%.0f|%.0f", messages[i].name, size, ns[ENCODE], ns[DECODE],
-                 ns[VALIDATE]);
+        text_table_add_row(table, "%s|%zu|%.0f|%.0f|%.0f", messages[i].name, size, ns[ENCODE],
+                           ns[DECODE], ns[VALIDATE]);
         verdicts_at_most(verdicts, ns[ENCODE], ENCODE_NS_MOST, "%s: ns to encode",
                          messages[i].name);
     }

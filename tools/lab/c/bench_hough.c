@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/grid.h"
 #include "base/random.h"
+#include "base/text_table.h"
 #include "bench.h"
 #include "pipeline/pipeline.h"
 #include "verdicts.h"
@@ -158,17 +158,18 @@ static const char *or_dash(char text[32], const char *format, double value)
     return isnan(value) ? "-" : text;
 }
 
-static void add_row(struct grid *grid, const struct job *job, const struct figures *figures)
+static void add_row(struct text_table *table, const struct job *job, const struct figures *figures)
 {
     char points[32], opencv[32], over[32], bytes[32];
     snprintf(points, sizeof points, job->targets > 0 ? "%u (%u)" : "%u", job->points,
              job->targets * HOUGH_SCANS);
-    grid_row(grid, "%s|%s|%.3f|%.3f|%.3f|%.2f|%.1f|%.0f|%s|%s|%.0f|%.0f|%s", kinds[job->kind].name,
-             points, figures->us / 1e3, 1e3 * figures->us / figures->votes, figures->plain_us / 1e3,
-             1e3 * figures->plain_us / figures->votes, figures->dense_us / 1e3,
-             figures->dense_us / figures->us, or_dash(opencv, "%.2f", figures->opencv.us / 1e3),
-             or_dash(over, "%.1f", figures->opencv.us / figures->us), figures->bytes / 1024.0,
-             figures->dense_bytes / 1024.0, or_dash(bytes, "%.0f", figures->opencv.bytes / 1024.0));
+    text_table_add_row(
+        table, "%s|%s|%.3f|%.3f|%.3f|%.2f|%.1f|%.0f|%s|%s|%.0f|%.0f|%s", kinds[job->kind].name,
+        points, figures->us / 1e3, 1e3 * figures->us / figures->votes, figures->plain_us / 1e3,
+        1e3 * figures->plain_us / figures->votes, figures->dense_us / 1e3,
+        figures->dense_us / figures->us, or_dash(opencv, "%.2f", figures->opencv.us / 1e3),
+        or_dash(over, "%.1f", figures->opencv.us / figures->us), figures->bytes / 1024.0,
+        figures->dense_bytes / 1024.0, or_dash(bytes, "%.0f", figures->opencv.bytes / 1024.0));
 }
 
 static void add_numbers(cJSON *json, const struct job *job, const struct figures *figures)
@@ -234,7 +235,7 @@ static void judge(struct verdicts *verdicts, const struct job *job, const struct
 
 /* ---- all ------------------------------------------------------------------------------------- */
 
-static void print(const struct grid *grid, const struct verdicts *verdicts, int has_opencv)
+static void print(const struct text_table *table, const struct verdicts *verdicts, int has_opencv)
 {
     printf(
         "hough: 30 x 30 km, 7 scans, distinct scans count, %d votes; (21): so many are on 3 lines\n"
@@ -242,7 +243,7 @@ static void print(const struct grid *grid, const struct verdicts *verdicts, int 
         "the "
         "points, OpenCV's program\n",
         HOUGH_MIN_VOTES);
-    grid_print(grid, stdout);
+    text_table_print(table, stdout);
     printf("\n");
     verdicts_print(verdicts, stdout);
     printf("%sinstructions a vote: make instructions\n\n",
@@ -253,12 +254,13 @@ void bench_hough(const struct bench *bench)
 {
     struct rho_accumulator *accumulator = must_alloc(sizeof *accumulator);
     struct verdicts verdicts = verdicts_start();
-    struct grid grid = grid_start(1, "cells|points|ms|ns a vote|plain ms|ns a vote|dense ms|over|"
-                                     "OpenCV ms|over|KiB|dense|OpenCV");
+    struct text_table table =
+        text_table_start(1, "cells|points|ms|ns a vote|plain ms|ns a vote|dense ms|over|"
+                            "OpenCV ms|over|KiB|dense|OpenCV");
     int has_opencv = 1;
     for (size_t i = 0; i < NUM_JOBS; i++) {
         struct figures figures = measure(accumulator, &jobs[i], bench->seed);
-        add_row(&grid, &jobs[i], &figures);
+        add_row(&table, &jobs[i], &figures);
         judge(&verdicts, &jobs[i], &figures);
         has_opencv = has_opencv && !isnan(figures.opencv.us);
         if (bench->json) {
@@ -268,9 +270,9 @@ void bench_hough(const struct bench *bench)
     if (bench->json) {
         verdicts_to_json(&verdicts, bench->json);
     } else {
-        print(&grid, &verdicts, has_opencv);
+        print(&table, &verdicts, has_opencv);
     }
     verdicts_free(&verdicts);
-    grid_free(&grid);
+    text_table_free(&table);
     free(accumulator);
 }

@@ -109,7 +109,7 @@ static void send_part(struct session *session, int scan, int part)
 /* Its parameters: those of the scene, as a user would give them. */
 static void set_parameters(struct parameters *parameters)
 {
-    parameters_default(parameters);
+    parameters_set_defaults(parameters);
     scenario_suggest("traffic", parameters);
     parameters_suggest(parameters, PARAMETER_SIGMA_M, SIGMA_M);
 }
@@ -265,18 +265,18 @@ static void add_numbers(cJSON *json, const struct latency *latency)
 
 static void print_latency(const struct session *session, const struct latency *latency)
 {
-    struct grid grid = grid_start(0, "scans|lost|median us|99 % us|max us|tracks");
+    struct text_table table = text_table_start(0, "scans|lost|median us|99 % us|max us|tracks");
 
     printf(
         "node: from a scan's last datagram to its tracks, UDP multicast on this machine; %d scans "
         "a second\nof %d plots in %d parts, %d targets, 500 x 500 km, 10 s from scan to scan by "
         "their own clock\n",
         SCANS_PER_S, PLOTS, PARTS, TARGETS);
-    grid_row(&grid, "%d|%d|%.0f|%.0f|%.0f|%d", latency->counted, latency->lost, latency->median_us,
-             latency->p99_us, latency->max_us, session->tracks);
-    grid_print(&grid, stdout);
+    text_table_add_row(&table, "%d|%d|%.0f|%.0f|%.0f|%d", latency->counted, latency->lost,
+                       latency->median_us, latency->p99_us, latency->max_us, session->tracks);
+    text_table_print(&table, stdout);
     printf("\n");
-    grid_free(&grid);
+    text_table_free(&table);
 }
 
 void bench_node(const struct bench *bench)
@@ -284,7 +284,7 @@ void bench_node(const struct bench *bench)
     static struct session session;
     cJSON *json = bench->json ? cJSON_AddObjectToObject(bench->json, "node") : NULL;
     struct verdicts verdicts = verdicts_start();
-    struct grid grid = grid_start(1, "message|bytes|encode ns|decode ns|validate ns");
+    struct text_table table = text_table_start(1, "message|bytes|encode ns|decode ns|validate ns");
     struct latency latency;
 
     session.random = random_start(bench->seed, 0, 0);
@@ -293,17 +293,17 @@ void bench_node(const struct bench *bench)
     verdicts_at_most(&verdicts, latency.median_us, MEDIAN_US_MOST, "latency: us, median");
     verdicts_at_most(&verdicts, latency.p99_us, P99_US_MOST, "latency: us, 99 %%");
     verdicts_at_most(&verdicts, latency.lost, 0, "scans without tracks");
-    bench_codec(json, &grid, &verdicts);
+    bench_codec(json, &table, &verdicts);
     if (json) {
         add_numbers(json, &latency);
         verdicts_to_json(&verdicts, json);
     } else {
         print_latency(&session, &latency);
-        grid_print(&grid, stdout);
+        text_table_print(&table, stdout);
         printf("\n");
         verdicts_print(&verdicts, stdout);
         printf("\n");
     }
     verdicts_free(&verdicts);
-    grid_free(&grid);
+    text_table_free(&table);
 }

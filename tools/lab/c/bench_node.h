@@ -3,11 +3,11 @@
 #ifndef RHOTRACK_TOOL_BENCH_NODE_H
 #define RHOTRACK_TOOL_BENCH_NODE_H
 
-#include "base/grid.h"
+#include "base/text_table.h"
 #include "bench.h"
 #include "verdicts.h"
 
 /* Rows `message|bytes|encode ns|decode ns|validate ns` of full messages; json may be NULL. */
-void bench_codec(cJSON *json, struct grid *grid, struct verdicts *verdicts);
+void bench_codec(cJSON *json, struct text_table *table, struct verdicts *verdicts);
 
 #endif

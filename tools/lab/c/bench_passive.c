@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/grid.h"
 #include "base/random.h"
+#include "base/text_table.h"
 #include "bench.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/passive.h"
@@ -87,7 +87,7 @@ static void record_scene(struct recording *recording, const struct job *job, uin
                          uint64_t run)
 {
     struct parameters parameters;
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     suggest_passive(&parameters);
     parameters_suggest(&parameters, PARAMETER_SIGMA_RAD, job->sigma_rad);
     const struct scenario_bearings of = {
@@ -215,13 +215,13 @@ static void add_numbers(cJSON *json, const struct job *job, const struct figures
     }
 }
 
-static void print(const struct grid *grid, const struct verdicts *verdicts)
+static void print(const struct text_table *table, const struct verdicts *verdicts)
 {
     printf("passive: batches of %d scans, 0.1 deg, P_D 0.9, a false bearing a look; full: %d "
            "sensors, %d scans, %d bearings\nobject: %zu bytes\n",
            SCANS, RHO_MAX_PASSIVE_SENSORS, RHO_MAX_PASSIVE_SCANS, RHO_MAX_BEARINGS,
            sizeof(struct rho_passive));
-    grid_print(grid, stdout);
+    text_table_print(table, stdout);
     printf("\n");
     verdicts_print(verdicts, stdout);
     printf("\n");
@@ -232,12 +232,13 @@ void bench_passive(const struct bench *bench)
     struct rho_passive *passive = must_alloc(sizeof *passive);
     cJSON *json = bench->json ? cJSON_AddObjectToObject(bench->json, "passive") : NULL;
     struct verdicts verdicts = verdicts_start();
-    struct grid grid = grid_start(1, "batch|ms a search|worst ms|us a push|tracks|hypotheses|fits");
+    struct text_table table =
+        text_table_start(1, "batch|ms a search|worst ms|us a push|tracks|hypotheses|fits");
     for (size_t i = 0; i < NUM_JOBS; i++) {
         struct figures figures = measure(passive, &jobs[i], bench->seed);
-        grid_row(&grid, "%s|%.2f|%.2f|%.2f|%.2f|%.0f|%.0f", jobs[i].name, figures.mean_ms,
-                 figures.worst_ms, figures.push_us, figures.tracks, figures.hypotheses,
-                 figures.fits);
+        text_table_add_row(&table, "%s|%.2f|%.2f|%.2f|%.2f|%.0f|%.0f", jobs[i].name,
+                           figures.mean_ms, figures.worst_ms, figures.push_us, figures.tracks,
+                           figures.hypotheses, figures.fits);
         if (i == JOB_WITH_A_BAR) {
             verdicts_at_most(&verdicts, figures.worst_ms, WORST_MS_MOST,
                              "%s: ms of the slowest of %d searches", jobs[i].name, jobs[i].batches);
@@ -250,9 +251,9 @@ void bench_passive(const struct bench *bench)
         cJSON_AddNumberToObject(json, "state_bytes", (double)sizeof *passive);
         verdicts_to_json(&verdicts, json);
     } else {
-        print(&grid, &verdicts);
+        print(&table, &verdicts);
     }
     verdicts_free(&verdicts);
-    grid_free(&grid);
+    text_table_free(&table);
     free(passive);
 }

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "base/grid.h"
 #include "base/random.h"
+#include "base/text_table.h"
 #include "bench.h"
 #include "pipeline/pipeline.h"
 
@@ -121,7 +121,7 @@ static void open_sky(struct pipeline *chain, const struct sky *sky)
                                       .range_max_m = 400e3f,
                                       .range_rate_span_mps = sky->has_rates ? 20.0f : 0.0f};
     struct parameters parameters;
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     pipeline_open(chain, &parameters);
     (void)!rho_tracker_set_sensor(chain->tracker, &sensor);
 }
@@ -161,15 +161,15 @@ static struct times time_sky(const struct sky *sky, struct pipeline *chain, uint
 void bench_work(const struct bench *bench)
 {
     struct pipeline chain = pipeline_start();
-    struct grid grid =
-        grid_start(1, "5000 plots a scan|median us|worst us|over the even median|partial");
+    struct text_table table =
+        text_table_start(1, "5000 plots a scan|median us|worst us|over the even median|partial");
     double even_us = 1.0, few_us = 1.0;
     for (size_t i = 0; i < NUM_SKIES; i++) {
         const struct times times = time_sky(&skies[i], &chain, bench->seed);
         even_us = i == 0 ? times.median_us : even_us;
         few_us = skies[i].plots == FEW ? times.median_us : few_us;
-        grid_row(&grid, "%s|%.0f|%.0f|%.2f|%u", skies[i].name, times.median_us, times.worst_us,
-                 times.worst_us / even_us, times.partial);
+        text_table_add_row(&table, "%s|%.0f|%.0f|%.2f|%u", skies[i].name, times.median_us,
+                           times.worst_us, times.worst_us / even_us, times.partial);
         if (bench->json) {
             char name[64];
             snprintf(name, sizeof name, "work_%s_ratio", skies[i].key);
@@ -180,9 +180,9 @@ void bench_work(const struct bench *bench)
         cJSON_AddNumberToObject(bench->json, "work_growth_ratio", even_us / few_us);
     } else {
         printf("work: %d scans, 10 s apart, 500 x 500 km, sigma 50 m\n", SCANS);
-        grid_print(&grid, stdout);
+        text_table_print(&table, stdout);
         printf("from 1000 to 5000 evenly spread: %.1f times\n\n", even_us / few_us);
     }
-    grid_free(&grid);
+    text_table_free(&table);
     pipeline_free(&chain);
 }

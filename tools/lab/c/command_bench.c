@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/grid.h"
+#include "base/text_table.h"
 #include "bench.h"
 #include "lab_commands.h"
 #include "pipeline/pipeline.h"
@@ -52,7 +52,7 @@ static double filter_ns(int updates)
 static void bench_kalman(const struct bench *bench)
 {
     static const int updates[] = {2, 3, 6};
-    struct grid grid = grid_start(1, "kalman step|ns");
+    struct text_table table = text_table_start(1, "kalman step|ns");
     for (size_t i = 0; i < 3; i++) {
         double best = INFINITY;
         char name[48];
@@ -60,17 +60,17 @@ static void bench_kalman(const struct bench *bench)
             best = fmin(best, filter_ns(updates[i]));
         }
         snprintf(name, sizeof name, "predict + %d scalar updates", updates[i]);
-        grid_row(&grid, "%s|%.0f", name, best);
+        text_table_add_row(&table, "%s|%.0f", name, best);
         if (bench->json) {
             snprintf(name, sizeof name, "kalman_%d_updates_ns", updates[i]);
             cJSON_AddNumberToObject(bench->json, name, best);
         }
     }
     if (!bench->json) {
-        grid_print(&grid, stdout);
+        text_table_print(&table, stdout);
         printf("\n");
     }
-    grid_free(&grid);
+    text_table_free(&table);
 }
 
 /* ---- scans of a simulation ------------------------------------------------------------------- */
@@ -137,12 +137,12 @@ static double window_us(struct rho_initiator *initiator, const struct recording 
     return (double)(clock_us() - start_us);
 }
 
-static void initiate_row(const struct bench *bench, struct grid *grid,
+static void initiate_row(const struct bench *bench, struct text_table *table,
                          struct rho_initiator *initiator, double clutter)
 {
     struct parameters parameters;
     struct rho_initiator_config config;
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     scenario_suggest("crossing", &parameters);
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_KM2, clutter / 10.0);
     parameters_suggest(&parameters, PARAMETER_MIN_SCANS, 5);
@@ -157,9 +157,9 @@ static void initiate_row(const struct bench *bench, struct grid *grid,
     for (int round = 0; round < BENCH_ROUNDS; round++) {
         best = fmin(best, window_us(initiator, &recording, &config));
     }
-    grid_row(grid, "%.0f|%.0f|%u|%u|%u|%u", clutter, best, initiator->work.seeds,
-             initiator->work.window.lookups, initiator->work.window.distances,
-             initiator->work.fits);
+    text_table_add_row(table, "%.0f|%.0f|%u|%u|%u|%u", clutter, best, initiator->work.seeds,
+                       initiator->work.window.lookups, initiator->work.window.distances,
+                       initiator->work.fits);
     if (bench->json) {
         char name[48];
         snprintf(name, sizeof name, "initiate_%.0f_clutter_us", clutter);
@@ -173,17 +173,17 @@ static void bench_initiate(const struct bench *bench)
 {
     static const double clutter[] = {0, 10, 100, 300};
     struct rho_initiator *initiator = must_alloc(sizeof *initiator);
-    struct grid grid =
-        grid_start(0, "clutter plots a scan|us a window|seeds|look-ups|distances|fits");
+    struct text_table table =
+        text_table_start(0, "clutter plots a scan|us a window|seeds|look-ups|distances|fits");
     for (size_t i = 0; i < sizeof clutter / sizeof clutter[0]; i++) {
-        initiate_row(bench, &grid, initiator, clutter[i]);
+        initiate_row(bench, &table, initiator, clutter[i]);
     }
     if (!bench->json) {
         printf("initiate: one batch window, Table 1's targets, 7 scans, 5 votes\n");
-        grid_print(&grid, stdout);
+        text_table_print(&table, stdout);
         printf("\n");
     }
-    grid_free(&grid);
+    text_table_free(&table);
     free(initiator);
 }
 
@@ -213,7 +213,7 @@ static struct cost run_chain(struct pipeline *chain, const struct parameters *pa
 static struct cost track_cost(const struct bench *bench, struct pipeline *chain, double plots)
 {
     struct parameters parameters;
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     scenario_suggest("traffic", &parameters);
     parameters_suggest(&parameters, PARAMETER_CLUTTER_PER_SCAN, plots - 50.0);
     struct simulation *simulation = scenario_simulate("traffic", &parameters, bench->seed, 0);
@@ -234,13 +234,14 @@ static void bench_track(const struct bench *bench)
 {
     static const double plots[] = {100, 300, 1000, 3000, 5000};
     struct pipeline chain = pipeline_start();
-    struct grid grid = grid_start(0, "plots a scan|us a scan|worst scan us|ratio|tracks confirmed");
+    struct text_table table =
+        text_table_start(0, "plots a scan|us a scan|worst scan us|ratio|tracks confirmed");
     double first_us = 0.0;
     for (size_t i = 0; i < sizeof plots / sizeof plots[0]; i++) {
         struct cost cost = track_cost(bench, &chain, plots[i]);
         first_us = i == 0 ? cost.mean_us : first_us;
-        grid_row(&grid, "%.0f|%.0f|%.0f|%.1f|%u", plots[i], cost.mean_us, cost.worst_us,
-                 cost.mean_us / first_us, cost.tracks);
+        text_table_add_row(&table, "%.0f|%.0f|%.0f|%.1f|%u", plots[i], cost.mean_us, cost.worst_us,
+                           cost.mean_us / first_us, cost.tracks);
         if (bench->json) {
             char name[48];
             snprintf(name, sizeof name, "track_%.0f_plots_us", plots[i]);
@@ -249,10 +250,10 @@ static void bench_track(const struct bench *bench)
     }
     if (!bench->json) {
         printf("track: 120 scans, 10 s apart, 500 x 500 km, 50 targets, sigma 50 m\n");
-        grid_print(&grid, stdout);
+        text_table_print(&table, stdout);
         printf("\n");
     }
-    grid_free(&grid);
+    text_table_free(&table);
     pipeline_free(&chain);
 }
 

@@ -46,7 +46,7 @@ struct parameters scene_parameters(const struct scene *scene)
 {
     struct parameters parameters;
 
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     suggest_settings(scene, &parameters);
     for (int i = 0; scene->has_area && i < 4; i++) {
         parameters_suggest(&parameters, (enum parameter_id)(PARAMETER_AREA_X_MIN_M + i),
@@ -94,7 +94,7 @@ static void add_truth(const struct scene_run *run, double t_s, struct simulation
 {
     for (size_t i = 0; i < run->num_paths; i++) {
         if (t_s >= run->paths[i].from_s && t_s < run->paths[i].until_s) {
-            struct motion at = path_at(&run->paths[i], t_s);
+            struct motion at = path_motion_at(&run->paths[i], t_s);
 
             simulation->truth = must_grow(simulation->truth, simulation->num_truth, room,
                                           sizeof *simulation->truth);

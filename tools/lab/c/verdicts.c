@@ -11,7 +11,7 @@
 
 struct verdicts verdicts_start(void)
 {
-    return (struct verdicts){.grid = grid_start(1, "what must hold|measured|bar|verdict"),
+    return (struct verdicts){.table = text_table_start(1, "what must hold|measured|bar|verdict"),
                              .json = cJSON_CreateArray()};
 }
 
@@ -32,8 +32,8 @@ static void add(struct verdicts *verdicts, double value, const struct bar *bar, 
     cJSON_AddNumberToObject(object, bar->relation[0] == '<' ? "at_most" : "at_least", bar->value);
     cJSON_AddBoolToObject(object, "held", bar->is_held);
     cJSON_AddItemToArray(verdicts->json, object);
-    grid_row(&verdicts->grid, "%s|%.4g|%s %.4g|%s", what, value, bar->relation, bar->value,
-             bar->is_held ? "ok" : "MISSED");
+    text_table_add_row(&verdicts->table, "%s|%.4g|%s %.4g|%s", what, value, bar->relation,
+                       bar->value, bar->is_held ? "ok" : "MISSED");
     verdicts->held += bar->is_held;
     verdicts->missed += !bar->is_held;
 }
@@ -66,12 +66,12 @@ void verdicts_to_json(struct verdicts *verdicts, cJSON *object)
 
 void verdicts_print(const struct verdicts *verdicts, FILE *out)
 {
-    grid_print(&verdicts->grid, out);
+    text_table_print(&verdicts->table, out);
     fprintf(out, "\n%d bars held, %d missed\n", verdicts->held, verdicts->missed);
 }
 
 void verdicts_free(struct verdicts *verdicts)
 {
     cJSON_Delete(verdicts->json);
-    grid_free(&verdicts->grid);
+    text_table_free(&verdicts->table);
 }

@@ -8,10 +8,10 @@
 
 #include <cjson/cJSON.h>
 
-#include "base/grid.h"
+#include "base/text_table.h"
 
 struct verdicts {
-    struct grid grid;
+    struct text_table table;
     cJSON *json; /* an array of {what, value, at_least or at_most, held} */
     int held, missed;
 };

@@ -88,8 +88,8 @@ def write(path, results, alarms, longs, options, columns, rows_of, consistency):
             alarm_table(alarms)
         ]
     if longs:
-        from parts import long
-        body += ["<h2>Hour by hour</h2>", f"<pre>{html.escape(long.table(longs))}</pre>"]
+        from parts import hour_by_hour
+        body += ["<h2>Hour by hour</h2>", f"<pre>{html.escape(hour_by_hour.table(longs))}</pre>"]
     text = (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>rhotrack: real skies</title>\n'
         f"<style>{STYLE}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n")

@@ -23,7 +23,7 @@ static volatile sig_atomic_t progress_visible;
 
 /* ---- How the program ends ---- */
 
-static void remove_unfinished(void)
+static void remove_unfinished_outputs(void)
 {
     if (unfinished_owner != getpid()) {
         return;
@@ -35,21 +35,21 @@ static void remove_unfinished(void)
     }
 }
 
-static void on_signal(int number)
+static void end_by_signal(int number)
 {
-    remove_unfinished();
+    remove_unfinished_outputs();
     signal(number, SIG_DFL);
     raise(number);
 }
 
-bool is_ignored(int number)
+bool is_signal_ignored(int number)
 {
     struct sigaction action;
 
     return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-bool is_told_to_end(void)
+bool is_end_signal_pending(void)
 {
     sigset_t pending;
 
@@ -76,7 +76,7 @@ void fail(int exit_code, const char *format, ...)
         fail_handler(exit_code, message);
     }
     fprintf(stderr, "%srhotrack: %s\n", progress_visible ? "\r\033[K" : "", message);
-    remove_unfinished();
+    remove_unfinished_outputs();
     exit(exit_code);
 }
 
@@ -114,7 +114,7 @@ void *must_grow(void *array, size_t count, size_t *capacity, size_t size)
     return must_realloc(array, *capacity * size);
 }
 
-char *must_copy(const char *text)
+char *must_copy_text(const char *text)
 {
     size_t bytes = strlen(text) + 1;
 
@@ -123,11 +123,11 @@ char *must_copy(const char *text)
 
 /* ---- Output files ---- */
 
-static void remember_unfinished(char *path)
+static void remember_unfinished_output(char *path)
 {
     if (!unfinished_owner) {
-        signal(SIGINT, on_signal);
-        signal(SIGTERM, on_signal);
+        signal(SIGINT, end_by_signal);
+        signal(SIGTERM, end_by_signal);
         unfinished_owner = getpid();
     }
     for (int i = 0; i < OUTPUTS_MAX; i++) {
@@ -140,7 +140,7 @@ static void remember_unfinished(char *path)
     fail(EXIT_RUNTIME, "more than %d output files are open", OUTPUTS_MAX);
 }
 
-static void forget_unfinished(const char *path)
+static void forget_unfinished_output(const char *path)
 {
     for (int i = 0; i < OUTPUTS_MAX; i++) {
         if (unfinished[i] == path) {
@@ -149,7 +149,7 @@ static void forget_unfinished(const char *path)
     }
 }
 
-static FILE *open_directly(const char *path)
+static FILE *open_output_directly(const char *path)
 {
     FILE *file = fopen(path, "w");
 
@@ -160,7 +160,7 @@ static FILE *open_directly(const char *path)
 }
 
 /* A file beside output->path with the mode that the finished one is to have. */
-static void open_beside(struct output *output, mode_t mode)
+static void open_temporary_beside(struct output *output, mode_t mode)
 {
     size_t bytes = strlen(output->path) + sizeof ".XXXXXX";
     int descriptor;
@@ -171,7 +171,7 @@ static void open_beside(struct output *output, mode_t mode)
     if (descriptor < 0) {
         fail(EXIT_RUNTIME, "%s: %s", output->path, strerror(errno));
     }
-    remember_unfinished(output->temporary_path);
+    remember_unfinished_output(output->temporary_path);
     output->file = fchmod(descriptor, mode) ? NULL : fdopen(descriptor, "w");
     if (!output->file) {
         fail(EXIT_RUNTIME, "%s: %s", output->path, strerror(errno));
@@ -196,20 +196,20 @@ struct output output_open(const char *path)
         return output;
     }
     if (stat(path, &status)) {
-        output.path = must_copy(path);
-        open_beside(&output, new_file_mode());
+        output.path = must_copy_text(path);
+        open_temporary_beside(&output, new_file_mode());
         return output;
     }
     if (S_ISDIR(status.st_mode)) {
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(EISDIR));
     }
     real_path = realpath(path, NULL); /* a link stays one: the file that it names is replaced */
-    output.path = must_copy(real_path ? real_path : path);
+    output.path = must_copy_text(real_path ? real_path : path);
     free(real_path);
     if (S_ISREG(status.st_mode)) {
-        open_beside(&output, status.st_mode & 07777);
+        open_temporary_beside(&output, status.st_mode & 07777);
     } else {
-        output.file = open_directly(path);
+        output.file = open_output_directly(path);
     }
     return output;
 }
@@ -219,13 +219,13 @@ struct output output_open_in_place(const char *path)
     struct output output = {stdout, NULL, NULL};
 
     if (path && strcmp(path, "-") != 0) {
-        output.path = must_copy(path);
-        output.file = open_directly(path);
+        output.path = must_copy_text(path);
+        output.file = open_output_directly(path);
     }
     return output;
 }
 
-static const char *name_of(const struct output *output)
+static const char *output_name(const struct output *output)
 {
     return output->path ? output->path : "standard output";
 }
@@ -233,13 +233,13 @@ static const char *name_of(const struct output *output)
 void output_flush(struct output *output)
 {
     if (fflush(output->file)) {
-        fail(EXIT_RUNTIME, "%s: cannot be written: %s", name_of(output), strerror(errno));
+        fail(EXIT_RUNTIME, "%s: cannot be written: %s", output_name(output), strerror(errno));
     }
 }
 
 void output_close(struct output *output)
 {
-    const char *name = name_of(output);
+    const char *name = output_name(output);
     int is_bad = ferror(output->file);
 
     if (output->file == stdout) {
@@ -254,7 +254,7 @@ void output_close(struct output *output)
         if (rename(output->temporary_path, output->path)) {
             fail(EXIT_RUNTIME, "%s: %s", name, strerror(errno));
         }
-        forget_unfinished(output->temporary_path);
+        forget_unfinished_output(output->temporary_path);
     }
     free(output->temporary_path);
     free(output->path);
@@ -265,7 +265,7 @@ void output_close(struct output *output)
 
 void make_folder(const char *path)
 {
-    char *partial = must_copy(path);
+    char *partial = must_copy_text(path);
     struct stat status;
 
     for (char *c = partial + 1; *partial; c++) {
@@ -289,7 +289,7 @@ void make_folder(const char *path)
     free(partial);
 }
 
-uint64_t file_bytes(const char *path)
+uint64_t plain_file_size(const char *path)
 {
     struct stat status;
 
@@ -347,7 +347,7 @@ static int compare_descending(const void *a, const void *b)
     return *(const int *)b - *(const int *)a;
 }
 
-struct cJSON *json_descending(int *values, int count)
+struct cJSON *json_list_descending(int *values, int count)
 {
     cJSON *list;
 
@@ -373,7 +373,7 @@ void json_add_work(struct cJSON *object, const struct rho_tracker_work *work)
     cJSON_AddNumberToObject(object, "plots_not_tried", work->plots_not_tried);
 }
 
-struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed)
+struct cJSON *json_begin_experiment(const char *name, size_t num_runs, uint64_t seed)
 {
     cJSON *object = cJSON_CreateObject();
 
@@ -399,7 +399,7 @@ void json_print(struct cJSON *object)
 
 /* ---- Time and progress ---- */
 
-void say_last_taken(uint64_t taken, uint64_t total, const char *what)
+void say_only_last_taken(uint64_t taken, uint64_t total, const char *what)
 {
     if (total > taken) {
         fprintf(stderr, "rhotrack: the last %" PRIu64 " of %" PRIu64 " %s are taken\n", taken,
@@ -444,7 +444,7 @@ static void print_bar(double fraction)
     fprintf(stderr, "] %3.0f %%  ", 100 * fraction);
 }
 
-static void print_left(double seconds)
+static void print_time_left(double seconds)
 {
     if (seconds < 120) {
         fprintf(stderr, ", %.0f s left", seconds);
@@ -456,7 +456,7 @@ static void print_left(double seconds)
 }
 
 /* Time for another line? */
-static bool is_due(struct progress *progress)
+static bool is_progress_due(struct progress *progress)
 {
     enum { QUIET_US = 2000000, PERIOD_US = 200000 };
     int64_t now_us;
@@ -489,27 +489,27 @@ static void print_progress(const struct progress *progress, uint64_t done, doubl
     }
     fprintf(stderr, " %s, %.*f a second", progress->what, rate < 10 ? 1 : 0, rate);
     if (fraction > 0) {
-        print_left(seconds * (1 - fraction) / fraction);
+        print_time_left(seconds * (1 - fraction) / fraction);
     }
 }
 
-static double fraction_of(uint64_t done, uint64_t total)
+static double fraction_done(uint64_t done, uint64_t total)
 {
     return total > 0 && done <= total ? (double)done / (double)total : 0;
 }
 
 void progress_show(struct progress *progress, uint64_t done)
 {
-    if (is_due(progress)) {
-        print_progress(progress, done, fraction_of(done, progress->total));
+    if (is_progress_due(progress)) {
+        print_progress(progress, done, fraction_done(done, progress->total));
     }
 }
 
 void progress_show_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
                          uint64_t total_bytes)
 {
-    if (is_due(progress)) {
-        print_progress(progress, done, fraction_of(bytes, total_bytes));
+    if (is_progress_due(progress)) {
+        print_progress(progress, done, fraction_done(bytes, total_bytes));
     }
 }
 

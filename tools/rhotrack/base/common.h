@@ -35,7 +35,7 @@ void *must_realloc(void *memory, size_t bytes);
 void *must_grow(void *array, size_t count, size_t *capacity, size_t size);
 
 /* The text in new memory. */
-char *must_copy(const char *text);
+char *must_copy_text(const char *text);
 
 /*
  * Output file that appears under its name only when it is complete: written beside, then renamed.
@@ -58,10 +58,10 @@ struct output output_open_in_place(const char *path);
 void output_flush(struct output *output); /* checks for write errors */
 
 /* Whether the signal is ignored, as nohup has it; it should stay so. */
-bool is_ignored(int number);
+bool is_signal_ignored(int number);
 
 /* Whether SIGTERM or SIGINT has come where they are blocked. */
-bool is_told_to_end(void);
+bool is_end_signal_pending(void);
 
 /* mkdir -p. Exit 1 with the reason. */
 void make_folder(const char *path);
@@ -74,7 +74,7 @@ void json_print(struct cJSON *object);
  * A new object that begins with an experiment's name, how many runs it took, and where they
  * started.
  */
-struct cJSON *json_experiment(const char *name, size_t num_runs, uint64_t seed);
+struct cJSON *json_begin_experiment(const char *name, size_t num_runs, uint64_t seed);
 
 /* Adds a number, or null where it is not finite. */
 void json_add_number(struct cJSON *object, const char *name, double value);
@@ -84,7 +84,7 @@ struct rho_tracker_work;
 void json_add_work(struct cJSON *object, const struct rho_tracker_work *work);
 
 /* Sorts the values, the largest first, and makes a list of them. */
-struct cJSON *json_descending(int *values, int count);
+struct cJSON *json_list_descending(int *values, int count);
 
 /* A float32 in the fewest digits that read back as the same float32; "0" for -0. */
 #define FLOAT_TEXT_BYTES 24
@@ -96,7 +96,7 @@ bool text_begins_with(const char *text, const char *prefix);
 bool path_ends_with(const char *path, const char *suffix);
 
 /* Length of a plain file; 0 of anything else. */
-uint64_t file_bytes(const char *path);
+uint64_t plain_file_size(const char *path);
 
 /* Two names of one plain file. */
 bool is_same_file(const char *path, const char *other);
@@ -108,7 +108,7 @@ char *path_join(const char *folder, const char *name);
  * On standard error: that only the last so many are taken, that bad rows were skipped; nothing
  * where all are.
  */
-void say_last_taken(uint64_t taken, uint64_t total, const char *what);
+void say_only_last_taken(uint64_t taken, uint64_t total, const char *what);
 void say_rows_skipped(uint64_t rows);
 
 /* Monotonic clock, microseconds. */

@@ -140,7 +140,7 @@ const char *text_to_int32(const char *cell, int32_t *value)
 /* ---- ISO 8601 ---- */
 
 /* Days since 1970-01-01 of the Gregorian calendar. */
-static int64_t days_of(int year, int month, int day)
+static int64_t days_since_1970(int year, int month, int day)
 {
     int64_t from_march = month > 2 ? month - 3 : month + 9;
     int64_t years = month > 2 ? year : year - 1;
@@ -150,7 +150,7 @@ static int64_t days_of(int year, int month, int day)
 }
 
 /* Numbers where the pattern has 9s of as many digits; its other characters stand for themselves. */
-static bool read_numbers(const char *text, const char *pattern, int *numbers)
+static bool read_by_pattern(const char *text, const char *pattern, int *numbers)
 {
     for (; *pattern; pattern++, text++) {
         if (*pattern != '9') {
@@ -168,7 +168,7 @@ static bool read_numbers(const char *text, const char *pattern, int *numbers)
 }
 
 /* The zone's offset in minutes. */
-static bool read_zone(const char *text, int *minutes)
+static bool read_time_zone(const char *text, int *minutes)
 {
     int parts[2] = {0};
 
@@ -177,20 +177,20 @@ static bool read_zone(const char *text, int *minutes)
         return true;
     }
     if ((*text != '+' && *text != '-') || strlen(text) != 6 ||
-        !read_numbers(text + 1, "99:99", parts) || parts[0] > 23 || parts[1] > 59) {
+        !read_by_pattern(text + 1, "99:99", parts) || parts[0] > 23 || parts[1] > 59) {
         return false;
     }
     *minutes = (*text == '-' ? -1 : 1) * (60 * parts[0] + parts[1]);
     return true;
 }
 
-bool text_to_iso_us(const char *text, int64_t *time_us)
+bool iso_time_to_us(const char *text, int64_t *time_us)
 {
     int at[6] = {0}, zone;
     int64_t part_us = 0;
 
-    if ((!read_numbers(text, "9999-99-99T99:99:99", at) &&
-         (memset(at, 0, sizeof at), !read_numbers(text, "9999-99-99 99:99:99", at))) ||
+    if ((!read_by_pattern(text, "9999-99-99T99:99:99", at) &&
+         (memset(at, 0, sizeof at), !read_by_pattern(text, "9999-99-99 99:99:99", at))) ||
         at[1] < 1 || at[1] > 12 || at[2] < 1 || at[2] > 31 || at[3] > 23 || at[4] > 59 ||
         at[5] > 60) {
         return false;
@@ -203,11 +203,12 @@ bool text_to_iso_us(const char *text, int64_t *time_us)
             part_us += weight_us * (*text - '0');
         }
     }
-    if (!read_zone(text, &zone)) {
+    if (!read_time_zone(text, &zone)) {
         return false;
     }
-    *time_us = (((days_of(at[0], at[1], at[2]) * 24 + at[3]) * 60 + at[4] - zone) * 60 + at[5]) *
-                   INT64_C(1000000) +
-               part_us;
+    *time_us =
+        (((days_since_1970(at[0], at[1], at[2]) * 24 + at[3]) * 60 + at[4] - zone) * 60 + at[5]) *
+            INT64_C(1000000) +
+        part_us;
     return true;
 }

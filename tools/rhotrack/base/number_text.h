@@ -27,7 +27,7 @@ const char *text_to_time_us(const char *cell, int64_t *time_us);
  * YYYY-MM-DDThh:mm:ss[.f][Z|+hh:mm], or a blank for the T, in microseconds since 1970, UTC where no
  * zone is said. false: it is none.
  */
-bool text_to_iso_us(const char *text, int64_t *time_us);
+bool iso_time_to_us(const char *text, int64_t *time_us);
 
 /* A whole number within int32_t. */
 const char *text_to_int32(const char *cell, int32_t *value);

@@ -11,7 +11,7 @@
 #define HALF_PI_LOW 6.07710050650619224932e-11
 
 /* Taylor series within a quarter of pi either way: the first term left out is below 1e-17. */
-static double sin_near(double x)
+static double sin_series(double x)
 {
     double x2 = x * x, sum = 0.0;
 
@@ -21,7 +21,7 @@ static double sin_near(double x)
     return x * (1.0 - sum);
 }
 
-static double cos_near(double x)
+static double cos_series(double x)
 {
     double x2 = x * x, sum = 0.0;
 
@@ -31,7 +31,7 @@ static double cos_near(double x)
     return 1.0 - sum;
 }
 
-static double quarter_turns(double angle_rad, double *rest_rad)
+static double split_quarter_turns(double angle_rad, double *rest_rad)
 {
     double quarters = floor(angle_rad / (PORTABLE_PI / 2.0) + 0.5);
 
@@ -41,22 +41,22 @@ static double quarter_turns(double angle_rad, double *rest_rad)
 
 double portable_sin(double angle_rad)
 {
-    double rest_rad, quarters = quarter_turns(angle_rad, &rest_rad);
-    double value = quarters == 1.0 || quarters == 3.0 ? cos_near(rest_rad) : sin_near(rest_rad);
+    double rest_rad, quarters = split_quarter_turns(angle_rad, &rest_rad);
+    double value = quarters == 1.0 || quarters == 3.0 ? cos_series(rest_rad) : sin_series(rest_rad);
 
     return quarters >= 2.0 ? -value : value;
 }
 
 double portable_cos(double angle_rad)
 {
-    double rest_rad, quarters = quarter_turns(angle_rad, &rest_rad);
-    double value = quarters == 1.0 || quarters == 3.0 ? sin_near(rest_rad) : cos_near(rest_rad);
+    double rest_rad, quarters = split_quarter_turns(angle_rad, &rest_rad);
+    double value = quarters == 1.0 || quarters == 3.0 ? sin_series(rest_rad) : cos_series(rest_rad);
 
     return quarters == 1.0 || quarters == 2.0 ? -value : value;
 }
 
 /* atan of 0 .. 1: halved three times, atan t = 2 atan(t / (1 + sqrt(1 + t^2))), then its series. */
-static double atan_small(double t)
+static double atan_series(double t)
 {
     double t2, sum = 0.0;
 
@@ -77,7 +77,7 @@ double portable_atan2(double y, double x)
     if (!(ax > 0.0) && !(ay > 0.0)) {
         return 0.0;
     }
-    angle = ay <= ax ? atan_small(ay / ax) : PORTABLE_PI / 2.0 - atan_small(ax / ay);
+    angle = ay <= ax ? atan_series(ay / ax) : PORTABLE_PI / 2.0 - atan_series(ax / ay);
     angle = x < 0.0 ? PORTABLE_PI - angle : angle;
     return y < 0.0 ? -angle : angle;
 }

@@ -9,7 +9,7 @@ static uint64_t rotate_left(uint64_t v, int bits)
 }
 
 /* splitmix64: one step of a counter, scrambled. */
-static uint64_t split(uint64_t *counter)
+static uint64_t splitmix64(uint64_t *counter)
 {
     uint64_t v = (*counter += 0x9e3779b97f4a7c15u);
     v = (v ^ (v >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -21,10 +21,10 @@ struct random random_start(uint64_t seed, uint64_t stream, uint64_t run)
 {
     struct random random;
     uint64_t counter = seed;
-    counter = split(&counter) ^ stream;
-    counter = split(&counter) ^ run;
+    counter = splitmix64(&counter) ^ stream;
+    counter = splitmix64(&counter) ^ run;
     for (int i = 0; i < 4; i++) {
-        random.state[i] = split(&counter);
+        random.state[i] = splitmix64(&counter);
     }
     return random;
 }

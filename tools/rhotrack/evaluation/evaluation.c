@@ -13,7 +13,7 @@
 static size_t target_number(struct evaluation *e, int32_t id, int64_t time_us)
 {
     size_t known = e->target_ids.count;
-    size_t number = identities_number(&e->target_ids, id);
+    size_t number = identity_numbers_find_or_add(&e->target_ids, id);
     if (number == known) {
         e->targets = must_grow(e->targets, known, &e->targets_capacity, sizeof *e->targets);
         e->targets[number] = (struct target_life){.first_us = time_us,
@@ -27,7 +27,7 @@ static size_t target_number(struct evaluation *e, int32_t id, int64_t time_us)
 static size_t track_number(struct evaluation *e, int32_t id)
 {
     size_t known = e->track_ids.count;
-    size_t number = identities_number(&e->track_ids, id);
+    size_t number = identity_numbers_find_or_add(&e->track_ids, id);
     if (number == known) {
         e->tracks = must_grow(e->tracks, known, &e->tracks_capacity, sizeof *e->tracks);
         e->tracks[number] = (struct track_life){0};
@@ -52,9 +52,9 @@ static double nees_of(double xx, double yx, double yy, double ex, double ey)
     return (ex * ex * yy - 2.0 * ex * ey * yx + ey * ey * xx) / det;
 }
 
-static struct pair_error error_of(size_t number, enum evaluation_motion motion,
-                                  const struct evaluation_point *target,
-                                  const struct evaluation_point *track)
+static struct pair_error error_of_pair(size_t number, enum evaluation_motion motion,
+                                       const struct evaluation_point *target,
+                                       const struct evaluation_point *track)
 {
     double ex_m = track->x_m - target->x_m, ey_m = track->y_m - target->y_m;
     double ex_mps = track->vx_mps - target->vx_mps, ey_mps = track->vy_mps - target->vy_mps;
@@ -70,8 +70,8 @@ static struct pair_error error_of(size_t number, enum evaluation_motion motion,
 }
 
 /* Notes how the target's velocity changed since its time before. */
-static void move_target(const struct evaluation *e, struct target_life *life,
-                        const struct evaluation_point *target, int64_t time_us)
+static void note_target_motion(const struct evaluation *e, struct target_life *life,
+                               const struct evaluation_point *target, int64_t time_us)
 {
     double *last = life->velocity_mps, passed_s = (double)(time_us - life->last_us) * 1e-6;
     double change_mps =
@@ -86,7 +86,7 @@ static void move_target(const struct evaluation *e, struct target_life *life,
 }
 
 /* The target has this track now: what that means for its life. */
-static void follow_target(struct target_life *life, size_t track, struct evaluation_scan *scan)
+static void note_paired_track(struct target_life *life, size_t track, struct evaluation_scan *scan)
 {
     bool is_other = life->track != NO_TRACK && life->track != track;
     bool is_again = life->paired > 0 && !life->is_tracked;
@@ -129,7 +129,7 @@ static void add_pair(struct evaluation *e, const struct pair_error *error, struc
     }
 }
 
-static struct gospa_place *places_of(const struct evaluation_point *points, size_t count)
+static struct gospa_place *gospa_places_of(const struct evaluation_point *points, size_t count)
 {
     struct gospa_place *places = must_calloc(count, sizeof *places);
     for (size_t i = 0; i < count; i++) {
@@ -138,12 +138,14 @@ static struct gospa_place *places_of(const struct evaluation_point *points, size
     return places;
 }
 
-static struct gospa pair_points(const struct evaluation *e, const struct evaluation_point *targets,
-                                size_t num_targets, const struct evaluation_point *tracks,
-                                size_t num_tracks, int *track_of)
+static struct gospa pair_targets_with_tracks(const struct evaluation *e,
+                                             const struct evaluation_point *targets,
+                                             size_t num_targets,
+                                             const struct evaluation_point *tracks,
+                                             size_t num_tracks, int *track_of)
 {
-    struct gospa_place *target_places = places_of(targets, num_targets);
-    struct gospa_place *track_places = places_of(tracks, num_tracks);
+    struct gospa_place *target_places = gospa_places_of(targets, num_targets);
+    struct gospa_place *track_places = gospa_places_of(tracks, num_tracks);
     struct gospa gospa =
         gospa_compare(target_places, num_targets, track_places, num_tracks, e->cutoff_m, track_of);
     free(target_places);
@@ -151,21 +153,21 @@ static struct gospa pair_points(const struct evaluation *e, const struct evaluat
     return gospa;
 }
 
-static void follow_targets(struct evaluation *e, const struct evaluation_point *targets,
-                           size_t num_targets, const struct evaluation_point *tracks,
-                           const int *track_of, struct evaluation_scan *scan)
+static void note_targets_at_time(struct evaluation *e, const struct evaluation_point *targets,
+                                 size_t num_targets, const struct evaluation_point *tracks,
+                                 const int *track_of, struct evaluation_scan *scan)
 {
     struct time_sums sums = {0};
     for (size_t i = 0; i < num_targets; i++) {
         size_t number = target_number(e, targets[i].id, scan->time_us);
         struct target_life *life = &e->targets[number];
         life->scans++;
-        move_target(e, life, &targets[i], scan->time_us);
+        note_target_motion(e, life, &targets[i], scan->time_us);
         if (track_of[i] >= 0) {
             const struct evaluation_point *track = &tracks[track_of[i]];
-            struct pair_error error = error_of(number, life->motion, &targets[i], track);
+            struct pair_error error = error_of_pair(number, life->motion, &targets[i], track);
             size_t partner = track_number(e, track->id);
-            follow_target(life, partner, scan);
+            note_paired_track(life, partner, scan);
             e->tracks[partner].paired++;
             add_pair(e, &error, &sums);
         }
@@ -177,11 +179,13 @@ static void follow_targets(struct evaluation *e, const struct evaluation_point *
         evaluation_mean(sums.velocity_nees, sums.velocity_covariances) / EVALUATION_AXES;
 }
 
-void evaluation_time(struct evaluation *e, int64_t time_us, const struct evaluation_point *targets,
-                     size_t num_targets, const struct evaluation_point *tracks, size_t num_tracks)
+void evaluation_add_time(struct evaluation *e, int64_t time_us,
+                         const struct evaluation_point *targets, size_t num_targets,
+                         const struct evaluation_point *tracks, size_t num_tracks)
 {
     int *track_of = must_calloc(num_targets, sizeof *track_of);
-    struct gospa gospa = pair_points(e, targets, num_targets, tracks, num_tracks, track_of);
+    struct gospa gospa =
+        pair_targets_with_tracks(e, targets, num_targets, tracks, num_tracks, track_of);
     double half_m2 = 0.5 * e->cutoff_m * e->cutoff_m;
     struct evaluation_scan scan = {
         .time_us = time_us,
@@ -199,7 +203,7 @@ void evaluation_time(struct evaluation *e, int64_t time_us, const struct evaluat
         size_t number = track_number(e, tracks[i].id);
         e->tracks[number].scans++;
     }
-    follow_targets(e, targets, num_targets, tracks, track_of, &scan);
+    note_targets_at_time(e, targets, num_targets, tracks, track_of, &scan);
     e->scans = must_grow(e->scans, e->num_scans, &e->scans_capacity, sizeof *e->scans);
     e->scans[e->num_scans++] = scan;
     free(track_of);
@@ -215,12 +219,13 @@ struct evaluation *evaluation_start(double cutoff_m)
     return e;
 }
 
-void evaluation_set_turning(struct evaluation *e, double turning_mps2)
+void evaluation_set_turning_limit(struct evaluation *e, double turning_mps2)
 {
     e->turning_mps2 = turning_mps2;
 }
 
-const struct evaluation_scan *evaluation_over_time(const struct evaluation *e, size_t *count)
+const struct evaluation_scan *evaluation_results_over_time(const struct evaluation *e,
+                                                           size_t *count)
 {
     *count = e->num_scans;
     return e->scans;
@@ -228,8 +233,8 @@ const struct evaluation_scan *evaluation_over_time(const struct evaluation *e, s
 
 void evaluation_free(struct evaluation *e)
 {
-    identities_free(&e->target_ids);
-    identities_free(&e->track_ids);
+    identity_numbers_free(&e->target_ids);
+    identity_numbers_free(&e->track_ids);
     free(e->targets);
     free(e->tracks);
     free(e->scans);

@@ -101,20 +101,22 @@ struct evaluation;
 struct evaluation *evaluation_start(double cutoff_m);
 
 /* Sets the least acceleration that counts as a turn, from the next time on. */
-void evaluation_set_turning(struct evaluation *e, double turning_mps2);
+void evaluation_set_turning_limit(struct evaluation *e, double turning_mps2);
 
 /* One time, later than those before; no identity twice in a list. Either list may be empty. */
-void evaluation_time(struct evaluation *e, int64_t time_us, const struct evaluation_point *targets,
-                     size_t num_targets, const struct evaluation_point *tracks, size_t num_tracks);
+void evaluation_add_time(struct evaluation *e, int64_t time_us,
+                         const struct evaluation_point *targets, size_t num_targets,
+                         const struct evaluation_point *tracks, size_t num_tracks);
 
 /* All times so far; more may follow. */
 struct evaluation_result evaluation_result(const struct evaluation *e);
 
 /* Every target by identity, in new memory of the caller's. */
-struct evaluation_target *evaluation_by_target(const struct evaluation *e, size_t *count);
+struct evaluation_target *evaluation_results_by_target(const struct evaluation *e, size_t *count);
 
-/* Every time in order; valid until the next call of evaluation_time. */
-const struct evaluation_scan *evaluation_over_time(const struct evaluation *e, size_t *count);
+/* Every time in order; valid until the next call of evaluation_add_time. */
+const struct evaluation_scan *evaluation_results_over_time(const struct evaluation *e,
+                                                           size_t *count);
 
 void evaluation_free(struct evaluation *e);
 

@@ -18,7 +18,7 @@ struct evaluation_figures {
     } list[EVALUATION_FIGURES_MAX];
 };
 
-struct evaluation_figures evaluation_figures_all(const struct evaluation_result *result);
+struct evaluation_figures evaluation_figures_overall(const struct evaluation_result *result);
 struct evaluation_figures evaluation_figures_target(const struct evaluation_target *target);
 struct evaluation_figures evaluation_figures_motion(const struct evaluation_errors *errors);
 struct evaluation_figures evaluation_figures_scan(const struct evaluation_scan *scan);

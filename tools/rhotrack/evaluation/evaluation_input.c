@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/identities.h"
+#include "base/identity_numbers.h"
 #include "evaluation/time_alignment.h"
 #include "io/rows/path_row.h"
 #include "rhotrack/message.h"
@@ -78,7 +78,7 @@ static struct points read_points(const struct table *table, const struct paramet
 }
 
 /* Heights, and velocities upwards, are compared where both sides have them. */
-static void level(struct points *points, bool has_z, bool has_vz)
+static void keep_common_heights(struct points *points, bool has_z, bool has_vz)
 {
     for (size_t i = 0; i < points->count; i++) {
         struct evaluation_point *point = &points->list[i].point;
@@ -90,7 +90,7 @@ static void level(struct points *points, bool has_z, bool has_vz)
 /* ---- tracks at other times than the truth's ---- */
 
 /* A track's row as it would be a little before or after. */
-static struct timed_point led(const struct timed_point *timed, int64_t to_us)
+static struct timed_point moved_to_time(const struct timed_point *timed, int64_t to_us)
 {
     struct timed_point at = *timed;
     double by_s = (double)(to_us - timed->time_us) * 1e-6;
@@ -103,7 +103,7 @@ static struct timed_point led(const struct timed_point *timed, int64_t to_us)
     return at;
 }
 
-static struct alignment_times times_of(const struct points *points)
+static struct alignment_times times_of_points(const struct points *points)
 {
     int64_t *times_us = must_calloc(points->count + 1, sizeof *times_us);
     for (size_t i = 0; i < points->count; i++) {
@@ -115,17 +115,19 @@ static struct alignment_times times_of(const struct points *points)
 /* As time_alignment.h has it. */
 static void align_tracks(struct points *tracks, const struct points *truth, int64_t most_us)
 {
-    struct alignment_times track_times = times_of(tracks), truth_times = times_of(truth);
-    size_t far = alignment_find_far(track_times, truth_times, most_us);
+    struct alignment_times track_times = times_of_points(tracks),
+                           truth_times = times_of_points(truth);
+    size_t far = alignment_find_unmatched(track_times, truth_times, most_us);
     if (far < tracks->count) {
-        alignment_fail(tracks->table, tracks->list[far].row, most_us);
+        alignment_fail_unmatched(tracks->table, tracks->list[far].row, most_us);
     }
     struct alignment alignment = alignment_to_truth(track_times, truth_times, most_us);
     struct points leading = *tracks;
     leading.list = must_calloc(alignment.count + 1, sizeof *leading.list);
     leading.count = alignment.count;
     for (size_t i = 0; i < alignment.count; i++) {
-        leading.list[i] = led(&tracks->list[alignment.list[i].row], alignment.list[i].to_us);
+        leading.list[i] =
+            moved_to_time(&tracks->list[alignment.list[i].row], alignment.list[i].to_us);
     }
     free(track_times.list_us);
     free(truth_times.list_us);
@@ -137,7 +139,7 @@ static void align_tracks(struct points *tracks, const struct points *truth, int6
 /* ---- time by time ---- */
 
 /* End of the points from `from` that have its time, within the tolerance. */
-static size_t end_of_time(const struct points *points, size_t from, int64_t time_us)
+static size_t end_of_points_at_time(const struct points *points, size_t from, int64_t time_us)
 {
     while (from < points->count && points->list[from].time_us <= time_us + ALIGNMENT_LEAST_US) {
         from++;
@@ -145,23 +147,23 @@ static size_t end_of_time(const struct points *points, size_t from, int64_t time
     return from;
 }
 
-static void check_time(const struct points *tracks, size_t at, int64_t time_us)
+static void check_truth_has_time(const struct points *tracks, size_t at, int64_t time_us)
 {
     if (at < tracks->count && tracks->list[at].time_us < time_us - ALIGNMENT_LEAST_US) {
-        alignment_fail(tracks->table, tracks->list[at].row, ALIGNMENT_LEAST_US);
+        alignment_fail_unmatched(tracks->table, tracks->list[at].row, ALIGNMENT_LEAST_US);
     }
 }
 
 /* The last time that each identity was seen at, times counting from 1. */
 struct last_times {
-    struct identities ids;
+    struct identity_numbers ids;
     size_t *time; /* by number */
     size_t capacity, now;
 };
 
-static bool is_first_now(struct last_times *last, int32_t id)
+static bool is_first_at_this_time(struct last_times *last, int32_t id)
 {
-    size_t known = last->ids.count, number = identities_number(&last->ids, id);
+    size_t known = last->ids.count, number = identity_numbers_find_or_add(&last->ids, id);
     if (number == known) {
         last->time = must_grow(last->time, known, &last->capacity, sizeof *last->time);
         last->time[number] = 0;
@@ -172,16 +174,16 @@ static bool is_first_now(struct last_times *last, int32_t id)
 }
 
 /*
- * Scans of several sensors at one time give a track a row each: the last one is what is known at
- * that time. So it is with targets. Those that count go to the list; how many.
+ * Scans of several sensors at one time give a track, or a target, a row each: the last one goes to
+ * the list. Returns how many are in it.
  */
-static size_t keep_last(struct last_times *last, const struct points *points, size_t begin,
-                        size_t end, struct evaluation_point *list)
+static size_t keep_last_of_each(struct last_times *last, const struct points *points, size_t begin,
+                                size_t end, struct evaluation_point *list)
 {
     size_t kept = end - begin;
     last->now++;
     for (size_t i = end; i-- > begin;) {
-        if (is_first_now(last, points->list[i].point.id)) {
+        if (is_first_at_this_time(last, points->list[i].point.id)) {
             list[--kept] = points->list[i].point;
         }
     }
@@ -198,34 +200,35 @@ static void evaluate_times(struct evaluation *e, const struct points *truth,
     size_t target = 0, track = 0;
     while (target < truth->count) {
         int64_t time_us = truth->list[target].time_us;
-        check_time(tracks, track, time_us);
-        size_t target_end = end_of_time(truth, target, time_us);
-        size_t track_end = end_of_time(tracks, track, time_us);
-        size_t num_targets = keep_last(&last_target, truth, target, target_end, targets_now);
-        size_t num_tracks = keep_last(&last_track, tracks, track, track_end, tracks_now);
-        evaluation_time(e, time_us, targets_now, num_targets, tracks_now, num_tracks);
+        check_truth_has_time(tracks, track, time_us);
+        size_t target_end = end_of_points_at_time(truth, target, time_us);
+        size_t track_end = end_of_points_at_time(tracks, track, time_us);
+        size_t num_targets =
+            keep_last_of_each(&last_target, truth, target, target_end, targets_now);
+        size_t num_tracks = keep_last_of_each(&last_track, tracks, track, track_end, tracks_now);
+        evaluation_add_time(e, time_us, targets_now, num_targets, tracks_now, num_tracks);
         target = target_end;
         track = track_end;
     }
-    check_time(tracks, track, INT64_MAX);
-    identities_free(&last_target.ids);
-    identities_free(&last_track.ids);
+    check_truth_has_time(tracks, track, INT64_MAX);
+    identity_numbers_free(&last_target.ids);
+    identity_numbers_free(&last_track.ids);
     free(last_target.time);
     free(last_track.time);
     free(targets_now);
     free(tracks_now);
 }
 
-struct evaluation *evaluation_read(const struct table *truth_table,
-                                   const struct table *tracks_table,
-                                   const struct parameters *parameters, double cutoff_m)
+struct evaluation *evaluation_of_tables(const struct table *truth_table,
+                                        const struct table *tracks_table,
+                                        const struct parameters *parameters, double cutoff_m)
 {
     struct evaluation *e = evaluation_start(cutoff_m);
-    evaluation_set_turning(e, parameters->value[PARAMETER_TURNING_MPS2]);
+    evaluation_set_turning_limit(e, parameters->value[PARAMETER_TURNING_MPS2]);
     struct points truth = read_points(truth_table, parameters);
     struct points tracks = read_points(tracks_table, parameters);
-    level(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
-    level(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
+    keep_common_heights(&truth, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
+    keep_common_heights(&tracks, truth.has_z && tracks.has_z, truth.has_vz && tracks.has_vz);
     int64_t tolerance_us = alignment_tolerance_us(parameters);
     if (tolerance_us > ALIGNMENT_LEAST_US) {
         align_tracks(&tracks, &truth, tolerance_us);

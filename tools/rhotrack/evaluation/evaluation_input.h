@@ -15,7 +15,7 @@
  * FILE:LINE: what is wrong`, exit 2: bad cells, a tracks time that is not a truth time within 1 ms.
  * The parameters say where the origin is of a truth in latitude and longitude.
  */
-struct evaluation *evaluation_read(const struct table *truth, const struct table *tracks,
-                                   const struct parameters *parameters, double cutoff_m);
+struct evaluation *evaluation_of_tables(const struct table *truth, const struct table *tracks,
+                                        const struct parameters *parameters, double cutoff_m);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "base/identities.h"
+#include "base/identity_numbers.h"
 #include "evaluation/evaluation.h"
 
 #define NO_TRACK SIZE_MAX
@@ -33,7 +33,7 @@ struct pair_error {
 
 struct evaluation {
     double cutoff_m, turning_mps2;
-    struct identities target_ids, track_ids;
+    struct identity_numbers target_ids, track_ids;
     struct target_life *targets; /* by number, as are tracks */
     struct track_life *tracks;
     size_t targets_capacity, tracks_capacity;

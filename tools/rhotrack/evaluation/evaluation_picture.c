@@ -11,7 +11,7 @@
 #define LONG_TIME_US                                                                               \
     1000000000000 /* from there on times are counted from the first: the axis has six digits */
 
-static int64_t zero_us(const struct evaluation_scan *scans, size_t count)
+static int64_t first_shown_time_us(const struct evaluation_scan *scans, size_t count)
 {
     return count > 0 && llabs(scans[count - 1].time_us) >= LONG_TIME_US ? scans[0].time_us : 0;
 }
@@ -20,13 +20,13 @@ static int64_t zero_us(const struct evaluation_scan *scans, size_t count)
  * Columns: time; GOSPA and the roots of its parts: missed, false, localisation; targets, tracks,
  * missed, false.
  */
-static void put_scans(FILE *script, const struct evaluation_scan *scans, size_t count)
+static void put_values_over_time(FILE *script, const struct evaluation_scan *scans, size_t count)
 {
     fprintf(script, "$scans << EOD\n");
     for (size_t i = 0; i < count; i++) {
         const struct evaluation_scan *scan = &scans[i];
         fprintf(script, "%.6f %.6g %.6g %.6g %.6g %zu %zu %zu %zu\n",
-                (double)(scan->time_us - zero_us(scans, count)) * 1e-6, scan->gospa_m,
+                (double)(scan->time_us - first_shown_time_us(scans, count)) * 1e-6, scan->gospa_m,
                 sqrt(scan->missed_m2), sqrt(scan->false_m2), sqrt(scan->localisation_m2),
                 scan->targets, scan->tracks, scan->targets - scan->pairs,
                 scan->tracks - scan->pairs);
@@ -38,7 +38,7 @@ static void put_scans(FILE *script, const struct evaluation_scan *scans, size_t 
  * The same look in both panels: wide and grey what the thin lines are parts of. One time alone
  * makes no line.
  */
-static void define_looks(FILE *script, size_t count)
+static void define_line_styles(FILE *script, size_t count)
 {
     const char *line = count > 1 ? "lines" : "points pt 7 ps 0.8";
     fprintf(script,
@@ -58,9 +58,9 @@ static void place_panel(FILE *script, double bottom, double top, bool is_zero)
             is_zero ? "1" : "*", top, bottom, top);
 }
 
-static void define_time(FILE *script, const struct evaluation_scan *scans, size_t count)
+static void define_time_axis(FILE *script, const struct evaluation_scan *scans, size_t count)
 {
-    int64_t zero = zero_us(scans, count);
+    int64_t zero = first_shown_time_us(scans, count);
     if (count == 1) {
         double time_s = (double)(scans[0].time_us - zero) * 1e-6;
         fprintf(script, "set xrange [%g:%g]\n", time_s - 1.0, time_s + 1.0);
@@ -77,13 +77,13 @@ static void define_time(FILE *script, const struct evaluation_scan *scans, size_
 void evaluation_draw(const struct evaluation *e, const char *path)
 {
     size_t count;
-    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    const struct evaluation_scan *scans = evaluation_results_over_time(e, &count);
     struct evaluation_result result = evaluation_result(e);
     struct picture picture = picture_open(path, 1100, 780);
     FILE *script = picture.script;
-    put_scans(script, scans, count);
-    define_looks(script, count);
-    define_time(script, scans, count);
+    put_values_over_time(script, scans, count);
+    define_line_styles(script, count);
+    define_time_axis(script, scans, count);
     fprintf(script, "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.79\n");
     place_panel(script, 0.53, 0.97, result.gospa_m <= 0.0);
     fprintf(script, "set ylabel 'GOSPA and the roots of its parts (m)'\nset format x ''\n"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "base/grid.h"
+#include "base/text_table.h"
 #include "evaluation/evaluation_figures.h"
 #include "evaluation/evaluation_parts.h"
 #include "io/csv/tracks_writer.h"
@@ -17,26 +17,29 @@
 static void print_targets(const struct evaluation *e, FILE *file)
 {
     size_t count;
-    struct evaluation_target *targets = evaluation_by_target(e, &count);
-    struct grid grid = grid_start(0, "target|first s|last s|found s|kept until s|completeness|"
-                                     "switches|fragments|rmse m|median m|95 % m|rmse m/s|nees");
+    struct evaluation_target *targets = evaluation_results_by_target(e, &count);
+    struct text_table table =
+        text_table_start(0, "target|first s|last s|found s|kept until s|completeness|"
+                            "switches|fragments|rmse m|median m|95 % m|rmse m/s|nees");
     for (size_t i = 0; i < count; i++) {
         const struct evaluation_target *t = &targets[i];
-        char found_s[GRID_NUMBER], until_s[GRID_NUMBER], texts[5][GRID_NUMBER];
+        char found_s[TEXT_TABLE_NUMBER], until_s[TEXT_TABLE_NUMBER], texts[5][TEXT_TABLE_NUMBER];
         bool is_found = t->paired > 0;
-        grid_row(
-            &grid, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
+        text_table_add_row(
+            &table, "%d|%.1f|%.1f|%s|%s|%.3f|%zu|%zu|%s|%s|%s|%s|%s", t->id,
             (double)t->first_us * 1e-6, (double)t->last_us * 1e-6,
-            grid_number(found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
-            grid_number(until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
+            text_table_number(found_s, 1, is_found ? (double)t->found_us * 1e-6 : NAN),
+            text_table_number(until_s, 1, is_found ? (double)t->kept_until_us * 1e-6 : NAN),
             (double)t->paired / (double)t->scans, t->switches, t->fragments,
-            grid_number(texts[0], 1, t->errors.rmse_m),
-            grid_number(texts[1], 1, t->errors.median_m), grid_number(texts[2], 1, t->errors.p95_m),
-            grid_number(texts[3], 2, t->errors.rmse_mps), grid_number(texts[4], 2, t->errors.nees));
+            text_table_number(texts[0], 1, t->errors.rmse_m),
+            text_table_number(texts[1], 1, t->errors.median_m),
+            text_table_number(texts[2], 1, t->errors.p95_m),
+            text_table_number(texts[3], 2, t->errors.rmse_mps),
+            text_table_number(texts[4], 2, t->errors.nees));
     }
     fputc('\n', file);
-    grid_print(&grid, file);
-    grid_free(&grid);
+    text_table_print(&table, file);
+    text_table_free(&table);
     free(targets);
 }
 
@@ -46,35 +49,37 @@ static const char *const motion_names[EVALUATION_MOTIONS] = {
     [EVALUATION_COASTING] = "coasting",
 };
 
-static void print_motion(struct grid *grid, const char *name, const struct evaluation_errors *of)
+static void print_motion(struct text_table *table, const char *name,
+                         const struct evaluation_errors *of)
 {
-    char texts[6][GRID_NUMBER];
-    grid_row(grid, "%s|%zu|%s|%s|%s|%s|%s|%s", name, of->pairs,
-             grid_number(texts[0], 1, of->rmse_m), grid_number(texts[1], 2, of->rmse_mps),
-             grid_number(texts[2], 2, of->nees / EVALUATION_AXES),
-             grid_number(texts[3], 3, of->nees_inside),
-             grid_number(texts[4], 2, of->velocity_ratio),
-             grid_number(texts[5], 3, of->velocity_inside));
+    char texts[6][TEXT_TABLE_NUMBER];
+    text_table_add_row(table, "%s|%zu|%s|%s|%s|%s|%s|%s", name, of->pairs,
+                       text_table_number(texts[0], 1, of->rmse_m),
+                       text_table_number(texts[1], 2, of->rmse_mps),
+                       text_table_number(texts[2], 2, of->nees / EVALUATION_AXES),
+                       text_table_number(texts[3], 3, of->nees_inside),
+                       text_table_number(texts[4], 2, of->velocity_ratio),
+                       text_table_number(texts[5], 3, of->velocity_inside));
 }
 
 /* Ratios are 1 and shares inside the ellipse 0.95 where covariances are right. */
 static void print_motions(const struct evaluation_result *result, FILE *file)
 {
-    struct grid grid =
-        grid_start(1, "pairs|number|rmse m|rmse m/s|place ratio|inside|velocity ratio|inside");
+    struct text_table table = text_table_start(
+        1, "pairs|number|rmse m|rmse m/s|place ratio|inside|velocity ratio|inside");
     for (int i = 0; i < EVALUATION_MOTIONS; i++) {
-        print_motion(&grid, motion_names[i], &result->by_motion[i]);
+        print_motion(&table, motion_names[i], &result->by_motion[i]);
     }
-    print_motion(&grid, "all", &result->errors);
+    print_motion(&table, "all", &result->errors);
     fputc('\n', file);
-    grid_print(&grid, file);
-    grid_free(&grid);
+    text_table_print(&table, file);
+    text_table_free(&table);
 }
 
 void evaluation_print(const struct evaluation *e, bool by_target)
 {
     struct evaluation_result result = evaluation_result(e);
-    struct evaluation_figures figures = evaluation_figures_all(&result);
+    struct evaluation_figures figures = evaluation_figures_overall(&result);
     struct output output = output_open(NULL);
     for (size_t i = 0; i < figures.count; i++) {
         double value = figures.list[i].value;
@@ -94,7 +99,7 @@ void evaluation_print(const struct evaluation *e, bool by_target)
 
 /* ---- JSON ---- */
 
-static cJSON *object_of(const struct evaluation_figures *figures)
+static cJSON *figures_json(const struct evaluation_figures *figures)
 {
     cJSON *object = cJSON_CreateObject();
     for (size_t i = 0; i < figures->count; i++) {
@@ -103,37 +108,37 @@ static cJSON *object_of(const struct evaluation_figures *figures)
     return object;
 }
 
-static cJSON *by_motion(const struct evaluation_result *result)
+static cJSON *motions_json(const struct evaluation_result *result)
 {
     cJSON *object = cJSON_CreateObject();
     for (int i = 0; i < EVALUATION_MOTIONS; i++) {
         struct evaluation_figures figures = evaluation_figures_motion(&result->by_motion[i]);
-        cJSON_AddItemToObject(object, motion_names[i], object_of(&figures));
+        cJSON_AddItemToObject(object, motion_names[i], figures_json(&figures));
     }
     return object;
 }
 
-static cJSON *list_targets(const struct evaluation *e)
+static cJSON *targets_json(const struct evaluation *e)
 {
     size_t count;
-    struct evaluation_target *targets = evaluation_by_target(e, &count);
+    struct evaluation_target *targets = evaluation_results_by_target(e, &count);
     cJSON *list = cJSON_CreateArray();
     for (size_t i = 0; i < count; i++) {
         struct evaluation_figures figures = evaluation_figures_target(&targets[i]);
-        cJSON_AddItemToArray(list, object_of(&figures));
+        cJSON_AddItemToArray(list, figures_json(&figures));
     }
     free(targets);
     return list;
 }
 
-static cJSON *list_scans(const struct evaluation *e)
+static cJSON *times_json(const struct evaluation *e)
 {
     size_t count;
-    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    const struct evaluation_scan *scans = evaluation_results_over_time(e, &count);
     cJSON *list = cJSON_CreateArray();
     for (size_t i = 0; i < count; i++) {
         struct evaluation_figures figures = evaluation_figures_scan(&scans[i]);
-        cJSON_AddItemToArray(list, object_of(&figures));
+        cJSON_AddItemToArray(list, figures_json(&figures));
     }
     return list;
 }
@@ -141,17 +146,17 @@ static cJSON *list_scans(const struct evaluation *e)
 void evaluation_print_json(const struct evaluation *e)
 {
     struct evaluation_result result = evaluation_result(e);
-    struct evaluation_figures figures = evaluation_figures_all(&result);
-    cJSON *object = object_of(&figures);
-    cJSON_AddItemToObject(object, "by_motion", by_motion(&result));
-    cJSON_AddItemToObject(object, "by_target", list_targets(e));
-    cJSON_AddItemToObject(object, "over_time", list_scans(e));
+    struct evaluation_figures figures = evaluation_figures_overall(&result);
+    cJSON *object = figures_json(&figures);
+    cJSON_AddItemToObject(object, "by_motion", motions_json(&result));
+    cJSON_AddItemToObject(object, "by_target", targets_json(e));
+    cJSON_AddItemToObject(object, "over_time", times_json(e));
     json_print(object);
 }
 
 /* ---- CSV ---- */
 
-static void write_row(FILE *file, const struct evaluation_scan *scan)
+static void write_time_row(FILE *file, const struct evaluation_scan *scan)
 {
     struct evaluation_figures figures = evaluation_figures_scan(scan);
     tracks_write_time(file, scan->time_us);
@@ -171,13 +176,13 @@ void evaluation_write_csv(const struct evaluation *e, const char *path)
     struct evaluation_figures head = evaluation_figures_scan(&none);
     struct output output = output_open(path);
     size_t count;
-    const struct evaluation_scan *scans = evaluation_over_time(e, &count);
+    const struct evaluation_scan *scans = evaluation_results_over_time(e, &count);
     for (size_t i = 0; i < head.count; i++) {
         fprintf(output.file, "%s%s", i == 0 ? "" : ",", head.list[i].name);
     }
     fputc('\n', output.file);
     for (size_t i = 0; i < count; i++) {
-        write_row(output.file, &scans[i]);
+        write_time_row(output.file, &scans[i]);
     }
     output_close(&output);
 }

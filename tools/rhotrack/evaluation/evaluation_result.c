@@ -72,7 +72,7 @@ static void fill_nees(struct evaluation_errors *errors, const struct pair_error 
     errors->velocity_inside = evaluation_mean((double)velocity.inside, velocity.known);
 }
 
-static struct evaluation_errors errors_of(const struct pair_error *pairs, size_t count)
+static struct evaluation_errors errors_of_pairs(const struct pair_error *pairs, size_t count)
 {
     struct evaluation_errors errors = {.pairs = count};
     double *values = must_calloc(count, sizeof *values);
@@ -154,7 +154,7 @@ static void sum_scans(const struct evaluation *e, struct evaluation_result *resu
     result->ospa_m = evaluation_mean(ospa_m, e->num_scans);
 }
 
-static void fill_motions(const struct evaluation *e, struct evaluation_result *result)
+static void fill_errors_by_motion(const struct evaluation *e, struct evaluation_result *result)
 {
     struct pair_error *pairs = must_calloc(e->num_pairs, sizeof *pairs);
     for (int motion = 0; motion < EVALUATION_MOTIONS; motion++) {
@@ -164,7 +164,7 @@ static void fill_motions(const struct evaluation *e, struct evaluation_result *r
                 pairs[count++] = e->pairs[i];
             }
         }
-        result->by_motion[motion] = errors_of(pairs, count);
+        result->by_motion[motion] = errors_of_pairs(pairs, count);
     }
     free(pairs);
 }
@@ -175,8 +175,8 @@ struct evaluation_result evaluation_result(const struct evaluation *e)
     sum_scans(e, &result);
     sum_targets(e, &result);
     sum_tracks(e, &result);
-    result.errors = errors_of(e->pairs, e->num_pairs);
-    fill_motions(e, &result);
+    result.errors = errors_of_pairs(e->pairs, e->num_pairs);
+    fill_errors_by_motion(e, &result);
     return result;
 }
 
@@ -189,7 +189,7 @@ static int by_id(const void *a, const void *b)
 }
 
 /* The pairs again, those of a target side by side; begin[number] is where its own begin. */
-static struct pair_error *group_pairs(const struct evaluation *e, size_t *begin)
+static struct pair_error *group_pairs_by_target(const struct evaluation *e, size_t *begin)
 {
     struct pair_error *grouped = must_calloc(e->num_pairs, sizeof *grouped);
     size_t *next = must_calloc(e->target_ids.count, sizeof *next);
@@ -205,11 +205,11 @@ static struct pair_error *group_pairs(const struct evaluation *e, size_t *begin)
     return grouped;
 }
 
-struct evaluation_target *evaluation_by_target(const struct evaluation *e, size_t *count)
+struct evaluation_target *evaluation_results_by_target(const struct evaluation *e, size_t *count)
 {
     struct evaluation_target *targets = must_calloc(e->target_ids.count, sizeof *targets);
     size_t *begin = must_calloc(e->target_ids.count + 1, sizeof *begin);
-    struct pair_error *pairs = group_pairs(e, begin);
+    struct pair_error *pairs = group_pairs_by_target(e, begin);
     for (size_t i = 0; i < e->target_ids.count; i++) {
         const struct target_life *life = &e->targets[i];
         targets[i] = (struct evaluation_target){
@@ -223,7 +223,7 @@ struct evaluation_target *evaluation_by_target(const struct evaluation *e, size_
             .delay_scans = life->delay_scans,
             .switches = life->switches,
             .fragments = life->fragments,
-            .errors = errors_of(&pairs[begin[i]], life->paired),
+            .errors = errors_of_pairs(&pairs[begin[i]], life->paired),
         };
     }
     free(begin);

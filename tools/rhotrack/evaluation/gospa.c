@@ -17,7 +17,7 @@ struct comparison {
     struct gospa result;
 };
 
-static void count_if_near(struct comparison *c, size_t target, size_t track)
+static void count_pair_if_near(struct comparison *c, size_t target, size_t track)
 {
     double squared_m2 = gospa_distance2(&c->targets[target], &c->tracks[track]);
     if (squared_m2 >= c->cutoff2_m2) {
@@ -30,9 +30,9 @@ static void count_if_near(struct comparison *c, size_t target, size_t track)
     }
 }
 
-/* Rows: the smaller side. */
-static double *costs_of(const struct comparison *c, const struct gospa_cluster *cluster,
-                        bool rows_are_targets)
+/* The costs of all pairs of the cluster; the smaller side has the rows. */
+static double *cluster_costs(const struct comparison *c, const struct gospa_cluster *cluster,
+                             bool rows_are_targets)
 {
     double *cost = must_calloc(cluster->num_targets * cluster->num_tracks, sizeof *cost);
     for (size_t i = 0; i < cluster->num_targets; i++) {
@@ -52,19 +52,19 @@ static void pair_cluster(struct comparison *c, const struct gospa_cluster *clust
     bool rows_are_targets = cluster->num_targets <= cluster->num_tracks;
     size_t rows = rows_are_targets ? cluster->num_targets : cluster->num_tracks;
     size_t columns = rows_are_targets ? cluster->num_tracks : cluster->num_targets;
-    double *cost = costs_of(c, cluster, rows_are_targets);
+    double *cost = cluster_costs(c, cluster, rows_are_targets);
     size_t *column_of = must_calloc(rows, sizeof *column_of);
     hungarian_assign(rows, columns, cost, column_of);
     for (size_t row = 0; row < rows; row++) {
-        count_if_near(c, cluster->targets[rows_are_targets ? row : column_of[row]],
-                      cluster->tracks[rows_are_targets ? column_of[row] : row]);
+        count_pair_if_near(c, cluster->targets[rows_are_targets ? row : column_of[row]],
+                           cluster->tracks[rows_are_targets ? column_of[row] : row]);
     }
     free(cost);
     free(column_of);
 }
 
-static double ospa(const struct gospa *result, size_t num_targets, size_t num_tracks,
-                   double cutoff2_m2)
+static double ospa_of(const struct gospa *result, size_t num_targets, size_t num_tracks,
+                      double cutoff2_m2)
 {
     size_t larger = num_targets > num_tracks ? num_targets : num_tracks;
     double unpaired = (double)(larger - result->pairs) * cutoff2_m2;
@@ -93,6 +93,6 @@ struct gospa gospa_compare(const struct gospa_place *targets, size_t num_targets
     c.result.false_tracks = num_tracks - c.result.pairs;
     c.result.squared_m2 = c.result.localisation_m2 +
                           0.5 * c.cutoff2_m2 * (double)(c.result.missed + c.result.false_tracks);
-    c.result.ospa_m = ospa(&c.result, num_targets, num_tracks, c.cutoff2_m2);
+    c.result.ospa_m = ospa_of(&c.result, num_targets, num_tracks, c.cutoff2_m2);
     return c.result;
 }

@@ -23,7 +23,7 @@ static size_t root_of(size_t *parent, size_t node)
     return node;
 }
 
-static void join(size_t *parent, size_t a, size_t b)
+static void join_trees(size_t *parent, size_t a, size_t b)
 {
     size_t root_a = root_of(parent, a), root_b = root_of(parent, b);
     if (root_a < root_b) {
@@ -56,8 +56,8 @@ static struct sorted *sort_places(const struct gospa_place *places, size_t count
     return sorted;
 }
 
-static void join_near(size_t *parent, const struct gospa_place *targets, size_t num_targets,
-                      const struct gospa_place *tracks, size_t num_tracks, double cutoff_m)
+static void join_near_pairs(size_t *parent, const struct gospa_place *targets, size_t num_targets,
+                            const struct gospa_place *tracks, size_t num_tracks, double cutoff_m)
 {
     struct sorted *target = sort_places(targets, num_targets);
     struct sorted *track = sort_places(tracks, num_tracks);
@@ -69,7 +69,7 @@ static void join_near(size_t *parent, const struct gospa_place *targets, size_t 
         for (size_t j = first; j < num_tracks && track[j].x_m - target[i].x_m < cutoff_m; j++) {
             if (gospa_distance2(&targets[target[i].index], &tracks[track[j].index]) <
                 cutoff_m * cutoff_m) {
-                join(parent, target[i].index, num_targets + track[j].index);
+                join_trees(parent, target[i].index, num_targets + track[j].index);
             }
         }
     }
@@ -132,7 +132,7 @@ struct gospa_clusters gospa_clusters_find(const struct gospa_place *targets, siz
     for (size_t node = 0; node < num_targets + num_tracks; node++) {
         parent[node] = node;
     }
-    join_near(parent, targets, num_targets, tracks, num_tracks, cutoff_m);
+    join_near_pairs(parent, targets, num_targets, tracks, num_tracks, cutoff_m);
     struct gospa_clusters clusters = list_clusters(parent, num_targets, num_tracks);
     free(parent);
     return clusters;

@@ -14,7 +14,7 @@ int64_t alignment_tolerance_us(const struct parameters *parameters)
 }
 
 /* The first one of the time that is nearest; from: of a time before it, or of its own. */
-static size_t nearest(struct alignment_times times, size_t from, int64_t time_us)
+static size_t nearest_time(struct alignment_times times, size_t from, int64_t time_us)
 {
     size_t at = from;
 
@@ -29,13 +29,13 @@ static size_t nearest(struct alignment_times times, size_t from, int64_t time_us
     return at;
 }
 
-size_t alignment_find_far(struct alignment_times tracks, struct alignment_times truth,
-                          int64_t most_us)
+size_t alignment_find_unmatched(struct alignment_times tracks, struct alignment_times truth,
+                                int64_t most_us)
 {
     size_t at = 0;
 
     for (size_t i = 0; i < tracks.count && truth.count > 0; i++) {
-        at = nearest(truth, at, tracks.list_us[i]);
+        at = nearest_time(truth, at, tracks.list_us[i]);
         if (llabs(truth.list_us[at] - tracks.list_us[i]) > most_us) {
             return i;
         }
@@ -43,10 +43,10 @@ size_t alignment_find_far(struct alignment_times tracks, struct alignment_times 
     return tracks.count;
 }
 
-void alignment_fail(const struct table *tracks, size_t row, int64_t most_us)
+void alignment_fail_unmatched(const struct table *tracks, size_t row, int64_t most_us)
 {
-    table_fail(tracks, row, "the truth has no such time within %g ms (time_tolerance_s)",
-               (double)most_us * 1e-3);
+    table_fail_at_row(tracks, row, "the truth has no such time within %g ms (time_tolerance_s)",
+                      (double)most_us * 1e-3);
 }
 
 struct alignment alignment_to_truth(struct alignment_times tracks, struct alignment_times truth,
@@ -61,7 +61,7 @@ struct alignment alignment_to_truth(struct alignment_times tracks, struct alignm
         if (i > 0 && time_us == truth.list_us[i - 1]) {
             continue;
         }
-        from = nearest(tracks, from, time_us);
+        from = nearest_time(tracks, from, time_us);
         at_us = tracks.list_us[from];
         for (size_t k = from;
              k < tracks.count && tracks.list_us[k] == at_us && llabs(at_us - time_us) <= most_us;

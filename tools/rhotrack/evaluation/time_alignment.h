@@ -39,13 +39,16 @@ int64_t alignment_tolerance_us(const struct parameters *parameters);
  * The first of the tracks' times that is further from each of the truth's than that; their count
  * where there is none.
  */
-size_t alignment_find_far(struct alignment_times tracks, struct alignment_times truth,
-                          int64_t most_us);
+size_t alignment_find_unmatched(struct alignment_times tracks, struct alignment_times truth,
+                                int64_t most_us);
 
 /* Exit 2: the truth has no such time. */
-_Noreturn void alignment_fail(const struct table *tracks, size_t row, int64_t most_us);
+_Noreturn void alignment_fail_unmatched(const struct table *tracks, size_t row, int64_t most_us);
 
-/* The rows that count at each of the truth's times, some at none, some at more than one. */
+/*
+ * Which rows of the tracks are used at each of the truth's times. A row may be used at none of
+ * them, or at several.
+ */
 struct alignment alignment_to_truth(struct alignment_times tracks, struct alignment_times truth,
                                     int64_t most_us);
 

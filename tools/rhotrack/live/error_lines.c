@@ -36,7 +36,7 @@ static int64_t now_us(void)
 }
 
 /* "": there is none. */
-static void write_time(char text[TIME_BYTES])
+static void write_time_stamp(char text[TIME_BYTES])
 {
     const int64_t time_us = lines.is_live ? now_us() : lines.time_us;
     const int64_t within_us = (time_us % 1000000 + 1000000) % 1000000;
@@ -52,7 +52,7 @@ static void write_time(char text[TIME_BYTES])
 }
 
 /* The sensor's name where the text goes on with "sensor N", whose end *end is then; else NULL. */
-static const char *find_name(const char *text, const char *begin, const char **end)
+static const char *find_sensor_name(const char *text, const char *begin, const char **end)
 {
     static const char word[] = "sensor ";
     char *behind;
@@ -78,12 +78,12 @@ static void write_line(FILE *out, const char *text)
     char time[TIME_BYTES] = "";
 
     if (!lines.is_within) {
-        write_time(time);
+        write_time_stamp(time);
     }
     fputs(time, out);
     for (const char *at = text; *at;) {
         const char *end;
-        const char *name = find_name(at, text, &end);
+        const char *name = find_sensor_name(at, text, &end);
 
         if (name) {
             fprintf(out, "%.*s (%s)", (int)(end - at), at, name);
@@ -96,12 +96,12 @@ static void write_line(FILE *out, const char *text)
 
 /* ---- The stream ---- */
 
-static void put(const char *text, size_t bytes)
+static void write_to_stderr(const char *text, size_t bytes)
 {
     lines.is_lossy |= write(STDERR_FILENO, text, bytes) != (ssize_t)bytes;
 }
 
-static ssize_t write_text(void *cookie, const char *text, size_t size)
+static ssize_t write_stream_text(void *cookie, const char *text, size_t size)
 {
     (void)cookie;
     for (size_t at = 0, bytes; at < size; at += bytes) {
@@ -118,10 +118,10 @@ static ssize_t write_text(void *cookie, const char *text, size_t size)
         if (out) {
             write_line(out, piece);
             fclose(out);
-            put(whole, length);
+            write_to_stderr(whole, length);
             free(whole);
         } else {
-            put(piece, bytes);
+            write_to_stderr(piece, bytes);
         }
         lines.is_within = piece[bytes - 1] != '\n';
     }
@@ -129,10 +129,10 @@ static ssize_t write_text(void *cookie, const char *text, size_t size)
 }
 
 /*
- * It is opened anew so that nobody waits for it, as other programs have the same pipe and may want
- * to wait.
+ * Standard error is opened anew without waiting; other programs that have the same pipe still wait
+ * for it.
  */
-static void open_without_waiting(const struct stat *status)
+static void open_stderr_nonblocking(const struct stat *status)
 {
     const struct timeval little = {.tv_usec = 1000};
 
@@ -149,7 +149,7 @@ static void open_without_waiting(const struct stat *status)
 }
 
 /* systemd says which file its journal is. */
-static bool is_journal(const struct stat *status)
+static bool is_systemd_journal(const struct stat *status)
 {
     const char *journal = getenv("JOURNAL_STREAM");
     char own[48];
@@ -160,7 +160,7 @@ static bool is_journal(const struct stat *status)
 
 void error_lines_open(const struct parameters *parameters, bool is_live)
 {
-    const cookie_io_functions_t functions = {.write = write_text};
+    const cookie_io_functions_t functions = {.write = write_stream_text};
     struct stat status;
     FILE *stream = fopencookie(NULL, "w", functions);
 
@@ -171,8 +171,8 @@ void error_lines_open(const struct parameters *parameters, bool is_live)
     lines.parameters = parameters;
     lines.is_live = is_live;
     if (fstat(STDERR_FILENO, &status) == 0) {
-        open_without_waiting(&status);
-        lines.is_journal = is_journal(&status);
+        open_stderr_nonblocking(&status);
+        lines.is_journal = is_systemd_journal(&status);
     }
     fflush(stderr);
     stderr = stream;
@@ -188,8 +188,8 @@ void error_lines_write(const char *text)
 {
     char time[TIME_BYTES], line[LINE_BYTES];
 
-    write_time(time);
-    put(line, (size_t)snprintf(line, sizeof line, "%s%.1000s", time, text));
+    write_time_stamp(time);
+    write_to_stderr(line, (size_t)snprintf(line, sizeof line, "%s%.1000s", time, text));
 }
 
 bool error_lines_is_lossy(void)

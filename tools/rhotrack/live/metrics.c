@@ -13,7 +13,8 @@ static void begin_family(FILE *out, const char *name, const char *type, const ch
     fprintf(out, "# HELP rhotrack_%s %s\n# TYPE rhotrack_%s %s\n", name, help, name, type);
 }
 
-static void write_one(FILE *out, const char *name, const char *type, const char *help, double value)
+static void write_single_value(FILE *out, const char *name, const char *type, const char *help,
+                               double value)
 {
     begin_family(out, name, type, help);
     fprintf(out, "rhotrack_%s %.15g\n", name, value);
@@ -28,7 +29,7 @@ static void write_counter(FILE *out, const char *name, const char *help, uint64_
 /* ---- Refusals, and all else that the last words of a node tell ---- */
 
 /* "scans late, dropped" is scans_late_dropped; what is in brackets explains. */
-static void write_cause(FILE *out, const char *name)
+static void write_cause_label(FILE *out, const char *name)
 {
     for (bool is_between = false; *name && *name != '(' && *name != ':'; name++) {
         if (isalnum((unsigned char)*name)) {
@@ -44,7 +45,7 @@ static void write_causes(FILE *out, const char *family, const struct node_tally 
     for (int i = 0; i < NODE_TALLIES; i++) {
         if (tallies[i].kind == kind) {
             fprintf(out, "rhotrack_%s{cause=\"", family);
-            write_cause(out, tallies[i].name);
+            write_cause_label(out, tallies[i].name);
             fprintf(out, "\"} %" PRIu64 "\n", tallies[i].count);
         }
     }
@@ -54,7 +55,7 @@ static void write_tallies(FILE *out, const struct metrics_source *source)
 {
     struct node_tally tallies[NODE_TALLIES];
 
-    node_tally(source->core, source->transport, tallies);
+    node_tally_all(source->core, source->transport, tallies);
     begin_family(out, "refused_total", "counter", "Refused or lost, by cause: faults.");
     write_causes(out, "refused_total", tallies, NODE_TALLY_FAULT);
     begin_family(out, "missing", "gauge",
@@ -71,18 +72,19 @@ struct row {
     uint64_t count;
 };
 
-static void write_rows(FILE *out, const struct row *rows, size_t num_rows)
+static void write_counter_rows(FILE *out, const struct row *rows, size_t num_rows)
 {
     for (size_t i = 0; i < num_rows; i++) {
         write_counter(out, rows[i].name, rows[i].help, rows[i].count);
     }
 }
 
-static void write_inputs(FILE *out, const struct metrics_source *source)
+static void write_input_counters(FILE *out, const struct metrics_source *source)
 {
-    const struct rho_scan_assembler_counters *assembler = node_core_assembler(source->core);
-    const struct rho_frames_counters *frames = node_core_frames(source->core);
-    const struct rho_node_counters *own = node_core_counters(source->core);
+    const struct rho_scan_assembler_counters *assembler =
+        node_core_assembler_counters(source->core);
+    const struct rho_frames_counters *frames = node_core_frame_counters(source->core);
+    const struct rho_node_counters *own = node_core_node_counters(source->core);
     const struct transport_counters network = transport_counters(source->transport);
     const struct row rows[] = {
         {"messages_received_total", "Messages of LCM that were looked at, of all programs.",
@@ -109,18 +111,18 @@ static void write_inputs(FILE *out, const struct metrics_source *source)
         {"events_not_logged_total", "Events that the log had no room for.",
          source->losses.events_not_logged},
         {"shown_left_out_total", "Messages of --show beyond its rate.",
-         node_core_not_shown(source->core)},
+         node_core_num_not_shown(source->core)},
         {"metrics_pages_total", "Answers with this text.", source->pages_sent},
         {"metrics_refused_total", "Requests of something else, and clients that were too slow.",
          source->clients_refused},
     };
 
-    write_rows(out, rows, sizeof rows / sizeof *rows);
+    write_counter_rows(out, rows, sizeof rows / sizeof *rows);
 }
 
-static void write_tracker(FILE *out, const struct metrics_source *source)
+static void write_tracker_counters(FILE *out, const struct metrics_source *source)
 {
-    const struct rho_tracker_counters *tracker = node_core_tracker(source->core);
+    const struct rho_tracker_counters *tracker = node_core_tracker_counters(source->core);
     const struct row rows[] = {
         {"tracker_scans_total", "Scans and frames that the tracker took.", tracker->scans_accepted},
         {"tracker_scans_stale_total", "Scans too old to be used.", tracker->scans_late},
@@ -144,22 +146,22 @@ static void write_tracker(FILE *out, const struct metrics_source *source)
          tracker->sensors_suspected},
     };
 
-    write_rows(out, rows, sizeof rows / sizeof *rows);
+    write_counter_rows(out, rows, sizeof rows / sizeof *rows);
     begin_family(out, "plots_by_fate_total", "counter", "What became of plots and bearings.");
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         fprintf(out, "rhotrack_plots_by_fate_total{fate=\"");
-        write_cause(out, rho_fate_name((enum rho_fate)fate));
+        write_cause_label(out, rho_fate_name((enum rho_fate)fate));
         fprintf(out, "\"} %" PRIu32 "\n", tracker->fates[fate]);
     }
 }
 
 /* ---- Now ---- */
 
-static void write_tracks(FILE *out, const struct metrics_source *source)
+static void write_track_numbers(FILE *out, const struct metrics_source *source)
 {
     static const char *const names[RHO_NUM_TRACK_STATUS] = {NULL, "tentative", "confirmed",
                                                             "coasting"};
-    const struct rho_report *report = node_core_report(source->core);
+    const struct rho_report *report = node_core_last_report(source->core);
     unsigned counts[RHO_NUM_TRACK_STATUS] = {0};
 
     for (unsigned i = 0; i < report->num_tracks; i++) {
@@ -171,8 +173,8 @@ static void write_tracks(FILE *out, const struct metrics_source *source)
     }
 }
 
-static void write_times(FILE *out, const char *name, const char *help,
-                        const struct node_core_times *times)
+static void write_time_histogram(FILE *out, const char *name, const char *help,
+                                 const struct node_core_times *times)
 {
     uint64_t within = 0;
 
@@ -190,22 +192,23 @@ static void write_times(FILE *out, const char *name, const char *help,
 
 static void write_work(FILE *out, const struct metrics_source *source)
 {
-    const struct rho_tracker *tracker = node_core_state(source->core);
+    const struct rho_tracker *tracker = node_core_tracker_state(source->core);
     const struct node_core_times *steps = node_core_step_times(source->core);
     const struct node_core_times *latencies = node_core_latencies(source->core);
 
-    write_times(out, "step_seconds", "Time of a step.", steps);
-    write_one(out, "step_seconds_max", "gauge", "Longest step since the start.",
-              (double)steps->max_us * 1e-6);
-    write_times(out, "latency_seconds",
-                "From the reception of a scan's last message to its tracks.", latencies);
-    write_one(out, "latency_seconds_max", "gauge", "Longest latency since the start.",
-              (double)latencies->max_us * 1e-6);
-    write_one(out, "step_work", "gauge", "Units of work of the last step.", tracker->work.work);
-    write_one(out, "step_work_worst", "gauge", "Units of work of the worst step.",
-              tracker->work.work_worst);
-    write_one(out, "step_work_max", "gauge", "Units of work that a step may do; 0: any.",
-              tracker->config.work_max);
+    write_time_histogram(out, "step_seconds", "Time of a step.", steps);
+    write_single_value(out, "step_seconds_max", "gauge", "Longest step since the start.",
+                       (double)steps->max_us * 1e-6);
+    write_time_histogram(out, "latency_seconds",
+                         "From the reception of a scan's last message to its tracks.", latencies);
+    write_single_value(out, "latency_seconds_max", "gauge", "Longest latency since the start.",
+                       (double)latencies->max_us * 1e-6);
+    write_single_value(out, "step_work", "gauge", "Units of work of the last step.",
+                       tracker->work.work);
+    write_single_value(out, "step_work_worst", "gauge", "Units of work of the worst step.",
+                       tracker->work.work_worst);
+    write_single_value(out, "step_work_max", "gauge", "Units of work that a step may do; 0: any.",
+                       tracker->config.work_max);
     write_counter(out, "partial_steps_total", "Steps that left something out.",
                   tracker->work.partial_steps);
     write_counter(out, "plots_not_tried_total", "Plots left out with all that they might go with.",
@@ -215,7 +218,7 @@ static void write_work(FILE *out, const struct metrics_source *source)
 /* ---- Sensors ---- */
 
 /* sensor="1",name="north" */
-static void write_sensor(FILE *out, const struct metrics_source *source, int32_t sensor_id)
+static void write_sensor_labels(FILE *out, const struct metrics_source *source, int32_t sensor_id)
 {
     const char *name = parameters_sensor_name(source->parameters, sensor_id);
 
@@ -241,7 +244,7 @@ static void write_sensors(FILE *out, const struct metrics_source *source)
     };
     static const char *const kinds[] = {"", "plots", "polar", "bearings"};
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
-    const unsigned count = node_core_sensors(source->core, sensors);
+    const unsigned count = node_core_list_sensors(source->core, sensors);
 
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
         begin_family(out, columns[i].name, columns[i].type, columns[i].help);
@@ -259,7 +262,7 @@ static void write_sensors(FILE *out, const struct metrics_source *source)
             };
 
             fprintf(out, "rhotrack_%s{", columns[i].name);
-            write_sensor(out, source, sensor->sensor_id);
+            write_sensor_labels(out, source, sensor->sensor_id);
             fprintf(out, ",kind=\"%s\"} %.9g\n", kinds[sensor->kind & 3], values[i]);
         }
     }
@@ -270,8 +273,8 @@ struct learned {
     struct rho_tracker_known known;
 };
 
-static void write_noise(FILE *out, const struct metrics_source *source,
-                        const struct learned *learned, unsigned count)
+static void write_learned_noise(FILE *out, const struct metrics_source *source,
+                                const struct learned *learned, unsigned count)
 {
     begin_family(out, "sensor_noise_factor", "gauge",
                  "Learned noise over the stated one, along the line of sight and across.");
@@ -281,35 +284,35 @@ static void write_noise(FILE *out, const struct metrics_source *source,
                 is_cross ? learned[i].known.cross_factor : learned[i].known.range_factor;
 
             fputs("rhotrack_sensor_noise_factor{", out);
-            write_sensor(out, source, learned[i].sensor_id);
+            write_sensor_labels(out, source, learned[i].sensor_id);
             fprintf(out, ",axis=\"%s\"} %.9g\n", is_cross ? "cross" : "range", (double)factor);
         }
     }
 }
 
-static void write_pd(FILE *out, const struct metrics_source *source, const struct learned *learned,
-                     unsigned count)
+static void write_learned_pd(FILE *out, const struct metrics_source *source,
+                             const struct learned *learned, unsigned count)
 {
     begin_family(out, "sensor_pd", "gauge",
                  "Learned probability of detection, by ring of range from the inside.");
     for (unsigned i = 0; i < count; i++) {
         for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
             fputs("rhotrack_sensor_pd{", out);
-            write_sensor(out, source, learned[i].sensor_id);
+            write_sensor_labels(out, source, learned[i].sensor_id);
             fprintf(out, ",ring=\"%d\"} %.9g\n", ring, (double)learned[i].known.pd[ring]);
         }
     }
 }
 
 /* looks: else innovations. */
-static void write_learned_from(FILE *out, const struct metrics_source *source, const char *name,
-                               const char *help, const struct learned *learned, unsigned count,
-                               bool is_looks)
+static void write_learned_sample_size(FILE *out, const struct metrics_source *source,
+                                      const char *name, const char *help,
+                                      const struct learned *learned, unsigned count, bool is_looks)
 {
     begin_family(out, name, "gauge", help);
     for (unsigned i = 0; i < count; i++) {
         fprintf(out, "rhotrack_%s{", name);
-        write_sensor(out, source, learned[i].sensor_id);
+        write_sensor_labels(out, source, learned[i].sensor_id);
         fprintf(out, "} %" PRIu32 "\n",
                 is_looks ? learned[i].known.looks : learned[i].known.innovations);
     }
@@ -317,7 +320,7 @@ static void write_learned_from(FILE *out, const struct metrics_source *source, c
 
 static void write_learned(FILE *out, const struct metrics_source *source)
 {
-    const struct rho_tracker *tracker = node_core_state(source->core);
+    const struct rho_tracker *tracker = node_core_tracker_state(source->core);
     struct learned learned[RHO_MAX_SENSORS];
     unsigned count = 0;
 
@@ -326,13 +329,13 @@ static void write_learned(FILE *out, const struct metrics_source *source)
         count += rho_tracker_known_of(tracker, learned[count].sensor_id, &learned[count].known) ==
                  RHO_OK;
     }
-    write_noise(out, source, learned, count);
-    write_pd(out, source, learned, count);
-    write_learned_from(out, source, "sensor_innovations",
-                       "Innovations that the noise is learned of.", learned, count, false);
-    write_learned_from(out, source, "sensor_looks",
-                       "Looks that the probability of detection is learned of.", learned, count,
-                       true);
+    write_learned_noise(out, source, learned, count);
+    write_learned_pd(out, source, learned, count);
+    write_learned_sample_size(out, source, "sensor_innovations",
+                              "Innovations that the noise is learned of.", learned, count, false);
+    write_learned_sample_size(out, source, "sensor_looks",
+                              "Looks that the probability of detection is learned of.", learned,
+                              count, true);
 }
 
 /* ---- Zones ---- */
@@ -367,10 +370,10 @@ static void write_zones(FILE *out, const struct rho_zones *zones)
 
 void metrics_write(FILE *out, const struct metrics_source *source)
 {
-    write_inputs(out, source);
+    write_input_counters(out, source);
     write_tallies(out, source);
-    write_tracker(out, source);
-    write_tracks(out, source);
+    write_tracker_counters(out, source);
+    write_track_numbers(out, source);
     write_work(out, source);
     write_sensors(out, source);
     write_learned(out, source);

@@ -8,7 +8,7 @@
 #include "base/common.h"
 #include "io/output/clutter_file.h"
 #include "live/refused_messages.h"
-#include "pipeline/learned.h"
+#include "pipeline/learned_report.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/command.h"
 #include "rhotrack/message.h"
@@ -46,7 +46,7 @@ struct node_core {
     struct pipeline pipeline;
     struct pipeline_show *show; /* NULL: nothing is */
     struct rho_node node;
-    struct sequence_counts order;
+    struct out_of_sequence_counts order;
     struct node_core_times step_times, latencies;
     struct rho_scan_assembler assembler;
     struct refused_messages refused;
@@ -116,7 +116,7 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
     return core;
 }
 
-void node_core_show(struct node_core *core, struct pipeline_show *show)
+void node_core_set_show(struct node_core *core, struct pipeline_show *show)
 {
     core->show = show;
 }
@@ -126,29 +126,30 @@ void node_core_allow_commands(struct node_core *core)
     core->takes_commands = true;
 }
 
-uint64_t node_core_not_shown(const struct node_core *core)
+uint64_t node_core_num_not_shown(const struct node_core *core)
 {
     return pipeline_show_not_sent(core->show);
 }
 
-enum pipeline_restored node_core_restore(struct node_core *core, const char *path)
+enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const char *path)
 {
-    enum pipeline_restored restored = pipeline_restore(&core->pipeline, core->parameters, path);
+    enum pipeline_restored restored =
+        pipeline_restore_snapshot(&core->pipeline, core->parameters, path);
 
-    parameters_describe_again(core->parameters, &core->assembler);
+    parameters_describe_sensors_again(core->parameters, &core->assembler);
     open_node(core, core->node.epoch); /* the pipeline has other objects */
     core->node.is_restored = restored == PIPELINE_RESTORED;
     return restored;
 }
 
-bool node_core_save(struct node_core *core, const char *path)
+bool node_core_save_snapshot(struct node_core *core, const char *path)
 {
-    return pipeline_save(&core->pipeline, path);
+    return pipeline_save_snapshot(&core->pipeline, path);
 }
 
 /* Areas that an operator has excluded stay so. */
-static void carry_excluded(struct rho_tracker *tracker, const struct rho_extent *areas,
-                           unsigned num_areas)
+static void restore_excluded_areas(struct rho_tracker *tracker, const struct rho_extent *areas,
+                                   unsigned num_areas)
 {
     for (unsigned i = 0; i < num_areas; i++) {
         must_succeed(rho_tracker_exclude_area(tracker, &areas[i]), "excluded area");
@@ -156,7 +157,7 @@ static void carry_excluded(struct rho_tracker *tracker, const struct rho_extent 
 }
 
 /* Counters and the clutter map go on across a clock that was set. */
-static void start_anew(struct node_core *core)
+static void start_tracking_anew(struct node_core *core)
 {
     const unsigned num_excluded = core->pipeline.tracker->num_excluded;
     struct rho_extent excluded[RHO_MAX_EXCLUDED_AREAS];
@@ -167,10 +168,10 @@ static void start_anew(struct node_core *core)
     *clutter = core->pipeline.tracker->clutter_map;
     memcpy(excluded, core->pipeline.tracker->excluded, sizeof excluded);
     pipeline_open(&core->pipeline, core->parameters);
-    pipeline_reopen_paper(&core->pipeline);
-    clutter_file_carry(&core->pipeline.tracker->clutter_map, clutter);
+    pipeline_reopen_passive_paper(&core->pipeline);
+    clutter_file_copy_echoes(&core->pipeline.tracker->clutter_map, clutter);
     free(clutter);
-    carry_excluded(core->pipeline.tracker, excluded, num_excluded);
+    restore_excluded_areas(core->pipeline.tracker, excluded, num_excluded);
     core->pipeline.tracker->counters = counters;
     core->pipeline.tracker->work = work;
     core->node.epoch = core->node.epoch == INT32_MAX ? 0 : core->node.epoch + 1;
@@ -196,7 +197,7 @@ static void send_zone_events(const struct node_core *core)
     }
 }
 
-static void send_step(const struct node_core *core)
+static void send_step_messages(const struct node_core *core)
 {
     uint8_t buffer[RHO_UDPM_MAX_DATAGRAM];
     size_t size;
@@ -218,14 +219,14 @@ static void show_step(struct node_core *core, enum rho_node_due due)
                        core->node.epoch, core->node.now_us, &output);
 }
 
-static void start_tracks(struct node_core *core, enum rho_node_due due)
+static void start_paper_tracks(struct node_core *core, enum rho_node_due due)
 {
     struct rho_frame_view view;
 
     if (due == RHO_NODE_SCAN) {
-        pipeline_start_tracks(&core->pipeline, &core->node.scan, NULL);
+        pipeline_start_paper_tracks(&core->pipeline, &core->node.scan, NULL);
     } else if (rho_frames_closed(&core->frames, &view)) {
-        pipeline_start_tracks(&core->pipeline, NULL, &view.frame);
+        pipeline_start_paper_tracks(&core->pipeline, NULL, &view.frame);
     }
 }
 
@@ -272,7 +273,7 @@ static void change_setting(struct node_core *core, const struct rho_message_sett
     if (rho_command_set(setting, &settings, &answer) == RHO_OK) {
         if (parameters_take_settings(core->parameters, &settings)) {
             pipeline_reconfigure(&core->pipeline, core->parameters);
-            parameters_describe_again(core->parameters, &core->assembler);
+            parameters_describe_sensors_again(core->parameters, &core->assembler);
         } else {
             answer.status = RHO_ERROR_CONFIG; /* a sensor's own ranges do not go with it */
         }
@@ -377,7 +378,7 @@ static void count_time(struct node_core_times *times, int64_t took_us)
 }
 
 /* The step's scan waited for so long: of a frame of bearings, the scan that came last. */
-static int64_t waited_us(const struct node_core *core, enum rho_node_due due)
+static int64_t scan_waited_us(const struct node_core *core, enum rho_node_due due)
 {
     int64_t heard_us = INT64_MIN;
 
@@ -395,18 +396,19 @@ static int64_t waited_us(const struct node_core *core, enum rho_node_due due)
     return heard_us == INT64_MIN || heard_us > core->node.now_us ? 0 : core->node.now_us - heard_us;
 }
 
-static void step(struct node_core *core, enum rho_node_due due)
+static void step_when_due(struct node_core *core, enum rho_node_due due)
 {
     const int64_t start_us = clock_us();
-    struct rho_initiator *initiator = due == RHO_NODE_SCAN && !core->pipeline.starts
-                                          ? pipeline_initiator_of(&core->pipeline, &core->node.scan)
-                                          : NULL;
+    struct rho_initiator *initiator =
+        due == RHO_NODE_SCAN && !core->pipeline.starts
+            ? pipeline_initiator_of_scan(&core->pipeline, &core->node.scan)
+            : NULL;
     int64_t took_us;
 
     if (rho_node_step(&core->node, initiator) != RHO_OK) {
         return;
     }
-    start_tracks(core, due);
+    start_paper_tracks(core, due);
     if (due == RHO_NODE_SCAN) {
         pipeline_learn_walls(&core->pipeline, &core->node.scan);
     }
@@ -415,16 +417,16 @@ static void step(struct node_core *core, enum rho_node_due due)
     took_us = clock_us() - start_us;
     rho_node_count_time(&core->node, took_us);
     count_time(&core->step_times, took_us);
-    count_time(&core->latencies, took_us + waited_us(core, due));
+    count_time(&core->latencies, took_us + scan_waited_us(core, due));
     if (core->events.stepped) {
         core->events.stepped(core->events.context, core->pipeline.report);
     }
-    send_step(core);
+    send_step_messages(core);
     send_zone_events(core);
     show_step(core, due);
 }
 
-static void run(struct node_core *core, int64_t now_us)
+static void step_all_due(struct node_core *core, int64_t now_us)
 {
     enum rho_node_due due;
 
@@ -432,18 +434,21 @@ static void run(struct node_core *core, int64_t now_us)
     while ((due = rho_node_next(&core->node, now_us)) != RHO_NODE_NOTHING) {
         if (due == RHO_NODE_RESTART) {
             refuse_commands(core, INT64_MAX);
-            start_anew(core);
+            start_tracking_anew(core);
             if (core->events.began_anew) {
                 core->events.began_anew(core->events.context);
             }
         } else {
-            step(core, due);
+            step_when_due(core, due);
         }
     }
 }
 
-/* A sensor whose interval has changed is followed likewise, and has not begun again. */
-static void tell_of_restart(const struct node_core *core, const struct places *before)
+/*
+ * Tells of sensors whose time went back or whose epoch changed; one that is followed for another
+ * interval has not begun again.
+ */
+static void tell_of_sensor_restarts(const struct node_core *core, const struct places *before)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS && core->events.restarted; i++) {
         const struct rho_scan_assembler_source *source = &core->assembler.sources[i];
@@ -456,26 +461,27 @@ static void tell_of_restart(const struct node_core *core, const struct places *b
 }
 
 /* The assembler has taken the message. */
-static void note_taken(struct node_core *core, const char *channel, const uint8_t *data,
-                       size_t size, const struct rho_scan_assembler_counters *before,
-                       const struct places *places, int64_t now_us)
+static void note_message_taken(struct node_core *core, const char *channel, const uint8_t *data,
+                               size_t size, const struct rho_scan_assembler_counters *before,
+                               const struct places *places, int64_t now_us)
 {
     const struct rho_scan_assembler_counters *after = &core->assembler.counters;
 
-    sequence_counts_note(&core->order, before, &core->assembler);
+    out_of_sequence_counts_note_message(&core->order, before, &core->assembler);
     if (after->sensor_restarts == before->sensor_restarts) {
         refused_messages_note(&core->refused, channel, data, size, before, after);
     } else {
-        tell_of_restart(core, places);
+        tell_of_sensor_restarts(core, places);
         if (core->assembler.is_restart) { /* nothing of that time has been stepped */
-            refused_messages_take(&core->refused, channel, &core->assembler, now_us, &core->taken);
+            refused_messages_take_again(&core->refused, channel, &core->assembler, now_us,
+                                        &core->taken);
         }
     }
-    core->shown = refused_messages_counters(after, &core->taken);
+    core->shown = refused_messages_remaining_counters(after, &core->taken);
 }
 
-void node_core_take(struct node_core *core, const char *channel, const uint8_t *data, size_t size,
-                    int64_t now_us)
+void node_core_take_message(struct node_core *core, const char *channel, const uint8_t *data,
+                            size_t size, int64_t now_us)
 {
     struct rho_scan_assembler_counters before;
     bool has_room = take_command(core, channel, data, size, now_us);
@@ -488,15 +494,15 @@ void node_core_take(struct node_core *core, const char *channel, const uint8_t *
         }
         has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
         if (has_room) {
-            note_taken(core, channel, data, size, &before, &places, now_us);
+            note_message_taken(core, channel, data, size, &before, &places, now_us);
         }
-        run(core, now_us);
+        step_all_due(core, now_us);
     }
 }
 
 void node_core_tick(struct node_core *core, int64_t now_us)
 {
-    run(core, now_us);
+    step_all_due(core, now_us);
 }
 
 int64_t node_core_due_us(const struct node_core *core)
@@ -506,7 +512,7 @@ int64_t node_core_due_us(const struct node_core *core)
 
 void node_core_flush(struct node_core *core)
 {
-    run(core, INT64_MAX);
+    step_all_due(core, INT64_MAX);
 }
 
 /* ---- State ---- */
@@ -535,7 +541,7 @@ static void send_sensors(const struct node_core *core)
     }
 }
 
-static int64_t at_most_int64(uint64_t count)
+static int64_t clamp_to_int64(uint64_t count)
 {
     return count < INT64_MAX ? (int64_t)count : INT64_MAX;
 }
@@ -547,8 +553,8 @@ static void send_work(const struct node_core *core, const struct node_core_losse
     size_t size;
 
     rho_node_work(&core->node, &work);
-    work.reports_not_printed = at_most_int64(losses->reports_not_printed);
-    work.events_not_logged = at_most_int64(losses->events_not_logged);
+    work.reports_not_printed = clamp_to_int64(losses->reports_not_printed);
+    work.events_not_logged = clamp_to_int64(losses->events_not_logged);
     if (rho_message_work_encode(&work, buffer, sizeof buffer, &size) == RHO_OK) {
         core->events.send(core->events.context, RHO_MESSAGE_WORK_CHANNEL, buffer, size);
     }
@@ -584,7 +590,7 @@ static void send_zones(const struct node_core *core)
     }
 }
 
-void node_core_status(struct node_core *core, const struct node_core_losses *losses)
+void node_core_send_status(struct node_core *core, const struct node_core_losses *losses)
 {
     const uint64_t refused = losses->datagrams_refused;
     struct rho_message_status status;
@@ -623,8 +629,8 @@ void node_core_send_clutter(const struct node_core *core)
     }
 }
 
-unsigned node_core_sensors(const struct node_core *core,
-                           struct rho_message_sensor sensors[RHO_MAX_SENSORS])
+unsigned node_core_list_sensors(const struct node_core *core,
+                                struct rho_message_sensor sensors[RHO_MAX_SENSORS])
 {
     unsigned count = 0;
 
@@ -652,47 +658,47 @@ int node_core_follow_scans(const struct node_core *core)
     return (int)core->assembler.config.follow_scans;
 }
 
-const struct rho_report *node_core_report(const struct node_core *core)
+const struct rho_report *node_core_last_report(const struct node_core *core)
 {
     return core->pipeline.report;
 }
 
-int node_core_wall(const struct node_core *core, unsigned place, struct rho_reflector *wall)
+int node_core_learned_wall(const struct node_core *core, unsigned place, struct rho_reflector *wall)
 {
     return rho_reflector_learning_wall(core->pipeline.learning, place, wall);
 }
 
-struct rho_clutter_map *node_core_clutter(struct node_core *core)
+struct rho_clutter_map *node_core_clutter_map(struct node_core *core)
 {
     return &core->pipeline.tracker->clutter_map;
 }
 
-const struct rho_scan_assembler_counters *node_core_assembler(const struct node_core *core)
+const struct rho_scan_assembler_counters *node_core_assembler_counters(const struct node_core *core)
 {
     return &core->shown;
 }
 
-const struct rho_frames_counters *node_core_frames(const struct node_core *core)
+const struct rho_frames_counters *node_core_frame_counters(const struct node_core *core)
 {
     return &core->frames.counters;
 }
 
-const struct rho_tracker_counters *node_core_tracker(const struct node_core *core)
+const struct rho_tracker_counters *node_core_tracker_counters(const struct node_core *core)
 {
     return &core->pipeline.tracker->counters;
 }
 
-const struct rho_node_counters *node_core_counters(const struct node_core *core)
+const struct rho_node_counters *node_core_node_counters(const struct node_core *core)
 {
     return &core->node.counters;
 }
 
-const struct node_core_commands *node_core_commands(const struct node_core *core)
+const struct node_core_commands *node_core_command_counts(const struct node_core *core)
 {
     return &core->counters;
 }
 
-const struct sequence_counts *node_core_order(const struct node_core *core)
+const struct out_of_sequence_counts *node_core_sequence_counts(const struct node_core *core)
 {
     return &core->order;
 }
@@ -707,19 +713,19 @@ const struct node_core_times *node_core_latencies(const struct node_core *core)
     return &core->latencies;
 }
 
-double node_core_mean_us(const struct node_core *core)
+double node_core_mean_step_us(const struct node_core *core)
 {
     const struct node_core_times *times = &core->step_times;
 
     return times->count ? (double)times->sum_us / (double)times->count : 0;
 }
 
-double node_core_max_us(const struct node_core *core)
+double node_core_max_step_us(const struct node_core *core)
 {
     return (double)core->step_times.max_us;
 }
 
-const struct rho_tracker *node_core_state(const struct node_core *core)
+const struct rho_tracker *node_core_tracker_state(const struct node_core *core)
 {
     return core->pipeline.tracker;
 }
@@ -739,5 +745,5 @@ void node_core_close(struct node_core *core)
 
 void node_core_print_learned(const struct node_core *core, FILE *to)
 {
-    learned_print(core->pipeline.tracker, core->pipeline.learning, to);
+    learned_report_print(core->pipeline.tracker, core->pipeline.learning, to);
 }

@@ -3,10 +3,9 @@
  * node_core: the library's node (rhotrack/node.h) with the objects that the program's parameters
  * describe: (channel, bytes, time) in, messages out.
  *
- *     node_core_take(core, channel, data, size, now_us);    for each message that comes
- *     node_core_tick(core, now_us);                         when nothing has come, at
- *     node_core_due_us at the latest node_core_status(core, &losses);                      once a
- *     second
+ *     node_core_take_message(core, channel, data, size, now_us);    for each message that comes
+ *     node_core_tick(core, now_us);        when nothing has come, by node_core_due_us at the latest
+ *     node_core_send_status(core, &losses);                         once a second
  *
  * Any bytes may be given: faults in them are counted, and none of them ends the program.
  */
@@ -17,7 +16,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "io/scans/sequence_counts.h"
+#include "io/scans/out_of_sequence_counts.h"
 #include "pipeline/pipeline_show.h"
 #include "pipeline/pipeline_snapshot.h"
 #include "rhotrack/frames.h"
@@ -52,7 +51,7 @@ struct node_core *node_core_open(const struct parameters *parameters, int32_t ep
                                  const struct node_core_events *events);
 
 /* Each step is shown from now on; the core closes it at its end. NULL: nothing is. */
-void node_core_show(struct node_core *core, struct pipeline_show *show);
+void node_core_set_show(struct node_core *core, struct pipeline_show *show);
 
 /* Takes an operator's messages on RHO_COMMANDS and RHO_SETTINGS from now on. */
 void node_core_allow_commands(struct node_core *core);
@@ -63,24 +62,24 @@ struct node_core_commands {
     uint64_t bad;           /* messages that are none */
     uint64_t not_allowed;   /* this node takes none */
 };
-const struct node_core_commands *node_core_commands(const struct node_core *core);
+const struct node_core_commands *node_core_command_counts(const struct node_core *core);
 
 /* Messages of --show that its rates have left out. */
-uint64_t node_core_not_shown(const struct node_core *core);
+uint64_t node_core_num_not_shown(const struct node_core *core);
 
 /*
  * Goes on with the tracks and all that was learned of the file; before the first message. Where the
  * first scan is more than jump_max_s older than the snapshot, the sensors' clock is another one,
  * and tracks begin anew.
  */
-enum pipeline_restored node_core_restore(struct node_core *core, const char *path);
+enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const char *path);
 
 /* False: it failed, with errno. */
-bool node_core_save(struct node_core *core, const char *path);
+bool node_core_save_snapshot(struct node_core *core, const char *path);
 
 /* A message that came at now_us of the reception clock; steps what is due then. */
-void node_core_take(struct node_core *core, const char *channel, const uint8_t *data, size_t size,
-                    int64_t now_us);
+void node_core_take_message(struct node_core *core, const char *channel, const uint8_t *data,
+                            size_t size, int64_t now_us);
 
 /* Steps what is due though nothing has come. */
 void node_core_tick(struct node_core *core, int64_t now_us);
@@ -99,24 +98,25 @@ struct node_core_losses {
 };
 
 /* Publishes RHO_STATUS, RHO_WORK, RHO_SENSORS and of one sensor in turn RHO_LEARNED. */
-void node_core_status(struct node_core *core, const struct node_core_losses *losses);
+void node_core_send_status(struct node_core *core, const struct node_core_losses *losses);
 
-const struct rho_report *node_core_report(const struct node_core *core); /* of the last step */
+const struct rho_report *node_core_last_report(const struct node_core *core); /* of the last step */
 /* Without the scans that were refused at first, and taken when their sensor's restart was clear. */
-const struct rho_scan_assembler_counters *node_core_assembler(const struct node_core *core);
-const struct rho_frames_counters *node_core_frames(const struct node_core *core);
-const struct rho_tracker_counters *node_core_tracker(const struct node_core *core);
-const struct rho_node_counters *node_core_counters(const struct node_core *core);
+const struct rho_scan_assembler_counters *
+node_core_assembler_counters(const struct node_core *core);
+const struct rho_frames_counters *node_core_frame_counters(const struct node_core *core);
+const struct rho_tracker_counters *node_core_tracker_counters(const struct node_core *core);
+const struct rho_node_counters *node_core_node_counters(const struct node_core *core);
 
 /* Scans that came out of sequence, and were used. */
-const struct sequence_counts *node_core_order(const struct node_core *core);
+const struct out_of_sequence_counts *node_core_sequence_counts(const struct node_core *core);
 
 /*
  * The sensors that are heard, as RHO_SENSORS says it, with the time of the last call that told it.
  * Returns how many.
  */
-unsigned node_core_sensors(const struct node_core *core,
-                           struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
+unsigned node_core_list_sensors(const struct node_core *core,
+                                struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
 
 /* One of its scans came twice, with different contents. */
 bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
@@ -125,13 +125,14 @@ bool node_core_has_two_senders(const struct node_core *core, int16_t sensor_id);
 int node_core_follow_scans(const struct node_core *core);
 
 /* The wall that was learned at this place (reflectors.h); 0: none. */
-int node_core_wall(const struct node_core *core, unsigned place, struct rho_reflector *wall);
+int node_core_learned_wall(const struct node_core *core, unsigned place,
+                           struct rho_reflector *wall);
 
 /* Sends what is known of clutter that comes back, RHO_CLUTTER. */
 void node_core_send_clutter(const struct node_core *core);
 
 /* The tracker's map of clutter. */
-struct rho_clutter_map *node_core_clutter(struct node_core *core);
+struct rho_clutter_map *node_core_clutter_map(struct node_core *core);
 
 /* Times since the start, how many of them were within each bound. */
 #define NODE_CORE_BOUNDS 10
@@ -147,16 +148,16 @@ const struct node_core_times *node_core_step_times(const struct node_core *core)
 const struct node_core_times *node_core_latencies(const struct node_core *core);
 
 /* Mean and longest step in us since the start. */
-double node_core_mean_us(const struct node_core *core);
-double node_core_max_us(const struct node_core *core);
+double node_core_mean_step_us(const struct node_core *core);
+double node_core_max_step_us(const struct node_core *core);
 
 /* The objects themselves, to be looked at. */
-const struct rho_tracker *node_core_state(const struct node_core *core);
+const struct rho_tracker *node_core_tracker_state(const struct node_core *core);
 const struct rho_zones *node_core_zones(const struct node_core *core); /* NULL: there are none */
 
 void node_core_close(struct node_core *core);
 
-/* Learned values of sensors that are not as stated, and learned walls (learned.h). */
+/* Learned values of sensors that are not as stated, and learned walls (learned_report.h). */
 void node_core_print_learned(const struct node_core *core, FILE *to);
 
 #endif

@@ -56,27 +56,28 @@ struct node_log {
 
 /* ---- The thread ---- */
 
-static unsigned byte_at(const struct node_log *log, uint64_t at)
+static unsigned queue_byte_at(const struct node_log *log, uint64_t at)
 {
     return log->queue[at % QUEUE_BYTES];
 }
 
-static uint64_t number_at(const struct node_log *log, uint64_t at)
+static uint64_t queue_number_at(const struct node_log *log, uint64_t at)
 {
     uint64_t number = 0;
 
     for (unsigned i = 0; i < 4; i++) {
-        number = number << 8 | byte_at(log, at + i);
+        number = number << 8 | queue_byte_at(log, at + i);
     }
     return number;
 }
 
 /* Events that are written to their end make room. */
-static void count_whole(struct node_log *log)
+static void count_whole_events(struct node_log *log)
 {
     while (log->written - log->whole >= LCM_LOG_HEADER_BYTES) {
-        const uint64_t bytes = lcm_log_bytes(number_at(log, log->whole + LCM_LOG_CHANNEL_AT),
-                                             number_at(log, log->whole + LCM_LOG_DATA_AT));
+        const uint64_t bytes =
+            lcm_log_event_bytes(queue_number_at(log, log->whole + LCM_LOG_CHANNEL_AT),
+                                queue_number_at(log, log->whole + LCM_LOG_DATA_AT));
 
         if (log->written - log->whole < bytes) {
             return;
@@ -87,7 +88,7 @@ static void count_whole(struct node_log *log)
 }
 
 /* Bytes from `written` on that lie in one piece of the queue, and in one file. */
-static size_t piece_bytes(const struct node_log *log)
+static size_t next_piece_bytes(const struct node_log *log)
 {
     const uint64_t end = log->cut < log->put ? log->cut : log->put;
     uint64_t bytes = end - log->written;
@@ -98,7 +99,7 @@ static size_t piece_bytes(const struct node_log *log)
     return (size_t)(bytes < PIECE_BYTES ? bytes : PIECE_BYTES);
 }
 
-/* What is in the queue has no file. */
+/* Drops what is in the queue: there is no file for it. */
 static void drop_queue(struct node_log *log, int reason)
 {
     log->error = reason;
@@ -130,7 +131,7 @@ static void write_piece(struct node_log *log, const struct file *file, size_t by
     log->is_removed = is_removed;
     if (done >= 0) {
         log->written += (uint64_t)done;
-        count_whole(log);
+        count_whole_events(log);
     } else if (reason != EINTR) {
         log->error = reason;
     }
@@ -187,7 +188,7 @@ static void open_file(struct node_log *log, struct file *file, int flags)
     pthread_cond_broadcast(&log->changed);
 }
 
-static void put_away(struct node_log *log, int64_t begin_us)
+static void put_file_away(struct node_log *log, int64_t begin_us)
 {
     int refused;
 
@@ -198,11 +199,11 @@ static void put_away(struct node_log *log, int64_t begin_us)
 }
 
 /* The cut is reached: another file. */
-static void change_files(struct node_log *log, struct file *file)
+static void change_to_next_file(struct node_log *log, struct file *file)
 {
     close_file(log, file);
     if (log->is_put_away) {
-        put_away(log, log->cut_begin_us);
+        put_file_away(log, log->cut_begin_us);
     }
     log->cut = NO_CUT;
     open_file(log, file, O_APPEND);
@@ -214,15 +215,15 @@ static void *write_queue(void *object)
     struct file file;
 
     pthread_mutex_lock(&log->mutex);
-    if (node_log_limits_cut(&log->limits)) { /* an earlier run's stays */
-        put_away(log, node_log_files_time_us(log->path));
+    if (node_log_limits_are_set(&log->limits)) { /* an earlier run's stays */
+        put_file_away(log, node_log_files_last_write_us(log->path));
     }
     open_file(log, &file, log->refusal ? O_APPEND : O_TRUNC);
     while (!log->is_ended || log->written < log->put) {
-        const size_t bytes = file.descriptor >= 0 ? piece_bytes(log) : 0;
+        const size_t bytes = file.descriptor >= 0 ? next_piece_bytes(log) : 0;
 
         if (log->cut <= log->written) {
-            change_files(log, &file);
+            change_to_next_file(log, &file);
         } else if (bytes > 0) {
             write_piece(log, &file, bytes);
         } else {
@@ -304,8 +305,8 @@ static bool has_room(const struct node_log *log, uint64_t bytes)
     return QUEUE_BYTES - (log->put - log->whole) >= bytes;
 }
 
-/* At what was put last. A cut that is there already does. */
-static void cut_here(struct node_log *log, bool is_put_away)
+/* The file ends behind the event that was put last. A cut that is there already will do. */
+static void cut_file_here(struct node_log *log, bool is_put_away)
 {
     if (log->cut == NO_CUT) {
         log->cut = log->put;
@@ -318,19 +319,20 @@ static void cut_here(struct node_log *log, bool is_put_away)
 
 static void cut_before_event(struct node_log *log, uint64_t bytes, int64_t time_us)
 {
-    if (node_log_limits_end(&log->limits, log->put - log->begin, log->begin_us, bytes, time_us)) {
-        cut_here(log, true);
+    if (node_log_limits_reached(&log->limits, log->put - log->begin, log->begin_us, bytes,
+                                time_us)) {
+        cut_file_here(log, true);
     }
     if (log->put == log->begin) {
         log->begin_us = time_us;
     }
 }
 
-void node_log_put(struct node_log *log, int64_t time_us, const char *channel, const uint8_t *data,
-                  size_t size)
+void node_log_put_event(struct node_log *log, int64_t time_us, const char *channel,
+                        const uint8_t *data, size_t size)
 {
     const size_t length = strlen(channel);
-    const uint64_t bytes = lcm_log_bytes(length, size);
+    const uint64_t bytes = lcm_log_event_bytes(length, size);
     uint8_t header[LCM_LOG_HEADER_BYTES];
 
     if (!log) {
@@ -338,14 +340,14 @@ void node_log_put(struct node_log *log, int64_t time_us, const char *channel, co
     }
     pthread_mutex_lock(&log->mutex);
     while (!log->is_live && !log->error && bytes <= QUEUE_BYTES && !has_room(log, bytes) &&
-           !is_told_to_end()) {
+           !is_end_signal_pending()) {
         wait_until(log, clock_us() + LOOK_US);
     }
     if (log->error || !has_room(log, bytes)) {
         log->events_left_out++;
     } else {
         cut_before_event(log, bytes, time_us);
-        lcm_log_header(header, (int64_t)log->events_put++, time_us, length, size);
+        lcm_log_put_header(header, (int64_t)log->events_put++, time_us, length, size);
         put_bytes(log, header, sizeof header);
         put_bytes(log, channel, length);
         put_bytes(log, data, size);
@@ -354,12 +356,12 @@ void node_log_put(struct node_log *log, int64_t time_us, const char *channel, co
     pthread_mutex_unlock(&log->mutex);
 }
 
-static uint64_t count_left_out(const struct node_log *log)
+static uint64_t count_events_left_out(const struct node_log *log)
 {
     return log->events_left_out + (log->is_ended ? log->events_put - log->events_whole : 0);
 }
 
-uint64_t node_log_left_out(struct node_log *log)
+uint64_t node_log_events_left_out(struct node_log *log)
 {
     uint64_t count;
 
@@ -367,7 +369,7 @@ uint64_t node_log_left_out(struct node_log *log)
         return 0;
     }
     pthread_mutex_lock(&log->mutex);
-    count = count_left_out(log);
+    count = count_events_left_out(log);
     pthread_mutex_unlock(&log->mutex);
     return count;
 }
@@ -379,7 +381,7 @@ void node_log_reopen(struct node_log *log)
     }
     pthread_mutex_lock(&log->mutex);
     log->whole_then = log->events_whole;
-    cut_here(log, false);
+    cut_file_here(log, false);
     pthread_mutex_unlock(&log->mutex);
 }
 
@@ -415,7 +417,7 @@ static void say_full(struct node_log *log)
     }
 }
 
-static void open_what_is_gone(struct node_log *log, bool is_removed, int error)
+static void reopen_if_gone(struct node_log *log, bool is_removed, int error)
 {
     const int64_t now_us = clock_us();
 
@@ -430,7 +432,7 @@ static void open_what_is_gone(struct node_log *log, bool is_removed, int error)
     }
 }
 
-bool node_log_watch(struct node_log *log)
+bool node_log_report_errors(struct node_log *log)
 {
     int error, refusal;
     uint64_t left_out, whole;
@@ -442,7 +444,7 @@ bool node_log_watch(struct node_log *log)
     pthread_mutex_lock(&log->mutex);
     error = log->error;
     refusal = log->refusal;
-    left_out = count_left_out(log);
+    left_out = count_events_left_out(log);
     whole = log->events_whole;
     is_removed = log->is_removed && log->cut == NO_CUT;
     pthread_mutex_unlock(&log->mutex);
@@ -451,11 +453,11 @@ bool node_log_watch(struct node_log *log)
     if (!error && left_out > 0) {
         say_full(log);
     }
-    open_what_is_gone(log, is_removed, error);
+    reopen_if_gone(log, is_removed, error);
     return !error;
 }
 
-void node_log_end(struct node_log *log, int64_t until_us)
+void node_log_finish_queue(struct node_log *log, int64_t until_us)
 {
     if (!log) {
         return;

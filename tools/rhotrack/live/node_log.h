@@ -37,20 +37,20 @@ struct node_log *node_log_open(const char *path, bool is_live,
 void node_log_reopen(struct node_log *log);
 
 /* channel: 1 to LCM_LOG_MAX_CHANNEL characters. */
-void node_log_put(struct node_log *log, int64_t time_us, const char *channel, const uint8_t *data,
-                  size_t size);
+void node_log_put_event(struct node_log *log, int64_t time_us, const char *channel,
+                        const uint8_t *data, size_t size);
 
 /* Events so far that are not in the log, and will not be. */
-uint64_t node_log_left_out(struct node_log *log);
+uint64_t node_log_events_left_out(struct node_log *log);
 
 /* Says once on standard error what is wrong, and tries again. False: the disk refuses events. */
-bool node_log_watch(struct node_log *log);
+bool node_log_report_errors(struct node_log *log);
 
 /*
  * Writes the rest of the queue until until_us of clock_us; events that are left then count as left
  * out.
  */
-void node_log_end(struct node_log *log, int64_t until_us);
+void node_log_finish_queue(struct node_log *log, int64_t until_us);
 
 /* A log whose disk does not answer stays as it is, until the program ends. */
 void node_log_close(struct node_log *log);

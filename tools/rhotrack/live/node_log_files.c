@@ -17,29 +17,29 @@
 #define STAMP_BYTES (sizeof STAMP - 1)
 #define US_PER_MS 1000
 
-bool node_log_limits_cut(const struct node_log_limits *limits)
+bool node_log_limits_are_set(const struct node_log_limits *limits)
 {
     return limits->bytes_max > 0 || limits->period_us > 0;
 }
 
-static int64_t period_of(int64_t time_us, int64_t period_us)
+static int64_t period_number(int64_t time_us, int64_t period_us)
 {
     return time_us / period_us - (time_us % period_us < 0);
 }
 
-bool node_log_limits_end(const struct node_log_limits *limits, uint64_t file_bytes,
-                         int64_t begin_us, uint64_t event_bytes, int64_t time_us)
+bool node_log_limits_reached(const struct node_log_limits *limits, uint64_t file_bytes,
+                             int64_t begin_us, uint64_t event_bytes, int64_t time_us)
 {
     return file_bytes > 0 &&
            ((limits->bytes_max > 0 && file_bytes + event_bytes > limits->bytes_max) ||
-            (limits->period_us > 0 &&
-             period_of(time_us, limits->period_us) != period_of(begin_us, limits->period_us)));
+            (limits->period_us > 0 && period_number(time_us, limits->period_us) !=
+                                          period_number(begin_us, limits->period_us)));
 }
 
 /* ---- Names ---- */
 
 /* Where the stamp stands in the path: before the ending of its last part. */
-static size_t stamp_at(const char *path)
+static size_t stamp_position(const char *path)
 {
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
@@ -49,11 +49,11 @@ static size_t stamp_at(const char *path)
 }
 
 /* In new memory. */
-static char *stamped(const char *path, int64_t time_us)
+static char *path_with_stamp(const char *path, int64_t time_us)
 {
     const int64_t within_us = (time_us % 1000000 + 1000000) % 1000000;
     const time_t seconds = (time_t)((time_us - within_us) / 1000000);
-    const size_t at = stamp_at(path), bytes = strlen(path) + 64;
+    const size_t at = stamp_position(path), bytes = strlen(path) + 64;
     char *name = must_alloc(bytes), date[32] = "";
     struct tm parts;
 
@@ -78,9 +78,9 @@ static bool is_stamp(const char *text)
 }
 
 /* An earlier file of the log with this name. */
-static bool is_earlier(const char *file, const char *name)
+static bool is_earlier_log_file(const char *file, const char *name)
 {
-    const size_t at = stamp_at(name), length = strlen(name);
+    const size_t at = stamp_position(name), length = strlen(name);
 
     return strlen(file) == length + STAMP_BYTES && strncmp(file, name, at) == 0 &&
            is_stamp(file + at) && strcmp(file + at + STAMP_BYTES, name + at) == 0;
@@ -99,7 +99,7 @@ static int remove_oldest(const char *path, unsigned files_max)
     count = scandir(folder, &files, NULL, alphasort);
     refused = count < 0 ? errno : 0;
     for (int i = count - 1; i >= 0; i--) { /* the newest first */
-        if (is_earlier(files[i]->d_name, path + length) && ++earlier > files_max) {
+        if (is_earlier_log_file(files[i]->d_name, path + length) && ++earlier > files_max) {
             char *file = path_join(folder, files[i]->d_name);
 
             refused = unlink(file) ? errno : refused;
@@ -123,18 +123,18 @@ int node_log_files_put_away(const char *path, int64_t begin_us, unsigned files_m
     if (stat(path, &status) || !S_ISREG(status.st_mode)) {
         return 0;
     }
-    name = stamped(path, begin_us);
+    name = path_with_stamp(path, begin_us);
     while (lstat(name, &status) == 0) {
         free(name);
         begin_us += US_PER_MS;
-        name = stamped(path, begin_us);
+        name = path_with_stamp(path, begin_us);
     }
     refused = rename(path, name) ? errno : 0;
     free(name);
     return refused == 0 && files_max > 0 ? remove_oldest(path, files_max) : refused;
 }
 
-int64_t node_log_files_time_us(const char *path)
+int64_t node_log_files_last_write_us(const char *path)
 {
     struct stat status;
 

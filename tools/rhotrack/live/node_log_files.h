@@ -20,11 +20,11 @@ struct node_log_limits {
     unsigned files_max;
 };
 
-bool node_log_limits_cut(const struct node_log_limits *limits);
+bool node_log_limits_are_set(const struct node_log_limits *limits);
 
 /* The event may not go into the file, which has so many bytes and began at begin_us. */
-bool node_log_limits_end(const struct node_log_limits *limits, uint64_t file_bytes,
-                         int64_t begin_us, uint64_t event_bytes, int64_t time_us);
+bool node_log_limits_reached(const struct node_log_limits *limits, uint64_t file_bytes,
+                             int64_t begin_us, uint64_t event_bytes, int64_t time_us);
 
 /*
  * Renames the file, if there is one and it is no device or pipe, and removes those that are too
@@ -33,6 +33,6 @@ bool node_log_limits_end(const struct node_log_limits *limits, uint64_t file_byt
 int node_log_files_put_away(const char *path, int64_t begin_us, unsigned files_max);
 
 /* Of a file of an earlier run, which is put away at the start: when it was written to last. */
-int64_t node_log_files_time_us(const char *path);
+int64_t node_log_files_last_write_us(const char *path);
 
 #endif

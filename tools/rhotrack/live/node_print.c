@@ -34,27 +34,27 @@ static FILE *begin_text(struct node_print *print)
     return text;
 }
 
-static bool is_pending(const struct node_print *print)
+static bool is_text_pending(const struct node_print *print)
 {
     return print->at < print->size;
 }
 
 /* Room on standard output within wait_ms; a record waits for it until the node is told to end. */
-static bool is_ready(const struct node_print *print, int wait_ms)
+static bool is_output_ready(const struct node_print *print, int wait_ms)
 {
     struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
     int ready = poll(&out, 1, wait_ms);
 
-    while (ready == 0 && !print->is_live && !is_told_to_end()) {
+    while (ready == 0 && !print->is_live && !is_end_signal_pending()) {
         ready = poll(&out, 1, LOOK_MS);
     }
     return ready > 0;
 }
 
 /* Writes until all is written, or standard output takes no more within wait_ms. */
-static void push(struct node_print *print, int wait_ms)
+static void push_pending_text(struct node_print *print, int wait_ms)
 {
-    while (is_pending(print) && !print->error && is_ready(print, wait_ms)) {
+    while (is_text_pending(print) && !print->error && is_output_ready(print, wait_ms)) {
         const size_t left = print->size - print->at;
         const ssize_t written =
             write(STDOUT_FILENO, print->text + print->at, left < PIECE_BYTES ? left : PIECE_BYTES);
@@ -68,14 +68,14 @@ static void finish_text(struct node_print *print, FILE *text)
 {
     fclose(text);
     print->at = 0;
-    push(print, 0);
+    push_pending_text(print, 0);
 }
 
 /* True where the last text is out; else this one is left out, and said so once. */
-static bool has_room(struct node_print *print)
+static bool has_room_for_text(struct node_print *print)
 {
-    push(print, 0);
-    if (is_pending(print)) {
+    push_pending_text(print, 0);
+    if (is_text_pending(print)) {
         if (print->left_out++ == 0 && !print->is_terminal) {
             fputs("rhotrack: standard output is full; reports are left out, tracks go on\n",
                   stderr);
@@ -109,10 +109,10 @@ struct node_print node_print_start(bool is_on, bool is_live)
     return print;
 }
 
-void node_print_step(struct node_print *print, const struct rho_report *report)
+void node_print_note_step(struct node_print *print, const struct rho_report *report)
 {
     print->is_changed = print->is_on;
-    if (print->is_on && !print->is_terminal && has_room(print)) {
+    if (print->is_on && !print->is_terminal && has_room_for_text(print)) {
         FILE *text = begin_text(print);
 
         tracks_write_report(text, report, (struct tracks_columns){.covariance = false});
@@ -122,15 +122,15 @@ void node_print_step(struct node_print *print, const struct rho_report *report)
 
 int64_t node_print_due_us(const struct node_print *print)
 {
-    return print->is_changed || is_pending(print) ? print->due_us : INT64_MAX;
+    return print->is_changed || is_text_pending(print) ? print->due_us : INT64_MAX;
 }
 
-void node_print_end(struct node_print *print, int64_t until_us)
+void node_print_finish(struct node_print *print, int64_t until_us)
 {
     const int64_t left_us = until_us - clock_us();
 
-    push(print, left_us > 0 ? (int)(left_us / 1000) : 0);
-    print->left_out += is_pending(print);
+    push_pending_text(print, left_us > 0 ? (int)(left_us / 1000) : 0);
+    print->left_out += is_text_pending(print);
     free(print->text);
     print->text = NULL;
     print->size = print->at = 0;
@@ -138,7 +138,7 @@ void node_print_end(struct node_print *print, int64_t until_us)
 
 /* ---- The table ---- */
 
-static int rows_of_terminal(void)
+static int terminal_rows(void)
 {
     struct winsize size = {0};
 
@@ -158,7 +158,7 @@ static int count_status(const struct rho_report *report, enum rho_track_status s
 }
 
 /* Lines on standard error where there is no table. */
-static void print_sensors(const struct node_core *core, FILE *out)
+static void print_sensor_states(const struct node_core *core, FILE *out)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
     const unsigned count = node_sensors_established(core, sensors);
@@ -172,22 +172,23 @@ static void print_sensors(const struct node_core *core, FILE *out)
     }
 }
 
-static void print_head(const struct node_core *core, const char *url, FILE *out)
+static void print_table_head(const struct node_core *core, const char *url, FILE *out)
 {
-    const struct rho_report *report = node_core_report(core);
-    const struct rho_scan_assembler_counters *assembler = node_core_assembler(core);
-    const struct scan_losses losses = sequence_counts_losses(node_core_order(core), assembler);
+    const struct rho_report *report = node_core_last_report(core);
+    const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
+    const struct scan_losses losses =
+        out_of_sequence_counts_losses(node_core_sequence_counts(core), assembler);
 
     fprintf(out, "\033[?7l\033[Hrhotrack node  %s  Ctrl-C ends it\033[K\n", url);
     fprintf(out,
             "%" PRIu32 " steps, %.0f us; tracks: %d confirmed, %d coasting, %d tentative; scans: "
             "%" PRIu32 " lost, %" PRIu32 " out of order, %" PRIu32 " dropped, %" PRIu32
             " bad; %" PRIu32 " bad messages\033[K\n",
-            node_core_counters(core)->steps, node_core_mean_us(core),
+            node_core_node_counters(core)->steps, node_core_mean_step_us(core),
             count_status(report, RHO_TRACK_CONFIRMED), count_status(report, RHO_TRACK_COASTING),
             count_status(report, RHO_TRACK_TENTATIVE), losses.lost, losses.out_of_order,
             losses.dropped, assembler->scans_bad, assembler->messages_bad);
-    print_sensors(core, out);
+    print_sensor_states(core, out);
     fprintf(out, "\033[K\n%6s  %-9s %10s %10s %8s %8s %8s %8s %5s %6s\033[K\n", "track", "status",
             "x km", "y km", "z m", "m/s", "heading", "sigma m", "hits", "misses");
 }
@@ -223,10 +224,10 @@ static int print_tracks(const struct rho_report *report, int room, FILE *out)
 
 static void print_table(const struct node_core *core, const char *url, FILE *out)
 {
-    const struct rho_report *report = node_core_report(core);
-    int room = rows_of_terminal() - HEAD_LINES - 2, shown;
+    const struct rho_report *report = node_core_last_report(core);
+    int room = terminal_rows() - HEAD_LINES - 2, shown;
 
-    print_head(core, url, out);
+    print_table_head(core, url, out);
     shown = print_tracks(report, room, out);
     if (shown < report->num_tracks) {
         fprintf(out, "%6s  and %d more\033[K\n", "", report->num_tracks - shown);
@@ -241,7 +242,7 @@ bool node_print_show(struct node_print *print, const struct node_core *core, con
 
     if (print->is_on &&
         (is_end || (print->is_changed && (!print->is_terminal || now_us >= print->due_us)))) {
-        if (print->is_terminal && has_room(print)) {
+        if (print->is_terminal && has_room_for_text(print)) {
             FILE *text = begin_text(print);
 
             print_table(core, url, text);
@@ -251,7 +252,7 @@ bool node_print_show(struct node_print *print, const struct node_core *core, con
         print->is_changed = false;
     }
     if (print->is_on && now_us >= print->due_us) {
-        push(print, 0);
+        push_pending_text(print, 0);
         print->due_us = now_us + PERIOD_US;
     }
     errno = print->error;

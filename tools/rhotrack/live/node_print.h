@@ -27,7 +27,7 @@ struct node_print {
 struct node_print node_print_start(bool is_on, bool is_live);
 
 /* A step was made. */
-void node_print_step(struct node_print *print, const struct rho_report *report);
+void node_print_note_step(struct node_print *print, const struct rho_report *report);
 
 /*
  * Renews the table where it is time, or at the end, and hands all on.
@@ -39,7 +39,7 @@ bool node_print_show(struct node_print *print, const struct node_core *core, con
 /*
  * Writes the rest until until_us of clock_us; reports that are left then count as left out.
  */
-void node_print_end(struct node_print *print, int64_t until_us);
+void node_print_finish(struct node_print *print, int64_t until_us);
 
 /* When node_print_show is wanted, on clock_us; INT64_MAX: not before a step. */
 int64_t node_print_due_us(const struct node_print *print);

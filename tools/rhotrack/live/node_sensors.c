@@ -10,7 +10,7 @@
 #define US_PER_S 1e6
 
 /* The channel's name is what tells two sensors of one number apart. */
-static const char *channel_of(const struct rho_message_sensor *sensor)
+static const char *sensor_channel(const struct rho_message_sensor *sensor)
 {
     return sensor->kind == RHO_MESSAGE_SENSOR_PLOTS   ? RHO_MESSAGE_PLOT_SCAN_CHANNEL
            : sensor->kind == RHO_MESSAGE_SENSOR_POLAR ? RHO_MESSAGE_POLAR_SCAN_CHANNEL
@@ -20,7 +20,7 @@ static const char *channel_of(const struct rho_message_sensor *sensor)
 unsigned node_sensors_established(const struct node_core *core,
                                   struct rho_message_sensor sensors[RHO_MAX_SENSORS])
 {
-    const unsigned count = node_core_sensors(core, sensors);
+    const unsigned count = node_core_list_sensors(core, sensors);
     unsigned kept = 0;
 
     for (unsigned i = 0; i < count; i++) {
@@ -50,7 +50,7 @@ static void print_suspect(const struct rho_message_sensor *sensor, FILE *to)
 static void print_silent(const struct rho_message_sensor *sensor, FILE *to)
 {
     fprintf(to, "rhotrack: sensor %d is silent: nothing on %s%d for %.0f s\n", sensor->sensor_id,
-            channel_of(sensor), sensor->sensor_id, sensor->heard_age_us / US_PER_S);
+            sensor_channel(sensor), sensor->sensor_id, sensor->heard_age_us / US_PER_S);
 }
 
 static void print_changes(const struct node_sensor *before, const struct rho_message_sensor *sensor,
@@ -70,8 +70,8 @@ static void print_changes(const struct node_sensor *before, const struct rho_mes
 
 /* ---- Changes since the last step ---- */
 
-static struct node_sensor find(const struct node_sensors *sensors,
-                               const struct rho_message_sensor *sensor)
+static struct node_sensor find_sensor_before(const struct node_sensors *sensors,
+                                             const struct rho_message_sensor *sensor)
 {
     for (unsigned i = 0; i < sensors->count; i++) {
         if (sensors->of[i].sensor_id == sensor->sensor_id && sensors->of[i].kind == sensor->kind) {
@@ -81,7 +81,8 @@ static struct node_sensor find(const struct node_sensors *sensors,
     return (struct node_sensor){.sensor_id = sensor->sensor_id, .kind = sensor->kind};
 }
 
-void node_sensors_watch(struct node_sensors *sensors, const struct node_core *core, FILE *to)
+void node_sensors_print_changes(struct node_sensors *sensors, const struct node_core *core,
+                                FILE *to)
 {
     struct rho_message_sensor now[RHO_MAX_SENSORS];
     struct node_sensors next = {.count = 0};
@@ -91,7 +92,7 @@ void node_sensors_watch(struct node_sensors *sensors, const struct node_core *co
         const bool has_two_senders = node_core_has_two_senders(core, now[i].sensor_id);
 
         if (to) {
-            struct node_sensor before = find(sensors, &now[i]);
+            struct node_sensor before = find_sensor_before(sensors, &now[i]);
 
             print_changes(&before, &now[i], to);
             if (has_two_senders && !before.has_two_senders) {
@@ -107,7 +108,7 @@ void node_sensors_watch(struct node_sensors *sensors, const struct node_core *co
     *sensors = next;
 }
 
-void node_sensors_print(const struct node_core *core, FILE *to)
+void node_sensors_print_bad(const struct node_core *core, FILE *to)
 {
     struct rho_message_sensor now[RHO_MAX_SENSORS];
     const unsigned count = node_sensors_established(core, now);

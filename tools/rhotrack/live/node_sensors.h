@@ -24,14 +24,15 @@ struct node_sensors {
     struct node_sensor of[RHO_MAX_SENSORS];
 };
 
-/* The sensors of node_core_sensors that have sent follow_scans scans. Returns their number. */
+/* The sensors of node_core_list_sensors that have sent follow_scans scans. Returns their number. */
 unsigned node_sensors_established(const struct node_core *core,
                                   struct rho_message_sensor sensors[RHO_MAX_SENSORS]);
 
 /* One line a change since the last call; NULL: nothing is written. */
-void node_sensors_watch(struct node_sensors *sensors, const struct node_core *core, FILE *to);
+void node_sensors_print_changes(struct node_sensors *sensors, const struct node_core *core,
+                                FILE *to);
 
 /* The last words: one line a sensor that is suspect or silent. */
-void node_sensors_print(const struct node_core *core, FILE *to);
+void node_sensors_print_bad(const struct node_core *core, FILE *to);
 
 #endif

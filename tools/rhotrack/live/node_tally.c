@@ -10,8 +10,8 @@
 static void tally_messages(const struct node_core *core, const struct transport *transport,
                            struct node_tally tallies[MESSAGE_TALLIES])
 {
-    const struct rho_scan_assembler_counters *assembler = node_core_assembler(core);
-    const struct node_core_commands *commands = node_core_commands(core);
+    const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
+    const struct node_core_commands *commands = node_core_command_counts(core);
     const struct transport_counters network = transport_counters(transport);
     const struct node_tally all[MESSAGE_TALLIES] = {
         {"datagrams refused (fragments, or no LCM)", network.refused, NODE_TALLY_FAULT, false},
@@ -41,11 +41,12 @@ static void tally_messages(const struct node_core *core, const struct transport 
 /* Scans, and what became of their plots. */
 static void tally_steps(const struct node_core *core, struct node_tally tallies[STEP_TALLIES])
 {
-    const struct rho_scan_assembler_counters *assembler = node_core_assembler(core);
-    const struct rho_frames_counters *frames = node_core_frames(core);
-    const struct rho_tracker_counters *tracker = node_core_tracker(core);
-    const struct rho_node_counters *own = node_core_counters(core);
-    const struct scan_losses losses = sequence_counts_losses(node_core_order(core), assembler);
+    const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
+    const struct rho_frames_counters *frames = node_core_frame_counters(core);
+    const struct rho_tracker_counters *tracker = node_core_tracker_counters(core);
+    const struct rho_node_counters *own = node_core_node_counters(core);
+    const struct scan_losses losses =
+        out_of_sequence_counts_losses(node_core_sequence_counts(core), assembler);
     const struct node_tally all[STEP_TALLIES] = {
         {"scans out of order", losses.out_of_order, NODE_TALLY_USUAL, false},
         {"scans late, dropped", losses.dropped, NODE_TALLY_FAULT, true},
@@ -85,8 +86,8 @@ static void tally_steps(const struct node_core *core, struct node_tally tallies[
     memcpy(tallies, all, sizeof all);
 }
 
-void node_tally(const struct node_core *core, const struct transport *transport,
-                struct node_tally tallies[NODE_TALLIES])
+void node_tally_all(const struct node_core *core, const struct transport *transport,
+                    struct node_tally tallies[NODE_TALLIES])
 {
     tally_messages(core, transport, tallies);
     tally_steps(core, tallies + MESSAGE_TALLIES);

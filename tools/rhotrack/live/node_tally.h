@@ -28,7 +28,7 @@ struct node_tally {
 };
 
 /* All of them, always in the same order. */
-void node_tally(const struct node_core *core, const struct transport *transport,
-                struct node_tally tallies[NODE_TALLIES]);
+void node_tally_all(const struct node_core *core, const struct transport *transport,
+                    struct node_tally tallies[NODE_TALLIES]);
 
 #endif

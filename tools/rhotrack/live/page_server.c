@@ -57,7 +57,7 @@ struct page_server {
  * A process that saves a file beside the tracking has copies of all descriptors, which keep what is
  * only closed here both open and polled.
  */
-static void drop(const struct page_server *server, struct client *client)
+static void drop_client(const struct page_server *server, struct client *client)
 {
     (void)epoll_ctl(server->poll, EPOLL_CTL_DEL, client->descriptor, NULL);
     shutdown(client->descriptor, SHUT_RDWR);
@@ -69,7 +69,7 @@ static void drop(const struct page_server *server, struct client *client)
 }
 
 /* A free place, or that of the client that has been there longest. */
-static struct client *have_place(struct page_server *server)
+static struct client *find_client_place(struct page_server *server)
 {
     struct client *found = &server->clients[0];
 
@@ -82,7 +82,7 @@ static struct client *have_place(struct page_server *server)
         found = client->since_us < found->since_us ? client : found;
     }
     server->refused += found->state != CLIENT_ENDS;
-    drop(server, found);
+    drop_client(server, found);
     return found;
 }
 
@@ -112,14 +112,14 @@ static bool make_page(struct page_server *server)
 }
 
 /* extra: lines of the head, each with its end. */
-static void answer(const struct page_server *server, struct client *client, const char *status,
-                   const char *extra, const char *type, const char *text, size_t size,
-                   bool has_text)
+static void fill_answer(const struct page_server *server, struct client *client, const char *status,
+                        const char *extra, const char *type, const char *text, size_t size,
+                        bool has_text)
 {
     FILE *out = open_memstream(&client->answer, &client->num_answer);
 
     if (!out) {
-        drop(server, client);
+        drop_client(server, client);
         return;
     }
     fprintf(out,
@@ -129,24 +129,24 @@ static void answer(const struct page_server *server, struct client *client, cons
         fwrite(text, 1, size, out);
     }
     if (fclose(out)) {
-        drop(server, client);
+        drop_client(server, client);
         return;
     }
     client->state = CLIENT_READS;
 }
 
-static void refuse(struct page_server *server, struct client *client, const char *status,
-                   const char *extra)
+static void refuse_client(struct page_server *server, struct client *client, const char *status,
+                          const char *extra)
 {
     char text[128];
     const int size = snprintf(text, sizeof text, "%s; the page is %s\n", status, server->path);
 
     server->refused++;
-    answer(server, client, status, extra, "text/plain", text, (size_t)size, true);
+    fill_answer(server, client, status, extra, "text/plain", text, (size_t)size, true);
 }
 
 /* "GET /metrics HTTP/1.1": its three words, in place. */
-static bool split_line(char *line, char *words[3])
+static bool split_request_line(char *line, char *words[3])
 {
     line[strcspn(line, "\r\n")] = '\0';
     for (int i = 0; i < 3; i++) {
@@ -165,68 +165,69 @@ static void answer_request(struct page_server *server, struct client *client)
     bool is_head;
 
     client->asked[client->num_asked] = '\0';
-    if (memchr(client->asked, '\0', client->num_asked) || !split_line(client->asked, words)) {
-        refuse(server, client, "400 Bad Request", "");
+    if (memchr(client->asked, '\0', client->num_asked) ||
+        !split_request_line(client->asked, words)) {
+        refuse_client(server, client, "400 Bad Request", "");
         return;
     }
     words[1][strcspn(words[1], "?")] = '\0';
     is_head = strcmp(words[0], "HEAD") == 0;
     if (!is_head && strcmp(words[0], "GET") != 0) {
-        refuse(server, client, "405 Method Not Allowed", "Allow: GET, HEAD\r\n");
+        refuse_client(server, client, "405 Method Not Allowed", "Allow: GET, HEAD\r\n");
     } else if (strcmp(words[1], server->path) != 0) {
-        refuse(server, client, "404 Not Found", "");
+        refuse_client(server, client, "404 Not Found", "");
     } else if (!make_page(server)) {
-        refuse(server, client, "503 Service Unavailable", "");
+        refuse_client(server, client, "503 Service Unavailable", "");
     } else {
         server->sent++;
-        answer(server, client, "200 OK", "", server->type, server->page, server->num_page,
-               !is_head);
+        fill_answer(server, client, "200 OK", "", server->type, server->page, server->num_page,
+                    !is_head);
     }
 }
 
 /* ---- What clients say and take ---- */
 
-static bool is_for_later(ssize_t done)
+static bool would_block(ssize_t done)
 {
     return done < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR);
 }
 
-static bool ends_head(const char *text, size_t size)
+static bool ends_request_head(const char *text, size_t size)
 {
     return memmem(text, size, "\r\n\r\n", 4) || memmem(text, size, "\n\n", 2);
 }
 
 /* One piece at a call. */
-static void hear(struct page_server *server, struct client *client)
+static void receive_request(struct page_server *server, struct client *client)
 {
     const size_t room = sizeof client->asked - 1 - client->num_asked;
     const ssize_t got = recv(client->descriptor, client->asked + client->num_asked, room, 0);
 
-    if (is_for_later(got)) {
+    if (would_block(got)) {
         return;
     }
     if (got <= 0) {
-        drop(server, client);
+        drop_client(server, client);
         return;
     }
     client->num_asked += (size_t)got;
-    if (ends_head(client->asked, client->num_asked)) {
+    if (ends_request_head(client->asked, client->num_asked)) {
         answer_request(server, client);
     } else if (client->num_asked == sizeof client->asked - 1) {
-        refuse(server, client, "431 Request Header Fields Too Large", "");
+        refuse_client(server, client, "431 Request Header Fields Too Large", "");
     }
 }
 
-static void tell(const struct page_server *server, struct client *client)
+static void send_answer(const struct page_server *server, struct client *client)
 {
     const ssize_t done = send(client->descriptor, client->answer + client->sent,
                               client->num_answer - client->sent, MSG_NOSIGNAL);
 
-    if (is_for_later(done)) {
+    if (would_block(done)) {
         return;
     }
     if (done < 0) {
-        drop(server, client);
+        drop_client(server, client);
         return;
     }
     client->sent += (size_t)done;
@@ -237,26 +238,26 @@ static void tell(const struct page_server *server, struct client *client)
 }
 
 /* The client closes first, so that its kernel does not throw away the answer. */
-static void let_end(const struct page_server *server, struct client *client)
+static void await_client_close(const struct page_server *server, struct client *client)
 {
     char text[1024];
     const ssize_t got = recv(client->descriptor, text, sizeof text, 0);
 
-    if (got == 0 || (got < 0 && !is_for_later(got))) {
-        drop(server, client);
+    if (got == 0 || (got < 0 && !would_block(got))) {
+        drop_client(server, client);
     }
 }
 
-static void serve(struct page_server *server, struct client *client)
+static void serve_client(struct page_server *server, struct client *client)
 {
     if (client->state == CLIENT_ASKS) {
-        hear(server, client);
+        receive_request(server, client);
     }
     if (client->state == CLIENT_READS) {
-        tell(server, client);
+        send_answer(server, client);
     }
     if (client->state == CLIENT_ENDS) {
-        let_end(server, client);
+        await_client_close(server, client);
     }
     if (client->state != CLIENT_NONE) {
         struct epoll_event event = {.events = client->state == CLIENT_READS ? EPOLLOUT : EPOLLIN,
@@ -266,8 +267,10 @@ static void serve(struct page_server *server, struct client *client)
     }
 }
 
-/* Whoever waits for what cannot be accepted would be woken at once, without end. */
-static void set_deaf(struct page_server *server, bool is_deaf)
+/*
+ * Stops or resumes accepting: a connection that cannot be accepted would wake the poll without end.
+ */
+static void pause_accepting(struct page_server *server, bool is_deaf)
 {
     struct epoll_event event = {.events = is_deaf ? 0 : EPOLLIN};
 
@@ -285,11 +288,11 @@ static void accept_clients(struct page_server *server)
         struct epoll_event event = {.events = EPOLLIN};
 
         if (descriptor < 0) {
-            set_deaf(server,
-                     errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM);
+            pause_accepting(server, errno == EMFILE || errno == ENFILE || errno == ENOBUFS ||
+                                        errno == ENOMEM);
             return;
         }
-        client = have_place(server);
+        client = find_client_place(server);
         event.data.ptr = client;
         if (epoll_ctl(server->poll, EPOLL_CTL_ADD, descriptor, &event)) {
             close(descriptor);
@@ -298,11 +301,11 @@ static void accept_clients(struct page_server *server)
         client->state = CLIENT_ASKS;
         client->descriptor = descriptor;
         client->since_us = clock_us();
-        serve(server, client); /* most have asked by now */
+        serve_client(server, client); /* most have asked by now */
     }
 }
 
-static void drop_old(struct page_server *server)
+static void drop_old_clients(struct page_server *server)
 {
     const int64_t now_us = clock_us();
 
@@ -311,12 +314,12 @@ static void drop_old(struct page_server *server)
 
         if (client->state != CLIENT_NONE && now_us > client->since_us + LIFE_US) {
             server->refused += client->state != CLIENT_ENDS;
-            drop(server, client);
+            drop_client(server, client);
         }
     }
 }
 
-void page_server_run(struct page_server *server)
+void page_server_serve(struct page_server *server)
 {
     struct epoll_event events[PLACES + 1];
     int count;
@@ -324,13 +327,13 @@ void page_server_run(struct page_server *server)
     if (!server) {
         return;
     }
-    drop_old(server);
+    drop_old_clients(server);
     count = epoll_wait(server->poll, events, PLACES + 1, 0);
     for (int i = 0; i < count; i++) {
         struct client *client = events[i].data.ptr;
 
         if (client && client->state != CLIENT_NONE) {
-            serve(server, client);
+            serve_client(server, client);
         }
     }
     accept_clients(server); /* last: a place that it takes is of none of the events */
@@ -379,12 +382,12 @@ int page_server_descriptor(const struct page_server *server)
     return server ? server->poll : -1;
 }
 
-uint64_t page_server_sent(const struct page_server *server)
+uint64_t page_server_num_sent(const struct page_server *server)
 {
     return server ? server->sent : 0;
 }
 
-uint64_t page_server_refused(const struct page_server *server)
+uint64_t page_server_num_refused(const struct page_server *server)
 {
     return server ? server->refused : 0;
 }
@@ -396,7 +399,7 @@ void page_server_close(struct page_server *server)
     }
     for (unsigned i = 0; i < PLACES; i++) {
         if (server->clients[i].state != CLIENT_NONE) {
-            drop(server, &server->clients[i]);
+            drop_client(server, &server->clients[i]);
         }
     }
     close(server->poll);

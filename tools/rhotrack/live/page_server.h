@@ -32,11 +32,11 @@ struct page_server *page_server_open(uint16_t port, const char *path, const char
 int page_server_descriptor(const struct page_server *server);
 
 /* Does what is there to do now, where the descriptor is readable and once a second. */
-void page_server_run(struct page_server *server);
+void page_server_serve(struct page_server *server);
 
 /* Answers with the page; other answers, and clients that were cut off. */
-uint64_t page_server_sent(const struct page_server *server);
-uint64_t page_server_refused(const struct page_server *server);
+uint64_t page_server_num_sent(const struct page_server *server);
+uint64_t page_server_num_refused(const struct page_server *server);
 
 void page_server_close(struct page_server *server);
 

@@ -12,7 +12,7 @@
 
 static volatile sig_atomic_t is_stopped;
 
-static void on_signal(int number)
+static void on_stop_signal(int number)
 {
     (void)number;
     is_stopped = 1;
@@ -20,11 +20,12 @@ static void on_signal(int number)
 
 void publish_watch_signals(void)
 {
-    struct sigaction action = {.sa_handler = on_signal}; /* sleeps end, they are not restarted */
+    struct sigaction action = {.sa_handler =
+                                   on_stop_signal}; /* sleeps end, they are not restarted */
 
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    if (!is_ignored(SIGHUP)) {
+    if (!is_signal_ignored(SIGHUP)) {
         sigaction(SIGHUP, &action, NULL);
     }
 }
@@ -34,7 +35,7 @@ bool publish_is_stopped(void)
     return is_stopped;
 }
 
-int32_t publish_epoch(void)
+int32_t publish_run_epoch(void)
 {
     struct timespec now;
 
@@ -42,8 +43,8 @@ int32_t publish_epoch(void)
     return (int32_t)(((int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000) & INT32_MAX) | 1;
 }
 
-bool publish_send(struct transport *transport, const char *channel, const uint8_t *data,
-                  size_t size)
+bool publish_send_message(struct transport *transport, const char *channel, const uint8_t *data,
+                          size_t size)
 {
     const struct timespec moment = {.tv_nsec = 1000000};
     int tries = 1;

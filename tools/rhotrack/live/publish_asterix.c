@@ -44,7 +44,7 @@ struct forwarding {
 /* ---- Places ---- */
 
 /* The radar's first scan was not long ago. */
-static bool is_new(struct forwarding *forwarding, const struct asterix_scan *scan)
+static bool is_radar_new(struct forwarding *forwarding, const struct asterix_scan *scan)
 {
     size_t i = 0;
 
@@ -64,8 +64,9 @@ static bool is_new(struct forwarding *forwarding, const struct asterix_scan *sca
  */
 static bool is_place_awaited(struct forwarding *forwarding, const struct asterix_scan *scan)
 {
-    return is_new(forwarding, scan) && !scan->place.is_given &&
-           isnan(parameters_of_sensor(&forwarding->parameters, scan->sensor_id, SENSOR_X_M, NAN));
+    return is_radar_new(forwarding, scan) && !scan->place.is_given &&
+           isnan(parameters_value_of_sensor(&forwarding->parameters, scan->sensor_id, SENSOR_X_M,
+                                            NAN));
 }
 
 static void suggest_origin(struct forwarding *forwarding, const struct asterix_place *place)
@@ -79,10 +80,11 @@ static void suggest_origin(struct forwarding *forwarding, const struct asterix_p
 
 /* ---- Scans to messages ---- */
 
-static struct table *table_of(const struct forwarding *forwarding, const struct asterix_scan *scan)
+static struct table *table_of_scan(const struct forwarding *forwarding,
+                                   const struct asterix_scan *scan)
 {
     const struct asterix_columns columns = {.has_place = scan->place.is_given, .has_scan = true};
-    struct table *table = asterix_records_table(forwarding->url, &columns);
+    struct table *table = asterix_records_empty_table(forwarding->url, &columns);
 
     asterix_records_add_scan(table, scan);
     return table;
@@ -95,9 +97,9 @@ static void send_rows(struct forwarding *forwarding, struct rows_file *file)
     struct rows_output output;
 
     rows_scans_make(&scans, file, 0);
-    while (rows_scans_next(&scans, &at, &output)) {
+    while (rows_scans_next_message(&scans, &at, &output)) {
         message_set_epoch(output.data, output.size, PUBLISH_EPOCH_OF_CSV, forwarding->epoch);
-        publish_send(forwarding->transport, output.channel, output.data, output.size);
+        publish_send_message(forwarding->transport, output.channel, output.data, output.size);
     }
     rows_scans_free(&scans);
     forwarding->scans_sent++;
@@ -117,7 +119,7 @@ static void send_scan(struct forwarding *forwarding, const struct asterix_scan *
         forwarding->scans_early++;
         return;
     }
-    table = table_of(forwarding, scan);
+    table = table_of_scan(forwarding, scan);
     if (rows_read_table(&file, forwarding->url, table, &forwarding->parameters, true)) {
         send_rows(forwarding, &file);
     }
@@ -153,7 +155,8 @@ static void listen_until_over(struct forwarding *forwarding, int receiver)
         }
         got = recv(receiver, datagram, DATAGRAM_MAX, MSG_DONTWAIT);
         if (got >= 0) {
-            asterix_datagram_take(forwarding->scans, datagram, (size_t)got, &forwarding->heard);
+            asterix_datagram_take_records(forwarding->scans, datagram, (size_t)got,
+                                          &forwarding->heard);
             send_scans(forwarding);
         } else if (errno != EAGAIN && errno != EINTR && errno != ECONNREFUSED) {
             fail(EXIT_RUNTIME, "%s: %s", forwarding->url, strerror(errno));
@@ -164,24 +167,25 @@ static void listen_until_over(struct forwarding *forwarding, int receiver)
     free(datagram);
 }
 
-static void say(const struct forwarding *forwarding, uint64_t count, const char *what)
+static void say_count(const struct forwarding *forwarding, uint64_t count, const char *what)
 {
     if (count > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", forwarding->url, count, what);
     }
 }
 
-static void report(const struct forwarding *forwarding)
+static void report_counts(const struct forwarding *forwarding)
 {
     const struct asterix_counts *counts = asterix_scans_counts(forwarding->scans);
 
-    asterix_records_report(forwarding->url, counts);
-    say(forwarding, forwarding->heard.bad, "datagrams bad, from a place in them on");
-    say(forwarding, forwarding->heard.others, "data blocks of other categories left out");
-    say(forwarding, forwarding->scans_early, "scans left out before the radar's place was known");
-    say(forwarding, forwarding->scans_free,
-        "plots left out, of radars without antenna messages: set scan_interval_s");
-    say(forwarding, forwarding->rows_skipped, "bad rows skipped");
+    asterix_records_report_left_out(forwarding->url, counts);
+    say_count(forwarding, forwarding->heard.bad, "datagrams bad, from a place in them on");
+    say_count(forwarding, forwarding->heard.others, "data blocks of other categories left out");
+    say_count(forwarding, forwarding->scans_early,
+              "scans left out before the radar's place was known");
+    say_count(forwarding, forwarding->scans_free,
+              "plots left out, of radars without antenna messages: set scan_interval_s");
+    say_count(forwarding, forwarding->rows_skipped, "bad rows skipped");
     fprintf(stderr,
             "rhotrack: %" PRIu64 " datagrams, %" PRIu64 " plots of %zu radars, %" PRIu64
             " scans sent\n",
@@ -190,7 +194,7 @@ static void report(const struct forwarding *forwarding)
 }
 
 /* Times are those of the day that it is now. */
-static void start_today(struct asterix_scans *scans)
+static void start_on_this_day(struct asterix_scans *scans)
 {
     struct timespec now;
 
@@ -210,20 +214,20 @@ int publish_asterix(const struct command_line *line)
     if (line->speed < 1 || line->speed > 1) {
         fail(EXIT_USAGE, "publish: %s is heard live, and --speed is for files", line->arguments[0]);
     }
-    parameters_check(&line->parameters);
+    parameters_check_together(&line->parameters);
     forwarding->line = line;
     forwarding->parameters = line->parameters;
     forwarding->url = line->arguments[0];
-    forwarding->epoch = publish_epoch();
-    rules = asterix_records_rules(&line->parameters,
-                                  line->parameters.value[PARAMETER_ASTERIX_HOLD_S], WAIT_S);
+    forwarding->epoch = publish_run_epoch();
+    rules = asterix_records_scan_rules(&line->parameters,
+                                       line->parameters.value[PARAMETER_ASTERIX_HOLD_S], WAIT_S);
     forwarding->scans = asterix_scans_open(&rules);
-    start_today(forwarding->scans);
+    start_on_this_day(forwarding->scans);
     publish_watch_signals();
     receiver = asterix_udp_open(forwarding->url); /* may fail: before a log is emptied */
     forwarding->transport = transport_open(line->lcm, TRANSPORT_SEND);
     listen_until_over(forwarding, receiver);
-    report(forwarding);
+    report_counts(forwarding);
     close(receiver);
     transport_close(forwarding->transport);
     asterix_scans_close(forwarding->scans);

@@ -7,7 +7,7 @@
 /* What the first scans of a sensor that begins again are refused for, each with its counter. */
 enum cause { WRONG_NUMBER = 0, WRONG_TIME, DUPLICATE, TOO_LATE, NUM_CAUSES };
 
-static uint32_t *counter_of(struct rho_scan_assembler_counters *counters, unsigned cause)
+static uint32_t *cause_counter(struct rho_scan_assembler_counters *counters, unsigned cause)
 {
     uint32_t *const all[NUM_CAUSES] = {&counters->scans_bad, &counters->clock_jumps,
                                        &counters->scans_duplicate, &counters->scans_late};
@@ -15,26 +15,26 @@ static uint32_t *counter_of(struct rho_scan_assembler_counters *counters, unsign
     return all[cause];
 }
 
-static uint32_t count_of(const struct rho_scan_assembler_counters *counters, unsigned cause)
+static uint32_t cause_count(const struct rho_scan_assembler_counters *counters, unsigned cause)
 {
     struct rho_scan_assembler_counters copy = *counters;
 
-    return *counter_of(&copy, cause);
+    return *cause_counter(&copy, cause);
 }
 
 /* NUM_CAUSES: none. */
-static unsigned find_cause(const struct rho_scan_assembler_counters *before,
-                           const struct rho_scan_assembler_counters *after)
+static unsigned find_refusal_cause(const struct rho_scan_assembler_counters *before,
+                                   const struct rho_scan_assembler_counters *after)
 {
     unsigned cause = WRONG_NUMBER;
 
-    while (cause < NUM_CAUSES && count_of(before, cause) == count_of(after, cause)) {
+    while (cause < NUM_CAUSES && cause_count(before, cause) == cause_count(after, cause)) {
         cause++;
     }
     return cause;
 }
 
-static void forget(struct refused_messages *refused, const char *channel)
+static void forget_channel(struct refused_messages *refused, const char *channel)
 {
     for (unsigned i = 0; i < REFUSED_MESSAGES_MAX; i++) {
         if (strcmp(refused->of[i].channel, channel) == 0) {
@@ -50,11 +50,11 @@ void refused_messages_note(struct refused_messages *refused, const char *channel
                            const struct rho_scan_assembler_counters *after)
 {
     struct refused_message *message = &refused->of[refused->next];
-    const unsigned cause = find_cause(before, after);
+    const unsigned cause = find_refusal_cause(before, after);
 
     if (after->scans_accepted != before->scans_accepted) {
         if (refused->count > 0) {
-            forget(refused, channel);
+            forget_channel(refused, channel);
         }
     } else if (cause < NUM_CAUSES && size <= sizeof message->data &&
                strlen(channel) < sizeof message->channel) {
@@ -67,9 +67,13 @@ void refused_messages_note(struct refused_messages *refused, const char *channel
     }
 }
 
-/* Whatever becomes of it: that it is late says nothing, as it was there in time. */
-static void take(const struct refused_message *message, struct rho_scan_assembler *assembler,
-                 int64_t now_us, struct rho_scan_assembler_counters *taken)
+/*
+ * Gives a message to the assembler once more. Where it then counts as late that is taken back: it
+ * was there in time.
+ */
+static void take_message_again(const struct refused_message *message,
+                               struct rho_scan_assembler *assembler, int64_t now_us,
+                               struct rho_scan_assembler_counters *taken)
 {
     const struct rho_scan_assembler_counters before = assembler->counters;
 
@@ -78,41 +82,42 @@ static void take(const struct refused_message *message, struct rho_scan_assemble
         return;
     }
     taken->scans_late += assembler->counters.scans_late - before.scans_late;
-    if (find_cause(&before, &assembler->counters) >= TOO_LATE) {
-        ++*counter_of(taken, message->cause);
+    if (find_refusal_cause(&before, &assembler->counters) >= TOO_LATE) {
+        ++*cause_counter(taken, message->cause);
     } else {
-        ++*counter_of(taken, find_cause(&before, &assembler->counters));
+        ++*cause_counter(taken, find_refusal_cause(&before, &assembler->counters));
     }
 }
 
-void refused_messages_take(struct refused_messages *refused, const char *channel,
-                           struct rho_scan_assembler *assembler, int64_t now_us,
-                           struct rho_scan_assembler_counters *taken)
+void refused_messages_take_again(struct refused_messages *refused, const char *channel,
+                                 struct rho_scan_assembler *assembler, int64_t now_us,
+                                 struct rho_scan_assembler_counters *taken)
 {
     for (unsigned i = 0; i < REFUSED_MESSAGES_MAX && refused->count > 0; i++) {
         const struct refused_message *message =
             &refused->of[(refused->next + i) % REFUSED_MESSAGES_MAX];
 
         if (strcmp(message->channel, channel) == 0) {
-            take(message, assembler, now_us, taken);
+            take_message_again(message, assembler, now_us, taken);
         }
     }
-    forget(refused, channel);
+    forget_channel(refused, channel);
 }
 
-static uint32_t less(uint32_t count, uint32_t part)
+static uint32_t count_less(uint32_t count, uint32_t part)
 {
     return count > part ? count - part : 0;
 }
 
 struct rho_scan_assembler_counters
-refused_messages_counters(const struct rho_scan_assembler_counters *counters,
-                          const struct rho_scan_assembler_counters *taken)
+refused_messages_remaining_counters(const struct rho_scan_assembler_counters *counters,
+                                    const struct rho_scan_assembler_counters *taken)
 {
     struct rho_scan_assembler_counters shown = *counters;
 
     for (unsigned cause = WRONG_NUMBER; cause < NUM_CAUSES; cause++) {
-        *counter_of(&shown, cause) = less(count_of(counters, cause), count_of(taken, cause));
+        *cause_counter(&shown, cause) =
+            count_less(cause_count(counters, cause), cause_count(taken, cause));
     }
     return shown;
 }

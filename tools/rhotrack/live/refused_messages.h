@@ -39,13 +39,13 @@ void refused_messages_note(struct refused_messages *refused, const char *channel
  * The sensor's restart was followed: gives its messages to the assembler once more, the oldest one
  * first, and forgets them. Adds what they had been refused for, and are not any more, to `taken`.
  */
-void refused_messages_take(struct refused_messages *refused, const char *channel,
-                           struct rho_scan_assembler *assembler, int64_t now_us,
-                           struct rho_scan_assembler_counters *taken);
+void refused_messages_take_again(struct refused_messages *refused, const char *channel,
+                                 struct rho_scan_assembler *assembler, int64_t now_us,
+                                 struct rho_scan_assembler_counters *taken);
 
 /* The counters less those of messages that were taken after all. */
 struct rho_scan_assembler_counters
-refused_messages_counters(const struct rho_scan_assembler_counters *counters,
-                          const struct rho_scan_assembler_counters *taken);
+refused_messages_remaining_counters(const struct rho_scan_assembler_counters *counters,
+                                    const struct rho_scan_assembler_counters *taken);
 
 #endif

@@ -11,7 +11,7 @@
 #define TOLD_US (60 * SECOND_US) /* from one doubt about a sensor's sender to the next */
 #define TURN_US (12 * SECOND_US) /* of the antenna of a slow radar */
 
-static bool is_same(const struct transport_sender *one, const struct transport_sender *other)
+static bool is_same_sender(const struct transport_sender *one, const struct transport_sender *other)
 {
     return one->address == other->address && one->port == other->port;
 }
@@ -39,7 +39,7 @@ static bool read_sensor_id(const char *text, int16_t *sensor_id)
     return id >= INT16_MIN && id <= INT16_MAX;
 }
 
-bool senders_read_sensor(const char *channel, int16_t *sensor_id)
+bool senders_read_sensor_id(const char *channel, int16_t *sensor_id)
 {
     static const char *const beginnings[] = {RHO_MESSAGE_POLAR_SCAN_CHANNEL,
                                              RHO_MESSAGE_PLOT_SCAN_CHANNEL,
@@ -72,9 +72,10 @@ static struct sender_channel *find_channel(struct senders *senders,
     return channel;
 }
 
-static void print_both(struct senders *senders, const struct sender_channel *channel,
-                       const char *what, const struct transport_sender *one, const char *between,
-                       const struct transport_sender *other, const char *end, FILE *to)
+static void print_two_senders(struct senders *senders, const struct sender_channel *channel,
+                              const char *what, const struct transport_sender *one,
+                              const char *between, const struct transport_sender *other,
+                              const char *end, FILE *to)
 {
     senders->lines++;
     fprintf(to, "rhotrack: sensor %s has %s", strrchr(channel->name, '_') + 1, what);
@@ -84,46 +85,47 @@ static void print_both(struct senders *senders, const struct sender_channel *cha
     fputs(end, to);
 }
 
-static void note_other(struct senders *senders, struct sender_channel *channel,
-                       const struct transport_sender *sender, int64_t now_us, FILE *to)
+static void note_other_sender(struct senders *senders, struct sender_channel *channel,
+                              const struct transport_sender *sender, int64_t now_us, FILE *to)
 {
-    const bool is_back = is_same(&channel->before, sender);
+    const bool is_back = is_same_sender(&channel->before, sender);
     const bool is_told = channel->told_us > 0 && now_us < channel->told_us + TOLD_US;
     const bool is_live = channel->heard_us > 0 && now_us < channel->heard_us + TURN_US;
 
     if (is_back && !channel->is_named && to) {
-        print_both(senders, channel, "two senders: ", &channel->before, " and ", &channel->last,
-                   "; each needs a number of its own\n", to);
+        print_two_senders(senders, channel, "two senders: ", &channel->before, " and ",
+                          &channel->last, "; each needs a number of its own\n", to);
     } else if (!is_back && !is_told && is_live && to) {
         channel->told_us = now_us;
-        print_both(senders, channel, "another sender, ", sender, ", until now ", &channel->last,
-                   ": a restart, or two at once\n", to);
+        print_two_senders(senders, channel, "another sender, ", sender, ", until now ",
+                          &channel->last, ": a restart, or two at once\n", to);
     }
     channel->is_named = is_back;
     channel->before = channel->last;
     channel->last = *sender;
 }
 
-static void note_sensor(struct senders *senders, const struct transport_message *message,
-                        int64_t now_us, FILE *to)
+static void note_sensor_message(struct senders *senders, const struct transport_message *message,
+                                int64_t now_us, FILE *to)
 {
     struct sender_channel *channel = find_channel(senders, message);
 
     if (!channel) {
         return;
     }
-    if (!is_same(&channel->last, &message->sender)) {
-        note_other(senders, channel, &message->sender, now_us, to);
+    if (!is_same_sender(&channel->last, &message->sender)) {
+        note_other_sender(senders, channel, &message->sender, now_us, to);
     }
     channel->heard_us = now_us;
 }
 
 /* ---- Nodes ---- */
 
-static void note_node(struct senders *senders, const struct transport_sender *sender, FILE *to)
+static void note_node_message(struct senders *senders, const struct transport_sender *sender,
+                              FILE *to)
 {
     for (unsigned i = 0; i < SENDERS_NODES; i++) {
-        if (is_same(&senders->nodes[i], sender)) {
+        if (is_same_sender(&senders->nodes[i], sender)) {
             return;
         }
     }
@@ -136,8 +138,8 @@ static void note_node(struct senders *senders, const struct transport_sender *se
     }
 }
 
-void senders_note(struct senders *senders, const struct transport_message *message, int64_t now_us,
-                  FILE *to)
+void senders_note_message(struct senders *senders, const struct transport_message *message,
+                          int64_t now_us, FILE *to)
 {
     int16_t sensor_id;
 
@@ -149,10 +151,10 @@ void senders_note(struct senders *senders, const struct transport_message *messa
         senders->lines = 0;
     }
     to = senders->lines < SENDERS_LINES ? to : NULL;
-    if (senders_read_sensor(message->channel, &sensor_id)) {
-        note_sensor(senders, message, now_us, to);
+    if (senders_read_sensor_id(message->channel, &sensor_id)) {
+        note_sensor_message(senders, message, now_us, to);
     } else if (!message->sender.is_own &&
                strcmp(message->channel, RHO_MESSAGE_STATUS_CHANNEL) == 0) {
-        note_node(senders, &message->sender, to);
+        note_node_message(senders, &message->sender, to);
     }
 }

@@ -35,7 +35,7 @@ struct senders {
 };
 
 /* False: no sensor's channel. Anyone on the network names channels. */
-bool senders_read_sensor(const char *channel, int16_t *sensor_id);
+bool senders_read_sensor_id(const char *channel, int16_t *sensor_id);
 
 /*
  * A message has come. One line where a second sender of a sensor is certain, as the first one is
@@ -44,7 +44,7 @@ bool senders_read_sensor(const char *channel, int16_t *sensor_id);
  *   now_us  clock_us; above 0
  *   to      NULL: nothing is written
  */
-void senders_note(struct senders *senders, const struct transport_message *message, int64_t now_us,
-                  FILE *to);
+void senders_note_message(struct senders *senders, const struct transport_message *message,
+                          int64_t now_us, FILE *to);
 
 #endif

@@ -41,7 +41,7 @@ void map_box_include_radars(struct map_box *box, const struct plot_data *data)
     }
 }
 
-static double side_m(const struct map_box *box)
+static double longer_side_m(const struct map_box *box)
 {
     return fmax(box->x_max_m - box->x_min_m, box->y_max_m - box->y_min_m);
 }
@@ -51,20 +51,20 @@ static bool is_inside(const struct map_box *box, double x_m, double y_m)
     return x_m > box->x_min_m && x_m < box->x_max_m && y_m > box->y_min_m && y_m < box->y_max_m;
 }
 
-static void widen(struct map_box *box)
+static void add_margin(struct map_box *box)
 {
     if (!(box->x_min_m <= box->x_max_m)) {
         map_box_include(box, 0.0, 0.0);
     }
-    const double margin_m = fmax(MARGIN_MIN_M, MARGIN * side_m(box));
+    const double margin_m = fmax(MARGIN_MIN_M, MARGIN * longer_side_m(box));
     map_box_include(box, box->x_min_m - margin_m, box->y_min_m - margin_m);
     map_box_include(box, box->x_max_m + margin_m, box->y_max_m + margin_m);
 }
 
 struct map map_start(const struct picture *picture, struct map_box box)
 {
-    widen(&box);
-    const double unit_m = side_m(&box) > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
+    add_margin(&box);
+    const double unit_m = longer_side_m(&box) > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     const char *unit = unit_m > 1.0 ? "km" : "m";
     fprintf(picture->script,
             "set size ratio -1\n"
@@ -100,7 +100,7 @@ void map_put_points(const struct map *map, const char *name, const struct plot_p
     fprintf(map->script, "EOD\n");
 }
 
-size_t map_plots_drawn(size_t count)
+size_t map_num_plots_drawn(size_t count)
 {
     return count < MAP_PLOTS_MAX ? count : MAP_PLOTS_MAX;
 }
@@ -118,7 +118,7 @@ size_t map_plot_index(size_t k, size_t count)
 void map_put_plots(const struct map *map, const struct plot_points *plots, int64_t zero_us)
 {
     fprintf(map->script, "$plots << EOD\n");
-    for (size_t k = 0; k < map_plots_drawn(plots->count); k++) {
+    for (size_t k = 0; k < map_num_plots_drawn(plots->count); k++) {
         map_put_point(map, &plots->list[map_plot_index(k, plots->count)], zero_us);
     }
     fprintf(map->script, "EOD\n");
@@ -126,7 +126,7 @@ void map_put_plots(const struct map *map, const struct plot_points *plots, int64
 
 void map_draw_plots(const struct map *map, const struct plot_points *plots)
 {
-    const size_t drawn = map_plots_drawn(plots->count);
+    const size_t drawn = map_num_plots_drawn(plots->count);
     if (plots->count == 0) {
         return;
     }
@@ -155,14 +155,14 @@ size_t map_marker_interval(const struct map *map, const struct plot_points *path
 
 /* ---- radars ---- */
 
-double map_round_down(double value)
+double map_round_to_1_2_5(double value)
 {
     const double decade = pow(10.0, floor(log10(fmax(value, 1e-9))));
     return value >= 5.0 * decade ? 5.0 * decade : value >= 2.0 * decade ? 2.0 * decade : decade;
 }
 
 /* To the farthest corner that is seen, or as far as the radar sees. */
-static double ringed_m(const struct map *map, const struct plot_radar *radar)
+static double rings_radius_m(const struct map *map, const struct plot_radar *radar)
 {
     const double x_m =
         fmax(fabs(map->box.x_min_m - radar->x_m), fabs(map->box.x_max_m - radar->x_m));
@@ -201,8 +201,8 @@ static void label_ring(const struct map *map, const struct plot_radar *radar, do
 /* How far the rings are apart, and how many there are. */
 static double ring_step_m(const struct map *map, const struct plot_radar *radar, int *count)
 {
-    const double farthest_m = fmax(ringed_m(map, radar), 1.0);
-    const double step_m = map_round_down(farthest_m / RINGS);
+    const double farthest_m = fmax(rings_radius_m(map, radar), 1.0);
+    const double step_m = map_round_to_1_2_5(farthest_m / RINGS);
     *count = (int)floor(farthest_m / step_m + 1e-9);
     return step_m;
 }

@@ -46,7 +46,7 @@ void map_put_point(const struct map *map, const struct plot_point *point, int64_
 void map_put_points(const struct map *map, const char *name, const struct plot_points *points);
 
 /* How many of so many plots are drawn, and the index of the k-th of them: evenly, out of step. */
-size_t map_plots_drawn(size_t count);
+size_t map_num_plots_drawn(size_t count);
 size_t map_plot_index(size_t k, size_t count);
 
 /* The data block $plots of those. */
@@ -66,6 +66,6 @@ void map_draw_radars(const struct map *map, const struct plot_radar *radars, siz
 size_t map_marker_interval(const struct map *map, const struct plot_points *path);
 
 /* 1, 2 or 5 times a power of ten, not above the value. */
-double map_round_down(double value);
+double map_round_to_1_2_5(double value);
 
 #endif

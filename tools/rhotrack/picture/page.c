@@ -16,7 +16,7 @@ struct bytes {
     size_t count, capacity;
 };
 
-static void add(struct bytes *bytes, uint64_t bits, size_t size)
+static void add_bytes(struct bytes *bytes, uint64_t bits, size_t size)
 {
     if (bytes->count + size > bytes->capacity) {
         bytes->capacity = 2 * bytes->capacity + 4096;
@@ -29,7 +29,7 @@ static void add(struct bytes *bytes, uint64_t bits, size_t size)
 
 static void add_uint32(struct bytes *bytes, uint32_t value)
 {
-    add(bytes, value, sizeof value);
+    add_bytes(bytes, value, sizeof value);
 }
 
 static void add_float(struct bytes *bytes, double value)
@@ -37,14 +37,14 @@ static void add_float(struct bytes *bytes, double value)
     const float rounded = (float)value;
     uint32_t bits;
     memcpy(&bits, &rounded, sizeof bits);
-    add(bytes, bits, sizeof bits);
+    add_bytes(bytes, bits, sizeof bits);
 }
 
 static void add_double(struct bytes *bytes, double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
-    add(bytes, bits, sizeof bits);
+    add_bytes(bytes, bits, sizeof bits);
 }
 
 /* The array as an element of the page, which has its name; frees it. */
@@ -103,10 +103,11 @@ struct track_ids {
 
 static struct track_ids find_ids(const struct plot_points *tracks)
 {
-    struct track_ids ids = {must_calloc(plot_data_ids(tracks) + 1, sizeof ids.list[0]), 0};
+    struct track_ids ids = {must_calloc(plot_data_count_identities(tracks) + 1, sizeof ids.list[0]),
+                            0};
     struct plot_points one;
     size_t at = 0;
-    while (plot_data_next(tracks, &at, &one)) {
+    while (plot_data_next_identity(tracks, &at, &one)) {
         ids.list[ids.count++] = one.list[0].id;
     }
     return ids;
@@ -118,7 +119,7 @@ static int by_id(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-static uint32_t fate_of(const struct track_ids *ids, int32_t track_id)
+static uint32_t track_fate(const struct track_ids *ids, int32_t track_id)
 {
     const int32_t *found = bsearch(&track_id, ids->list, ids->count, sizeof ids->list[0], by_id);
     return found ? FATE_OF_TRACK + (uint32_t)(found - ids->list) : FATE_OF_TENTATIVE;
@@ -132,17 +133,18 @@ struct claims {
 static void add_claims(struct claims *claims, const struct track_ids *ids,
                        const struct table *table)
 {
-    const int time = table_need(table, "t_s"), id = table_need(table, "track_id");
-    const int sensor = table_find(table, "sensor_id"), plot = table_find(table, "plot");
+    const int time = table_need_column(table, "t_s"), id = table_need_column(table, "track_id");
+    const int sensor = table_find_column(table, "sensor_id"),
+              plot = table_find_column(table, "plot");
     for (size_t row = 0; plot >= 0 && row < table->num_rows; row++) {
         const double index = table_number_or(table, row, plot, -1.0);
         struct claim claim = {0};
         if (!(index >= 0.0 && index <= UINT32_MAX) ||
-            table_time_us(table, row, time, &claim.time_us) != NULL) {
+            table_read_time_us(table, row, time, &claim.time_us) != NULL) {
             continue;
         }
         claim.plot = (uint32_t)index;
-        claim.fate = fate_of(ids, (int32_t)table_number_or(table, row, id, -1.0));
+        claim.fate = track_fate(ids, (int32_t)table_number_or(table, row, id, -1.0));
         claim.sensor_id = (int32_t)table_number_or(table, row, sensor, 0.0);
         claims->list =
             must_grow(claims->list, claims->count, &claims->capacity, sizeof claims->list[0]);
@@ -165,7 +167,7 @@ static struct claims find_claims(const struct plot_data *data)
 }
 
 /* The fate of a plot; where two tracks took it, of the one that was confirmed. */
-static uint32_t find_fate(struct claims *claims, const struct rho_scan *scan, uint32_t plot)
+static uint32_t find_plot_fate(struct claims *claims, const struct rho_scan *scan, uint32_t plot)
 {
     const struct claim wanted = {scan->time_us, scan->sensor_id, plot, 0, false};
     size_t low = 0, high = claims->count;
@@ -185,8 +187,10 @@ static uint32_t find_fate(struct claims *claims, const struct rho_scan *scan, ui
     return fate;
 }
 
-/* Tracks of other scans than those of the files, as they are gathered here. */
-static void check_claims(const struct claims *claims)
+/*
+ * Warns where tracks name plots that no scan of the files has: other files or settings made them.
+ */
+static void warn_of_lost_claims(const struct claims *claims)
 {
     size_t lost = 0;
     for (size_t i = 0; i < claims->count; i++) {
@@ -203,7 +207,7 @@ static void check_claims(const struct claims *claims)
 
 /* ---- what there is ---- */
 
-static double seconds(int64_t time_us, int64_t zero_us)
+static double seconds_since(int64_t time_us, int64_t zero_us)
 {
     return (double)(time_us - zero_us) * 1e-6;
 }
@@ -216,20 +220,20 @@ static void put_plots(FILE *file, const struct plot_data *data, const struct par
     uint32_t count = 0;
     if (data->num_plot_paths > 0) {
         struct scan_reader *reader =
-            scan_reader_open_any(data->plot_paths, data->num_plot_paths, parameters);
+            scan_reader_open_without_sensors(data->plot_paths, data->num_plot_paths, parameters);
         const struct rho_scan *scan;
         while ((scan = scan_reader_next(reader)) != NULL) {
-            add_double(&time, seconds(scan->time_us, zero_us));
+            add_double(&time, seconds_since(scan->time_us, zero_us));
             add_uint32(&first, count);
             for (uint32_t i = 0; i < scan->num_plots; i++) {
                 add_float(&x, (double)scan->plots[i].x_m);
                 add_float(&y, (double)scan->plots[i].y_m);
-                add_uint32(&fate, find_fate(&claims, scan, i));
+                add_uint32(&fate, find_plot_fate(&claims, scan, i));
             }
             count += scan->num_plots;
         }
         scan_reader_close(reader);
-        check_claims(&claims);
+        warn_of_lost_claims(&claims);
     }
     add_uint32(&first, count);
     put_array(file, "scan_time", &time);
@@ -240,28 +244,28 @@ static void put_plots(FILE *file, const struct plot_data *data, const struct par
     free(claims.list);
 }
 
-static double cell(const struct plot_point *point, const char *column)
+static double track_cell(const struct plot_point *point, const char *column)
 {
-    return table_number_or(point->table, point->row, table_find(point->table, column), NAN);
+    return table_number_or(point->table, point->row, table_find_column(point->table, column), NAN);
 }
 
 /* One row of a track; the script knows the order. */
-static void add_row(struct bytes *rows, const struct plot_point *point)
+static void add_track_row(struct bytes *rows, const struct plot_point *point)
 {
     struct plot_ellipse ellipse;
-    const bool has_ellipse = plot_data_ellipse(point, &ellipse);
+    const bool has_ellipse = plot_data_sigma_ellipse(point, &ellipse);
     add_float(rows, point->x_m);
     add_float(rows, point->y_m);
-    add_float(rows, cell(point, "z_m"));
+    add_float(rows, track_cell(point, "z_m"));
     add_float(rows, point->vx_mps);
     add_float(rows, point->vy_mps);
     add_float(rows, has_ellipse ? ellipse.major_m : NAN);
     add_float(rows, has_ellipse ? ellipse.minor_m : NAN);
     add_float(rows, has_ellipse ? ellipse.angle_rad : NAN);
-    add_float(rows, cell(point, "sigma_mps"));
-    add_float(rows, cell(point, "hits"));
-    add_float(rows, cell(point, "misses"));
-    add_float(rows, cell(point, "score_nat"));
+    add_float(rows, track_cell(point, "sigma_mps"));
+    add_float(rows, track_cell(point, "hits"));
+    add_float(rows, track_cell(point, "misses"));
+    add_float(rows, track_cell(point, "score_nat"));
     add_float(rows, point->is_tentative ? 0.0 : 1.0);
 }
 
@@ -270,12 +274,12 @@ static void put_tracks(FILE *file, const struct plot_points *tracks, int64_t zer
     struct bytes id = {0}, first = {0}, time = {0}, rows = {0};
     struct plot_points one;
     size_t at = 0;
-    while (plot_data_next(tracks, &at, &one)) {
+    while (plot_data_next_identity(tracks, &at, &one)) {
         add_uint32(&id, (uint32_t)one.list[0].id);
         add_uint32(&first, (uint32_t)(one.list - tracks->list));
         for (size_t i = 0; i < one.count; i++) {
-            add_double(&time, seconds(one.list[i].time_us, zero_us));
-            add_row(&rows, &one.list[i]);
+            add_double(&time, seconds_since(one.list[i].time_us, zero_us));
+            add_track_row(&rows, &one.list[i]);
         }
     }
     add_uint32(&first, (uint32_t)tracks->count);
@@ -290,7 +294,7 @@ static void put_truth(FILE *file, const struct plot_points *truth)
     struct bytes first = {0}, place = {0};
     struct plot_points one;
     size_t at = 0;
-    while (plot_data_next(truth, &at, &one)) {
+    while (plot_data_next_identity(truth, &at, &one)) {
         add_uint32(&first, (uint32_t)(one.list - truth->list));
         for (size_t i = 0; i < one.count; i++) {
             add_float(&place, one.list[i].x_m);
@@ -307,7 +311,7 @@ static void put_bearings(FILE *file, const struct plot_rays *rays, int64_t zero_
     struct bytes time = {0}, line = {0};
     for (size_t i = 0; i < rays->count; i++) {
         const struct plot_ray *ray = &rays->list[i];
-        add_double(&time, seconds(ray->time_us, zero_us));
+        add_double(&time, seconds_since(ray->time_us, zero_us));
         add_float(&line, ray->x_m);
         add_float(&line, ray->y_m);
         add_float(&line, ray->end_x_m);
@@ -342,7 +346,7 @@ static void put_sensors(FILE *file, const struct plot_data *data)
     put_array(file, "sensors", &sensors);
 }
 
-bool page_is_wanted(const char *path)
+bool page_path_is_html(const char *path)
 {
     return path_ends_with(path, ".html");
 }
@@ -350,13 +354,13 @@ bool page_is_wanted(const char *path)
 void page_write(const char *path, const struct plot_data *data, const struct parameters *parameters)
 {
     struct output output = output_open(path);
-    const int64_t zero_us = plot_data_zero_us(data);
+    const int64_t zero_us = plot_data_first_shown_us(data);
     FILE *file = output.file;
     fprintf(file,
             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width\">\n"
             "<title>rhotrack: %zu tracks, %zu plots</title>\n<style>\n%s</style></head>\n",
-            plot_data_ids(&data->tracks), data->plots.count, page_style);
+            plot_data_count_identities(&data->tracks), data->plots.count, page_style);
     fprintf(file, "<body data-zero-s=\"%.15g\">\n%s", (double)zero_us * 1e-6, page_html);
     put_plots(file, data, parameters, zero_us);
     put_tracks(file, &data->tracks, zero_us);

@@ -11,7 +11,7 @@
 #include "picture/plot_data.h"
 #include "settings/parameters.h"
 
-bool page_is_wanted(const char *path);
+bool page_path_is_html(const char *path);
 
 /*
  * Writes it. The plots are read once more, scan by scan, for a track names its plots by their rows

@@ -28,7 +28,7 @@ int picture_marker(size_t i)
     return markers[i % NUM_COLOURS];
 }
 
-static char *with_ending(const char *path, const char *ending)
+static char *temporary_path(const char *path, const char *ending)
 {
     char *text = must_alloc(strlen(path) + 40);
     snprintf(text, strlen(path) + 40, "%s.%ld%s", path, (long)getpid(), ending);
@@ -44,7 +44,7 @@ void picture_check_path(const char *path)
 }
 
 /* A PNG is drawn at twice the size, so that it is sharp on fine screens. */
-static void set_terminal(const struct picture *picture)
+static void set_gnuplot_terminal(const struct picture *picture)
 {
     const bool is_png = path_ends_with(picture->path, ".png");
     const int scale = is_png ? 2 : 1;
@@ -56,7 +56,7 @@ static void set_terminal(const struct picture *picture)
 }
 
 /* As gnuplot takes it: within single quotes a single quote stands twice. */
-static void set_output(const struct picture *picture)
+static void set_gnuplot_output(const struct picture *picture)
 {
     fputs("set output '", picture->script);
     for (const char *c = picture->temporary_path; *c; c++) {
@@ -68,9 +68,9 @@ static void set_output(const struct picture *picture)
 struct picture picture_open(const char *path, int width, int height)
 {
     struct picture picture = {
-        .path = must_copy(path),
-        .temporary_path = with_ending(path, ".part"),
-        .script_path = with_ending(path, ".gnuplot"),
+        .path = must_copy_text(path),
+        .temporary_path = temporary_path(path, ".part"),
+        .script_path = temporary_path(path, ".gnuplot"),
         .width = width,
         .height = height,
     };
@@ -78,8 +78,8 @@ struct picture picture_open(const char *path, int width, int height)
     if (!picture.script) {
         fail(EXIT_RUNTIME, "%s: %s", picture.script_path, strerror(errno));
     }
-    set_terminal(&picture);
-    set_output(&picture);
+    set_gnuplot_terminal(&picture);
+    set_gnuplot_output(&picture);
     fprintf(picture.script, "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
                             "set grid lc rgb '#dddddd' lt 1 lw 0.7\n"
                             "set key outside right top vertical Left reverse\n");

@@ -10,7 +10,7 @@
 
 /* ---- what is seen ---- */
 
-static struct map_box frame_of(const struct plot_data *data)
+static struct map_box map_box_of_data(const struct plot_data *data)
 {
     const struct plot_rays *rays = &data->bearings;
     struct map_box frame = map_box_empty();
@@ -28,7 +28,7 @@ static struct map_box frame_of(const struct plot_data *data)
 
 /* ---- data blocks ---- */
 
-static size_t rays_drawn(const struct plot_rays *rays)
+static size_t num_rays_drawn(const struct plot_rays *rays)
 {
     return rays->count < RAYS_MAX ? rays->count : RAYS_MAX;
 }
@@ -37,8 +37,8 @@ static size_t rays_drawn(const struct plot_rays *rays)
 static void put_rays(const struct map *map, const struct plot_rays *rays, size_t sensor)
 {
     fprintf(map->script, "$rays%zu << EOD\n", sensor);
-    for (size_t k = 0; k < rays_drawn(rays); k++) {
-        const struct plot_ray *ray = &rays->list[k * rays->count / rays_drawn(rays)];
+    for (size_t k = 0; k < num_rays_drawn(rays); k++) {
+        const struct plot_ray *ray = &rays->list[k * rays->count / num_rays_drawn(rays)];
         if (ray->sensor == sensor) {
             fprintf(map->script, "%.6g %.6g\n%.6g %.6g\n\n", ray->x_m / map->unit_m,
                     ray->y_m / map->unit_m, ray->end_x_m / map->unit_m, ray->end_y_m / map->unit_m);
@@ -57,11 +57,11 @@ static void put_sensors(const struct map *map, const struct plot_rays *rays)
 }
 
 /* Where the targets were last: their paths end in arrows. */
-static void put_ends(const struct map *map, const struct plot_points *truth)
+static void put_path_arrows(const struct map *map, const struct plot_points *truth)
 {
     struct plot_points one;
     size_t at = 0;
-    while (plot_data_next(truth, &at, &one)) {
+    while (plot_data_next_identity(truth, &at, &one)) {
         if (one.count > 1) {
             const struct plot_point *end = &one.list[one.count - 1], *before = end - 1;
             fprintf(map->script,
@@ -76,7 +76,7 @@ static void put_ends(const struct map *map, const struct plot_points *truth)
 /* ---- the picture ---- */
 
 /* More rays are paler: 0 is opaque, 255 is nothing. */
-static int paleness(const struct plot_rays *rays)
+static int ray_paleness(const struct plot_rays *rays)
 {
     return (int)(90.0 + 130.0 * fmin(1.0, sqrt((double)rays->count / RAYS_CROWDED)));
 }
@@ -85,7 +85,7 @@ void plot_bearings_draw(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
         fprintf(map->script, ", \\\n $rays%zu using 1:2 with lines lw 0.6 lc rgb '#%02x%s' notitle",
-                i, (unsigned)paleness(rays), picture_colour(i) + 1);
+                i, (unsigned)ray_paleness(rays), picture_colour(i) + 1);
         /* the legend's sample is not pale */
         fprintf(map->script, ", \\\n NaN with lines lw 2 lc rgb '%s' title 'sensor %d'",
                 picture_colour(i), rays->sensors[i].id);
@@ -105,7 +105,7 @@ void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *r
                          "boxed offset 1.2,-0.9 tc rgb '#000000' notitle");
 }
 
-void plot_bearings_put(const struct map *map, const struct plot_rays *rays)
+void plot_bearings_put_data(const struct map *map, const struct plot_rays *rays)
 {
     for (size_t i = 0; i < rays->num_sensors; i++) {
         put_rays(map, rays, i);
@@ -118,12 +118,12 @@ void plot_bearings_put(const struct map *map, const struct plot_rays *rays)
 void plot_bearings(struct picture *picture, const struct plot_data *data)
 {
     const struct plot_rays *rays = &data->bearings;
-    const struct map map = map_start(picture, frame_of(data));
+    const struct map map = map_start(picture, map_box_of_data(data));
     picture_set_title(picture, "%zu bearings of %zu sensors", rays->count, rays->num_sensors);
-    plot_bearings_put(&map, rays);
+    plot_bearings_put_data(&map, rays);
     map_put_plots(&map, &data->plots, 0);
     map_put_points(&map, "truth", &data->truth);
-    put_ends(&map, &data->truth);
+    put_path_arrows(&map, &data->truth);
     fprintf(map.script, "plot NaN notitle");
     plot_bearings_draw(&map, rays);
     map_draw_plots(&map, &data->plots);

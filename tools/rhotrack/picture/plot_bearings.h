@@ -17,7 +17,7 @@
 void plot_bearings(struct picture *picture, const struct plot_data *data);
 
 /* Rays and sensors for a map of other things: data blocks, then what draws them. */
-void plot_bearings_put(const struct map *map, const struct plot_rays *rays);
+void plot_bearings_put_data(const struct map *map, const struct plot_rays *rays);
 void plot_bearings_draw(const struct map *map, const struct plot_rays *rays);
 void plot_bearings_draw_sensors(const struct map *map, const struct plot_rays *rays);
 

@@ -43,9 +43,9 @@ static struct plot_radar *find_sensors(const struct clutter_echo *echoes, size_t
     return sensors;
 }
 
-static struct map_box box_of(const struct clutter_echo *echoes, size_t count,
-                             const struct plot_radar *sensors, size_t num_sensors,
-                             const struct plot_points *plots)
+static struct map_box map_box_of_echoes(const struct clutter_echo *echoes, size_t count,
+                                        const struct plot_radar *sensors, size_t num_sensors,
+                                        const struct plot_points *plots)
 {
     struct map_box box = map_box_empty();
 
@@ -61,7 +61,7 @@ static struct map_box box_of(const struct clutter_echo *echoes, size_t count,
 
 /* ---- drawing ---- */
 
-static double size_of(double hits)
+static double echo_size(double hits)
 {
     return 0.3 + 0.35 * log10(fmax(hits, 1.0));
 }
@@ -73,14 +73,14 @@ static void put_echoes(const struct map *map, const struct clutter_echo *echoes,
     for (size_t i = 0; i < count; i++) {
         if (echoes[i].sensor_id == sensor_id) {
             fprintf(map->script, "%.9g %.9g %.3f\n", (double)echoes[i].x_m / map->unit_m,
-                    (double)echoes[i].y_m / map->unit_m, size_of(echoes[i].hits));
+                    (double)echoes[i].y_m / map->unit_m, echo_size(echoes[i].hits));
         }
     }
     fprintf(map->script, "EOD\n");
 }
 
 /* The legend of sizes: 10, 100, ... up to the largest number of hits. */
-static void put_legend(const struct map *map, const struct clutter_echo *echoes, size_t count)
+static void put_size_legend(const struct map *map, const struct clutter_echo *echoes, size_t count)
 {
     unsigned most = 0, hits = 10;
 
@@ -89,7 +89,7 @@ static void put_legend(const struct map *map, const struct clutter_echo *echoes,
     }
     do {
         fprintf(map->script, ", \\\n NaN with points pt 7 ps %.3f lc rgb '#555555' title '%u hits'",
-                size_of(hits), hits);
+                echo_size(hits), hits);
         hits *= 10;
     } while (hits <= most);
 }
@@ -100,7 +100,7 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
     size_t num_sensors;
     struct plot_radar *sensors = find_sensors(echoes, count, parameters, &num_sensors);
     const struct map map =
-        map_start(picture, box_of(echoes, count, sensors, num_sensors, &data->plots));
+        map_start(picture, map_box_of_echoes(echoes, count, sensors, num_sensors, &data->plots));
 
     picture_set_title(picture, "Clutter map: %zu fixed echoes of %zu sensors", count, num_sensors);
     for (size_t i = 0; i < num_sensors; i++) {
@@ -117,7 +117,7 @@ void plot_clutter(struct picture *picture, const struct clutter_echo *echoes, si
                 "'echoes of sensor %" PRId32 "'",
                 i, picture_colour(i + 1) + 1, sensors[i].sensor_id);
     }
-    put_legend(&map, echoes, count);
+    put_size_legend(&map, echoes, count);
     fprintf(map.script, "\n");
     free(sensors);
 }

@@ -30,10 +30,10 @@ static void add_radar(struct plot_data *data, const struct record *record, bool 
     }
     const struct rho_sensor *sensor = &record->sensor;
     const double range_max_m =
-        parameters_of_sensor(parameters, record->sensor_id, SENSOR_RANGE_MAX_M,
-                             parameters->source[PARAMETER_RANGE_MAX_M] > SOURCE_DEFAULT
-                                 ? parameters->value[PARAMETER_RANGE_MAX_M]
-                                 : INFINITY);
+        parameters_value_of_sensor(parameters, record->sensor_id, SENSOR_RANGE_MAX_M,
+                                   parameters->source[PARAMETER_RANGE_MAX_M] > SOURCE_DEFAULT
+                                       ? parameters->value[PARAMETER_RANGE_MAX_M]
+                                       : INFINITY);
     data->radars =
         must_grow(data->radars, data->num_radars, &data->radars_capacity, sizeof *data->radars);
     data->radars[data->num_radars++] = (struct plot_radar){
@@ -45,18 +45,18 @@ static void add_radar(struct plot_data *data, const struct record *record, bool 
         .sector_to_rad = record->has_sensor ? (double)sensor->sector_to_rad : 0.0};
 }
 
-/* As the tracks have them: the same checks, the same conversion. */
+/* Plots as `track` reads them, with the same checks and the same conversion. */
 static void add_plots(struct plot_data *data, const struct table *table,
                       const struct parameters *parameters)
 {
     struct plot_points *points = &data->plots;
-    const bool is_polar = table_find(table, "range_m") >= 0;
+    const bool is_polar = table_find_column(table, "range_m") >= 0;
     struct record_columns columns = record_columns_find(table, parameters, RECORD_PLOTS, false);
     char reason[ROW_REASON_BYTES];
     for (size_t row = 0; row < table->num_rows; row++) {
         struct record record;
         if (!record_read(table, &columns, row, parameters, &record, reason)) {
-            table_fail(table, row, "%s", reason);
+            table_fail_at_row(table, row, "%s", reason);
         }
         if (record.has_measurement) {
             add_radar(data, &record, is_polar, parameters);
@@ -75,8 +75,8 @@ static double number_or_0(double number)
 }
 
 /* Truth or tracks, but for rows without a place, and of tracks that are no more. */
-static void add_paths(struct plot_points *points, const struct table *table,
-                      const struct parameters *parameters)
+static void add_truth_or_tracks(struct plot_points *points, const struct table *table,
+                                const struct parameters *parameters)
 {
     struct path_columns columns = path_columns_find(table, parameters);
     for (size_t row = 0; row < table->num_rows; row++) {
@@ -108,12 +108,12 @@ static void add_points(struct plot_data *data, struct plot_points *points,
     if (points == &data->plots) {
         add_plots(data, table, parameters);
     } else {
-        add_paths(points, table, parameters);
+        add_truth_or_tracks(points, table, parameters);
     }
 }
 
 /* Tables of tracks stay: what is wrong with a row may be seen only beside the truth. */
-static void keep_table(struct plot_data *data, struct table *table)
+static void keep_track_table(struct plot_data *data, struct table *table)
 {
     data->track_tables = must_grow(data->track_tables, data->num_track_tables,
                                    &data->track_tables_capacity, sizeof(struct table *));
@@ -123,13 +123,14 @@ static void keep_table(struct plot_data *data, struct table *table)
 static void add_table(struct plot_data *data, struct table *table,
                       const struct parameters *parameters)
 {
-    if (table_find(table, "track_id") >= 0) {
+    if (table_find_column(table, "track_id") >= 0) {
         add_points(data, &data->tracks, table, parameters);
-        keep_table(data, table);
+        keep_track_table(data, table);
         return;
     }
     /* plots of a scene have a target, too */
-    bool are_plots = table_find(table, "target_id") < 0 || table_find(table, "sensor_id") >= 0;
+    bool are_plots =
+        table_find_column(table, "target_id") < 0 || table_find_column(table, "sensor_id") >= 0;
     add_points(data, are_plots ? &data->plots : &data->truth, table, parameters);
     table_free(table);
 }
@@ -141,7 +142,7 @@ static void add_file(struct plot_data *data, const char *path, const struct para
     size_t found = 0;
     unsigned scans;
     if (!lcm_log_is_log(path)) {
-        add_table(data, table_read_as(path, parameters, false), parameters);
+        add_table(data, table_read_with_parameters(path, parameters, false), parameters);
         return;
     }
     scans = log_scans_kinds(path);
@@ -160,7 +161,7 @@ static void add_file(struct plot_data *data, const char *path, const struct para
 
 /* ---- bearings ---- */
 
-static void keep_sensors(struct plot_rays *rays, const struct frame_reader *reader)
+static void keep_bearing_sensors(struct plot_rays *rays, const struct frame_reader *reader)
 {
     const struct frame_sensor *sensors = frame_reader_sensors(reader, &rays->num_sensors);
     rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
@@ -195,7 +196,7 @@ static void read_bearings(struct plot_rays *rays, char *const *paths, int num_pa
 {
     struct frame_reader *reader = frame_reader_open(paths, num_paths, parameters, false);
     const struct rho_frame *frame;
-    keep_sensors(rays, reader);
+    keep_bearing_sensors(rays, reader);
     rays->list = must_calloc(frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
     while ((frame = frame_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
@@ -217,7 +218,7 @@ static int by_id_and_time(const void *a, const void *b)
     return one->time_us < other->time_us ? -1 : one->time_us > other->time_us;
 }
 
-bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_points *one)
+bool plot_data_next_identity(const struct plot_points *points, size_t *at, struct plot_points *one)
 {
     one->count = 0;
     if (*at >= points->count) {
@@ -231,11 +232,11 @@ bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_po
     return true;
 }
 
-size_t plot_data_ids(const struct plot_points *points)
+size_t plot_data_count_identities(const struct plot_points *points)
 {
     struct plot_points one;
     size_t at = 0, count = 0;
-    while (plot_data_next(points, &at, &one)) {
+    while (plot_data_next_identity(points, &at, &one)) {
         count++;
     }
     return count;
@@ -255,7 +256,7 @@ static void drop_unconfirmed(struct plot_points *tracks)
 {
     struct plot_points one;
     size_t at = 0, kept = 0;
-    while (plot_data_next(tracks, &at, &one)) {
+    while (plot_data_next_identity(tracks, &at, &one)) {
         if (was_confirmed(&one)) {
             memmove(tracks->list + kept, one.list, one.count * sizeof one.list[0]);
             kept += one.count;
@@ -286,7 +287,7 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
     for (int i = 0; i < num_paths; i++) {
         bool is_log = lcm_log_is_log(paths[i]);
         bool has_bearings = is_log ? (log_scans_kinds(paths[i]) & LOG_HAS_BEARINGS) != 0
-                                   : frame_reader_is_bearings(paths[i]);
+                                   : frame_reader_file_has_bearings(paths[i]);
         if (has_bearings) {
             bearings[num_bearings++] = paths[i];
         }
@@ -309,7 +310,7 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
     return data;
 }
 
-static int64_t first_us(const struct plot_points *points, int64_t otherwise_us)
+static int64_t first_time_us(const struct plot_points *points, int64_t otherwise_us)
 {
     for (size_t i = 0; i < points->count; i++) {
         otherwise_us =
@@ -318,10 +319,10 @@ static int64_t first_us(const struct plot_points *points, int64_t otherwise_us)
     return otherwise_us;
 }
 
-int64_t plot_data_zero_us(const struct plot_data *data)
+int64_t plot_data_first_shown_us(const struct plot_data *data)
 {
-    int64_t zero_us = first_us(&data->truth, INT64_MAX);
-    zero_us = first_us(&data->plots, first_us(&data->tracks, zero_us));
+    int64_t zero_us = first_time_us(&data->truth, INT64_MAX);
+    zero_us = first_time_us(&data->plots, first_time_us(&data->tracks, zero_us));
     for (size_t i = 0; i < data->bearings.count; i++) {
         const int64_t time_us = data->bearings.list[i].time_us;
         zero_us = time_us < zero_us ? time_us : zero_us;
@@ -329,9 +330,9 @@ int64_t plot_data_zero_us(const struct plot_data *data)
     return zero_us == INT64_MAX || llabs(zero_us) < LATE_US ? 0 : zero_us;
 }
 
-void plot_data_name_time(const struct plot_data *data, char *text, size_t size)
+void plot_data_time_label(const struct plot_data *data, char *text, size_t size)
 {
-    const int64_t zero_us = plot_data_zero_us(data);
+    const int64_t zero_us = plot_data_first_shown_us(data);
     if (zero_us == 0) {
         snprintf(text, size, "time (s)");
     } else {
@@ -339,15 +340,15 @@ void plot_data_name_time(const struct plot_data *data, char *text, size_t size)
     }
 }
 
-static double cell(const struct plot_point *point, const char *column)
+static double track_cell(const struct plot_point *point, const char *column)
 {
-    return table_number_or(point->table, point->row, table_find(point->table, column), NAN);
+    return table_number_or(point->table, point->row, table_find_column(point->table, column), NAN);
 }
 
-bool plot_data_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse)
+bool plot_data_sigma_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse)
 {
-    const double xx = cell(track, "cov_x_x"), yx = cell(track, "cov_y_x");
-    const double yy = cell(track, "cov_y_y"), sigma_m = cell(track, "sigma_m");
+    const double xx = track_cell(track, "cov_x_x"), yx = track_cell(track, "cov_y_x");
+    const double yy = track_cell(track, "cov_y_y"), sigma_m = track_cell(track, "sigma_m");
     if (isnan(xx) || isnan(yx) || isnan(yy)) {
         *ellipse = (struct plot_ellipse){sigma_m, sigma_m, 0.0};
         return !isnan(sigma_m);

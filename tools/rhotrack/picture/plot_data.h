@@ -77,22 +77,22 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
 void plot_data_free(struct plot_data *data);
 
 /* The rows of one identity: from *at on; moves *at behind them. False at the end. */
-bool plot_data_next(const struct plot_points *points, size_t *at, struct plot_points *one);
+bool plot_data_next_identity(const struct plot_points *points, size_t *at, struct plot_points *one);
 
 /* How many identities. */
-size_t plot_data_ids(const struct plot_points *points);
+size_t plot_data_count_identities(const struct plot_points *points);
 
 /*
  * Times are shown from here on: the first time of all where that is late (a clock's), else 0; and
  * the words for it, "time (s)" or the same with where it begins.
  */
-int64_t plot_data_zero_us(const struct plot_data *data);
-void plot_data_name_time(const struct plot_data *data, char *text, size_t size);
+int64_t plot_data_first_shown_us(const struct plot_data *data);
+void plot_data_time_label(const struct plot_data *data, char *text, size_t size);
 
 /* A track's own ellipse of one sigma; false where its row does not say it. */
 struct plot_ellipse {
     double major_m, minor_m, angle_rad; /* of the major axis, counter-clockwise from east */
 };
-bool plot_data_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse);
+bool plot_data_sigma_ellipse(const struct plot_point *track, struct plot_ellipse *ellipse);
 
 #endif

@@ -13,8 +13,8 @@
 /* ---- pairs ---- */
 
 /* Indices of the points of one time; tracks count once they are confirmed. */
-static size_t points_at(const struct plot_points *points, int64_t time_us, size_t *at,
-                        struct gospa_place *places)
+static size_t points_at_time(const struct plot_points *points, int64_t time_us, size_t *at,
+                             struct gospa_place *places)
 {
     size_t count = 0;
     for (size_t i = 0; i < points->count; i++) {
@@ -38,8 +38,9 @@ struct error_finder {
 
 static void find_errors_at(struct error_finder *finder, int64_t time_us)
 {
-    size_t num_targets = points_at(finder->truth, time_us, finder->targets, finder->target_places);
-    size_t num_tracks = points_at(&finder->led, time_us, finder->tracks, finder->track_places);
+    size_t num_targets =
+        points_at_time(finder->truth, time_us, finder->targets, finder->target_places);
+    size_t num_tracks = points_at_time(&finder->led, time_us, finder->tracks, finder->track_places);
     gospa_compare(finder->target_places, num_targets, finder->track_places, num_tracks,
                   finder->cutoff_m, finder->track_of);
     for (size_t i = 0; i < num_targets; i++) {
@@ -66,8 +67,8 @@ static void find_errors(struct error_finder *finder)
     }
 }
 
-/* Of none gnuplot makes no picture. */
-static void need_one(const struct error_finder *finder)
+/* Exit 2 where there is no error at all, of which gnuplot makes no picture. */
+static void need_one_error(const struct error_finder *finder)
 {
     for (size_t i = 0; i < finder->truth->count; i++) {
         if (!isnan(finder->error_m[i])) {
@@ -102,7 +103,7 @@ static struct plot_points in_order_of_time(const struct plot_points *points)
     return sorted;
 }
 
-static struct alignment_times times_of(const struct plot_points *points)
+static struct alignment_times times_of_points(const struct plot_points *points)
 {
     int64_t *times_us = must_calloc(points->count + 1, sizeof *times_us);
     for (size_t i = 0; i < points->count; i++) {
@@ -111,7 +112,7 @@ static struct alignment_times times_of(const struct plot_points *points)
     return (struct alignment_times){.list_us = times_us, .count = points->count};
 }
 
-static struct plot_point led(const struct plot_point *point, int64_t to_us)
+static struct plot_point moved_to_time(const struct plot_point *point, int64_t to_us)
 {
     struct plot_point at = *point;
     double by_s = (double)(to_us - point->time_us) * 1e-6;
@@ -125,16 +126,18 @@ static struct plot_points align_tracks(const struct plot_data *data, int64_t mos
 {
     struct plot_points truth = in_order_of_time(&data->truth);
     struct plot_points tracks = in_order_of_time(&data->tracks);
-    struct alignment_times truth_times = times_of(&truth), track_times = times_of(&tracks);
-    size_t far = alignment_find_far(track_times, truth_times, most_us);
+    struct alignment_times truth_times = times_of_points(&truth),
+                           track_times = times_of_points(&tracks);
+    size_t far = alignment_find_unmatched(track_times, truth_times, most_us);
     if (far < tracks.count) {
-        alignment_fail(tracks.list[far].table, tracks.list[far].row, most_us);
+        alignment_fail_unmatched(tracks.list[far].table, tracks.list[far].row, most_us);
     }
     struct alignment alignment = alignment_to_truth(track_times, truth_times, most_us);
     struct plot_points leading = {.list = must_calloc(alignment.count + 1, sizeof *leading.list),
                                   .count = alignment.count};
     for (size_t i = 0; i < alignment.count; i++) {
-        leading.list[i] = led(&tracks.list[alignment.list[i].row], alignment.list[i].to_us);
+        leading.list[i] =
+            moved_to_time(&tracks.list[alignment.list[i].row], alignment.list[i].to_us);
     }
     free(alignment.list);
     free(truth_times.list_us);
@@ -161,7 +164,7 @@ struct plot_errors plot_errors_find(const struct plot_data *data,
         .track_of = must_calloc(targets, sizeof(int)),
     };
     find_errors(&finder);
-    need_one(&finder);
+    need_one_error(&finder);
     free(finder.led.list);
     free(finder.targets);
     free(finder.tracks);
@@ -180,7 +183,7 @@ void plot_errors_free(struct plot_errors *errors)
 
 static void put_errors(FILE *script, const struct plot_data *data, const struct plot_errors *errors)
 {
-    const int64_t zero_us = plot_data_zero_us(data);
+    const int64_t zero_us = plot_data_first_shown_us(data);
     fprintf(script, "$errors << EOD\n");
     for (size_t i = 0; i < data->truth.count; i++) {
         const struct plot_point *target = &data->truth.list[i];
@@ -201,17 +204,17 @@ void plot_errors(struct picture *picture, const struct plot_data *data,
                  const struct plot_errors *errors)
 {
     struct plot_points one;
-    size_t at = 0, index = 0, many = plot_data_ids(&data->truth) > PLOT_LEGEND_MAX;
+    size_t at = 0, index = 0, many = plot_data_count_identities(&data->truth) > PLOT_LEGEND_MAX;
     char time[80];
-    plot_data_name_time(data, time, sizeof time);
+    plot_data_time_label(data, time, sizeof time);
     picture_set_title(picture, "Position errors of the tracks of %zu targets",
-                      plot_data_ids(&data->truth));
+                      plot_data_count_identities(&data->truth));
     put_errors(picture->script, data, errors);
     fprintf(picture->script,
             "set xlabel '%s'\nset ylabel 'position error (m)'\nset yrange [0:*]\n%splot NaN "
             "notitle",
             time, many ? "set key off\n" : "");
-    while (plot_data_next(&data->truth, &at, &one)) {
+    while (plot_data_next_identity(&data->truth, &at, &one)) {
         fprintf(picture->script,
                 ", \\\n $errors index %zu using 1:2 with linespoints lw 1.2 pt %d ps %g pi %zu "
                 "lc rgb '%s' title 'target %d'",

@@ -20,7 +20,7 @@ struct votes {
     uint16_t count[RHO_CELLS][THETA_CELLS];
 };
 
-static double theta_at(int cell)
+static double theta_of_cell(int cell)
 {
     return (cell + 0.5) * PI / THETA_CELLS;
 }
@@ -30,14 +30,14 @@ static double rho_of(const struct rho_plot *plot, double theta)
     return (double)plot->x_m * cos(theta) + (double)plot->y_m * sin(theta);
 }
 
-static void find_range(struct votes *votes, const struct revolutions *revolutions)
+static void find_rho_range(struct votes *votes, const struct revolutions *revolutions)
 {
     votes->rho_min_m = INFINITY;
     votes->rho_max_m = -INFINITY;
     for (size_t i = 0; i < revolutions->count; i++) {
         for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
             for (int t = 0; t < THETA_CELLS; t++) {
-                double rho_m = rho_of(&revolutions->list[i].plots[p], theta_at(t));
+                double rho_m = rho_of(&revolutions->list[i].plots[p], theta_of_cell(t));
                 votes->rho_min_m = fmin(votes->rho_min_m, rho_m - 1.0);
                 votes->rho_max_m = fmax(votes->rho_max_m, rho_m + 1.0);
             }
@@ -49,14 +49,14 @@ static void cast_vote(struct votes *votes, const struct rho_plot *plot)
 {
     double cells_per_m = RHO_CELLS / (votes->rho_max_m - votes->rho_min_m);
     for (int t = 0; t < THETA_CELLS; t++) {
-        int cell = (int)((rho_of(plot, theta_at(t)) - votes->rho_min_m) * cells_per_m);
+        int cell = (int)((rho_of(plot, theta_of_cell(t)) - votes->rho_min_m) * cells_per_m);
         votes->count[cell][t] = (uint16_t)(votes->count[cell][t] + 1u);
     }
 }
 
 static void cast_votes(struct votes *votes, const struct revolutions *revolutions)
 {
-    find_range(votes, revolutions);
+    find_rho_range(votes, revolutions);
     for (size_t i = 0; i < revolutions->count; i++) {
         for (uint32_t p = 0; p < revolutions->list[i].scan.num_plots; p++) {
             cast_vote(votes, &revolutions->list[i].plots[p]);
@@ -71,19 +71,20 @@ static void put_votes(FILE *script, const struct votes *votes, double unit_m)
         double width_m = (votes->rho_max_m - votes->rho_min_m) / RHO_CELLS;
         double rho = (votes->rho_min_m + (r + 0.5) * width_m) / unit_m;
         for (int t = 0; t < THETA_CELLS; t++) {
-            fprintf(script, "%.5g %.5g %d\n", theta_at(t) * 180.0 / PI, rho, votes->count[r][t]);
+            fprintf(script, "%.5g %.5g %d\n", theta_of_cell(t) * 180.0 / PI, rho,
+                    votes->count[r][t]);
         }
         fprintf(script, "\n");
     }
     fprintf(script, "EOD\n");
 }
 
-static void put_lines(FILE *script, const struct plot_points *tracks, double unit_m)
+static void put_track_lines(FILE *script, const struct plot_points *tracks, double unit_m)
 {
     struct plot_points one;
     size_t at = 0;
     fprintf(script, "$lines << EOD\n");
-    while (plot_data_next(tracks, &at, &one)) {
+    while (plot_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         struct rho_line line = rho_angle_line((float)end->x_m, (float)end->y_m, (float)end->vx_mps,
                                               (float)end->vy_mps);
@@ -99,14 +100,14 @@ struct revolutions plot_parameter_space_read(const struct plot_data *data,
 {
     uint32_t num_plots = 0;
     for (int i = 0; i < data->num_plot_paths; i++) {
-        if (file_bytes(data->plot_paths[i]) == 0) {
+        if (plain_file_size(data->plot_paths[i]) == 0) {
             fail(EXIT_USAGE, "plot parameter-space: %s: plots are read twice; give them as a file",
                  data->plot_paths[i]);
         }
     }
     struct scan_reader *reader =
-        scan_reader_open_any(data->plot_paths, data->num_plot_paths, parameters);
-    struct revolutions revolutions = revolutions_read(reader, scans);
+        scan_reader_open_without_sensors(data->plot_paths, data->num_plot_paths, parameters);
+    struct revolutions revolutions = revolutions_read_last(reader, scans);
     for (size_t i = 0; i < revolutions.count; i++) {
         num_plots += revolutions.list[i].scan.num_plots;
     }
@@ -125,7 +126,7 @@ void plot_parameter_space(struct picture *picture, const struct plot_data *data,
     cast_votes(votes, revolutions);
     double unit_m = votes->rho_max_m - votes->rho_min_m > MAP_KILOMETRES_FROM_M ? 1000.0 : 1.0;
     put_votes(picture->script, votes, unit_m);
-    put_lines(picture->script, &data->tracks, unit_m);
+    put_track_lines(picture->script, &data->tracks, unit_m);
     picture_set_title(picture, "Parameter space: the lines through the plots of the last %zu scans",
                       revolutions->count);
     fprintf(

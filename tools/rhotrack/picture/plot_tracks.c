@@ -29,7 +29,7 @@ static struct map start_map(const struct picture *picture, const struct plot_dat
 }
 
 /* ", 67 s from t_s = 3 on"; empty where nothing has a time */
-static const char *words_of_times(const struct plot_data *data, char text[WORDS_BYTES])
+static const char *time_span_words(const struct plot_data *data, char text[WORDS_BYTES])
 {
     int64_t from_us = INT64_MAX, to_us = INT64_MIN;
     const struct plot_points *const all[] = {&data->plots, &data->tracks, &data->truth};
@@ -56,9 +56,9 @@ static const char *words_of_times(const struct plot_data *data, char text[WORDS_
 }
 
 /* "1526 plots", "48 bearings", or "20000 of 1000000 plots" */
-static const char *words_of_plots(const struct plot_data *data, char text[WORDS_BYTES])
+static const char *plot_count_words(const struct plot_data *data, char text[WORDS_BYTES])
 {
-    const size_t count = data->plots.count, drawn = map_plots_drawn(count);
+    const size_t count = data->plots.count, drawn = map_num_plots_drawn(count);
     if (count == 0 && data->bearings.count > 0) {
         snprintf(text, WORDS_BYTES, "%zu bearings", data->bearings.count);
     } else if (drawn < count) {
@@ -72,11 +72,11 @@ static const char *words_of_plots(const struct plot_data *data, char text[WORDS_
 void plot_scans(struct picture *picture, const struct plot_data *data)
 {
     const struct map map = start_map(picture, data);
-    const size_t drawn = map_plots_drawn(data->plots.count);
+    const size_t drawn = map_num_plots_drawn(data->plots.count);
     char plots[WORDS_BYTES], times[WORDS_BYTES], time[WORDS_BYTES];
-    plot_data_name_time(data, time, sizeof time);
-    picture_set_title(picture, "%s%s", words_of_plots(data, plots), words_of_times(data, times));
-    map_put_plots(&map, &data->plots, plot_data_zero_us(data));
+    plot_data_time_label(data, time, sizeof time);
+    picture_set_title(picture, "%s%s", plot_count_words(data, plots), time_span_words(data, times));
+    map_put_plots(&map, &data->plots, plot_data_first_shown_us(data));
     map_put_radars(&map, data->radars, data->num_radars);
     fprintf(map.script,
             "set cblabel '%s'\nset palette defined (0 '#00204d', 0.5 '#7c7b78', 1 '#ffd940')\n"
@@ -96,7 +96,7 @@ static void put_start_lines(const struct map *map, const struct plot_data *data)
     size_t at = 0;
     int64_t first_us = data->plots.count ? data->plots.list[0].time_us : INT64_MAX;
     fprintf(map->script, "$starts << EOD\n");
-    while (plot_data_next(&data->tracks, &at, &one)) {
+    while (plot_data_next_identity(&data->tracks, &at, &one)) {
         const struct plot_point *start = &one.list[0];
         double back_s = (double)(start->time_us - first_us) * 1e-6;
         struct plot_point origin = *start;
@@ -117,23 +117,23 @@ static void put_start_lines(const struct map *map, const struct plot_data *data)
 
 /* ---- the ends of tracks ---- */
 
-static bool is_beside(const struct map *map, const struct plot_point *one,
-                      const struct plot_point *other)
+static bool is_near_on_map(const struct map *map, const struct plot_point *one,
+                           const struct plot_point *other)
 {
     return fabs(one->x_m - other->x_m) * map->pixels_per_m < LABEL_WIDTH_PIXELS &&
            fabs(one->y_m - other->y_m) * map->pixels_per_m < LABEL_HEIGHT_PIXELS;
 }
 
 /* Numbers of tracks, but for those that would be written over another. */
-static void put_labels(const struct map *map, const struct plot_points *tracks)
+static void put_track_labels(const struct map *map, const struct plot_points *tracks)
 {
     struct plot_points one;
     struct plot_point *labelled = must_calloc(tracks->count + 1, sizeof *labelled);
     size_t at = 0, count = 0;
-    while (plot_data_next(tracks, &at, &one)) {
+    while (plot_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         size_t i = 0;
-        while (i < count && !is_beside(map, end, &labelled[i])) {
+        while (i < count && !is_near_on_map(map, end, &labelled[i])) {
             i++;
         }
         if (i == count) {
@@ -146,24 +146,25 @@ static void put_labels(const struct map *map, const struct plot_points *tracks)
 }
 
 /* Seconds of motion that an arrow shows. */
-static double arrow_s(const struct map *map, const struct plot_points *tracks)
+static double arrow_seconds(const struct map *map, const struct plot_points *tracks)
 {
     struct plot_points one;
     size_t at = 0;
     double fastest_mps = 0.0;
-    while (plot_data_next(tracks, &at, &one)) {
+    while (plot_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         fastest_mps = fmax(fastest_mps, hypot(end->vx_mps, end->vy_mps));
     }
-    return fastest_mps > 0.0 ? map_round_down(ARROW_PIXELS / map->pixels_per_m / fastest_mps) : 0.0;
+    return fastest_mps > 0.0 ? map_round_to_1_2_5(ARROW_PIXELS / map->pixels_per_m / fastest_mps)
+                             : 0.0;
 }
 
-static void put_ends(const struct map *map, const struct plot_points *tracks)
+static void put_arrows_and_ellipses(const struct map *map, const struct plot_points *tracks)
 {
-    const double time_s = arrow_s(map, tracks);
+    const double time_s = arrow_seconds(map, tracks);
     struct plot_points one;
     size_t at = 0, index = 0;
-    while (plot_data_next(tracks, &at, &one)) {
+    while (plot_data_next_identity(tracks, &at, &one)) {
         const struct plot_point *end = &one.list[one.count - 1];
         const double x = end->x_m / map->unit_m, y = end->y_m / map->unit_m;
         struct plot_ellipse ellipse;
@@ -172,7 +173,7 @@ static void put_ends(const struct map *map, const struct plot_points *tracks)
                 "rgb '%s' front\n",
                 x, y, end->vx_mps * time_s / map->unit_m, end->vy_mps * time_s / map->unit_m,
                 picture_colour(index));
-        if (plot_data_ellipse(end, &ellipse) &&
+        if (plot_data_sigma_ellipse(end, &ellipse) &&
             ELLIPSE_SIGMAS * ellipse.major_m * map->pixels_per_m >= ELLIPSE_PIXELS) {
             const double axes = 2.0 * ELLIPSE_SIGMAS / map->unit_m;
             fprintf(map->script,
@@ -197,12 +198,12 @@ static void name_track(char *title, size_t size, int32_t id, size_t index, bool 
     }
 }
 
-static void draw_lines(const struct map *map, const struct plot_points *tracks)
+static void draw_track_lines(const struct map *map, const struct plot_points *tracks)
 {
     struct plot_points one;
     size_t at = 0, index = 0;
-    const size_t ids = plot_data_ids(tracks);
-    while (plot_data_next(tracks, &at, &one)) {
+    const size_t ids = plot_data_count_identities(tracks);
+    while (plot_data_next_identity(tracks, &at, &one)) {
         char title[40];
         name_track(title, sizeof title, one.list[0].id, index, ids > PLOT_LEGEND_MAX);
         fprintf(map->script, ", \\\n $tracks index %zu using 1:2 with ", index);
@@ -230,13 +231,13 @@ static void set_title(const struct picture *picture, const struct map *map,
                       const struct plot_data *data)
 {
     char plots[WORDS_BYTES], times[WORDS_BYTES], arrows[WORDS_BYTES] = "";
-    const double time_s = arrow_s(map, &data->tracks);
+    const double time_s = arrow_seconds(map, &data->tracks);
     if (time_s > 0.0) {
         snprintf(arrows, sizeof arrows, "; arrows: %g s of motion; ellipses: %g sigma", time_s,
                  ELLIPSE_SIGMAS);
     }
-    picture_set_title(picture, "%zu tracks, %s%s%s", plot_data_ids(&data->tracks),
-                      words_of_plots(data, plots), words_of_times(data, times), arrows);
+    picture_set_title(picture, "%zu tracks, %s%s%s", plot_data_count_identities(&data->tracks),
+                      plot_count_words(data, plots), time_span_words(data, times), arrows);
 }
 
 void plot_tracks(struct picture *picture, const struct plot_data *data)
@@ -249,10 +250,10 @@ void plot_tracks(struct picture *picture, const struct plot_data *data)
     map_put_points(&map, "tracks", &data->tracks);
     map_put_radars(&map, data->radars, data->num_radars);
     put_start_lines(&map, data);
-    put_labels(&map, &data->tracks);
-    put_ends(&map, &data->tracks);
+    put_track_labels(&map, &data->tracks);
+    put_arrows_and_ellipses(&map, &data->tracks);
     if (has_bearings) {
-        plot_bearings_put(&map, &data->bearings);
+        plot_bearings_put_data(&map, &data->bearings);
     }
     fprintf(map.script, "plot NaN notitle");
     map_draw_radars(&map, data->radars, data->num_radars);
@@ -266,6 +267,6 @@ void plot_tracks(struct picture *picture, const struct plot_data *data)
         fprintf(map.script, ", \\\n $starts using 1:2 with lines lw 1 dt 3 lc rgb '#444444' "
                             "title 'line that started a track'");
     }
-    draw_lines(&map, &data->tracks);
+    draw_track_lines(&map, &data->tracks);
     fprintf(map.script, "\n");
 }

@@ -41,7 +41,7 @@ struct range {
     unsigned first, last;
 };
 
-static void widen(struct range *range, unsigned block, unsigned blocks, unsigned cells)
+static void widen_range(struct range *range, unsigned block, unsigned blocks, unsigned cells)
 {
     const unsigned from = block * cells / blocks, to = (block + 1) * cells / blocks;
 
@@ -59,16 +59,20 @@ static struct range with_margin(struct range range, unsigned cells)
     return range;
 }
 
-/* Where any candidate votes: falsity is each one's, and so is a vote of the other methods. */
-static struct rho_plane window_of(const struct rho_hough *hough, const struct rho_plane *whole)
+/*
+ * The cells in which any candidate votes, by the last picture: of the neutrosophic method that is
+ * falsity, which every candidate has.
+ */
+static struct rho_plane window_of_candidates(const struct rho_hough *hough,
+                                             const struct rho_plane *whole)
 {
     struct range theta = {hough->theta_cells, 0}, rho = {hough->rho_cells, 0};
 
     for (unsigned y = 0; y < whole->height; y++) {
         for (unsigned x = 0; x < whole->width; x++) {
             if (whole->votes[y * whole->width + x] > 0) {
-                widen(&theta, y, whole->height, hough->theta_cells);
-                widen(&rho, x, whole->width, hough->rho_cells);
+                widen_range(&theta, y, whole->height, hough->theta_cells);
+                widen_range(&rho, x, whole->width, hough->rho_cells);
             }
         }
     }
@@ -84,8 +88,8 @@ static struct rho_plane window_of(const struct rho_hough *hough, const struct rh
                               .width = (uint16_t)at_most(columns, RHO_BLOCKS)};
 }
 
-static void vote(struct plot_votes *votes, const struct rho_hough_config *config,
-                 const struct rho_hough_points *points)
+static void fill_vote_pictures(struct plot_votes *votes, const struct rho_hough_config *config,
+                               const struct rho_hough_points *points)
 {
     struct rho_hough *hough = must_alloc(sizeof *hough);
 
@@ -95,7 +99,7 @@ static void vote(struct plot_votes *votes, const struct rho_hough_config *config
                               .votes = votes->of[0]};
     must_succeed(rho_hough_plane(hough, points, pictures[votes->count - 1].component, &whole),
                  "hough");
-    struct rho_plane plane = window_of(hough, &whole);
+    struct rho_plane plane = window_of_candidates(hough, &whole);
     for (unsigned i = 0; i < votes->count; i++) {
         plane.votes = votes->of[i];
         must_succeed(rho_hough_plane(hough, points, pictures[i].component, &plane), "hough");
@@ -116,16 +120,16 @@ struct plot_votes *plot_votes_find(enum method method, const struct revolutions 
 {
     struct parameters fitted = *parameters;
     struct plot_votes *votes = must_calloc(1, sizeof *votes);
-    struct hough_batch batch = hough_batch_of(revolutions);
+    struct hough_batch batch = hough_batch_from_revolutions(revolutions);
     struct rho_hough_points points = hough_batch_points(&batch);
 
     method_fit_cells(&fitted, batch.range_m);
-    struct rho_hough_config config = method_hough(method, &fitted, batch.range_m);
+    struct rho_hough_config config = method_hough_config(method, &fitted, batch.range_m);
 
-    hough_batch_report(&batch);
+    hough_batch_report_left_out(&batch);
     votes->method = method;
     votes->count = method == METHOD_NHT ? PICTURES : 1;
-    vote(votes, &config, &points);
+    fill_vote_pictures(votes, &config, &points);
     hough_batch_free(&batch);
     return votes;
 }
@@ -141,8 +145,8 @@ static double most_votes(const struct plot_votes *votes, unsigned number)
     return most > 0 ? most / (double)RHO_HOUGH_VOTE : 1.0;
 }
 
-static void put_picture(FILE *script, const struct plot_votes *votes, unsigned number,
-                        double unit_m)
+static void put_vote_picture(FILE *script, const struct plot_votes *votes, unsigned number,
+                             double unit_m)
 {
     const double step_m = (votes->to_m - votes->from_m) / votes->width;
     const double step_deg = (votes->to_deg - votes->from_deg) / votes->height;
@@ -165,7 +169,7 @@ void plot_votes(struct picture *picture, const struct plot_votes *votes)
     FILE *script = picture->script;
 
     for (unsigned i = 0; i < votes->count; i++) {
-        put_picture(script, votes, i, unit_m);
+        put_vote_picture(script, votes, i, unit_m);
     }
     fprintf(script,
             "set key off\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"

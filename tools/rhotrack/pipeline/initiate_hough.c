@@ -30,18 +30,18 @@ static void read_batch(struct hough_batch *batch, const struct command_line *lin
     struct scan_reader *reader =
         scan_reader_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     struct revolutions revolutions =
-        revolutions_read(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
+        revolutions_read_last(reader, (size_t)line->parameters.value[PARAMETER_SCANS]);
 
-    *batch = hough_batch_of(&revolutions);
+    *batch = hough_batch_from_revolutions(&revolutions);
     revolutions_free(&revolutions);
-    scan_reader_report(reader);
-    hough_batch_report(batch);
+    scan_reader_report_skipped(reader);
+    hough_batch_report_left_out(batch);
     scan_reader_close(reader);
 }
 
 /* ---- The search ---- */
 
-static void warn_of_lost(const struct rho_hough_result *result)
+static void warn_of_dropped(const struct rho_hough_result *result)
 {
     if (result->cells_dropped) {
         fprintf(stderr,
@@ -57,7 +57,8 @@ static void warn_of_lost(const struct rho_hough_result *result)
 }
 
 /* Where every pair votes, so many passes are needed that seconds become minutes. */
-static void warn_of_time(const struct rho_hough *hough, const struct rho_hough_points *points)
+static void warn_of_long_search(const struct rho_hough *hough,
+                                const struct rho_hough_points *points)
 {
     double pairs = 0;
 
@@ -75,16 +76,16 @@ static void warn_of_time(const struct rho_hough *hough, const struct rho_hough_p
     }
 }
 
-static void find(struct search *search, const struct command_line *line, enum method method)
+static void find_peaks(struct search *search, const struct command_line *line, enum method method)
 {
     struct parameters fitted = line->parameters;
     struct rho_hough_points points = hough_batch_points(&search->batch);
     struct rho_hough_config config;
 
     method_fit_cells(&fitted, search->batch.range_m);
-    config = method_hough(method, &fitted, search->batch.range_m);
+    config = method_hough_config(method, &fitted, search->batch.range_m);
     must_succeed(rho_hough_init(search->hough, sizeof *search->hough, &config), "hough");
-    warn_of_time(search->hough, &points);
+    warn_of_long_search(search->hough, &points);
     int64_t start_us = clock_us();
     must_succeed(rho_hough_find(search->hough, &points, search->peaks, CELLS_MAX, &search->result),
                  "hough");
@@ -93,17 +94,17 @@ static void find(struct search *search, const struct command_line *line, enum me
         rho_hough_count_pairs(search->hough, &points, &search->result.pairs,
                               &search->result.candidates);
     }
-    warn_of_lost(&search->result);
+    warn_of_dropped(&search->result);
 }
 
 /* ---- What it found ---- */
 
-static double votes_of(const struct rho_accumulator_peak *peak)
+static double peak_votes(const struct rho_accumulator_peak *peak)
 {
     return round(1e6 * peak->votes / RHO_HOUGH_VOTE) / 1e6;
 }
 
-static struct initiated row_of(const struct search *search, uint32_t number)
+static struct initiated initiated_of_peak(const struct search *search, uint32_t number)
 {
     const struct rho_accumulator_peak *peak = &search->peaks[number];
     struct rho_hough_points points = hough_batch_points(&search->batch);
@@ -122,30 +123,30 @@ static struct initiated row_of(const struct search *search, uint32_t number)
                               .rho_m = rho_hough_rho_m(search->hough, peak->rho_cell),
                               .theta_rad = rho_hough_theta_rad(search->hough, peak->theta_cell),
                               .scans = track.scans,
-                              .score = votes_of(peak)};
+                              .score = peak_votes(peak)};
 }
 
-static void write_found(const struct search *search, const char *path)
+static void write_found_tracks(const struct search *search, const char *path)
 {
     struct initiated_output *found = initiated_output_open(path);
     struct progress progress = progress_start("tracks", search->result.num_peaks);
 
     for (uint32_t i = 0; i < search->result.num_peaks; i++) {
-        struct initiated row = row_of(search, i);
+        struct initiated row = initiated_of_peak(search, i);
 
-        initiated_output_row(found, &row);
+        initiated_output_add_row(found, &row);
         progress_show(&progress, i + 1);
     }
     progress_end(&progress);
     initiated_output_close(found);
 }
 
-static void add_peaks(cJSON *object, const struct search *search)
+static void add_peaks_json(cJSON *object, const struct search *search)
 {
     cJSON *list = cJSON_AddArrayToObject(object, "peak_votes");
 
     for (uint32_t i = 0; i < search->result.num_peaks; i++) {
-        cJSON_AddItemToArray(list, cJSON_CreateNumber(votes_of(&search->peaks[i])));
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(peak_votes(&search->peaks[i])));
     }
 }
 
@@ -164,7 +165,7 @@ static void print_json(const struct search *search, enum method method)
     cJSON_AddNumberToObject(object, "pairs", result->pairs);
     cJSON_AddNumberToObject(object, "candidates", result->candidates);
     cJSON_AddNumberToObject(object, "votes", result->votes);
-    add_peaks(object, search);
+    add_peaks_json(object, search);
     cJSON_AddNumberToObject(object, "tracks", result->num_peaks);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *search->hough);
     cJSON_AddNumberToObject(object, "wall_us", (double)search->wall_us);
@@ -183,9 +184,9 @@ void initiate_hough(const struct command_line *line, enum method method)
                             .peaks = must_calloc(CELLS_MAX, sizeof *search.peaks)};
 
     read_batch(&search.batch, line);
-    find(&search, line, method);
+    find_peaks(&search, line, method);
     if (line->output || !line->json) {
-        write_found(&search, line->output);
+        write_found_tracks(&search, line->output);
     }
     if (line->json) {
         print_json(&search, method);

@@ -6,24 +6,24 @@
 
 #include "base/common.h"
 #include "io/output/initiated_output.h"
-#include "pipeline/bearings_batch.h"
+#include "pipeline/last_bearings.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/angle.h"
 #include "settings/method.h"
 
-static enum rho_status push(void *object, const struct rho_frame *frame, uint8_t *fates)
+static enum rho_status push_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
     return rho_passive_push(object, frame, fates);
 }
 
-static enum rho_status search(void *object)
+static enum rho_status search_batch(void *object)
 {
     return rho_passive_search(object);
 }
 
 /* ---- What it found ---- */
 
-static void write_found(const struct rho_passive *passive, int64_t time_us, const char *path)
+static void write_found_tracks(const struct rho_passive *passive, int64_t time_us, const char *path)
 {
     struct initiated_output *found = initiated_output_open(path);
 
@@ -43,13 +43,13 @@ static void write_found(const struct rho_passive *passive, int64_t time_us, cons
                                 .sensor_pairs = rho_passive_sensor_pairs(track),
                                 .score = (double)((float)track->score_mnat / 1000.0f)};
 
-        initiated_output_row(found, &row);
+        initiated_output_add_row(found, &row);
     }
     initiated_output_close(found);
 }
 
 /* Bearings of each track, descending, and their number. */
-static void add_votes(cJSON *object, const struct rho_passive *passive)
+static void add_votes_json(cJSON *object, const struct rho_passive *passive)
 {
     int hits[RHO_MAX_PASSIVE_TRACKS], sum = 0;
 
@@ -58,10 +58,10 @@ static void add_votes(cJSON *object, const struct rho_passive *passive)
         sum += hits[i];
     }
     cJSON_AddNumberToObject(object, "votes", sum);
-    cJSON_AddItemToObject(object, "peak_votes", json_descending(hits, passive->num_tracks));
+    cJSON_AddItemToObject(object, "peak_votes", json_list_descending(hits, passive->num_tracks));
 }
 
-static void add_margins(cJSON *object, const struct rho_passive *passive)
+static void add_margins_json(cJSON *object, const struct rho_passive *passive)
 {
     cJSON *list = cJSON_AddArrayToObject(object, "margins_nat");
 
@@ -70,7 +70,7 @@ static void add_margins(cJSON *object, const struct rho_passive *passive)
     }
 }
 
-static void print_json(const struct rho_passive *passive, const struct bearings_batch *batch)
+static void print_json(const struct rho_passive *passive, const struct last_bearings *batch)
 {
     const struct rho_passive_work *work = &passive->work;
     cJSON *object = cJSON_CreateObject();
@@ -80,9 +80,9 @@ static void print_json(const struct rho_passive *passive, const struct bearings_
     cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
     cJSON_AddNumberToObject(object, "pairs", work->crossings);
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
-    add_votes(object, passive);
+    add_votes_json(object, passive);
     cJSON_AddNumberToObject(object, "tracks", passive->num_tracks);
-    add_margins(object, passive);
+    add_margins_json(object, passive);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *passive);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
     cJSON_AddNumberToObject(object, "sensors", passive->batch.num_sensors);
@@ -100,14 +100,14 @@ void initiate_passive(const struct command_line *line)
 {
     struct rho_passive *passive = must_alloc(sizeof *passive);
     struct parameters parameters = line->parameters;
-    struct frame_reader *reader = bearings_batch_open(line, &parameters);
-    struct rho_passive_config config = method_passive(&parameters);
-    struct bearings_search with = {passive, &passive->batch, push, search};
+    struct frame_reader *reader = last_bearings_open(line, &parameters);
+    struct rho_passive_config config = method_passive_config(&parameters);
+    struct bearings_search with = {passive, &passive->batch, push_frame, search_batch};
 
     must_succeed(rho_passive_init(passive, sizeof *passive, &config), "passive");
-    struct bearings_batch batch = bearings_batch_search(&with, reader, &parameters);
+    struct last_bearings batch = last_bearings_search(&with, reader, &parameters);
     if (line->output || !line->json) {
-        write_found(passive, batch.time_us, line->output);
+        write_found_tracks(passive, batch.time_us, line->output);
     }
     if (line->json) {
         print_json(passive, &batch);

@@ -6,23 +6,24 @@
 
 #include "base/common.h"
 #include "io/output/initiated_output.h"
-#include "pipeline/bearings_batch.h"
+#include "pipeline/last_bearings.h"
 #include "pipeline/pipeline.h"
 #include "settings/method.h"
 
-static enum rho_status push(void *object, const struct rho_frame *frame, uint8_t *fates)
+static enum rho_status push_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
     return rho_passive_paper_push(object, frame, fates);
 }
 
-static enum rho_status search(void *object)
+static enum rho_status search_batch(void *object)
 {
     return rho_passive_paper_search(object);
 }
 
 /* ---- What it found ---- */
 
-static void write_found(const struct rho_passive_paper *paper, int64_t time_us, const char *path)
+static void write_found_tracks(const struct rho_passive_paper *paper, int64_t time_us,
+                               const char *path)
 {
     struct initiated_output *found = initiated_output_open(path);
 
@@ -42,12 +43,12 @@ static void write_found(const struct rho_passive_paper *paper, int64_t time_us, 
                                     paper->batch.num_sensors * (paper->batch.num_sensors - 1u) / 2u,
                                 .score = line->votes};
 
-        initiated_output_row(found, &row);
+        initiated_output_add_row(found, &row);
     }
     initiated_output_close(found);
 }
 
-static void add_votes(cJSON *object, const struct rho_passive_paper *paper)
+static void add_votes_json(cJSON *object, const struct rho_passive_paper *paper)
 {
     int votes[RHO_MAX_PASSIVE_LINES];
 
@@ -55,10 +56,10 @@ static void add_votes(cJSON *object, const struct rho_passive_paper *paper)
         votes[i] = paper->lines[i].votes;
     }
     cJSON_AddNumberToObject(object, "votes", paper->work.votes);
-    cJSON_AddItemToObject(object, "peak_votes", json_descending(votes, paper->num_lines));
+    cJSON_AddItemToObject(object, "peak_votes", json_list_descending(votes, paper->num_lines));
 }
 
-static void print_json(const struct rho_passive_paper *paper, const struct bearings_batch *batch)
+static void print_json(const struct rho_passive_paper *paper, const struct last_bearings *batch)
 {
     const struct rho_passive_paper_work *work = &paper->work;
     cJSON *object = cJSON_CreateObject();
@@ -68,7 +69,7 @@ static void print_json(const struct rho_passive_paper *paper, const struct beari
     cJSON_AddNumberToObject(object, "plots", (double)batch->bearings);
     cJSON_AddNumberToObject(object, "pairs", work->crossings);
     cJSON_AddNumberToObject(object, "candidates", work->crossings - work->ghosts);
-    add_votes(object, paper);
+    add_votes_json(object, paper);
     cJSON_AddNumberToObject(object, "tracks", paper->num_lines);
     cJSON_AddNumberToObject(object, "state_bytes", (double)sizeof *paper);
     cJSON_AddNumberToObject(object, "wall_us", (double)batch->wall_us);
@@ -99,15 +100,15 @@ void initiate_passive_paper(const struct command_line *line)
 {
     struct rho_passive_paper *paper = must_alloc(sizeof *paper);
     struct parameters parameters = line->parameters;
-    struct frame_reader *reader = bearings_batch_open(line, &parameters);
-    struct rho_passive_paper_config config = method_passive_paper(&parameters);
-    struct bearings_search with = {paper, &paper->batch, push, search};
+    struct frame_reader *reader = last_bearings_open(line, &parameters);
+    struct rho_passive_paper_config config = method_passive_paper_config(&parameters);
+    struct bearings_search with = {paper, &paper->batch, push_frame, search_batch};
 
     must_succeed(rho_passive_paper_init(paper, sizeof *paper, &config), "passive-paper");
-    struct bearings_batch batch = bearings_batch_search(&with, reader, &parameters);
+    struct last_bearings batch = last_bearings_search(&with, reader, &parameters);
     warn_of_dropped(&paper->work);
     if (line->output || !line->json) {
-        write_found(paper, batch.time_us, line->output);
+        write_found_tracks(paper, batch.time_us, line->output);
     }
     if (line->json) {
         print_json(paper, &batch);

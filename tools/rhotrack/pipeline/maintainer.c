@@ -9,7 +9,7 @@
 #include "pipeline/maintainer_best.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/plot_distance.h"
-#include "pipeline/scan_density.h"
+#include "pipeline/scan_clutter_density.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/input.h"
 #include "rhotrack/detail/measurement.h"
@@ -22,7 +22,7 @@
 struct maintainer {
     enum maintainer_gate gate;
     struct maintainer_best *best; /* of its gate, which uses nothing below but the density */
-    struct scan_density *density;
+    struct scan_clutter_density *density;
     struct rho_input_config config;
     uint8_t planes; /* RHO_GATE_PLANE_... */
     float theta_cell_rad;
@@ -45,8 +45,8 @@ struct maintainer {
 
 /* ---- What the parameters say ---- */
 
-static struct rho_input_config config_of(const struct parameters *parameters,
-                                         bool has_input_estimation)
+static struct rho_input_config input_config_of(const struct parameters *parameters,
+                                               bool has_input_estimation)
 {
     const double *value = parameters->value;
     float v_max_mps = (float)value[PARAMETER_V_MAX_MPS];
@@ -70,10 +70,10 @@ struct maintainer *maintainer_new(enum maintainer_gate gate, bool has_input_esti
 {
     struct maintainer *maintainer = must_calloc(1, sizeof *maintainer);
 
-    parameters_check(parameters);
+    parameters_check_together(parameters);
     maintainer->gate = gate;
-    maintainer->density = scan_density_new();
-    maintainer->config = config_of(parameters, has_input_estimation);
+    maintainer->density = scan_clutter_density_new();
+    maintainer->config = input_config_of(parameters, has_input_estimation);
     maintainer->planes = (uint8_t)parameters->value[PARAMETER_PLANES];
     maintainer->theta_cell_rad = (float)(parameters->value[PARAMETER_GATE_THETA_DEG] * DEG_RAD);
     maintainer->pd = parameters->value[PARAMETER_PD];
@@ -89,7 +89,7 @@ struct maintainer *maintainer_new_beside(const struct maintainer *first)
     struct maintainer *maintainer = must_calloc(1, sizeof *maintainer);
 
     maintainer->gate = first->gate;
-    maintainer->density = scan_density_new();
+    maintainer->density = scan_clutter_density_new();
     maintainer->config = first->config;
     maintainer->planes = first->planes;
     maintainer->theta_cell_rad = first->theta_cell_rad;
@@ -105,7 +105,7 @@ void maintainer_free(struct maintainer *maintainer)
 {
     if (maintainer) {
         maintainer_best_free(maintainer->best);
-        scan_density_free(maintainer->density);
+        scan_clutter_density_free(maintainer->density);
         free(maintainer);
     }
 }
@@ -194,8 +194,8 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
  * From the last plot on, or back to a scan that began before its own time; false where that is
  * refused.
  */
-static bool predict_to(const struct maintainer *maintainer, int64_t time_us,
-                       struct rho_input *predicted)
+static bool predict_to_time(const struct maintainer *maintainer, int64_t time_us,
+                            struct rho_input *predicted)
 {
     float dt_s = rho_seconds_between(maintainer->input_us, time_us);
 
@@ -212,17 +212,17 @@ void maintainer_predict(struct maintainer *maintainer, int64_t time_us)
     if (maintainer->best) {
         maintainer->is_lost = !maintainer_best_predict(maintainer->best, time_us);
     } else {
-        maintainer->is_lost = !predict_to(maintainer, time_us, &maintainer->predicted);
+        maintainer->is_lost = !predict_to_time(maintainer, time_us, &maintainer->predicted);
     }
     maintainer->refused += maintainer->is_lost && !was_lost;
 }
 
-void maintainer_where(const struct maintainer *maintainer, double place_m[3])
+void maintainer_predicted_place(const struct maintainer *maintainer, double place_m[3])
 {
     struct rho_kalman kalman;
 
     if (maintainer->best) {
-        maintainer_best_where(maintainer->best, place_m);
+        maintainer_best_predicted_place(maintainer->best, place_m);
         return;
     }
     rho_input_estimate(&maintainer->predicted, &kalman);
@@ -237,12 +237,15 @@ static bool predict_to_plot(const struct maintainer *maintainer, const struct rh
 {
     *predicted = maintainer->predicted;
     return plot->offset_us == 0 ||
-           predict_to(maintainer, maintainer->predicted_us + plot->offset_us, predicted);
+           predict_to_time(maintainer, maintainer->predicted_us + plot->offset_us, predicted);
 }
 
-/* Where no input is present one may have begun. INFINITY where the distance says nothing. */
-static double distance2_of(const struct maintainer *maintainer, const struct rho_plot *plot,
-                           uint32_t measures, const struct rho_sensor *sensor, int *dimensions)
+/*
+ * Squared distance of a plot from the prediction, which allows for an input that has just begun.
+ * INFINITY where it cannot be told.
+ */
+static double distance2_to_plot(const struct maintainer *maintainer, const struct rho_plot *plot,
+                                uint32_t measures, const struct rho_sensor *sensor, int *dimensions)
 {
     struct rho_input at;
     struct rho_kalman expected;
@@ -264,14 +267,14 @@ double maintainer_nis(const struct maintainer *maintainer, const struct rho_plot
     if (maintainer->best) {
         return maintainer_best_nis(maintainer->best, plot, measures);
     }
-    distance2 = distance2_of(maintainer, plot, measures,
-                             maintainer->has_sensor ? &maintainer->sensor : NULL, &dimensions);
+    distance2 = distance2_to_plot(maintainer, plot, measures,
+                                  maintainer->has_sensor ? &maintainer->sensor : NULL, &dimensions);
     return distance2 / dimensions;
 }
 
 /* ---- Choices: the row of a plot, or -1 ---- */
 
-static int choose_any(const struct rho_scan *scan, struct random *random)
+static int choose_random_plot(const struct rho_scan *scan, struct random *random)
 {
     uint64_t left = 0;
 
@@ -288,8 +291,8 @@ static int choose_any(const struct rho_scan *scan, struct random *random)
     return -1;
 }
 
-static int choose_nearest(const struct maintainer *maintainer, const struct rho_scan *scan,
-                          const struct rho_sensor *sensor)
+static int choose_nearest_plot(const struct maintainer *maintainer, const struct rho_scan *scan,
+                               const struct rho_sensor *sensor)
 {
     double least = INFINITY;
     int chosen = -1;
@@ -297,7 +300,7 @@ static int choose_nearest(const struct maintainer *maintainer, const struct rho_
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
         double distance2 = rho_measurement_is_valid(plot, scan->measures)
-                               ? distance2_of(maintainer, plot, scan->measures, sensor, NULL)
+                               ? distance2_to_plot(maintainer, plot, scan->measures, sensor, NULL)
                                : INFINITY;
 
         if (distance2 < least) {
@@ -309,13 +312,13 @@ static int choose_nearest(const struct maintainer *maintainer, const struct rho_
 }
 
 /* Without heights only the plane xy is left; 0 where that was not asked for either. */
-static uint8_t planes_of(const struct maintainer *maintainer, uint32_t measures)
+static uint8_t gate_planes(const struct maintainer *maintainer, uint32_t measures)
 {
     return measures & RHO_MEASURES_Z ? maintainer->planes
                                      : (uint8_t)(maintainer->planes & RHO_GATE_PLANE_XY);
 }
 
-static int choose_straightest(const struct rho_gate_hough *hough, const struct rho_scan *scan)
+static int choose_straightest_plot(const struct rho_gate_hough *hough, const struct rho_scan *scan)
 {
     float least_mps = INFINITY;
     int chosen = -1;
@@ -336,22 +339,22 @@ static int choose_straightest(const struct rho_gate_hough *hough, const struct r
     return chosen;
 }
 
-static int choose(const struct maintainer *maintainer, const struct rho_scan *scan,
-                  const struct rho_sensor *sensor, struct random *random)
+static int choose_plot(const struct maintainer *maintainer, const struct rho_scan *scan,
+                       const struct rho_sensor *sensor, struct random *random)
 {
     struct rho_gate_hough hough;
 
     if (maintainer->gate == MAINTAIN_NONE) {
-        return choose_any(scan, random);
+        return choose_random_plot(scan, random);
     }
     if (maintainer->gate == MAINTAIN_HOUGH && maintainer->measurements >= FIRST_ELIMINATION &&
         (scan->measures & RHO_MEASURES_VELOCITY) &&
-        rho_gate_hough_open(&hough, planes_of(maintainer, scan->measures),
+        rho_gate_hough_open(&hough, gate_planes(maintainer, scan->measures),
                             maintainer->theta_cell_rad, maintainer->before_mps,
                             maintainer->newest_mps) == RHO_OK) {
-        return choose_straightest(&hough, scan);
+        return choose_straightest_plot(&hough, scan);
     }
-    return choose_nearest(maintainer, scan, sensor);
+    return choose_nearest_plot(maintainer, scan, sensor);
 }
 
 /* ---- Updates ---- */
@@ -375,8 +378,9 @@ static bool update_velocity(struct rho_input *input, const struct rho_input_conf
  * Predicted, updated by everything that the plot measures, decided. False where any of it is
  * refused.
  */
-static bool update_with(const struct maintainer *maintainer, const struct rho_plot *plot,
-                        uint32_t measures, const struct rho_sensor *sensor, struct rho_input *input)
+static bool update_by_plot(const struct maintainer *maintainer, const struct rho_plot *plot,
+                           uint32_t measures, const struct rho_sensor *sensor,
+                           struct rho_input *input)
 {
     const struct rho_input_config *config = &maintainer->config;
     struct rho_measurement seen;
@@ -397,12 +401,12 @@ static bool update_with(const struct maintainer *maintainer, const struct rho_pl
 }
 
 /* The row that was taken; where none was, or its update was refused, the track coasts. */
-static int take(struct maintainer *maintainer, const struct rho_scan *scan,
-                const struct rho_sensor *sensor, int row)
+static int take_plot(struct maintainer *maintainer, const struct rho_scan *scan,
+                     const struct rho_sensor *sensor, int row)
 {
     struct rho_input updated;
     bool is_taken =
-        row >= 0 && update_with(maintainer, &scan->plots[row], scan->measures, sensor, &updated);
+        row >= 0 && update_by_plot(maintainer, &scan->plots[row], scan->measures, sensor, &updated);
 
     maintainer->is_predicted = false;
     maintainer->input = is_taken ? updated : maintainer->predicted;
@@ -421,7 +425,7 @@ static int start_again(struct maintainer *maintainer, const struct rho_scan *sca
     double last_m[AXES], least_m = INFINITY;
     int chosen = -1;
 
-    maintainer_where(maintainer, last_m);
+    maintainer_predicted_place(maintainer, last_m);
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
         double distance_m =
@@ -451,12 +455,12 @@ int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan
         return start_again(maintainer, scan, sensor);
     }
     if (!maintainer->best) {
-        return take(maintainer, scan, sensor, choose(maintainer, scan, sensor, random));
+        return take_plot(maintainer, scan, sensor, choose_plot(maintainer, scan, sensor, random));
     }
-    maintainer_where(maintainer, place_m);
+    maintainer_predicted_place(maintainer, place_m);
     maintainer->is_predicted = false;
     if (isnan(log_density)) {
-        log_density = scan_density_log(maintainer->density, scan, place_m, pd);
+        log_density = scan_clutter_density_log(maintainer->density, scan, place_m, pd);
     }
     return maintainer_best_update(maintainer->best, scan, sensor, log_density, pd);
 }
@@ -474,7 +478,7 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
     if (!maintainer->is_predicted) {
         now = maintainer->input;
         if (maintainer->input_us != maintainer->predicted_us) {
-            (void)predict_to(maintainer, maintainer->predicted_us, &now);
+            (void)predict_to_time(maintainer, maintainer->predicted_us, &now);
         }
     }
     *estimate =
@@ -487,7 +491,7 @@ void maintainer_estimate(const struct maintainer *maintainer, struct maintainer_
 
 /* ---- Scan by scan ---- */
 
-static void check_usable(const struct maintainer *maintainer, const struct rho_scan *scan)
+static void check_scan_fits_gate(const struct maintainer *maintainer, const struct rho_scan *scan)
 {
     if (maintainer->gate != MAINTAIN_HOUGH || scan->num_plots == 0) {
         return;
@@ -498,14 +502,14 @@ static void check_usable(const struct maintainer *maintainer, const struct rho_s
              "and 'vy_mps' are wanted",
              (double)scan->time_us * 1e-6);
     }
-    if (planes_of(maintainer, scan->measures) == 0) {
+    if (gate_planes(maintainer, scan->measures) == 0) {
         fail(EXIT_USAGE,
              "gate hough: the scan at %.6f s has no heights, so that planes must hold xy",
              (double)scan->time_us * 1e-6);
     }
 }
 
-static void count_look(struct rho_track_report *track, const struct rho_scan *scan, int row)
+static void count_hit_or_miss(struct rho_track_report *track, const struct rho_scan *scan, int row)
 {
     uint16_t *count = row >= 0 ? &track->hits : &track->misses;
 
@@ -526,14 +530,14 @@ static int update_if_covered(struct maintainer *maintainer, const struct rho_sca
     if (!maintainer->is_predicted || maintainer->predicted_us != scan->time_us) {
         maintainer_predict(maintainer, scan->time_us);
     }
-    maintainer_where(maintainer, place_m);
+    maintainer_predicted_place(maintainer, place_m);
     if (!rho_measurement_covers(sensor, scan->sector_from_rad, scan->sector_to_rad,
                                 (float)place_m[0], (float)place_m[1])) {
         return -1;
     }
     row = maintainer_update(maintainer, scan, sensor, log_density,
                             sensor ? (double)sensor->pd : maintainer->pd, random);
-    count_look(&maintainer->track, scan, row);
+    count_hit_or_miss(&maintainer->track, scan, row);
     return row;
 }
 
@@ -542,14 +546,14 @@ int maintainer_step(struct maintainer *maintainer, const struct rho_scan *scan,
 {
     int row = -1;
 
-    check_usable(maintainer, scan);
+    check_scan_fits_gate(maintainer, scan);
     if (maintainer->is_started) {
         row = update_if_covered(maintainer, scan, sensor, log_density, random);
     } else if (scan->num_plots > 0) {
         row = 0;
         maintainer->is_started = true;
         maintainer_start(maintainer, scan->time_us, &scan->plots[0], scan->measures, sensor);
-        count_look(&maintainer->track, scan, row);
+        count_hit_or_miss(&maintainer->track, scan, row);
     }
     maintainer->track.plot = row;
     return row;
@@ -576,7 +580,8 @@ const struct rho_track_report *maintainer_report(struct maintainer *maintainer)
     return track;
 }
 
-unsigned long maintainer_refused(const struct maintainer *maintainer)
+unsigned long maintainer_num_refused(const struct maintainer *maintainer)
 {
-    return maintainer->refused + (maintainer->best ? maintainer_best_refused(maintainer->best) : 0);
+    return maintainer->refused +
+           (maintainer->best ? maintainer_best_num_refused(maintainer->best) : 0);
 }

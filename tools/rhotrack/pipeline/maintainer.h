@@ -71,7 +71,7 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
 
 /* Moves to a scan's time. Then where a beam should look: the (best hypothesis') predicted place. */
 void maintainer_predict(struct maintainer *maintainer, int64_t time_us);
-void maintainer_where(const struct maintainer *maintainer, double place_m[3]);
+void maintainer_predicted_place(const struct maintainer *maintainer, double place_m[3]);
 
 /*
  * Takes the scan that it was predicted to: chooses a plot and updates with it. Returns the row of
@@ -96,6 +96,6 @@ double maintainer_nis(const struct maintainer *maintainer, const struct rho_plot
  * Updates that were refused: the track coasted; and predictions over gaps so long that it started
  * again.
  */
-unsigned long maintainer_refused(const struct maintainer *maintainer);
+unsigned long maintainer_num_refused(const struct maintainer *maintainer);
 
 #endif

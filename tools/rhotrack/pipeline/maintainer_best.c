@@ -89,7 +89,7 @@ bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us)
     return true;
 }
 
-void maintainer_best_where(const struct maintainer_best *best, double place_m[3])
+void maintainer_best_predicted_place(const struct maintainer_best *best, double place_m[3])
 {
     const struct rho_hypothesis *heaviest = rho_hypotheses_at(best->pool, best->slot, 0);
     struct rho_kalman kalman = best->now.kalman; /* where none is left */
@@ -102,8 +102,8 @@ void maintainer_best_where(const struct maintainer_best *best, double place_m[3]
     }
 }
 
-static void score_all(struct maintainer_best *best, const struct rho_scan *scan,
-                      const struct rho_sensor *sensor, double log_density, double pd)
+static void score_hypotheses(struct maintainer_best *best, const struct rho_scan *scan,
+                             const struct rho_sensor *sensor, double log_density, double pd)
 {
     /* the density is one of all that is measured */
     struct rho_hypotheses_clutter clutter = {.log_per_m2 = (float)log_density};
@@ -140,7 +140,7 @@ int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *
     if (sensor) {
         best->sensor = *sensor;
     }
-    score_all(best, scan, sensor, log_density, pd);
+    score_hypotheses(best, scan, sensor, log_density, pd);
     before = best->pool->updates_refused;
     must_succeed(rho_hypotheses_commit(best->pool, best->slot, &seen, &outcome), "commit");
     best->refused += best->pool->updates_refused - before;
@@ -171,7 +171,7 @@ double maintainer_best_nis(const struct maintainer_best *best, const struct rho_
     return distance2 / dimensions;
 }
 
-unsigned long maintainer_best_refused(const struct maintainer_best *best)
+unsigned long maintainer_best_num_refused(const struct maintainer_best *best)
 {
     return best->refused;
 }

@@ -25,13 +25,13 @@ void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_
  * a start.
  */
 bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us);
-void maintainer_best_where(const struct maintainer_best *best, double place_m[3]);
+void maintainer_best_predicted_place(const struct maintainer_best *best, double place_m[3]);
 int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *scan,
                            const struct rho_sensor *sensor, double log_density, double pd);
 void maintainer_best_estimate(const struct maintainer_best *best,
                               struct maintainer_estimate *estimate);
 double maintainer_best_nis(const struct maintainer_best *best, const struct rho_plot *plot,
                            uint32_t measures);
-unsigned long maintainer_best_refused(const struct maintainer_best *best);
+unsigned long maintainer_best_num_refused(const struct maintainer_best *best);
 
 #endif

@@ -75,7 +75,7 @@ void pipeline_set_options(struct parameters *parameters, const struct pipeline_o
 
         rho_paper_starts_config_default(&customary, RHO_HOUGH_NHT_C);
         parameters_suggest(parameters, PARAMETER_SCANS, customary.scans);
-        method_suggest(method_of_plots(parameters), parameters);
+        method_suggest_parameters(method_of_plots(parameters), parameters);
     }
 }
 
@@ -95,7 +95,7 @@ static struct pipeline_initiator *add_initiator(struct pipeline *pipeline, int32
 }
 
 /* The held scan goes into another window too, but for the plots that have started tracks. */
-static void push_held(struct rho_initiator *initiator, const struct rho_window_scan *held)
+static void push_held_scan(struct rho_initiator *initiator, const struct rho_window_scan *held)
 {
     struct rho_plot *plots = must_calloc(held->num_plots + 1u, sizeof *plots);
     uint8_t *fates = must_calloc(held->num_plots + 1u, sizeof *fates);
@@ -122,7 +122,7 @@ static void push_held(struct rho_initiator *initiator, const struct rho_window_s
  * A sensor that leaves the window that it shared takes its scans along: its targets start from
  * these.
  */
-static void take_along(struct pipeline *pipeline, const struct pipeline_initiator *added)
+static void take_scans_along(struct pipeline *pipeline, const struct pipeline_initiator *added)
 {
     for (size_t i = 0; pipeline->initiators + i < added; i++) {
         struct rho_window *shared = &pipeline->initiators[i].initiator->window;
@@ -131,14 +131,14 @@ static void take_along(struct pipeline *pipeline, const struct pipeline_initiato
             const struct rho_window_scan *held = rho_window_scan_at(shared, m);
 
             if (held->sensor.sensor_id == added->sensor_id) {
-                push_held(added->initiator, held);
+                push_held_scan(added->initiator, held);
             }
         }
     }
 }
 
 /* The first one is there before its sensor is known. */
-struct rho_initiator *pipeline_initiator(struct pipeline *pipeline, int32_t sensor_id)
+struct rho_initiator *pipeline_initiator_of_window(struct pipeline *pipeline, int32_t sensor_id)
 {
     struct pipeline_initiator *of = NULL;
 
@@ -154,20 +154,21 @@ struct rho_initiator *pipeline_initiator(struct pipeline *pipeline, int32_t sens
     }
     if (!of) {
         of = add_initiator(pipeline, sensor_id);
-        take_along(pipeline, of);
+        take_scans_along(pipeline, of);
     }
     pipeline->initiator = of->initiator;
     return pipeline->initiator;
 }
 
-struct rho_initiator *pipeline_initiator_of(struct pipeline *pipeline, const struct rho_scan *scan)
+struct rho_initiator *pipeline_initiator_of_scan(struct pipeline *pipeline,
+                                                 const struct rho_scan *scan)
 {
-    return pipeline_initiator(pipeline, pipeline->has_pairs ? pipeline_window_of(pipeline, scan)
-                                                            : scan->sensor_id);
+    return pipeline_initiator_of_window(
+        pipeline, pipeline->has_pairs ? pipeline_window_of(pipeline, scan) : scan->sensor_id);
 }
 
 /* Plots may come from anywhere within the sensors' range. */
-static void open_starts(struct pipeline *pipeline, const struct parameters *parameters)
+static void open_paper_starts(struct pipeline *pipeline, const struct parameters *parameters)
 {
     struct parameters fitted = *parameters;
     struct rho_paper_starts_config config;
@@ -178,7 +179,7 @@ static void open_starts(struct pipeline *pipeline, const struct parameters *para
     }
     method_fit_cells(&fitted, range_m);
     config = (struct rho_paper_starts_config){
-        .hough = method_hough(method_of_plots(parameters), &fitted, range_m),
+        .hough = method_hough_config(method_of_plots(parameters), &fitted, range_m),
         .scans = (uint16_t)parameters->value[PARAMETER_SCANS],
         .scans_min = (uint16_t)parameters->value[PARAMETER_MIN_SCANS]};
     if (!pipeline->starts) {
@@ -188,7 +189,7 @@ static void open_starts(struct pipeline *pipeline, const struct parameters *para
                  "method");
 }
 
-/* They go on across a clock that was set. */
+/* Zones, with what they have counted, are kept when a clock was set. */
 static void open_zones(struct pipeline *pipeline, const struct parameters *parameters)
 {
     if (parameters->num_zones > 0 && !pipeline->zones) {
@@ -197,8 +198,8 @@ static void open_zones(struct pipeline *pipeline, const struct parameters *param
     }
 }
 
-/* Walls stay where they are when a clock was set. */
-static void open_learning(struct pipeline *pipeline, const struct parameters *parameters)
+/* What was learned of walls is kept when a clock was set. */
+static void open_wall_learning(struct pipeline *pipeline, const struct parameters *parameters)
 {
     if (parameters->value[PARAMETER_LEARN_REFLECTORS] > 0 && !pipeline->learning) {
         pipeline->learning = must_alloc(sizeof *pipeline->learning);
@@ -240,9 +241,9 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
     must_succeed(
         rho_tracker_set_body_max(pipeline->tracker, (float)parameters->value[PARAMETER_BODY_MAX_M]),
         "body_max_m");
-    open_starts(pipeline, parameters);
+    open_paper_starts(pipeline, parameters);
     open_zones(pipeline, parameters);
-    open_learning(pipeline, parameters);
+    open_wall_learning(pipeline, parameters);
 }
 
 void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *parameters)
@@ -259,13 +260,13 @@ void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *pa
     }
 }
 
-static void open_paper(struct pipeline *pipeline, const struct parameters *parameters)
+static void open_passive_paper(struct pipeline *pipeline, const struct parameters *parameters)
 {
     struct parameters customary = *parameters;
     struct rho_passive_paper_config config;
 
-    method_suggest(METHOD_PASSIVE_PAPER, &customary);
-    config = method_passive_paper(&customary);
+    method_suggest_parameters(METHOD_PASSIVE_PAPER, &customary);
+    config = method_passive_paper_config(&customary);
     if (!pipeline->paper) {
         pipeline->paper = must_alloc(sizeof *pipeline->paper);
     }
@@ -277,19 +278,19 @@ void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *p
 {
     struct parameters customary = *parameters;
 
-    method_suggest(METHOD_PASSIVE, &customary);
-    struct rho_passive_config config = method_passive(&customary);
+    method_suggest_parameters(METHOD_PASSIVE, &customary);
+    struct rho_passive_config config = method_passive_config(&customary);
     if (!pipeline->passive) {
         pipeline->passive = must_alloc(sizeof *pipeline->passive);
     }
     must_succeed(rho_passive_init(pipeline->passive, sizeof *pipeline->passive, &config),
                  "passive");
     if (method_of_bearings(parameters) == METHOD_PASSIVE_PAPER) {
-        open_paper(pipeline, parameters);
+        open_passive_paper(pipeline, parameters);
     }
 }
 
-void pipeline_reopen_paper(struct pipeline *pipeline)
+void pipeline_reopen_passive_paper(struct pipeline *pipeline)
 {
     if (pipeline->paper) {
         const struct rho_passive_paper_config config = pipeline->paper->config;
@@ -299,8 +300,8 @@ void pipeline_reopen_paper(struct pipeline *pipeline)
     }
 }
 
-void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
-                           const struct rho_frame *frame)
+void pipeline_start_paper_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
+                                 const struct rho_frame *frame)
 {
     if (scan && pipeline->starts) {
         must_succeed(
@@ -309,7 +310,8 @@ void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *sca
     } else if (frame && pipeline->paper &&
                rho_passive_paper_step(pipeline->paper, pipeline->tracker, frame,
                                       pipeline->report) != RHO_OK) {
-        pipeline_reopen_paper(pipeline); /* sensors that do not go with those of its batch */
+        pipeline_reopen_passive_paper(
+            pipeline); /* sensors that do not go with those of its batch */
     }
 }
 
@@ -332,10 +334,10 @@ void pipeline_count_zones(struct pipeline *pipeline)
 void pipeline_step(struct pipeline *pipeline, const struct rho_scan *scan)
 {
     struct rho_initiator *initiator =
-        pipeline->starts ? NULL : pipeline_initiator_of(pipeline, scan);
+        pipeline->starts ? NULL : pipeline_initiator_of_scan(pipeline, scan);
 
     must_succeed(rho_tracker_step(pipeline->tracker, initiator, scan, pipeline->report), "step");
-    pipeline_start_tracks(pipeline, scan, NULL);
+    pipeline_start_paper_tracks(pipeline, scan, NULL);
     pipeline_learn_walls(pipeline, scan);
     pipeline_count_zones(pipeline);
 }
@@ -346,6 +348,6 @@ void pipeline_step_frame(struct pipeline *pipeline, const struct rho_frame *fram
 
     must_succeed(rho_tracker_step_frame(pipeline->tracker, passive, frame, pipeline->report),
                  "step");
-    pipeline_start_tracks(pipeline, NULL, frame);
+    pipeline_start_paper_tracks(pipeline, NULL, frame);
     pipeline_count_zones(pipeline);
 }

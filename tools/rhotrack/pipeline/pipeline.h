@@ -65,7 +65,7 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
 void pipeline_open_passive(struct pipeline *pipeline, const struct parameters *parameters);
 
 /* That of a window, which is the pipeline's from then on. */
-struct rho_initiator *pipeline_initiator(struct pipeline *pipeline, int32_t sensor_id);
+struct rho_initiator *pipeline_initiator_of_window(struct pipeline *pipeline, int32_t sensor_id);
 
 /*
  * The sensor by which a scan's window is named: the scan's own, or the one described earlier that
@@ -74,17 +74,18 @@ struct rho_initiator *pipeline_initiator(struct pipeline *pipeline, int32_t sens
 int32_t pipeline_window_of(const struct pipeline *pipeline, const struct rho_scan *scan);
 
 /* Where a scan's plots start tracks: before its step, after its sensor was described. */
-struct rho_initiator *pipeline_initiator_of(struct pipeline *pipeline, const struct rho_scan *scan);
+struct rho_initiator *pipeline_initiator_of_scan(struct pipeline *pipeline,
+                                                 const struct rho_scan *scan);
 
 /* Bearings of another clock are none of the batch's: as pipeline_open leaves the initiators. */
-void pipeline_reopen_paper(struct pipeline *pipeline);
+void pipeline_reopen_passive_paper(struct pipeline *pipeline);
 
 /*
  * After a step of the tracker without an initiator (NULL): the papers' methods start tracks. One of
  * scan and frame. Nothing where the parameters ask for the default ones.
  */
-void pipeline_start_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
-                           const struct rho_frame *frame);
+void pipeline_start_paper_tracks(struct pipeline *pipeline, const struct rho_scan *scan,
+                                 const struct rho_frame *frame);
 
 /*
  * Other parameters from the next step on: tracks, and all that was learned, go on. The search by

@@ -15,17 +15,17 @@ struct pipeline_show {
 
 static const char *const names[RHO_NUM_SHOW_KINDS] = {"ghosts", "votes", "hypotheses"};
 
-static bool has_paper(const struct parameters *parameters)
+static bool uses_passive_paper(const struct parameters *parameters)
 {
     return method_of_bearings(parameters) == METHOD_PASSIVE_PAPER;
 }
 
-static bool has_starts(const struct parameters *parameters)
+static bool uses_paper_starts(const struct parameters *parameters)
 {
     return method_of_plots(parameters) != METHOD_KERNEL;
 }
 
-static unsigned kind_of(const char *word, size_t length)
+static unsigned show_kind_of_word(const char *word, size_t length)
 {
     unsigned kind = 0;
 
@@ -39,13 +39,14 @@ static unsigned kind_of(const char *word, size_t length)
     return kind;
 }
 
-static void check_kind(unsigned kind, const struct parameters *parameters)
+static void check_show_kind(unsigned kind, const struct parameters *parameters)
 {
-    if (kind == RHO_SHOW_GHOSTS && !has_paper(parameters)) {
+    if (kind == RHO_SHOW_GHOSTS && !uses_passive_paper(parameters)) {
         fail(EXIT_USAGE, "--show ghosts: of the methods only passive-paper has a ghost matrix "
                          "(--method passive-paper or --pipeline paper)");
     }
-    if (kind == RHO_SHOW_VOTES && !has_paper(parameters) && !has_starts(parameters)) {
+    if (kind == RHO_SHOW_VOTES && !uses_passive_paper(parameters) &&
+        !uses_paper_starts(parameters)) {
         fail(EXIT_USAGE, "--show votes: the methods kernel and passive have no accumulator; ht, "
                          "mht, iht, nht and passive-paper have one (--method)");
     }
@@ -63,9 +64,9 @@ struct pipeline_show *pipeline_show_open(const char *kinds, const struct paramet
     config.kinds = 0;
     for (const char *word = kinds;; word++) {
         const size_t length = strcspn(word, ",");
-        const unsigned kind = kind_of(word, length);
+        const unsigned kind = show_kind_of_word(word, length);
 
-        check_kind(kind, parameters);
+        check_show_kind(kind, parameters);
         config.kinds = (uint16_t)(config.kinds | 1u << kind);
         word += length;
         if (*word == '\0') {

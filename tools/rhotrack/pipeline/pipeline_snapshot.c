@@ -22,7 +22,7 @@ enum { OTHERS = 4 };
 /* The settings' id. */
 enum { SETTINGS_TOLD, SETTINGS_NOW };
 
-static int32_t initiators_of(const struct pipeline *pipeline)
+static int32_t initiator_sharing(const struct pipeline *pipeline)
 {
     return pipeline->has_one_initiator ? OF_ALL
            : !pipeline->has_sensor     ? OF_NOBODY
@@ -37,7 +37,7 @@ static struct rho_snapshot_part *list_parts(struct pipeline *pipeline, unsigned 
         must_calloc(pipeline->num_initiators + OTHERS + 1, sizeof *parts);
     unsigned count = 0;
 
-    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, initiators_of(pipeline),
+    parts[count++] = (struct rho_snapshot_part){RHO_SNAPSHOT_TRACKER, initiator_sharing(pipeline),
                                                 pipeline->tracker, sizeof *pipeline->tracker};
     for (size_t i = 0; i < pipeline->num_initiators; i++) {
         const struct pipeline_initiator *of = &pipeline->initiators[i];
@@ -61,7 +61,7 @@ static struct rho_snapshot_part *list_parts(struct pipeline *pipeline, unsigned 
 
 /* ---- Save ---- */
 
-static bool write_all(int file, const uint8_t *bytes, size_t size)
+static bool write_all_bytes(int file, const uint8_t *bytes, size_t size)
 {
     while (size > 0) {
         ssize_t written = write(file, bytes, size);
@@ -85,7 +85,7 @@ static bool write_image(int file, const struct rho_snapshot_part *parts, unsigne
             errno = EINVAL;
             return false;
         }
-        if (!write_all(file, piece, length)) {
+        if (!write_all_bytes(file, piece, length)) {
             return false;
         }
         at += length;
@@ -93,7 +93,7 @@ static bool write_image(int file, const struct rho_snapshot_part *parts, unsigne
     return fsync(file) == 0;
 }
 
-bool pipeline_save(struct pipeline *pipeline, const char *path)
+bool pipeline_save_snapshot(struct pipeline *pipeline, const char *path)
 {
     unsigned num_parts;
     struct rho_snapshot_part *parts = list_parts(pipeline, &num_parts);
@@ -150,13 +150,13 @@ static uint8_t *read_file(const char *path, size_t *size)
     return bytes;
 }
 
-static enum pipeline_restored refuse(const char *path, const char *why)
+static enum pipeline_restored refuse_snapshot(const char *path, const char *why)
 {
     fprintf(stderr, "rhotrack: %s: %s; tracks begin anew\n", path, why);
     return PIPELINE_REFUSED;
 }
 
-static const char *reason_of(enum rho_status status)
+static const char *refusal_reason(enum rho_status status)
 {
     switch ((int)status) {
     case RHO_ERROR_TYPE:
@@ -177,12 +177,13 @@ static bool add_initiators(struct pipeline *pipeline, const struct rho_snapshot_
 
     for (unsigned i = 1; i + others <= num_parts && has_sensors && !pipeline->has_one_initiator;
          i++) {
-        (void)pipeline_initiator(pipeline, parts[i].id);
+        (void)pipeline_initiator_of_window(pipeline, parts[i].id);
     }
-    return num_parts == pipeline->num_initiators + others && parts[0].id == initiators_of(pipeline);
+    return num_parts == pipeline->num_initiators + others &&
+           parts[0].id == initiator_sharing(pipeline);
 }
 
-static bool is_same(const void *one, const void *other, size_t size)
+static bool is_same_memory(const void *one, const void *other, size_t size)
 {
     return memcmp(one, other, size) == 0;
 }
@@ -191,8 +192,8 @@ static bool is_same(const void *one, const void *other, size_t size)
  * Into a pipeline that was opened: its parameters are those to be, with the settings that an
  * operator has changed since.
  */
-static enum rho_status load(struct pipeline *pipeline, struct parameters *parameters,
-                            const uint8_t *image, size_t size, bool *is_other)
+static enum rho_status load_image(struct pipeline *pipeline, struct parameters *parameters,
+                                  const uint8_t *image, size_t size, bool *is_other)
 {
     const struct rho_passive_config search = pipeline->passive->config;
     const struct rho_settings told = pipeline->told;
@@ -205,21 +206,22 @@ static enum rho_status load(struct pipeline *pipeline, struct parameters *parame
     if (status != RHO_OK) {
         return status;
     }
-    *is_other = !is_same(&pipeline->told, &told, sizeof told) ||
+    *is_other = !is_same_memory(&pipeline->told, &told, sizeof told) ||
                 !parameters_take_settings(parameters, &pipeline->settings);
     parameters_to_tracker(parameters, &maintain);
     parameters_to_initiator(parameters, &pipeline->start);
-    *is_other |= !is_same(&pipeline->tracker->config, &maintain, sizeof maintain) ||
-                 !is_same(&pipeline->passive->config, &search, sizeof search);
+    *is_other |= !is_same_memory(&pipeline->tracker->config, &maintain, sizeof maintain) ||
+                 !is_same_memory(&pipeline->passive->config, &search, sizeof search);
     for (size_t i = 0; i < pipeline->num_initiators; i++) {
-        *is_other |= !is_same(&pipeline->initiators[i].initiator->config, &pipeline->start,
-                              sizeof pipeline->start);
+        *is_other |= !is_same_memory(&pipeline->initiators[i].initiator->config, &pipeline->start,
+                                     sizeof pipeline->start);
     }
     return status;
 }
 
-static enum pipeline_restored take_over(struct pipeline *pipeline, struct parameters *parameters,
-                                        const char *path, const uint8_t *image, size_t size)
+static enum pipeline_restored replace_by_snapshot(struct pipeline *pipeline,
+                                                  struct parameters *parameters, const char *path,
+                                                  const uint8_t *image, size_t size)
 {
     struct parameters changed = *parameters;
     unsigned num_parts = 0;
@@ -228,7 +230,7 @@ static enum pipeline_restored take_over(struct pipeline *pipeline, struct parame
     bool is_other;
 
     if (status != RHO_OK) {
-        return refuse(path, reason_of(status));
+        return refuse_snapshot(path, refusal_reason(status));
     }
     struct rho_snapshot_part *parts = must_calloc(num_parts + 1, sizeof *parts);
     (void)!rho_snapshot_list(image, size, parts, num_parts, &num_parts);
@@ -238,11 +240,12 @@ static enum pipeline_restored take_over(struct pipeline *pipeline, struct parame
     pipeline_open(&fresh, parameters);
     pipeline_open_passive(&fresh, parameters);
     is_other = num_parts < OTHERS + 1 || !add_initiators(&fresh, parts, num_parts);
-    status = is_other ? RHO_OK : load(&fresh, &changed, image, size, &is_other);
+    status = is_other ? RHO_OK : load_image(&fresh, &changed, image, size, &is_other);
     free(parts);
     if (is_other || status != RHO_OK) {
         pipeline_free(&fresh);
-        return refuse(path, is_other ? "a snapshot with other parameters" : reason_of(status));
+        return refuse_snapshot(path, is_other ? "a snapshot with other parameters"
+                                              : refusal_reason(status));
     }
     fresh.initiator = fresh.initiators[0].initiator;
     pipeline_free(pipeline);
@@ -251,8 +254,8 @@ static enum pipeline_restored take_over(struct pipeline *pipeline, struct parame
     return PIPELINE_RESTORED;
 }
 
-enum pipeline_restored pipeline_restore(struct pipeline *pipeline, struct parameters *parameters,
-                                        const char *path)
+enum pipeline_restored pipeline_restore_snapshot(struct pipeline *pipeline,
+                                                 struct parameters *parameters, const char *path)
 {
     static const char magic[] = "rhosnap\n";
     enum pipeline_restored restored = PIPELINE_NO_FILE;
@@ -263,7 +266,7 @@ enum pipeline_restored pipeline_restore(struct pipeline *pipeline, struct parame
         fail(EXIT_USAGE, "%s: is no snapshot, and would be written over", path);
     }
     if (size > 0) {
-        restored = take_over(pipeline, parameters, path, image, size);
+        restored = replace_by_snapshot(pipeline, parameters, path, image, size);
     }
     free(image);
     return restored;

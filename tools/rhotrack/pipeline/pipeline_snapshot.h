@@ -9,7 +9,7 @@
  * Writes the pipeline beside the file, to the disk, and renames. False: it failed, with errno; the
  * file is as it was.
  */
-bool pipeline_save(struct pipeline *pipeline, const char *path);
+bool pipeline_save_snapshot(struct pipeline *pipeline, const char *path);
 
 enum pipeline_restored {
     PIPELINE_RESTORED,
@@ -23,7 +23,7 @@ enum pipeline_restored {
  * left alone where it is not PIPELINE_RESTORED. Settings that an operator had changed become those
  * of the parameters. A file that is no snapshot at all: exit 2, so that it is not written over.
  */
-enum pipeline_restored pipeline_restore(struct pipeline *pipeline, struct parameters *parameters,
-                                        const char *path);
+enum pipeline_restored pipeline_restore_snapshot(struct pipeline *pipeline,
+                                                 struct parameters *parameters, const char *path);
 
 #endif

@@ -26,7 +26,7 @@
 #define TURNS_AGAIN_MAX 1.4f
 
 /* Time from one look to the next; 0: not known yet. */
-static float interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
+static float look_interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         if (tracker->paces[i].sensor_id == sensor_id) {
@@ -36,12 +36,12 @@ static float interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
     return 0.0f;
 }
 
-static bool see_the_same(const struct rho_tracker *tracker, const struct rho_sensor *one,
-                         const struct rho_sensor *other, float turns_max)
+static bool see_same_ground(const struct rho_tracker *tracker, const struct rho_sensor *one,
+                            const struct rho_sensor *other, float turns_max)
 {
     const float apart_m = hypotf(one->x_m - other->x_m, one->y_m - other->y_m);
-    const float one_s = interval_s(tracker, one->sensor_id);
-    const float other_s = interval_s(tracker, other->sensor_id);
+    const float one_s = look_interval_s(tracker, one->sensor_id);
+    const float other_s = look_interval_s(tracker, other->sensor_id);
     const bool is_known = one_s > 0.0f && other_s > 0.0f;
 
     return rho_angle_is_circle(one->sector_from_rad, one->sector_to_rad) &&
@@ -64,7 +64,7 @@ static bool had_own_window(const struct pipeline *pipeline, int32_t sensor_id)
     return false;
 }
 
-static bool is_named(const struct pipeline *pipeline, int32_t sensor_id)
+static bool is_sensor_in_config(const struct pipeline *pipeline, int32_t sensor_id)
 {
     for (size_t i = 0; i < pipeline->num_named && pipeline->is_live; i++) {
         if (pipeline->named[i] == sensor_id) {
@@ -88,11 +88,12 @@ int32_t pipeline_window_of(const struct pipeline *pipeline, const struct rho_sca
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
             const struct rho_sensor *other = &tracker->sensors[j];
 
-            is_paired[i] = !is_paired[j] && is_named(pipeline, one->sensor_id) &&
-                           is_named(pipeline, other->sensor_id) &&
-                           see_the_same(tracker, one, other,
-                                        had_own_window(pipeline, other->sensor_id) ? TURNS_AGAIN_MAX
-                                                                                   : TURNS_MAX);
+            is_paired[i] =
+                !is_paired[j] && is_sensor_in_config(pipeline, one->sensor_id) &&
+                is_sensor_in_config(pipeline, other->sensor_id) &&
+                see_same_ground(tracker, one, other,
+                                had_own_window(pipeline, other->sensor_id) ? TURNS_AGAIN_MAX
+                                                                           : TURNS_MAX);
             is_paired[j] |= is_paired[i];
             if (is_paired[i] && other->sensor_id == scan->sensor_id) {
                 return one->sensor_id;

@@ -17,7 +17,7 @@ struct innovation {
     double noise[DIMENSIONS_MAX][DIMENSIONS_MAX];
 };
 
-static void add(struct innovation *innovation, int element, double off, double variance)
+static void add_element(struct innovation *innovation, int element, double off, double variance)
 {
     int i = innovation->num++;
 
@@ -33,7 +33,7 @@ static void add_place(struct innovation *innovation, const struct rho_kalman *at
 
     rho_measurement_covariance(seen, noise);
     for (int i = 0; i < axes; i++) {
-        add(innovation, i, (double)seen->place_m[i] - (double)at->state[i], 0.0);
+        add_element(innovation, i, (double)seen->place_m[i] - (double)at->state[i], 0.0);
         for (int j = 0; j <= i; j++) {
             innovation->noise[i][j] = innovation->noise[j][i] = (double)noise[RHO_AT(i, j)];
         }
@@ -46,8 +46,8 @@ static void add_velocity(struct innovation *innovation, const struct rho_kalman 
     const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
 
     for (int i = 0; i < axes; i++) {
-        add(innovation, i + 3, (double)velocity_mps[i] - (double)at->state[i + 3],
-            (double)plot->sigma_mps * (double)plot->sigma_mps);
+        add_element(innovation, i + 3, (double)velocity_mps[i] - (double)at->state[i + 3],
+                    (double)plot->sigma_mps * (double)plot->sigma_mps);
     }
 }
 
@@ -86,7 +86,7 @@ static double covariance_of(const struct innovation *innovation, const struct rh
 }
 
 /* Cholesky and forward substitution in one; NAN where a pivot is not positive. */
-static double solve(const struct innovation *innovation, const struct rho_kalman *at)
+static double mahalanobis2(const struct innovation *innovation, const struct rho_kalman *at)
 {
     double factor[DIMENSIONS_MAX][DIMENSIONS_MAX] = {{0.0}};
     double white[DIMENSIONS_MAX] = {0.0}, sum = 0.0;
@@ -128,5 +128,5 @@ double plot_distance2(const struct rho_kalman *predicted, const struct rho_plot 
     if (dimensions) {
         *dimensions = innovation.num;
     }
-    return solve(&innovation, predicted);
+    return mahalanobis2(&innovation, predicted);
 }

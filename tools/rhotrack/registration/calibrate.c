@@ -19,7 +19,7 @@
 #define GROWN_PLOTS 12
 #define MOVES_SIGMAS 4.0
 
-/* Squares over their variance, cut at 4, of a normal distribution: their mean. */
+/* Squares of normal numbers over their variance, each cut at 4, have this mean. */
 #define CUT 2.0
 #define CUT_MEAN 0.9205
 
@@ -30,7 +30,7 @@ struct parts {
 };
 
 /* The jackknife's. */
-static double sigma_of(const struct parts *parts)
+static double jackknife_sigma(const struct parts *parts)
 {
     double mean = 0.0, sum = 0.0;
 
@@ -58,22 +58,22 @@ static double median(double *values, size_t count)
 
 /* ---- noise ---- */
 
-/* The unit of an axis' residuals: metres, or radians. */
-static double value_of(const struct residual *residual, bool is_round)
+/* A residual without its sign: metres, or of an azimuth radians. */
+static double residual_value(const struct residual *residual, bool is_round)
 {
     return fabs(residual->axis == 1 && !is_round ? residual->off_m / residual->range_m
                                                  : residual->off_m);
 }
 
-static bool counts(const struct residual *residual, int axis, bool is_round, int part)
+static bool is_residual_counted(const struct residual *residual, int axis, bool is_round, int part)
 {
     return (is_round || residual->axis == axis) && (int)(residual->segment % PARTS) != part;
 }
 
 /* The sigma for which the cut squares have the mean that they should have; without a part, -1: of
  * all. */
-static double noise_without(const struct calibrate_segments *segments, int axis, bool is_round,
-                            int part)
+static double noise_without_part(const struct calibrate_segments *segments, int axis, bool is_round,
+                                 int part)
 {
     double least = 1e-9, most = 1e7;
 
@@ -82,8 +82,8 @@ static double noise_without(const struct calibrate_segments *segments, int axis,
         double sum = 0.0, count = 0.0;
 
         for (size_t k = 0; k < segments->num_residuals; k++) {
-            if (counts(&segments->residuals[k], axis, is_round, part)) {
-                const double sigmas = value_of(&segments->residuals[k], is_round) / sigma;
+            if (is_residual_counted(&segments->residuals[k], axis, is_round, part)) {
+                const double sigmas = residual_value(&segments->residuals[k], is_round) / sigma;
 
                 sum += sigmas < CUT ? sigmas * sigmas : CUT * CUT;
                 count += 1.0;
@@ -98,18 +98,18 @@ static double noise_without(const struct calibrate_segments *segments, int axis,
     return sqrt(least * most);
 }
 
-static struct calibrate_figure noise_of(const struct calibrate_segments *segments, int axis,
-                                        bool is_round)
+static struct calibrate_figure noise_figure(const struct calibrate_segments *segments, int axis,
+                                            bool is_round)
 {
     struct calibrate_figure figure = {.is_known = segments->num_segments >= SEGMENTS_MIN};
     struct parts parts;
 
     if (figure.is_known) {
         for (int i = 0; i < PARTS; i++) {
-            parts.without[i] = noise_without(segments, axis, is_round, i);
+            parts.without[i] = noise_without_part(segments, axis, is_round, i);
         }
-        figure.value = noise_without(segments, axis, is_round, -1);
-        figure.sigma = sigma_of(&parts);
+        figure.value = noise_without_part(segments, axis, is_round, -1);
+        figure.sigma = jackknife_sigma(&parts);
     }
     return figure;
 }
@@ -155,19 +155,19 @@ static struct calibrate_segments track_and_cut(struct register_data *data, size_
                                                bool is_round, struct pipeline *pipeline)
 {
     forget_tracks(data);
-    register_track_one(data, radar, pipeline);
-    return calibrate_cut(data, radar, is_round);
+    register_track_one_radar(data, radar, pipeline);
+    return calibrate_cut_segments(data, radar, is_round);
 }
 
-static double num_usable(const struct calibrate_segments *segments)
+static double num_usable_segments(const struct calibrate_segments *segments)
 {
     return (double)segments->num_segments - (double)segments->num_left_out;
 }
 
 /* Noise that is far from what was stated lets no tracks be found: with which of these factors
  * there are most segments. */
-static struct calibrate_segments begin(struct register_data *data, size_t number, bool is_round,
-                                       struct pipeline *pipeline)
+static struct calibrate_segments track_with_best_noise(struct register_data *data, size_t number,
+                                                       bool is_round, struct pipeline *pipeline)
 {
     static const double factors[] = {4.0, 16.0, 0.25};
     struct radar_data *radar = &data->radars[number];
@@ -180,7 +180,7 @@ static struct calibrate_segments begin(struct register_data *data, size_t number
 
         scale_noise(radar, tried / factor);
         segments = track_and_cut(data, number, is_round, pipeline);
-        if (num_usable(&segments) > TRY_BETTER * fmax(num_usable(&best), 1.0)) {
+        if (num_usable_segments(&segments) > TRY_BETTER * fmax(num_usable_segments(&best), 1.0)) {
             calibrate_segments_free(&best);
             best = segments;
             factor = tried;
@@ -193,13 +193,14 @@ static struct calibrate_segments begin(struct register_data *data, size_t number
     return track_and_cut(data, number, is_round, pipeline);
 }
 
-static bool has_settled(const struct calibrate_figure *before, const struct calibrate_figure *now)
+static bool has_noise_settled(const struct calibrate_figure *before,
+                              const struct calibrate_figure *now)
 {
     return before->is_known && fabs(now->value / before->value - 1.0) < SETTLED;
 }
 
 /* Where most segments are no parabolas, those that look so are by chance. */
-static bool are_enough(const struct calibrate_segments *segments)
+static bool are_enough_segments(const struct calibrate_segments *segments)
 {
     return segments->num_segments >= SEGMENTS_MIN &&
            segments->num_segments > segments->num_left_out;
@@ -210,23 +211,24 @@ static struct calibrate_segments find_noise(struct register_data *data, size_t n
                                             struct calibrate_radar *out, struct pipeline *pipeline)
 {
     struct calibrate_figure *noise = out->figures;
-    struct calibrate_segments segments = begin(data, number, out->is_round, pipeline);
+    struct calibrate_segments segments =
+        track_with_best_noise(data, number, out->is_round, pipeline);
 
     for (int round = 0; round < ROUNDS_MAX && segments.num_segments >= SEGMENTS_MIN; round++) {
         const struct calibrate_figure before[2] = {noise[0], noise[1]};
 
-        noise[0] = noise_of(&segments, 0, out->is_round);
-        noise[1] = noise_of(&segments, 1, false);
+        noise[0] = noise_figure(&segments, 0, out->is_round);
+        noise[1] = noise_figure(&segments, 1, false);
         noise[1].is_known = noise[1].is_known && !out->is_round;
-        if (has_settled(&before[0], &noise[0]) &&
-            (out->is_round || has_settled(&before[1], &noise[1]))) {
+        if (has_noise_settled(&before[0], &noise[0]) &&
+            (out->is_round || has_noise_settled(&before[1], &noise[1]))) {
             break;
         }
         set_noise(&data->radars[number], out->is_round, noise[0].value, noise[1].value);
         calibrate_segments_free(&segments);
         segments = track_and_cut(data, number, out->is_round, pipeline);
     }
-    if (!are_enough(&segments)) {
+    if (!are_enough_segments(&segments)) {
         noise[0].is_known = noise[1].is_known = false;
     }
     return segments;
@@ -239,7 +241,7 @@ struct turns {
     double *end_s, *plots;
 };
 
-static struct turns turns_of(const struct register_data *data, const struct radar_data *radar)
+static struct turns turns_of_radar(const struct register_data *data, const struct radar_data *radar)
 {
     struct turns turns = {.end_s = must_calloc(radar->num_scans + 1, sizeof(double)),
                           .plots = must_calloc(radar->num_scans + 1, sizeof(double))};
@@ -255,7 +257,7 @@ static struct turns turns_of(const struct register_data *data, const struct rada
     return turns;
 }
 
-static struct calibrate_figure turn_time(const struct turns *turns)
+static struct calibrate_figure turn_time_figure(const struct turns *turns)
 {
     struct calibrate_figure figure = {.is_known = turns->count > TURNS_MIN};
     const size_t count = turns->count > 0 ? turns->count - 1 : 0;
@@ -277,8 +279,8 @@ static struct calibrate_figure turn_time(const struct turns *turns)
     return figure;
 }
 
-static struct calibrate_figure clutter_of(const struct register_data *data, size_t number,
-                                          const struct turns *turns)
+static struct calibrate_figure clutter_figure(const struct register_data *data, size_t number,
+                                              const struct turns *turns)
 {
     const double count = (double)turns->count;
     struct calibrate_figure figure = {.is_known = turns->count >= TURNS_MIN};
@@ -299,7 +301,7 @@ static struct calibrate_figure clutter_of(const struct register_data *data, size
 }
 
 /* Of the circle, or the box, that nearly all plots are in. */
-static double area_km2(const struct radar_data *radar, bool is_round)
+static double covered_area_km2(const struct radar_data *radar, bool is_round)
 {
     double *range_m = must_calloc(radar->num_plots + 1, sizeof *range_m), area_m2 = 0.0;
     double x[2] = {1e9, -1e9}, y[2] = {1e9, -1e9};
@@ -324,7 +326,7 @@ static double area_km2(const struct radar_data *radar, bool is_round)
 
 /* ---- pd ---- */
 
-/* Between two plots of a track, of which the first is not among those that it is there for. */
+/* Looks and hits between a track's plots, without the first ones, by which it was found at all. */
 static void count_looks(const struct register_data *data, const struct radar_track *track,
                         double turn_s, double *looks, double *hits)
 {
@@ -341,7 +343,8 @@ static void count_looks(const struct register_data *data, const struct radar_tra
     *looks = fmax(round((double)(last->time_us - first->time_us) * 1e-6 / turn_s), *hits);
 }
 
-static struct calibrate_figure pd_of(const struct register_data *data, size_t number, double turn_s)
+static struct calibrate_figure pd_figure(const struct register_data *data, size_t number,
+                                         double turn_s)
 {
     double looks[PARTS + 1] = {0.0}, hits[PARTS + 1] = {0.0};
     struct calibrate_figure figure = {.is_known = false};
@@ -366,7 +369,7 @@ static struct calibrate_figure pd_of(const struct register_data *data, size_t nu
         }
         /* where there are as few tracks as parts, rather what chance makes of so many looks */
         figure = (struct calibrate_figure){
-            true, pd, fmax(sigma_of(&parts), sqrt((pd * (1.0 - pd) + 0.01) / looks[PARTS]))};
+            true, pd, fmax(jackknife_sigma(&parts), sqrt((pd * (1.0 - pd) + 0.01) / looks[PARTS]))};
     }
     return figure;
 }
@@ -374,8 +377,8 @@ static struct calibrate_figure pd_of(const struct register_data *data, size_t nu
 /* ---- speeds ---- */
 
 /* A track's speed: the median of its segments, and its error. False: fewer than two segments. */
-static bool speed_of(const struct calibrate_segments *segments, size_t *next,
-                     struct calibrate_figure *speed)
+static bool track_speed(const struct calibrate_segments *segments, size_t *next,
+                        struct calibrate_figure *speed)
 {
     const size_t first = *next;
     double *speeds, square = 0.0;
@@ -405,7 +408,7 @@ static void find_speeds(const struct calibrate_segments *segments, struct calibr
     struct calibrate_figure speed;
 
     for (size_t next = 0; next < segments->num_segments;) {
-        if (!speed_of(segments, &next, &speed) || speed.value < MOVES_SIGMAS * speed.sigma) {
+        if (!track_speed(segments, &next, &speed) || speed.value < MOVES_SIGMAS * speed.sigma) {
             continue;
         }
         *fastest = !fastest->is_known || speed.value > fastest->value ? speed : *fastest;
@@ -435,12 +438,12 @@ static void find_innovations(struct register_data *data, size_t number, struct c
         radar->plots[i].sigma_range_m = stated[2 * i];
         radar->plots[i].sigma_cross_m = stated[2 * i + 1];
     }
-    sum = calibrate_innovations(data, number, out->is_round, &out->num_innovations);
+    sum = calibrate_sum_innovations(data, number, out->is_round, &out->num_innovations);
     out->innovations = out->num_innovations ? sum / CUT_MEAN / (double)out->num_innovations : NAN;
 }
 
-static void calibrate_one(struct register_data *data, size_t number, struct pipeline *pipeline,
-                          struct calibrate_radar *out)
+static void calibrate_one_radar(struct register_data *data, size_t number,
+                                struct pipeline *pipeline, struct calibrate_radar *out)
 {
     struct radar_data *radar = &data->radars[number];
     double *stated = must_calloc(2 * radar->num_plots + 1, sizeof *stated);
@@ -456,16 +459,16 @@ static void calibrate_one(struct register_data *data, size_t number, struct pipe
                                     .scans = radar->num_scans,
                                     .plots = radar->num_plots};
     segments = find_noise(data, number, out, pipeline);
-    turns = turns_of(data, radar);
+    turns = turns_of_radar(data, radar);
     out->turns = turns.count;
     out->tracks = data->num_tracks;
     out->segments = segments.num_segments;
     out->segments_left_out = segments.num_left_out;
-    out->area_km2 = area_km2(radar, out->is_round);
-    out->figures[CALIBRATE_TURN] = turn_time(&turns);
-    out->figures[CALIBRATE_CLUTTER] = clutter_of(data, number, &turns);
+    out->area_km2 = covered_area_km2(radar, out->is_round);
+    out->figures[CALIBRATE_TURN] = turn_time_figure(&turns);
+    out->figures[CALIBRATE_CLUTTER] = clutter_figure(data, number, &turns);
     if (out->figures[CALIBRATE_TURN].is_known) {
-        out->figures[CALIBRATE_PD] = pd_of(data, number, out->figures[CALIBRATE_TURN].value);
+        out->figures[CALIBRATE_PD] = pd_figure(data, number, out->figures[CALIBRATE_TURN].value);
     }
     find_speeds(&segments, &out->figures[CALIBRATE_FASTEST], &out->figures[CALIBRATE_SLOWEST]);
     find_innovations(data, number, out, stated);
@@ -481,7 +484,7 @@ struct calibrate_result calibrate(struct register_data *data, struct pipeline *p
 
     result.radars = must_calloc(data->num_radars + 1, sizeof *result.radars);
     for (size_t i = 0; i < data->num_radars; i++) {
-        calibrate_one(data, i, pipeline, &result.radars[i]);
+        calibrate_one_radar(data, i, pipeline, &result.radars[i]);
     }
     return result;
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/common.h"
-#include "base/grid.h"
+#include "base/text_table.h"
 
 /* Speeds beyond those that were seen: of the fastest, and of the slowest. */
 #define FASTER 1.3
@@ -28,18 +28,18 @@ static const struct {
      "nothing was tracked for 20 plots that surely moves"},
 };
 
-static const char *name_of(const struct calibrate_radar *of, int kind)
+static const char *figure_name(const struct calibrate_radar *of, int kind)
 {
     return of->is_round && kind == CALIBRATE_RANGE ? "noise, each axis" : kinds[kind].what;
 }
 
 /* Plots without a range have no noise of azimuth. */
-static bool is_asked(const struct calibrate_radar *of, int kind)
+static bool has_radar_figure(const struct calibrate_radar *of, int kind)
 {
     return !(of->is_round && kind == CALIBRATE_AZIMUTH);
 }
 
-bool calibrate_knows_any(const struct calibrate_result *result)
+bool calibrate_knows_any_figure(const struct calibrate_result *result)
 {
     for (size_t i = 0; i < result->num_radars; i++) {
         const struct calibrate_figure *figures = result->radars[i].figures;
@@ -53,7 +53,7 @@ bool calibrate_knows_any(const struct calibrate_result *result)
 
 void calibrate_print(const struct calibrate_result *result, FILE *out)
 {
-    struct grid grid = grid_start(2, "radar|what|value|sigma|unit");
+    struct text_table table = text_table_start(2, "radar|what|value|sigma|unit");
 
     for (size_t i = 0; i < result->num_radars; i++) {
         const struct calibrate_radar *of = &result->radars[i];
@@ -62,12 +62,13 @@ void calibrate_print(const struct calibrate_result *result, FILE *out)
             const struct calibrate_figure *figure = &of->figures[kind];
 
             if (figure->is_known) {
-                grid_row(&grid, "%d|%s|%.4g|%.2g|%s", (int)of->sensor_id, name_of(of, kind),
-                         figure->value, figure->sigma, kinds[kind].unit);
+                text_table_add_row(&table, "%d|%s|%.4g|%.2g|%s", (int)of->sensor_id,
+                                   figure_name(of, kind), figure->value, figure->sigma,
+                                   kinds[kind].unit);
             }
         }
     }
-    grid_print(&grid, out);
+    text_table_print(&table, out);
     for (size_t i = 0; i < result->num_radars; i++) {
         const struct calibrate_radar *of = &result->radars[i];
 
@@ -82,13 +83,13 @@ void calibrate_print(const struct calibrate_result *result, FILE *out)
         }
         fprintf(out, "\n");
         for (int kind = 0; kind < NUM_CALIBRATE_KINDS; kind++) {
-            if (!of->figures[kind].is_known && is_asked(of, kind)) {
-                fprintf(out, "radar %d, %s: not known: %s\n", (int)of->sensor_id, name_of(of, kind),
-                        kinds[kind].why_not);
+            if (!of->figures[kind].is_known && has_radar_figure(of, kind)) {
+                fprintf(out, "radar %d, %s: not known: %s\n", (int)of->sensor_id,
+                        figure_name(of, kind), kinds[kind].why_not);
             }
         }
     }
-    grid_free(&grid);
+    text_table_free(&table);
 }
 
 void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_skipped)
@@ -127,7 +128,7 @@ void calibrate_print_json(const struct calibrate_result *result, uint64_t rows_s
 /* ---- INI ---- */
 
 /* Of all radars: what a tracker has to follow, a little beyond what was seen. */
-static void write_speeds(const struct calibrate_result *result, FILE *out)
+static void write_speed_limits(const struct calibrate_result *result, FILE *out)
 {
     double fastest = 0.0, slowest = 1e9;
 
@@ -186,7 +187,7 @@ void calibrate_write_ini(const struct calibrate_result *result, const char *path
     struct output output = output_open(path);
 
     fprintf(output.file, "# found by rhotrack calibrate; each with its sigma\n");
-    write_speeds(result, output.file);
+    write_speed_limits(result, output.file);
     for (size_t i = 0; i < result->num_radars; i++) {
         write_radar(&result->radars[i], output.file);
     }

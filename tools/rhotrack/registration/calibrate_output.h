@@ -8,7 +8,7 @@
 #include "registration/calibrate.h"
 
 /* True where the noise of a radar is known, or its pd. */
-bool calibrate_knows_any(const struct calibrate_result *result);
+bool calibrate_knows_any_figure(const struct calibrate_result *result);
 
 /* With a line for each figure that is not known: why. */
 void calibrate_print(const struct calibrate_result *result, FILE *out);

@@ -27,7 +27,7 @@ struct path {
 };
 
 /* A place along a direction, as the path has it. */
-static void row_of(const struct path *path, double t_s, double x, double y, double *row)
+static void design_row(const struct path *path, double t_s, double x, double y, double *row)
 {
     double power = 1.0;
 
@@ -49,12 +49,12 @@ static double dot(const double *a, const double *b, size_t n)
 }
 
 /* Of what the row says, by the plots' sigmas. */
-static double variance_of(const struct path *path, const double *row)
+static double path_variance(const struct path *path, const double *row)
 {
     double half[MAX_UNKNOWN];
 
     memcpy(half, row, sizeof half);
-    cholesky_forward(path->factor, 2 * path->powers, half);
+    cholesky_solve_lower(path->factor, 2 * path->powers, half);
     return dot(half, half, 2 * path->powers);
 }
 
@@ -63,7 +63,7 @@ struct axes {
     double x[2], y[2], sigma_m[2];
 };
 
-static struct axes axes_of(const struct radar_plot *plot, bool is_round)
+static struct axes noise_axes(const struct radar_plot *plot, bool is_round)
 {
     double c = is_round ? 1.0 : cos(plot->azimuth_rad), s = is_round ? 0.0 : sin(plot->azimuth_rad);
 
@@ -71,37 +71,37 @@ static struct axes axes_of(const struct radar_plot *plot, bool is_round)
         .x = {c, -s}, .y = {s, c}, .sigma_m = {plot->sigma_range_m, plot->sigma_cross_m}};
 }
 
-static double seconds_of(const struct register_data *data, const struct radar_plot *plot)
+static double plot_seconds(const struct register_data *data, const struct radar_plot *plot)
 {
     return (double)(plot->time_us - data->start_us) * 1e-6;
 }
 
-static double place_along(const struct radar_plot *plot, const struct axes *axes, int axis)
+static double plot_place_along(const struct radar_plot *plot, const struct axes *axes, int axis)
 {
     return axes->x[axis] * (double)plot->plot.x_m + axes->y[axis] * (double)plot->plot.y_m;
 }
 
 /* Through `count` plots of a track. False where they tell no such path. */
-static bool fit(const struct register_data *data, const struct radar_track *track, size_t first,
-                size_t count, bool is_round, struct path *path)
+static bool fit_path(const struct register_data *data, const struct radar_track *track,
+                     size_t first, size_t count, bool is_round, struct path *path)
 {
     const struct radar_plot *plots = data->radars[track->radar].plots;
     const size_t n = 2 * path->powers;
 
     memset(path->factor, 0, sizeof path->factor);
     memset(path->solution, 0, sizeof path->solution);
-    path->middle_s = 0.5 * (seconds_of(data, &plots[track->plots[first]]) +
-                            seconds_of(data, &plots[track->plots[first + count - 1]]));
+    path->middle_s = 0.5 * (plot_seconds(data, &plots[track->plots[first]]) +
+                            plot_seconds(data, &plots[track->plots[first + count - 1]]));
     for (size_t k = 0; k < 2 * count; k++) {
         const struct radar_plot *plot = &plots[track->plots[first + k / 2]];
-        const struct axes axes = axes_of(plot, is_round);
+        const struct axes axes = noise_axes(plot, is_round);
         const int axis = (int)(k % 2);
         const double weight = 1.0 / (axes.sigma_m[axis] * axes.sigma_m[axis]);
         double row[MAX_UNKNOWN];
 
-        row_of(path, seconds_of(data, plot), axes.x[axis], axes.y[axis], row);
+        design_row(path, plot_seconds(data, plot), axes.x[axis], axes.y[axis], row);
         for (size_t i = 0; i < n; i++) {
-            path->solution[i] += weight * row[i] * place_along(plot, &axes, axis);
+            path->solution[i] += weight * row[i] * plot_place_along(plot, &axes, axis);
             for (size_t j = 0; j < n; j++) {
                 path->factor[i * n + j] += weight * row[i] * row[j];
             }
@@ -122,30 +122,31 @@ static void add_residuals(const struct register_data *data, const struct radar_t
 
     for (size_t k = 0; k < 2 * count; k++) {
         const struct radar_plot *plot = &plots[track->plots[first + k / 2]];
-        const struct axes axes = axes_of(plot, is_round);
+        const struct axes axes = noise_axes(plot, is_round);
         const int axis = (int)(k % 2);
         double row[MAX_UNKNOWN], leverage;
 
-        row_of(path, seconds_of(data, plot), axes.x[axis], axes.y[axis], row);
-        leverage = variance_of(path, row) / (axes.sigma_m[axis] * axes.sigma_m[axis]);
+        design_row(path, plot_seconds(data, plot), axes.x[axis], axes.y[axis], row);
+        leverage = path_variance(path, row) / (axes.sigma_m[axis] * axes.sigma_m[axis]);
         if (leverage > LEVERAGE_MAX) {
             continue; /* the path goes through it, whatever its noise */
         }
         segments->residuals = must_grow(segments->residuals, segments->num_residuals,
                                         &segments->residuals_room, sizeof *segments->residuals);
-        segments->residuals[segments->num_residuals++] = (struct residual){
-            .segment = segments->num_segments,
-            .track = (size_t)(track - data->tracks),
-            .axis = axis,
-            .off_m = (place_along(plot, &axes, axis) - dot(row, path->solution, 2 * path->powers)) /
-                     sqrt(1.0 - leverage),
-            .range_m = plot->range_m};
+        segments->residuals[segments->num_residuals++] =
+            (struct residual){.segment = segments->num_segments,
+                              .track = (size_t)(track - data->tracks),
+                              .axis = axis,
+                              .off_m = (plot_place_along(plot, &axes, axis) -
+                                        dot(row, path->solution, 2 * path->powers)) /
+                                       sqrt(1.0 - leverage),
+                              .range_m = plot->range_m};
     }
 }
 
 /* Noise changes sides from plot to plot; where a target turns harder than its path, plots lie on
  * one side for some. */
-static bool looks_white(const struct residual *residuals, size_t count)
+static bool look_like_noise(const struct residual *residuals, size_t count)
 {
     double product[2] = {0.0, 0.0}, square[2] = {0.0, 0.0}, before[2] = {0.0, 0.0};
 
@@ -168,7 +169,7 @@ static struct calibrate_segment segment_of(const struct path *path, size_t track
         row[1] = vx / speed_mps;
         row[path->powers + 1] = vy / speed_mps;
     }
-    return (struct calibrate_segment){track, speed_mps, sqrt(variance_of(path, row))};
+    return (struct calibrate_segment){track, speed_mps, sqrt(path_variance(path, row))};
 }
 
 /* A line where that will do, else a parabola: residuals are added, and it is true, where they look
@@ -180,11 +181,11 @@ static bool fit_segment(const struct register_data *data, const struct radar_tra
     const size_t before = segments->num_residuals;
 
     for (path->powers = 2; path->powers <= POWERS_MAX; path->powers++) {
-        if (!fit(data, track, first, SEGMENT_PLOTS, is_round, path)) {
+        if (!fit_path(data, track, first, SEGMENT_PLOTS, is_round, path)) {
             return false;
         }
         add_residuals(data, track, first, SEGMENT_PLOTS, is_round, path, segments);
-        if (looks_white(&segments->residuals[before], segments->num_residuals - before)) {
+        if (look_like_noise(&segments->residuals[before], segments->num_residuals - before)) {
             return true;
         }
         segments->num_residuals = before;
@@ -192,15 +193,15 @@ static bool fit_segment(const struct register_data *data, const struct radar_tra
     return false;
 }
 
-static void cut_track(const struct register_data *data, size_t number, bool is_round,
-                      struct calibrate_segments *segments)
+static void cut_track_into_segments(const struct register_data *data, size_t number, bool is_round,
+                                    struct calibrate_segments *segments)
 {
     const struct radar_track *track = &data->tracks[number];
     const struct radar_plot *plots = data->radars[track->radar].plots;
 
     for (size_t first = 0; first + SEGMENT_PLOTS <= track->count; first += SEGMENT_PLOTS) {
-        const double took_s = seconds_of(data, &plots[track->plots[first + SEGMENT_PLOTS - 1]]) -
-                              seconds_of(data, &plots[track->plots[first]]);
+        const double took_s = plot_seconds(data, &plots[track->plots[first + SEGMENT_PLOTS - 1]]) -
+                              plot_seconds(data, &plots[track->plots[first]]);
         struct path path;
 
         if (took_s > SEGMENT_S) {
@@ -216,14 +217,14 @@ static void cut_track(const struct register_data *data, size_t number, bool is_r
     }
 }
 
-struct calibrate_segments calibrate_cut(const struct register_data *data, size_t radar,
-                                        bool is_round)
+struct calibrate_segments calibrate_cut_segments(const struct register_data *data, size_t radar,
+                                                 bool is_round)
 {
     struct calibrate_segments segments = {.num_segments = 0};
 
     for (size_t i = 0; i < data->num_tracks; i++) {
         if (data->tracks[i].radar == radar) {
-            cut_track(data, i, is_round, &segments);
+            cut_track_into_segments(data, i, is_round, &segments);
         }
     }
     return segments;
@@ -235,8 +236,8 @@ void calibrate_segments_free(struct calibrate_segments *segments)
     free(segments->residuals);
 }
 
-double calibrate_innovations(const struct register_data *data, size_t radar, bool is_round,
-                             size_t *count)
+double calibrate_sum_innovations(const struct register_data *data, size_t radar, bool is_round,
+                                 size_t *count)
 {
     double sum = 0.0;
 
@@ -246,18 +247,18 @@ double calibrate_innovations(const struct register_data *data, size_t radar, boo
 
         for (size_t next = LEAD_PLOTS; track->radar == radar && next < track->count; next++) {
             const struct radar_plot *plot = &data->radars[radar].plots[track->plots[next]];
-            const struct axes axes = axes_of(plot, is_round);
+            const struct axes axes = noise_axes(plot, is_round);
             struct path path = {.powers = 2};
 
             for (int axis = 0;
-                 axis < 2 && fit(data, track, next - LEAD_PLOTS, LEAD_PLOTS, is_round, &path);
+                 axis < 2 && fit_path(data, track, next - LEAD_PLOTS, LEAD_PLOTS, is_round, &path);
                  axis++) {
                 double row[MAX_UNKNOWN] = {0.0}, off_m, square;
 
-                row_of(&path, seconds_of(data, plot), axes.x[axis], axes.y[axis], row);
-                off_m = place_along(plot, &axes, axis) - dot(row, path.solution, 4);
+                design_row(&path, plot_seconds(data, plot), axes.x[axis], axes.y[axis], row);
+                off_m = plot_place_along(plot, &axes, axis) - dot(row, path.solution, 4);
                 square = off_m * off_m /
-                         (variance_of(&path, row) + axes.sigma_m[axis] * axes.sigma_m[axis]);
+                         (path_variance(&path, row) + axes.sigma_m[axis] * axes.sigma_m[axis]);
                 sum += square < CUT2 ? square : CUT2;
                 ++*count;
             }

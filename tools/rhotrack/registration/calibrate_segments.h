@@ -29,13 +29,13 @@ struct calibrate_segments {
 };
 
 /* Of the radar's tracks, weighed by the sigmas of its plots. Round: axes are x and y. */
-struct calibrate_segments calibrate_cut(const struct register_data *data, size_t radar,
-                                        bool is_round);
+struct calibrate_segments calibrate_cut_segments(const struct register_data *data, size_t radar,
+                                                 bool is_round);
 void calibrate_segments_free(struct calibrate_segments *segments);
 
 /* Squares of the next plots of tracks beside where the last ones lead on a straight line, over
  * what is expected of them by the plots' sigmas; cut at 4. Returns their sum. */
-double calibrate_innovations(const struct register_data *data, size_t radar, bool is_round,
-                             size_t *count);
+double calibrate_sum_innovations(const struct register_data *data, size_t radar, bool is_round,
+                                 size_t *count);
 
 #endif

@@ -31,7 +31,7 @@ bool cholesky_factor(double *matrix, size_t n)
     return true;
 }
 
-void cholesky_forward(const double *factor, size_t n, double *v)
+void cholesky_solve_lower(const double *factor, size_t n, double *v)
 {
     for (size_t i = 0; i < n; i++) {
         for (size_t k = 0; k < i; k++) {
@@ -43,7 +43,7 @@ void cholesky_forward(const double *factor, size_t n, double *v)
 
 void cholesky_solve(const double *factor, size_t n, double *v)
 {
-    cholesky_forward(factor, n, v);
+    cholesky_solve_lower(factor, n, v);
     for (size_t i = n; i-- > 0;) {
         for (size_t k = i + 1; k < n; k++) {
             v[i] -= factor[k * n + i] * v[k];
@@ -58,7 +58,7 @@ double cholesky_inverse_diagonal(const double *factor, size_t n, size_t i, doubl
 
     memset(work, 0, n * sizeof *work);
     work[i] = 1.0;
-    cholesky_forward(factor, n, work);
+    cholesky_solve_lower(factor, n, work);
     for (size_t k = i; k < n; k++) {
         sum += work[k] * work[k];
     }

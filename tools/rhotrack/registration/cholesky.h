@@ -12,7 +12,7 @@
 bool cholesky_factor(double *matrix, size_t n);
 
 /* L^-1 v, and (L L')^-1 v, in place. */
-void cholesky_forward(const double *factor, size_t n, double *v);
+void cholesky_solve_lower(const double *factor, size_t n, double *v);
 void cholesky_solve(const double *factor, size_t n, double *v);
 
 /* Element (i, i) of the inverse. work: n. */

@@ -22,7 +22,8 @@ struct register_data *register_start(const struct parameters *parameters)
     return data;
 }
 
-static struct radar_data *radar_of(struct register_data *data, const struct rho_sensor *sensor)
+static struct radar_data *find_or_add_radar(struct register_data *data,
+                                            const struct rho_sensor *sensor)
 {
     size_t at = 0;
 
@@ -42,8 +43,8 @@ static struct radar_data *radar_of(struct register_data *data, const struct rho_
 }
 
 /* The library gives polar plots an ellipse, Cartesian ones a circle. */
-static const char *what_is_wrong(const struct rho_scan *scan, const struct radar_data *radar,
-                                 const struct rho_sensor *sensor)
+static const char *why_scan_unfit(const struct rho_scan *scan, const struct radar_data *radar,
+                                  const struct rho_sensor *sensor)
 {
     if (radar->sensor.x_m != sensor->x_m || radar->sensor.y_m != sensor->y_m) {
         return "it moves; radars that are registered stand still";
@@ -58,8 +59,8 @@ static const char *what_is_wrong(const struct rho_scan *scan, const struct radar
     return NULL;
 }
 
-static struct radar_plot plot_of(const struct rho_plot *plot, int64_t scan_us,
-                                 const struct rho_sensor *sensor)
+static struct radar_plot radar_plot_of(const struct rho_plot *plot, int64_t scan_us,
+                                       const struct rho_sensor *sensor)
 {
     double x_m = (double)plot->x_m - (double)sensor->x_m;
     double y_m = (double)plot->y_m - (double)sensor->y_m;
@@ -72,10 +73,10 @@ static struct radar_plot plot_of(const struct rho_plot *plot, int64_t scan_us,
                                .plot = *plot};
 }
 
-void register_take(struct register_data *data, const struct rho_scan *scan,
-                   const struct rho_sensor *sensor)
+void register_add_any_scan(struct register_data *data, const struct rho_scan *scan,
+                           const struct rho_sensor *sensor)
 {
-    struct radar_data *radar = radar_of(data, sensor);
+    struct radar_data *radar = find_or_add_radar(data, sensor);
 
     if (data->num_radars == 1 && radar->num_scans == 0) {
         data->start_us = scan->time_us;
@@ -91,17 +92,17 @@ void register_take(struct register_data *data, const struct rho_scan *scan,
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         radar->plots =
             must_grow(radar->plots, radar->num_plots, &radar->plots_room, sizeof *radar->plots);
-        radar->plots[radar->num_plots++] = plot_of(&scan->plots[i], scan->time_us, sensor);
+        radar->plots[radar->num_plots++] = radar_plot_of(&scan->plots[i], scan->time_us, sensor);
     }
 }
 
-const char *register_add(struct register_data *data, const struct rho_scan *scan,
-                         const struct rho_sensor *sensor)
+const char *register_add_scan(struct register_data *data, const struct rho_scan *scan,
+                              const struct rho_sensor *sensor)
 {
-    const char *wrong = what_is_wrong(scan, radar_of(data, sensor), sensor);
+    const char *wrong = why_scan_unfit(scan, find_or_add_radar(data, sensor), sensor);
 
     if (!wrong) {
-        register_take(data, scan, sensor);
+        register_add_any_scan(data, scan, sensor);
     }
     return wrong;
 }
@@ -127,7 +128,7 @@ void register_free(struct register_data *data)
 
 /* ---- the estimate ---- */
 
-static size_t reference_of(const struct register_data *data)
+static size_t reference_radar(const struct register_data *data)
 {
     const struct parameters *parameters = data->parameters;
 
@@ -159,8 +160,8 @@ static void typical_noise(const struct radar_data *radar, double speed_mps,
     noise[REGISTER_TIME] = noise[REGISTER_RANGE] / speed_mps;
 }
 
-static void fill_radar(const struct register_data *data, size_t number,
-                       const struct solution *solution, struct register_radar *out)
+static void fill_radar_result(const struct register_data *data, size_t number,
+                              const struct solution *solution, struct register_radar *out)
 {
     const struct radar_data *radar = &data->radars[number];
     const double configured[NUM_REGISTER_KINDS] = {(double)radar->sensor.range_bias_m,
@@ -192,7 +193,7 @@ static struct register_result result_of(const struct register_data *data, size_t
 {
     struct register_result result = {.num_radars = data->num_radars,
                                      .reference = reference,
-                                     .targets = register_num_common(data),
+                                     .targets = register_num_common_targets(data),
                                      .segments = solution->segments,
                                      .segments_left_out = solution->segments_left_out,
                                      .plots = solution->plots,
@@ -201,23 +202,24 @@ static struct register_result result_of(const struct register_data *data, size_t
 
     result.radars = must_calloc(data->num_radars + 1, sizeof *result.radars);
     for (size_t i = 0; i < data->num_radars; i++) {
-        fill_radar(data, i, solution, &result.radars[i]);
+        fill_radar_result(data, i, solution, &result.radars[i]);
     }
     return result;
 }
 
-struct register_result register_estimate(struct register_data *data, struct pipeline *pipeline)
+struct register_result register_estimate_biases(struct register_data *data,
+                                                struct pipeline *pipeline)
 {
-    size_t reference = reference_of(data), rounds = 1;
+    size_t reference = reference_radar(data), rounds = 1;
     struct solution solution;
     struct register_result result;
 
-    register_track_all(data, pipeline);
-    register_match(data, FIRST_GATE_M, 0.0);
-    solution = register_solve(data, reference);
-    while (rounds < ROUNDS_MAX && register_match(data, FIRST_GATE_M, solution.misfit)) {
+    register_track_all_radars(data, pipeline);
+    register_match_tracks(data, FIRST_GATE_M, 0.0);
+    solution = register_solve_biases(data, reference);
+    while (rounds < ROUNDS_MAX && register_match_tracks(data, FIRST_GATE_M, solution.misfit)) {
         solution_free(&solution);
-        solution = register_solve(data, reference);
+        solution = register_solve_biases(data, reference);
         rounds++;
     }
     result = result_of(data, reference, &solution, rounds);

@@ -59,14 +59,15 @@ struct register_data *register_start(const struct parameters *parameters);
  * wrong, and nothing is taken: a radar that moves, plots that are not in range and azimuth (the
  * same sigma along and across).
  */
-const char *register_add(struct register_data *data, const struct rho_scan *scan,
-                         const struct rho_sensor *sensor);
+const char *register_add_scan(struct register_data *data, const struct rho_scan *scan,
+                              const struct rho_sensor *sensor);
 
 /* Radars so far. */
 size_t register_num_radars(const struct register_data *data);
 
 /* All of it. The pipeline is the caller's. register_result_free what comes back. */
-struct register_result register_estimate(struct register_data *data, struct pipeline *pipeline);
+struct register_result register_estimate_biases(struct register_data *data,
+                                                struct pipeline *pipeline);
 
 void register_result_free(struct register_result *result);
 void register_free(struct register_data *data);

@@ -3,8 +3,9 @@
 
 #include <math.h>
 
-struct corrected register_correct(const struct register_data *data, const struct radar_data *radar,
-                                  const struct radar_plot *plot)
+struct corrected register_correct_plot(const struct register_data *data,
+                                       const struct radar_data *radar,
+                                       const struct radar_plot *plot)
 {
     double azimuth_rad = plot->azimuth_rad - radar->bias[REGISTER_AZIMUTH];
     struct corrected at = {.range_m = plot->range_m - radar->bias[REGISTER_RANGE],

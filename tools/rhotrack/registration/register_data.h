@@ -46,21 +46,22 @@ struct register_data {
     struct radar_track *tracks;
 };
 
-/* As register_add, of any plots. */
-void register_take(struct register_data *data, const struct rho_scan *scan,
-                   const struct rho_sensor *sensor);
+/* As register_add_scan, of any plots. */
+void register_add_any_scan(struct register_data *data, const struct rho_scan *scan,
+                           const struct rho_sensor *sensor);
 
 /* Where and when a plot was, with the biases as estimated so far. */
 struct corrected {
     double t_s, x_m, y_m;
     double cos_azimuth, sin_azimuth, range_m;
 };
-struct corrected register_correct(const struct register_data *data, const struct radar_data *radar,
-                                  const struct radar_plot *plot);
+struct corrected register_correct_plot(const struct register_data *data,
+                                       const struct radar_data *radar,
+                                       const struct radar_plot *plot);
 
 /* Scans by time, sectors put together to turns; then every radar's tracks. register_tracks.c */
-void register_track_all(struct register_data *data, struct pipeline *pipeline);
-void register_track_one(struct register_data *data, size_t number, struct pipeline *pipeline);
+void register_track_all_radars(struct register_data *data, struct pipeline *pipeline);
+void register_track_one_radar(struct register_data *data, size_t number, struct pipeline *pipeline);
 
 /* One past the last scan of the turn that begins with `first`. register_tracks.c */
 size_t register_turn_end(const struct radar_data *radar, size_t first);
@@ -70,10 +71,10 @@ size_t register_turn_end(const struct radar_data *radar, size_t first);
  * rms distance of two tracks. misfit: they are to be together by their noise, too, which is so much
  * of what their sigmas say; 0: they need not be. True where anything changed. register_match.c
  */
-bool register_match(struct register_data *data, double gate_m, double misfit);
+bool register_match_tracks(struct register_data *data, double gate_m, double misfit);
 
 /* Targets that several radars have tracks of. */
-size_t register_num_common(const struct register_data *data);
+size_t register_num_common_targets(const struct register_data *data);
 
 /* The result of the least squares. register_solve.c */
 struct solution {
@@ -83,7 +84,7 @@ struct solution {
     double *sigma;       /* of each radar's NUM_REGISTER_KINDS biases */
 };
 /* Changes the radars' biases. The reference's time stays. */
-struct solution register_solve(struct register_data *data, size_t reference);
+struct solution register_solve_biases(struct register_data *data, size_t reference);
 void solution_free(struct solution *solution);
 
 #endif

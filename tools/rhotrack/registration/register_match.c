@@ -55,7 +55,7 @@ static void load_course(const struct register_data *data, const struct radar_tra
     for (size_t i = 0; i < track->count; i++) {
         const struct radar_plot *plot = &radar->plots[track->plots[i]];
 
-        course->at[i] = register_correct(data, radar, plot);
+        course->at[i] = register_correct_plot(data, radar, plot);
         course->along_m2[i] = pow(noise * plot->sigma_range_m, 2.0);
         course->cross_m2[i] = pow(noise * plot->sigma_cross_m, 2.0);
     }
@@ -79,7 +79,7 @@ static void add_covariance(const struct course *course, size_t i, double share, 
     sum[2] += s * s * along_m2 + c * c * cross_m2;
 }
 
-static double distance2(const double covariance[3], double dx_m, double dy_m)
+static double mahalanobis2(const double covariance[3], double dx_m, double dy_m)
 {
     double determinant = covariance[0] * covariance[2] - covariance[1] * covariance[1];
 
@@ -89,8 +89,8 @@ static double distance2(const double covariance[3], double dx_m, double dy_m)
 }
 
 /* Plot i of `of` against the place of `between` at that time, from its plots k and k + 1. */
-static void compare_at(const struct course *of, size_t i, const struct course *between, size_t k,
-                       struct comparison *sum)
+static void compare_plot_with_course(const struct course *of, size_t i,
+                                     const struct course *between, size_t k, struct comparison *sum)
 {
     const struct corrected *from = &between->at[k], *to = &between->at[k + 1], *at = &of->at[i];
     double share = (at->t_s - from->t_s) / (to->t_s - from->t_s);
@@ -103,10 +103,10 @@ static void compare_at(const struct course *of, size_t i, const struct course *b
     add_covariance(between, k + 1, share * share, covariance);
     sum->count++;
     sum->sum_m2 += dx_m * dx_m + dy_m * dy_m;
-    sum->sum_d2 += fmin(distance2(covariance, dx_m, dy_m), FAR_D2);
+    sum->sum_d2 += fmin(mahalanobis2(covariance, dx_m, dy_m), FAR_D2);
 }
 
-static struct comparison compare(const struct course *of, const struct course *between)
+static struct comparison compare_with_course(const struct course *of, const struct course *between)
 {
     struct comparison sum = {0};
     size_t k = 0;
@@ -120,7 +120,7 @@ static struct comparison compare(const struct course *of, const struct course *b
         if (k + 1 < between->count && between->at[k].t_s <= t_s &&
             between->at[k + 1].t_s > between->at[k].t_s &&
             between->at[k + 1].t_s - between->at[k].t_s <= GAP_MAX_S) {
-            compare_at(of, i, between, k, &sum);
+            compare_plot_with_course(of, i, between, k, &sum);
             if (sum.sum_m2 > FAR_M * FAR_M) {
                 break;
             }
@@ -129,19 +129,20 @@ static struct comparison compare(const struct course *of, const struct course *b
     return sum;
 }
 
-static bool overlap(const struct course *one, const struct course *other)
+static bool overlap_in_time(const struct course *one, const struct course *other)
 {
     return one->count > 1 && other->count > 1 && one->at[0].t_s < other->at[other->count - 1].t_s &&
            other->at[0].t_s < one->at[one->count - 1].t_s;
 }
 
 /*
- * The track with more plots in the time is compared with the other's: fewer gaps, more comparisons.
+ * Each plot of one track is compared with the course between the plots of the other. Of both ways
+ * round the one with more comparisons counts.
  */
-static bool is_pair(const struct course *one, const struct course *other, double gate_m,
-                    double misfit, double *distance)
+static bool is_one_target(const struct course *one, const struct course *other, double gate_m,
+                          double misfit, double *distance)
 {
-    struct comparison sum = compare(one, other), back = compare(other, one);
+    struct comparison sum = compare_with_course(one, other), back = compare_with_course(other, one);
 
     sum = back.count > sum.count ? back : sum;
     if (sum.count < COMPARISONS_MIN) {
@@ -187,8 +188,8 @@ static struct pairs find_pairs(const struct register_data *data, const struct co
         for (size_t j = i + 1; j < data->num_tracks; j++) {
             struct pair pair = {i, j, 0.0};
 
-            if (courses[i].radar != courses[j].radar && overlap(&courses[i], &courses[j]) &&
-                is_pair(&courses[i], &courses[j], gate_m, misfit, &pair.distance)) {
+            if (courses[i].radar != courses[j].radar && overlap_in_time(&courses[i], &courses[j]) &&
+                is_one_target(&courses[i], &courses[j], gate_m, misfit, &pair.distance)) {
                 pairs.list = must_grow(pairs.list, pairs.count, &pairs.room, sizeof *pairs.list);
                 pairs.list[pairs.count++] = pair;
             }
@@ -201,13 +202,13 @@ static struct pairs find_pairs(const struct register_data *data, const struct co
 }
 
 /* Two targets can be one unless a radar had a track of each at the same time. */
-static bool can_join(const struct course *courses, const size_t *targets, size_t num_tracks,
-                     size_t one, size_t other)
+static bool can_join_targets(const struct course *courses, const size_t *targets, size_t num_tracks,
+                             size_t one, size_t other)
 {
     for (size_t i = 0; i < num_tracks; i++) {
         for (size_t j = 0; targets[i] == one && j < num_tracks; j++) {
             if (targets[j] == other && courses[i].radar == courses[j].radar &&
-                overlap(&courses[i], &courses[j])) {
+                overlap_in_time(&courses[i], &courses[j])) {
                 return false;
             }
         }
@@ -215,7 +216,7 @@ static bool can_join(const struct course *courses, const size_t *targets, size_t
     return true;
 }
 
-static void join(size_t *targets, size_t num_tracks, size_t one, size_t other)
+static void join_targets(size_t *targets, size_t num_tracks, size_t one, size_t other)
 {
     size_t kept = one < other ? one : other, gone = one < other ? other : one;
 
@@ -224,7 +225,7 @@ static void join(size_t *targets, size_t num_tracks, size_t one, size_t other)
     }
 }
 
-static bool take_targets(struct register_data *data, const size_t *targets)
+static bool store_targets(struct register_data *data, const size_t *targets)
 {
     bool is_changed = false;
 
@@ -235,7 +236,7 @@ static bool take_targets(struct register_data *data, const size_t *targets)
     return is_changed;
 }
 
-bool register_match(struct register_data *data, double gate_m, double misfit)
+bool register_match_tracks(struct register_data *data, double gate_m, double misfit)
 {
     struct course *courses = must_calloc(data->num_tracks + 1, sizeof *courses);
     size_t *targets = must_calloc(data->num_tracks + 1, sizeof *targets);
@@ -250,11 +251,11 @@ bool register_match(struct register_data *data, double gate_m, double misfit)
     for (size_t i = 0; i < pairs.count; i++) {
         size_t one = targets[pairs.list[i].first], other = targets[pairs.list[i].second];
 
-        if (one != other && can_join(courses, targets, data->num_tracks, one, other)) {
-            join(targets, data->num_tracks, one, other);
+        if (one != other && can_join_targets(courses, targets, data->num_tracks, one, other)) {
+            join_targets(targets, data->num_tracks, one, other);
         }
     }
-    is_changed = take_targets(data, targets);
+    is_changed = store_targets(data, targets);
     for (size_t i = 0; i < data->num_tracks; i++) {
         free_course(&courses[i]);
     }
@@ -264,7 +265,7 @@ bool register_match(struct register_data *data, double gate_m, double misfit)
     return is_changed;
 }
 
-size_t register_num_common(const struct register_data *data)
+size_t register_num_common_targets(const struct register_data *data)
 {
     size_t common = 0;
 

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/common.h"
-#include "base/grid.h"
+#include "base/text_table.h"
 
 #define DEG_RAD 0.017453292519943295
 
@@ -22,7 +22,7 @@ static bool is_reference(const struct register_result *result, size_t radar, siz
     return radar == result->reference && kind == REGISTER_TIME;
 }
 
-bool register_knows_any(const struct register_result *result)
+bool register_knows_any_bias(const struct register_result *result)
 {
     for (size_t i = 0; i < result->num_radars; i++) {
         for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
@@ -36,11 +36,12 @@ bool register_knows_any(const struct register_result *result)
 
 /* ---- table ---- */
 
-static void put_row(struct grid *grid, const struct register_result *result, size_t radar)
+static void put_bias_row(struct text_table *table, const struct register_result *result,
+                         size_t radar)
 {
     const struct register_radar *of = &result->radars[radar];
     static const int digits[NUM_REGISTER_KINDS] = {1, 4, 4};
-    char texts[2 * NUM_REGISTER_KINDS][GRID_NUMBER];
+    char texts[2 * NUM_REGISTER_KINDS][TEXT_TABLE_NUMBER];
     const char *cells[2 * NUM_REGISTER_KINDS];
 
     for (size_t kind = 0; kind < NUM_REGISTER_KINDS; kind++) {
@@ -50,15 +51,16 @@ static void put_row(struct grid *grid, const struct register_result *result, siz
         double value = bias->is_known || is_taken ? factor * bias->value : NAN;
         double sigma = bias->is_known && !is_taken ? factor * bias->sigma : NAN;
 
-        cells[2 * kind] = grid_number(texts[2 * kind], digits[kind], value);
-        cells[2 * kind + 1] = grid_number(texts[2 * kind + 1], digits[kind], sigma);
+        cells[2 * kind] = text_table_number(texts[2 * kind], digits[kind], value);
+        cells[2 * kind + 1] = text_table_number(texts[2 * kind + 1], digits[kind], sigma);
     }
-    grid_row(grid, "%d|%zu|%zu|%zu|%s|%s|%s|%s|%s|%s", (int)of->sensor_id, of->plots, of->tracks,
-             of->common_plots, cells[0], cells[1], cells[2], cells[3], cells[4], cells[5]);
+    text_table_add_row(table, "%d|%zu|%zu|%zu|%s|%s|%s|%s|%s|%s", (int)of->sensor_id, of->plots,
+                       of->tracks, of->common_plots, cells[0], cells[1], cells[2], cells[3],
+                       cells[4], cells[5]);
 }
 
 /* Each bias that is not known, and why. */
-static void print_unknown(const struct register_result *result, FILE *out)
+static void print_unknown_biases(const struct register_result *result, FILE *out)
 {
     for (size_t i = 0; i < result->num_radars; i++) {
         const struct register_radar *of = &result->radars[i];
@@ -83,13 +85,14 @@ static void print_unknown(const struct register_result *result, FILE *out)
 
 void register_print(const struct register_result *result, FILE *out)
 {
-    struct grid grid = grid_start(0, "radar|plots|tracks|in common|range bias m|sigma|azimuth bias "
-                                     "deg|sigma|time bias s|sigma");
+    struct text_table table =
+        text_table_start(0, "radar|plots|tracks|in common|range bias m|sigma|azimuth bias "
+                            "deg|sigma|time bias s|sigma");
 
     for (size_t i = 0; i < result->num_radars; i++) {
-        put_row(&grid, result, i);
+        put_bias_row(&table, result, i);
     }
-    grid_print(&grid, out);
+    text_table_print(&table, out);
     fprintf(out,
             "\n%zu targets in common, %zu plots in %zu segments of their paths (%zu more left out "
             "as no "
@@ -100,13 +103,13 @@ void register_print(const struct register_result *result, FILE *out)
             "the time of radar %d counts as right: plots tell differences of time alone; azimuths "
             "counter-clockwise\n",
             (int)result->radars[result->reference].sensor_id);
-    print_unknown(result, out);
-    grid_free(&grid);
+    print_unknown_biases(result, out);
+    text_table_free(&table);
 }
 
 /* ---- JSON ---- */
 
-static cJSON *radar_json(const struct register_result *result, size_t radar)
+static cJSON *radar_biases_json(const struct register_result *result, size_t radar)
 {
     const struct register_radar *of = &result->radars[radar];
     cJSON *object = cJSON_CreateObject();
@@ -131,7 +134,7 @@ void register_print_json(const struct register_result *result, uint64_t rows_ski
     cJSON *object = cJSON_CreateObject(), *radars = cJSON_AddArrayToObject(object, "radars");
 
     for (size_t i = 0; i < result->num_radars; i++) {
-        cJSON_AddItemToArray(radars, radar_json(result, i));
+        cJSON_AddItemToArray(radars, radar_biases_json(result, i));
     }
     cJSON_AddNumberToObject(object, "reference_sensor",
                             result->radars[result->reference].sensor_id);

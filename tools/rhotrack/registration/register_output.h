@@ -17,6 +17,6 @@ void register_print_json(const struct register_result *result, uint64_t rows_ski
 void register_write_ini(const struct register_result *result, const char *path);
 
 /* Is any bias of any radar known? */
-bool register_knows_any(const struct register_result *result);
+bool register_knows_any_bias(const struct register_result *result);
 
 #endif

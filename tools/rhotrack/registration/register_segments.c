@@ -28,13 +28,13 @@ static int by_time(const void *a, const void *b)
     return (one->plot > other->plot) - (one->plot < other->plot);
 }
 
-static void add_track(const struct register_data *data, const struct radar_track *track,
-                      struct segments *segments)
+static void add_track_plots(const struct register_data *data, const struct radar_track *track,
+                            struct segments *segments)
 {
     const struct radar_data *radar = &data->radars[track->radar];
 
     for (size_t i = 0; i < track->count; i++) {
-        struct corrected at = register_correct(data, radar, &radar->plots[track->plots[i]]);
+        struct corrected at = register_correct_plot(data, radar, &radar->plots[track->plots[i]]);
 
         segments->plots = must_grow(segments->plots, segments->num_plots, &segments->plots_room,
                                     sizeof *segments->plots);
@@ -44,8 +44,8 @@ static void add_track(const struct register_data *data, const struct radar_track
 }
 
 /* Do enough radars have enough plots here to say anything of biases? */
-static bool is_common(const struct register_data *data, const struct segments *segments,
-                      const struct segment *segment)
+static bool has_enough_radars(const struct register_data *data, const struct segments *segments,
+                              const struct segment *segment)
 {
     size_t enough = 0;
 
@@ -61,7 +61,8 @@ static bool is_common(const struct register_data *data, const struct segments *s
 }
 
 /* The plots of one target, from `first` on. */
-static void cut(const struct register_data *data, struct segments *segments, size_t first)
+static void cut_target_path(const struct register_data *data, struct segments *segments,
+                            size_t first)
 {
     const struct segment_plot *plots = segments->plots;
 
@@ -74,7 +75,7 @@ static void cut(const struct register_data *data, struct segments *segments, siz
             first++;
         }
         segment.count = first - segment.first;
-        if (is_common(data, segments, &segment)) {
+        if (has_enough_radars(data, segments, &segment)) {
             segments->segments = must_grow(segments->segments, segments->num_segments,
                                            &segments->segments_room, sizeof *segments->segments);
             segments->segments[segments->num_segments++] = segment;
@@ -82,7 +83,7 @@ static void cut(const struct register_data *data, struct segments *segments, siz
     }
 }
 
-struct segments segments_cut(const struct register_data *data)
+struct segments segments_cut_paths(const struct register_data *data)
 {
     struct segments segments = {0};
 
@@ -91,11 +92,11 @@ struct segments segments_cut(const struct register_data *data)
 
         for (size_t i = target; i < data->num_tracks; i++) {
             if (data->tracks[i].target == target) {
-                add_track(data, &data->tracks[i], &segments);
+                add_track_plots(data, &data->tracks[i], &segments);
             }
         }
         if (segments.num_plots > first) {
-            cut(data, &segments, first);
+            cut_target_path(data, &segments, first);
         }
     }
     return segments;
@@ -107,7 +108,7 @@ void segments_free(struct segments *segments)
     free(segments->plots);
 }
 
-double segment_freedom(const struct segment *segment)
+double segment_degrees_of_freedom(const struct segment *segment)
 {
     return 2.0 * (double)segment->count - SEGMENT_COEFFICIENTS;
 }
@@ -122,12 +123,12 @@ struct opened {
     double reach; /* metres across for a radian, over sigma */
 };
 
-static struct opened open_plot(const struct register_data *data, const struct segment *segment,
-                               const struct segment_plot *plot)
+static struct opened prepare_plot(const struct register_data *data, const struct segment *segment,
+                                  const struct segment_plot *plot)
 {
     const struct radar_data *radar = &data->radars[plot->radar];
     const struct radar_plot *measured = &radar->plots[plot->plot];
-    struct opened opened = {.at = register_correct(data, radar, measured)};
+    struct opened opened = {.at = register_correct_plot(data, radar, measured)};
     double u = (opened.at.t_s - segment->middle_s) / (SEGMENT_S / 2.0);
 
     opened.unit[0][0] = opened.at.cos_azimuth / measured->sigma_range_m;
@@ -144,7 +145,8 @@ static struct opened open_plot(const struct register_data *data, const struct se
 }
 
 /* By how much the parabola's value changes with each coefficient, in the row's sigmas. */
-static void row_of(const struct opened *opened, int row, double values[SEGMENT_COEFFICIENTS])
+static void coefficient_row(const struct opened *opened, int row,
+                            double values[SEGMENT_COEFFICIENTS])
 {
     for (int k = 0; k < SEGMENT_TERMS; k++) {
         values[k] = opened->unit[row][0] * opened->basis[k];
@@ -152,7 +154,7 @@ static void row_of(const struct opened *opened, int row, double values[SEGMENT_C
     }
 }
 
-static double measured_at(const struct opened *opened, int row)
+static double measured_value(const struct opened *opened, int row)
 {
     return opened->unit[row][0] * opened->at.x_m + opened->unit[row][1] * opened->at.y_m;
 }
@@ -161,7 +163,7 @@ static double measured_at(const struct opened *opened, int row)
  * The place is large beside what is looked for: taken from the segment's first plot, not to lose
  * digits.
  */
-static void take_from(struct opened *opened, const struct corrected *from)
+static void shift_origin_to(struct opened *opened, const struct corrected *from)
 {
     opened->at.x_m -= from->x_m;
     opened->at.y_m -= from->y_m;
@@ -176,9 +178,9 @@ static bool fit_coefficients(const struct opened *opened, const struct segment_p
     memset(segment->coefficients, 0, sizeof segment->coefficients);
     for (size_t i = 0; i < segment->count; i++) {
         for (int row = 0; row < 2; row++) {
-            double values[SEGMENT_COEFFICIENTS], value = measured_at(&opened[i], row);
+            double values[SEGMENT_COEFFICIENTS], value = measured_value(&opened[i], row);
 
-            row_of(&opened[i], row, values);
+            coefficient_row(&opened[i], row, values);
             for (int j = 0; j < SEGMENT_COEFFICIENTS; j++) {
                 segment->coefficients[j] += plots[i].weight * values[j] * value;
                 for (int k = 0; k < SEGMENT_COEFFICIENTS; k++) {
@@ -194,7 +196,8 @@ static bool fit_coefficients(const struct opened *opened, const struct segment_p
     return true;
 }
 
-static void velocity_of(const struct segment *segment, const struct opened *opened, double v_mps[2])
+static void path_velocity(const struct segment *segment, const struct opened *opened,
+                          double v_mps[2])
 {
     for (int axis = 0; axis < 2; axis++) {
         v_mps[axis] = 0.0;
@@ -205,23 +208,23 @@ static void velocity_of(const struct segment *segment, const struct opened *open
 }
 
 /* How a plot's row changes with its radar's biases. */
-static void bias_row_of(const struct segment *segment, const struct opened *opened, int row,
-                        double values[NUM_REGISTER_KINDS])
+static void bias_row(const struct segment *segment, const struct opened *opened, int row,
+                     double values[NUM_REGISTER_KINDS])
 {
     double v_mps[2];
 
-    velocity_of(segment, opened, v_mps);
+    path_velocity(segment, opened, v_mps);
     values[REGISTER_RANGE] =
         row == 0 ? -hypot(opened->unit[0][0], opened->unit[0][1]) : 0.0; /* -1 / sigma */
     values[REGISTER_AZIMUTH] = row == 1 ? -opened->reach : 0.0;
     values[REGISTER_TIME] = opened->unit[row][0] * v_mps[0] + opened->unit[row][1] * v_mps[1];
 }
 
-static double residual(const struct segment *segment, const struct opened *opened, int row)
+static double row_residual(const struct segment *segment, const struct opened *opened, int row)
 {
-    double values[SEGMENT_COEFFICIENTS], off = measured_at(opened, row);
+    double values[SEGMENT_COEFFICIENTS], off = measured_value(opened, row);
 
-    row_of(opened, row, values);
+    coefficient_row(opened, row, values);
     for (int k = 0; k < SEGMENT_COEFFICIENTS; k++) {
         off -= values[k] * segment->coefficients[k];
     }
@@ -232,9 +235,9 @@ static double residual(const struct segment *segment, const struct opened *opene
  * Adds a segment's normal equations: B'B - B'A (A'A)^-1 A'B of all biases, and -B'e. `mixed` is
  * A'B, a column for each bias.
  */
-static void add_projected(const struct segment_plot *plots, const struct opened *opened,
-                          const struct segment *segment, const double *factor, double *mixed,
-                          struct normal *normal)
+static void add_bias_equations(const struct segment_plot *plots, const struct opened *opened,
+                               const struct segment *segment, const double *factor, double *mixed,
+                               struct normal *normal)
 {
     size_t num = normal->num;
 
@@ -244,10 +247,10 @@ static void add_projected(const struct segment_plot *plots, const struct opened 
 
         for (int row = 0; row < 2; row++) {
             double values[SEGMENT_COEFFICIENTS], biases[NUM_REGISTER_KINDS];
-            double off = residual(segment, &opened[i], row);
+            double off = row_residual(segment, &opened[i], row);
 
-            row_of(&opened[i], row, values);
-            bias_row_of(segment, &opened[i], row, biases);
+            coefficient_row(&opened[i], row, values);
+            bias_row(segment, &opened[i], row, biases);
             for (size_t j = 0; j < NUM_REGISTER_KINDS; j++) {
                 double weighted = plots[i].weight * biases[j];
 
@@ -263,7 +266,7 @@ static void add_projected(const struct segment_plot *plots, const struct opened 
     }
     /* with the factor L: |L^-1 A'B| squared */
     for (size_t j = 0; j < num; j++) {
-        cholesky_forward(factor, SEGMENT_COEFFICIENTS, &mixed[j * SEGMENT_COEFFICIENTS]);
+        cholesky_solve_lower(factor, SEGMENT_COEFFICIENTS, &mixed[j * SEGMENT_COEFFICIENTS]);
     }
     for (size_t j = 0; j < num; j++) {
         for (size_t k = 0; k < num; k++) {
@@ -275,11 +278,13 @@ static void add_projected(const struct segment_plot *plots, const struct opened 
     }
 }
 
-static void weigh(struct segment_plot *plots, const struct opened *opened, struct segment *segment)
+static void weigh_plots(struct segment_plot *plots, const struct opened *opened,
+                        struct segment *segment)
 {
     segment->chi2 = 0.0;
     for (size_t i = 0; i < segment->count; i++) {
-        double d = hypot(residual(segment, &opened[i], 0), residual(segment, &opened[i], 1));
+        double d =
+            hypot(row_residual(segment, &opened[i], 0), row_residual(segment, &opened[i], 1));
 
         plots[i].weight = d > FAR_SIGMAS ? FAR_SIGMAS / d : 1.0;
         segment->chi2 += plots[i].weight * d * d;
@@ -296,25 +301,25 @@ bool segment_fit(const struct register_data *data, struct segments *segments,
     bool is_fitted;
 
     for (size_t i = 0; i < segment->count; i++) {
-        opened[i] = open_plot(data, segment, &plots[i]);
+        opened[i] = prepare_plot(data, segment, &plots[i]);
     }
     from = opened[0].at;
     for (size_t i = 0; i < segment->count; i++) {
-        take_from(&opened[i], &from);
+        shift_origin_to(&opened[i], &from);
     }
     is_fitted = fit_coefficients(opened, plots, segment, factor);
     if (is_fitted) {
         if (normal) {
             double *mixed = must_calloc(normal->num * SEGMENT_COEFFICIENTS, sizeof *mixed);
 
-            add_projected(plots, opened, segment, factor, mixed, normal);
+            add_bias_equations(plots, opened, segment, factor, mixed, normal);
             free(mixed);
         }
         double v_mps[2];
 
-        velocity_of(segment, &opened[segment->count / 2], v_mps);
+        path_velocity(segment, &opened[segment->count / 2], v_mps);
         segment->speed_mps = hypot(v_mps[0], v_mps[1]);
-        weigh(plots, opened, segment);
+        weigh_plots(plots, opened, segment);
     }
     free(opened);
     return is_fitted;

@@ -34,11 +34,11 @@ struct segments {
     struct segment_plot *plots;
 };
 
-struct segments segments_cut(const struct register_data *data);
+struct segments segments_cut_paths(const struct register_data *data);
 void segments_free(struct segments *segments);
 
 /* The remaining degrees of freedom of a segment. */
-double segment_freedom(const struct segment *segment);
+double segment_degrees_of_freedom(const struct segment *segment);
 
 /* Normal equations of all radars' biases: num = NUM_REGISTER_KINDS x radars, the matrix by rows. */
 struct normal {

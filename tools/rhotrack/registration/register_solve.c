@@ -36,7 +36,7 @@ static void free_normal(struct normal *normal)
 }
 
 /* Holds a bias at its value by an equation of its own. */
-static void hold(struct normal *normal, size_t index)
+static void hold_bias(struct normal *normal, size_t index)
 {
     for (size_t i = 0; i < normal->num; i++) {
         normal->matrix[index * normal->num + i] = normal->matrix[i * normal->num + index] = 0.0;
@@ -64,7 +64,7 @@ static void finish_normal(const struct register_data *data, size_t reference, st
                 unit[i % NUM_REGISTER_KINDS] * unit[j % NUM_REGISTER_KINDS];
         }
     }
-    hold(normal, reference * NUM_REGISTER_KINDS + REGISTER_TIME);
+    hold_bias(normal, reference * NUM_REGISTER_KINDS + REGISTER_TIME);
     if (!cholesky_factor(normal->matrix, num)) {
         fail(EXIT_RUNTIME, "register: the normal equations of the biases cannot be solved");
     }
@@ -85,8 +85,8 @@ static void add_segments(const struct register_data *data, struct segments *segm
 }
 
 /* Gauss-Newton, with the weights going along. The normal equations of the last step stay. */
-static void iterate(struct register_data *data, struct segments *segments, size_t reference,
-                    struct normal *normal)
+static void iterate_biases(struct register_data *data, struct segments *segments, size_t reference,
+                           struct normal *normal)
 {
     for (int i = 0; i < STEPS_MAX; i++) {
         double largest = 0.0;
@@ -115,15 +115,19 @@ static int by_size(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-/* The median of chi-square over its degrees of freedom: what leaves out does not decide it. */
-static double usual_misfit(const struct segments *segments)
+/*
+ * The median of chi-square over its degrees of freedom, which segments that are no parabolas hardly
+ * move.
+ */
+static double median_misfit(const struct segments *segments)
 {
     double *ratios = must_calloc(segments->num_segments + 1, sizeof *ratios), median = 1.0;
     size_t count = 0;
 
     for (size_t i = 0; i < segments->num_segments; i++) {
         if (!segments->segments[i].is_left_out) {
-            ratios[count++] = segments->segments[i].chi2 / segment_freedom(&segments->segments[i]);
+            ratios[count++] =
+                segments->segments[i].chi2 / segment_degrees_of_freedom(&segments->segments[i]);
         }
     }
     if (count > 0) {
@@ -135,14 +139,14 @@ static double usual_misfit(const struct segments *segments)
 }
 
 /* True where any segment was left out that was not before. */
-static bool leave_out(struct segments *segments)
+static bool leave_out_misfits(struct segments *segments)
 {
-    double usual = usual_misfit(segments);
+    double usual = median_misfit(segments);
     bool is_changed = false;
 
     for (size_t i = 0; i < segments->num_segments; i++) {
         struct segment *segment = &segments->segments[i];
-        double freedom = segment_freedom(segment);
+        double freedom = segment_degrees_of_freedom(segment);
 
         if (!segment->is_left_out &&
             segment->chi2 > usual * (freedom + MISFIT_SIGMAS * sqrt(2.0 * freedom))) {
@@ -169,7 +173,7 @@ static void count_segments(const struct segments *segments, struct solution *sol
         solution->plots += segment->count;
         solution->speed_mps += segment->speed_mps;
         chi2 += segment->chi2;
-        freedom += segment_freedom(segment);
+        freedom += segment_degrees_of_freedom(segment);
         for (size_t j = 0; j < segment->count; j++) {
             solution->radar_plots[segments->plots[segment->first + j].radar]++;
         }
@@ -178,16 +182,16 @@ static void count_segments(const struct segments *segments, struct solution *sol
     solution->misfit = freedom > 0.0 ? sqrt(chi2 / freedom) : 1.0;
 }
 
-struct solution register_solve(struct register_data *data, size_t reference)
+struct solution register_solve_biases(struct register_data *data, size_t reference)
 {
-    struct segments segments = segments_cut(data);
+    struct segments segments = segments_cut_paths(data);
     struct normal normal = start_normal(data);
     struct solution solution = {0};
     double *work = must_calloc(normal.num, sizeof *work);
 
     for (int pass = 0; pass < PASSES_MAX; pass++) {
-        iterate(data, &segments, reference, &normal);
-        if (!leave_out(&segments)) {
+        iterate_biases(data, &segments, reference, &normal);
+        if (!leave_out_misfits(&segments)) {
             break;
         }
     }

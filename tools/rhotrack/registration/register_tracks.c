@@ -11,7 +11,7 @@
 
 /* ---- turns ---- */
 
-static double width_rad(const struct radar_scan *scan)
+static double sector_width_rad(const struct radar_scan *scan)
 {
     double width = fmod(scan->to_rad - scan->from_rad, TURN_RAD);
 
@@ -19,7 +19,7 @@ static double width_rad(const struct radar_scan *scan)
     return width < SAME_RAD ? TURN_RAD : width;
 }
 
-static bool begins_with(const struct radar_scan *scan, const struct radar_scan *other)
+static bool begins_with_same_sector(const struct radar_scan *scan, const struct radar_scan *other)
 {
     return fabs(remainder(scan->from_rad - other->from_rad, TURN_RAD)) < SAME_RAD;
 }
@@ -28,8 +28,8 @@ static bool begins_with(const struct radar_scan *scan, const struct radar_scan *
  * The plots of scans first .. end - 1, as one scan, for the tracker. Those beyond RHO_MAX_PLOTS are
  * left out.
  */
-static struct rho_scan turn_of(const struct radar_data *radar, size_t first, size_t end,
-                               size_t *rows, struct rho_plot *plots)
+static struct rho_scan turn_as_scan(const struct radar_data *radar, size_t first, size_t end,
+                                    size_t *rows, struct rho_plot *plots)
 {
     const struct radar_scan *last = &radar->scans[end - 1];
     struct rho_scan turn = {
@@ -60,13 +60,13 @@ static struct rho_scan turn_of(const struct radar_data *radar, size_t first, siz
 size_t register_turn_end(const struct radar_data *radar, size_t first)
 {
     const struct radar_scan *scans = radar->scans;
-    double turned_rad = width_rad(&scans[first]);
+    double turned_rad = sector_width_rad(&scans[first]);
     size_t end = first + 1;
 
     while (end < radar->num_scans && turned_rad < TURN_RAD - SAME_RAD &&
-           !begins_with(&scans[end], &scans[first]) &&
+           !begins_with_same_sector(&scans[end], &scans[first]) &&
            scans[end].time_us - scans[first].time_us < RHO_LIMIT_OFFSET_US / 2) {
-        turned_rad += width_rad(&scans[end++]);
+        turned_rad += sector_width_rad(&scans[end++]);
     }
     return end;
 }
@@ -98,7 +98,8 @@ static struct followed *followed_of(struct following *all, uint32_t track_id)
     return &all->ids[all->num_ids++];
 }
 
-static void follow(struct following *all, const struct rho_report *report, const size_t *rows)
+static void note_reported_tracks(struct following *all, const struct rho_report *report,
+                                 const size_t *rows)
 {
     for (unsigned i = 0; i < report->num_tracks; i++) {
         const struct rho_track_report *from = &report->tracks[i];
@@ -117,7 +118,7 @@ static void follow(struct following *all, const struct rho_report *report, const
 }
 
 /* Keeps the confirmed ones. */
-static void keep_tracks(struct following *all)
+static void keep_confirmed_tracks(struct following *all)
 {
     struct register_data *data = all->data;
 
@@ -143,7 +144,7 @@ static int by_time(const void *a, const void *b)
     return (one->first > other->first) - (one->first < other->first);
 }
 
-void register_track_one(struct register_data *data, size_t number, struct pipeline *pipeline)
+void register_track_one_radar(struct register_data *data, size_t number, struct pipeline *pipeline)
 {
     struct radar_data *radar = &data->radars[number];
     struct following all = {.data = data, .radar = number};
@@ -156,19 +157,19 @@ void register_track_one(struct register_data *data, size_t number, struct pipeli
     must_succeed(rho_tracker_set_sensor(pipeline->tracker, &radar->sensor), "sensor");
     for (size_t first = 0; first < radar->num_scans;) {
         size_t end = register_turn_end(radar, first);
-        struct rho_scan turn = turn_of(radar, first, end, rows, pipeline->plots);
+        struct rho_scan turn = turn_as_scan(radar, first, end, rows, pipeline->plots);
 
         pipeline_step(pipeline, &turn);
-        follow(&all, pipeline->report, rows);
+        note_reported_tracks(&all, pipeline->report, rows);
         first = end;
     }
-    keep_tracks(&all);
+    keep_confirmed_tracks(&all);
     free(rows);
 }
 
-void register_track_all(struct register_data *data, struct pipeline *pipeline)
+void register_track_all_radars(struct register_data *data, struct pipeline *pipeline)
 {
     for (size_t i = 0; i < data->num_radars; i++) {
-        register_track_one(data, i, pipeline);
+        register_track_one_radar(data, i, pipeline);
     }
 }

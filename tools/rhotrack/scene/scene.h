@@ -4,7 +4,7 @@
  * the format).
  *
  * Places are in metres, x east, y north; angles counter-clockwise from +x; times in seconds from
- * the scene's start. Everything has a stream of random numbers of its own (scene_stream.h): other
+ * the scene's start. Everything has a stream of random numbers of its own (scene_random.h): other
  * clutter does not change the targets, nor another target the rest.
  */
 #ifndef RHOTRACK_TOOL_SCENE_H

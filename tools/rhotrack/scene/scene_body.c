@@ -6,21 +6,21 @@ struct scene_body scene_body_read(struct json_object *object)
     struct scene_body body = {.scatterers = 0};
     struct json_object one;
 
-    if (!json_below(object, "body", &one)) {
+    if (!json_read_object(object, "body", &one)) {
         return body;
     }
-    json_require(&one, "length_m");
-    json_require(&one, "width_m");
-    json_require(&one, "scatterers");
-    body.length_m = json_number(&one, "length_m", 0.01, 1e4, 0);
-    body.width_m = json_number(&one, "width_m", 0.01, 1e4, 0);
-    body.scatterers = json_count(&one, "scatterers", 1, SCENE_SCATTERERS_MAX, 0);
-    body.seen = json_number(&one, "seen", 0, 1, 0.9);
-    body.is_anew = json_flag(&one, "is_anew", false);
+    json_require_key(&one, "length_m");
+    json_require_key(&one, "width_m");
+    json_require_key(&one, "scatterers");
+    body.length_m = json_read_number(&one, "length_m", 0.01, 1e4, 0);
+    body.width_m = json_read_number(&one, "width_m", 0.01, 1e4, 0);
+    body.scatterers = json_read_count(&one, "scatterers", 1, SCENE_SCATTERERS_MAX, 0);
+    body.seen = json_read_number(&one, "seen", 0, 1, 0.9);
+    body.is_anew = json_read_flag(&one, "is_anew", false);
     if (body.width_m > body.length_m) {
         json_fail_key(&one, "width_m", "is more than length_m");
     }
-    json_end(&one);
+    json_refuse_unknown_keys(&one);
     return body;
 }
 

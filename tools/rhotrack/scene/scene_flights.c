@@ -40,7 +40,7 @@ struct sky {
     bool is_over;
 };
 
-static double draw(struct sky *sky, double lo, double hi)
+static double draw_number(struct sky *sky, double lo, double hi)
 {
     return random_between(sky->random, lo, hi);
 }
@@ -54,7 +54,7 @@ static bool is_inside(const struct sky *sky, double x_m, double y_m)
 
 static bool is_inside_at(const struct sky *sky, double t_s)
 {
-    struct motion at = path_at(&sky->draft, t_s);
+    struct motion at = path_motion_at(&sky->draft, t_s);
 
     return is_inside(sky, at.x_m, at.y_m);
 }
@@ -66,7 +66,7 @@ static void open_flight(struct sky *sky, double start_s, double x_m, double y_m,
 {
     path_free(&sky->draft);
     sky->draft = (struct scene_path){.from_s = start_s, .until_s = start_s};
-    path_begin(&sky->draft, x_m, y_m, speed_mps, heading_rad);
+    path_begin_first_leg(&sky->draft, x_m, y_m, speed_mps, heading_rad);
     sky->is_over = false;
 }
 
@@ -74,14 +74,14 @@ static void open_flight(struct sky *sky, double start_s, double x_m, double y_m,
  * One leg more, as far as the border. The area is convex: a straight leg that ends inside is
  * inside.
  */
-static void fly(struct sky *sky, double duration_s, double turn_radps, double accel_mps2)
+static void fly_leg(struct sky *sky, double duration_s, double turn_radps, double accel_mps2)
 {
     double from_s = sky->draft.until_s, end_s = from_s + duration_s;
 
     if (sky->is_over) {
         return;
     }
-    path_go_on(&sky->draft, from_s, accel_mps2, turn_radps);
+    path_begin_next_leg(&sky->draft, from_s, accel_mps2, turn_radps);
     sky->draft.until_s = end_s;
     if (fabs(turn_radps) > 0.0 || !is_inside_at(sky, end_s)) {
         double last_s = from_s;
@@ -96,69 +96,70 @@ static void fly(struct sky *sky, double duration_s, double turn_radps, double ac
 
 static void fly_straight(struct sky *sky, double duration_s)
 {
-    fly(sky, duration_s, 0.0, 0.0);
+    fly_leg(sky, duration_s, 0.0, 0.0);
 }
 
 static void reach_speed(struct sky *sky, double speed_mps)
 {
     double change_mps = speed_mps - path_speed_mps(&sky->draft, sky->draft.until_s);
-    double accel_mps2 = draw(sky, ACCEL_MIN_MPS2, ACCEL_MAX_MPS2);
+    double accel_mps2 = draw_number(sky, ACCEL_MIN_MPS2, ACCEL_MAX_MPS2);
 
-    fly(sky, fabs(change_mps) / accel_mps2, 0.0, change_mps < 0.0 ? -accel_mps2 : accel_mps2);
+    fly_leg(sky, fabs(change_mps) / accel_mps2, 0.0, change_mps < 0.0 ? -accel_mps2 : accel_mps2);
 }
 
-static double turn_rate(struct sky *sky)
+static double draw_turn_rate(struct sky *sky)
 {
     double speed_mps = path_speed_mps(&sky->draft, sky->draft.until_s);
-    double rate_radps = draw(sky, TURN_MIN_RADPS, fmin(TURN_MAX_RADPS, TURN_MAX_MPS2 / speed_mps));
+    double rate_radps =
+        draw_number(sky, TURN_MIN_RADPS, fmin(TURN_MAX_RADPS, TURN_MAX_MPS2 / speed_mps));
 
     return random_below(sky->random, 2) == 0 ? rate_radps : -rate_radps;
 }
 
 /* Small turns are more common than large ones. */
-static void turn(struct sky *sky)
+static void fly_turn(struct sky *sky)
 {
     double share = random_uniform(sky->random);
     double angle_rad = (10.0 + 170.0 * share * share) * DEG_RAD;
-    double rate_radps = turn_rate(sky);
+    double rate_radps = draw_turn_rate(sky);
 
-    fly(sky, angle_rad / fabs(rate_radps), rate_radps, 0.0);
+    fly_leg(sky, angle_rad / fabs(rate_radps), rate_radps, 0.0);
 }
 
 /* One to three rounds of a race track, slowly. */
-static void hold(struct sky *sky)
+static void fly_holding(struct sky *sky)
 {
     double rate_radps;
     uint64_t halves;
 
-    reach_speed(sky, draw(sky, HOLD_MIN_MPS, HOLD_MAX_MPS));
-    rate_radps = turn_rate(sky);
+    reach_speed(sky, draw_number(sky, HOLD_MIN_MPS, HOLD_MAX_MPS));
+    rate_radps = draw_turn_rate(sky);
     halves = 2 * (1 + random_below(sky->random, 3));
     for (uint64_t i = 0; i < halves; i++) {
-        fly(sky, PORTABLE_PI / fabs(rate_radps), rate_radps, 0.0);
+        fly_leg(sky, PORTABLE_PI / fabs(rate_radps), rate_radps, 0.0);
         fly_straight(sky, 60.0);
     }
-    reach_speed(sky, draw(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
+    reach_speed(sky, draw_number(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
 }
 
-static double age_s(const struct sky *sky)
+static double flight_age_s(const struct sky *sky)
 {
     return sky->draft.until_s - sky->draft.from_s;
 }
 
-static void fly_on(struct sky *sky)
+static void fly_next_manoeuvre(struct sky *sky)
 {
     double what;
 
-    fly_straight(sky, draw(sky, 60.0, 300.0));
+    fly_straight(sky, draw_number(sky, 60.0, 300.0));
     what = random_uniform(sky->random);
     if (what < 0.5) {
-        turn(sky);
+        fly_turn(sky);
     } else if (what < 0.65) {
-        reach_speed(sky, draw(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
+        reach_speed(sky, draw_number(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
     } else if (what < 0.8) {
-        hold(sky);
-    } else if (age_s(sky) > 0.6 * sky->item->flights_least) {
+        fly_holding(sky);
+    } else if (flight_age_s(sky) > 0.6 * sky->item->flights_least) {
         reach_speed(sky, GROUND_MPS);
         sky->is_over = true;
     }
@@ -167,13 +168,13 @@ static void fly_on(struct sky *sky)
 /* ---- how flights begin ---- */
 
 /* Anywhere on the border, within 60 degrees of straight in. */
-static void enter(struct sky *sky, double start_s)
+static void enter_over_border(struct sky *sky, double start_s)
 {
     const double *box_m = sky->item->box_m;
     double width_m = box_m[1] - box_m[0], height_m = box_m[3] - box_m[2];
-    double on_m = draw(sky, 0.0, 2.0 * (width_m + height_m));
-    double speed_mps = draw(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS);
-    double heading_rad = draw(sky, -60.0, 60.0) * DEG_RAD;
+    double on_m = draw_number(sky, 0.0, 2.0 * (width_m + height_m));
+    double speed_mps = draw_number(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS);
+    double heading_rad = draw_number(sky, -60.0, 60.0) * DEG_RAD;
 
     if (on_m < 2.0 * width_m) {
         bool is_low = on_m < width_m;
@@ -193,10 +194,10 @@ static void enter(struct sky *sky, double start_s)
 static void take_off(struct sky *sky, double start_s)
 {
     const double *box_m = sky->item->box_m;
-    double x_m = draw(sky, box_m[0], box_m[1]), y_m = draw(sky, box_m[2], box_m[3]);
+    double x_m = draw_number(sky, box_m[0], box_m[1]), y_m = draw_number(sky, box_m[2], box_m[3]);
 
-    open_flight(sky, start_s, x_m, y_m, GROUND_MPS, draw(sky, -PORTABLE_PI, PORTABLE_PI));
-    reach_speed(sky, draw(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
+    open_flight(sky, start_s, x_m, y_m, GROUND_MPS, draw_number(sky, -PORTABLE_PI, PORTABLE_PI));
+    reach_speed(sky, draw_number(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS));
 }
 
 /*
@@ -205,18 +206,19 @@ static void take_off(struct sky *sky, double start_s)
  */
 static bool take_off_towards(struct sky *sky, double start_s, const struct scene_path *other)
 {
-    double span_s = draw(sky, 240.0, 400.0), cruise_mps = draw(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS);
-    double accel_mps2 = (cruise_mps - GROUND_MPS) / draw(sky, 160.0, 200.0);
+    double span_s = draw_number(sky, 240.0, 400.0),
+           cruise_mps = draw_number(sky, CRUISE_MIN_MPS, CRUISE_MAX_MPS);
+    double accel_mps2 = (cruise_mps - GROUND_MPS) / draw_number(sky, 160.0, 200.0);
     double climb_s = (cruise_mps - GROUND_MPS) / accel_mps2;
     double path_m = cruise_mps * span_s - 0.5 * (cruise_mps - GROUND_MPS) * climb_s;
     double side_rad = random_below(sky->random, 2) == 0 ? DEG_RAD : -DEG_RAD;
-    double angle_rad = side_rad * draw(sky, 10.0, 90.0), heading_rad, x_m, y_m;
+    double angle_rad = side_rad * draw_number(sky, 10.0, 90.0), heading_rad, x_m, y_m;
     struct motion meeting;
 
     if (other->num_legs == 0 || other->until_s < start_s + span_s + 60.0) {
         return false;
     }
-    meeting = path_at(other, start_s + span_s);
+    meeting = path_motion_at(other, start_s + span_s);
     heading_rad = portable_atan2(meeting.vy_mps, meeting.vx_mps) + angle_rad;
     x_m = meeting.x_m - path_m * portable_cos(heading_rad) + 100.0 * random_normal(sky->random);
     y_m = meeting.y_m - path_m * portable_sin(heading_rad) + 100.0 * random_normal(sky->random);
@@ -224,14 +226,14 @@ static bool take_off_towards(struct sky *sky, double start_s, const struct scene
         return false;
     }
     open_flight(sky, start_s, x_m, y_m, GROUND_MPS, heading_rad);
-    fly(sky, climb_s, 0.0, accel_mps2);
+    fly_leg(sky, climb_s, 0.0, accel_mps2);
     fly_straight(sky, span_s - climb_s + 60.0);
     return true;
 }
 
 /* ---- all flights ---- */
 
-static void begin(struct sky *sky, double start_s)
+static void begin_flight(struct sky *sky, double start_s)
 {
     double how = random_uniform(sky->random);
 
@@ -242,7 +244,7 @@ static void begin(struct sky *sky, double start_s)
         }
     }
     if (random_uniform(sky->random) < 0.6) {
-        enter(sky, start_s);
+        enter_over_border(sky, start_s);
     } else {
         take_off(sky, start_s);
     }
@@ -251,11 +253,11 @@ static void begin(struct sky *sky, double start_s)
 static void draw_flight(struct sky *sky, const struct target_draft *draft, double start_s)
 {
     for (int i = 0; i < DRAFTS_MAX; i++) {
-        begin(sky, start_s);
+        begin_flight(sky, start_s);
         while (!sky->is_over) {
-            fly_on(sky);
+            fly_next_manoeuvre(sky);
         }
-        if (age_s(sky) >= sky->item->flights_least) {
+        if (flight_age_s(sky) >= sky->item->flights_least) {
             sky->draft.item = draft->index;
             return;
         }
@@ -267,7 +269,7 @@ static void draw_flight(struct sky *sky, const struct target_draft *draft, doubl
 }
 
 /* The one that ends first. */
-static struct scene_path *next_slot(const struct sky *sky)
+static struct scene_path *first_ending_slot(const struct sky *sky)
 {
     struct scene_path *best = sky->slots;
 
@@ -278,7 +280,7 @@ static struct scene_path *next_slot(const struct sky *sky)
 }
 
 /* Flights that ended before the scene are not kept. */
-static void close_flight(struct scene_path *flight)
+static void drop_flight_before_start(struct scene_path *flight)
 {
     if (!(flight->until_s > 0.0)) {
         path_free(flight);
@@ -295,15 +297,16 @@ void flights_draw(const struct target_draft *draft, struct scene_paths *paths,
     struct scene_path *slot;
 
     for (size_t i = 0; i < draft->item->flights; i++) {
-        sky.slots[i].until_s = -draw(&sky, BEFORE_MIN_S, BEFORE_MAX_S);
+        sky.slots[i].until_s = -draw_number(&sky, BEFORE_MIN_S, BEFORE_MAX_S);
     }
-    for (slot = next_slot(&sky); slot->until_s <= draft->duration_s; slot = next_slot(&sky)) {
+    for (slot = first_ending_slot(&sky); slot->until_s <= draft->duration_s;
+         slot = first_ending_slot(&sky)) {
         draw_flight(&sky, draft, slot->until_s);
-        close_flight(slot);
+        drop_flight_before_start(slot);
         *slot = sky.draft;
         sky.draft = (struct scene_path){.num_legs = 0};
         if (slot->until_s > 0.0) {
-            paths_keep(paths, *slot);
+            paths_add(paths, *slot);
         }
     }
     free(sky.slots);

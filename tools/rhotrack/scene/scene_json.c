@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/hint.h"
+#include "base/name_hint.h"
 
 #define PLACE_BYTES 256
 #define DEPTH_MAX 16
@@ -63,7 +63,8 @@ static const char *skip_value(const char *at)
 }
 
 /* From the whole file down to a place. */
-static size_t chain_to(const struct json_place *place, const struct json_place *chain[DEPTH_MAX])
+static size_t places_down_to(const struct json_place *place,
+                             const struct json_place *chain[DEPTH_MAX])
 {
     size_t count = 0;
 
@@ -107,10 +108,10 @@ static const char *find_member(const char *at, const struct json_place *place)
     return NULL;
 }
 
-static const char *find_place(const struct json_place *place)
+static const char *find_place_in_text(const struct json_place *place)
 {
     const struct json_place *chain[DEPTH_MAX];
-    size_t count = chain_to(place, chain);
+    size_t count = places_down_to(place, chain);
     const char *at = skip_space(place->file->text);
 
     for (size_t i = 0; i < count; i++) {
@@ -129,7 +130,7 @@ static const char *find_place(const struct json_place *place)
     return at;
 }
 
-static size_t line_of(const char *text, const char *at)
+static size_t line_number_at(const char *text, const char *at)
 {
     size_t line = 1;
 
@@ -144,7 +145,7 @@ static size_t line_of(const char *text, const char *at)
 static void write_place(const struct json_place *place, char text[PLACE_BYTES])
 {
     const struct json_place *chain[DEPTH_MAX];
-    size_t count = chain_to(place, chain), used = 0;
+    size_t count = places_down_to(place, chain), used = 0;
 
     text[0] = '\0';
     for (size_t i = 0; i < count && used < PLACE_BYTES; i++) {
@@ -157,13 +158,14 @@ static void write_place(const struct json_place *place, char text[PLACE_BYTES])
     }
 }
 
-static _Noreturn void fail_at(const struct json_place *place, const char *what)
+static _Noreturn void fail_at_place(const struct json_place *place, const char *what)
 {
     char where[PLACE_BYTES];
 
     write_place(place, where);
     fail(EXIT_USAGE, "%s:%zu: %s%s%s", place->file->name,
-         line_of(place->file->text, find_place(place)), where, where[0] ? ": " : "", what);
+         line_number_at(place->file->text, find_place_in_text(place)), where, where[0] ? ": " : "",
+         what);
 }
 
 void json_fail(const struct json_place *place, const char *format, ...)
@@ -174,7 +176,7 @@ void json_fail(const struct json_place *place, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    fail_at(place, what);
+    fail_at_place(place, what);
 }
 
 static struct json_place key_place(const struct json_object *object, const char *key)
@@ -191,7 +193,7 @@ void json_fail_key(const struct json_object *object, const char *key, const char
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    fail_at(&place, what);
+    fail_at_place(&place, what);
 }
 
 /* ---- the file ---- */
@@ -207,15 +209,16 @@ struct json_file json_open(const char *name, const char *text, size_t length)
     file.root = cJSON_ParseWithOpts(text, &end, 0);
     if (!file.root && (!end || !*skip_space(end))) {
         fail(EXIT_USAGE, "%s:%zu: no JSON: it ends too early, or with a comma too many", name,
-             line_of(text, text + length));
+             line_number_at(text, text + length));
     }
     if (!file.root) {
-        fail(EXIT_USAGE, "%s:%zu: no JSON near '%.*s'", name, line_of(text, end),
+        fail(EXIT_USAGE, "%s:%zu: no JSON near '%.*s'", name, line_number_at(text, end),
              (int)strcspn(end, "\r\n"), end);
     }
     end = skip_space(end);
     if (*end) {
-        fail(EXIT_USAGE, "%s:%zu: more text behind the end of the scene", name, line_of(text, end));
+        fail(EXIT_USAGE, "%s:%zu: more text behind the end of the scene", name,
+             line_number_at(text, end));
     }
     if (!cJSON_IsObject(file.root)) {
         fail(EXIT_USAGE, "%s:1: a scene is a JSON object, {...}", name);
@@ -232,7 +235,7 @@ void json_close(struct json_file *file)
 /* ---- changes ---- */
 
 /* One step of a path: `key`, `[3]` or `3`; moves *path behind it. False: it is none of them. */
-static bool take_step(const char **path, char key[KEY_BYTES], int *index)
+static bool take_path_step(const char **path, char key[KEY_BYTES], int *index)
 {
     bool is_bracketed = **path == '[';
     const char *start = *path + (is_bracketed || **path == '.');
@@ -249,7 +252,7 @@ static bool take_step(const char **path, char key[KEY_BYTES], int *index)
     return is_number && (*path)[-1] == ']';
 }
 
-static cJSON *step_down(cJSON *item, const char *key, int index)
+static cJSON *member_at_step(cJSON *item, const char *key, int index)
 {
     if (index >= 0) {
         return cJSON_IsArray(item) ? cJSON_GetArrayItem(item, index) : NULL;
@@ -257,7 +260,7 @@ static cJSON *step_down(cJSON *item, const char *key, int index)
     return cJSON_IsObject(item) ? cJSON_GetObjectItemCaseSensitive(item, key) : NULL;
 }
 
-static bool put_value(cJSON *item, const char *key, int index, cJSON *value)
+static bool put_value_at_step(cJSON *item, const char *key, int index, cJSON *value)
 {
     if (index < 0) {
         return cJSON_IsObject(item) && (cJSON_ReplaceItemInObjectCaseSensitive(item, key, value) ||
@@ -270,7 +273,7 @@ static bool put_value(cJSON *item, const char *key, int index, cJSON *value)
                                             : cJSON_AddItemToArray(item, value);
 }
 
-/* For hint_nearest, which takes names by index alone. */
+/* For name_hint_nearest, which takes names by index alone. */
 static const cJSON *hinted_item;
 
 static const char *member_name(size_t index)
@@ -281,7 +284,7 @@ static const char *member_name(size_t index)
 }
 
 /* Refuses an assignment whose path does not exist, with a hint at the nearest name. */
-static _Noreturn void fail_step(const char *assignment, const cJSON *item, const char *key)
+static _Noreturn void fail_unknown_path(const char *assignment, const cJSON *item, const char *key)
 {
     const char *hint = NULL;
 
@@ -291,13 +294,13 @@ static _Noreturn void fail_step(const char *assignment, const cJSON *item, const
     }
     if (cJSON_IsObject(item)) {
         hinted_item = item;
-        hint = hint_nearest(key, member_name);
+        hint = name_hint_nearest(key, member_name);
     }
     fail(EXIT_USAGE, "--set %s: there is no such place in the scene: '%s'%s%s%s", assignment, key,
          hint ? ", did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
 }
 
-void json_assign(struct json_file *file, const char *assignment)
+void json_assign_by_path(struct json_file *file, const char *assignment)
 {
     const char *path = assignment, *equals = strchr(assignment, '=');
     cJSON *item = file->root, *value, *below;
@@ -310,26 +313,26 @@ void json_assign(struct json_file *file, const char *assignment)
     value = cJSON_ParseWithOpts(equals + 1, NULL, 1);
     value = value ? value : cJSON_CreateString(equals + 1);
     for (;;) {
-        if (!take_step(&path, key, &index) || (*path != '=' && *path != '.' && *path != '[')) {
+        if (!take_path_step(&path, key, &index) || (*path != '=' && *path != '.' && *path != '[')) {
             fail(EXIT_USAGE, "--set %s: not of the form place=value", assignment);
         }
         if (*path == '=') {
             break;
         }
-        below = step_down(item, key, index);
+        below = member_at_step(item, key, index);
         if (!below) {
-            fail_step(assignment, item, key);
+            fail_unknown_path(assignment, item, key);
         }
         item = below;
     }
-    if (!put_value(item, key, index, value)) {
-        fail_step(assignment, item, key);
+    if (!put_value_at_step(item, key, index, value)) {
+        fail_unknown_path(assignment, item, key);
     }
 }
 
 /* ---- objects ---- */
 
-static const char *kind_of(const cJSON *item)
+static const char *json_kind_name(const cJSON *item)
 {
     return cJSON_IsObject(item)   ? "an object"
            : cJSON_IsArray(item)  ? "a list"
@@ -344,7 +347,7 @@ static struct json_object object_at(struct json_place place, const cJSON *item)
     struct json_object object = {.place = place, .item = item};
 
     if (!cJSON_IsObject(item)) {
-        json_fail(&place, "must be an object, {...}, and is %s", kind_of(item));
+        json_fail(&place, "must be an object, {...}, and is %s", json_kind_name(item));
     }
     for (const cJSON *one = item->child; one; one = one->next) {
         for (const cJSON *other = one->next; other; other = other->next) {
@@ -361,7 +364,7 @@ struct json_object json_root(const struct json_file *file)
     return object_at((struct json_place){.file = file}, file->root);
 }
 
-static const cJSON *ask(struct json_object *object, const char *key)
+static const cJSON *ask_for_key(struct json_object *object, const char *key)
 {
     size_t i = 0;
 
@@ -377,29 +380,30 @@ static const cJSON *ask(struct json_object *object, const char *key)
     return cJSON_GetObjectItemCaseSensitive(object->item, key);
 }
 
-bool json_has(struct json_object *object, const char *key)
+bool json_has_key(struct json_object *object, const char *key)
 {
-    return ask(object, key) != NULL;
+    return ask_for_key(object, key) != NULL;
 }
 
-void json_require(struct json_object *object, const char *key)
+void json_require_key(struct json_object *object, const char *key)
 {
-    if (!ask(object, key)) {
+    if (!ask_for_key(object, key)) {
         json_fail(&object->place, "%s is missing", key);
     }
 }
 
-void json_exclude(struct json_object *object, const char *key, const char *other)
+void json_exclude_keys(struct json_object *object, const char *key, const char *other)
 {
-    if (ask(object, key) && ask(object, other)) {
+    if (ask_for_key(object, key) && ask_for_key(object, other)) {
         json_fail_key(object, other, "does not go with %s", key);
     }
 }
 
-static double checked(const struct json_place *place, const cJSON *item, double min, double max)
+static double checked_number(const struct json_place *place, const cJSON *item, double min,
+                             double max)
 {
     if (!cJSON_IsNumber(item)) {
-        json_fail(place, "must be a number, and is %s", kind_of(item));
+        json_fail(place, "must be a number, and is %s", json_kind_name(item));
     }
     if (!(item->valuedouble >= min && item->valuedouble <= max)) {
         json_fail(place, "%.10g is outside %.10g .. %.10g", item->valuedouble, min, max);
@@ -407,19 +411,19 @@ static double checked(const struct json_place *place, const cJSON *item, double 
     return item->valuedouble;
 }
 
-double json_number(struct json_object *object, const char *key, double min, double max,
-                   double otherwise)
+double json_read_number(struct json_object *object, const char *key, double min, double max,
+                        double otherwise)
 {
     struct json_place place = key_place(object, key);
-    const cJSON *item = ask(object, key);
+    const cJSON *item = ask_for_key(object, key);
 
-    return item ? checked(&place, item, min, max) : otherwise;
+    return item ? checked_number(&place, item, min, max) : otherwise;
 }
 
-uint64_t json_count(struct json_object *object, const char *key, uint64_t min, uint64_t max,
-                    uint64_t otherwise)
+uint64_t json_read_count(struct json_object *object, const char *key, uint64_t min, uint64_t max,
+                         uint64_t otherwise)
 {
-    double number = json_number(object, key, (double)min, (double)max, (double)otherwise);
+    double number = json_read_number(object, key, (double)min, (double)max, (double)otherwise);
 
     if (number != floor(number)) {
         json_fail_key(object, key, "%.10g is not a whole number", number);
@@ -427,22 +431,22 @@ uint64_t json_count(struct json_object *object, const char *key, uint64_t min, u
     return (uint64_t)number;
 }
 
-bool json_flag(struct json_object *object, const char *key, bool otherwise)
+bool json_read_flag(struct json_object *object, const char *key, bool otherwise)
 {
-    const cJSON *item = ask(object, key);
+    const cJSON *item = ask_for_key(object, key);
 
     if (item && !cJSON_IsBool(item)) {
-        json_fail_key(object, key, "must be true or false, and is %s", kind_of(item));
+        json_fail_key(object, key, "must be true or false, and is %s", json_kind_name(item));
     }
     return item ? cJSON_IsTrue(item) : otherwise;
 }
 
-const char *json_text(struct json_object *object, const char *key, const char *otherwise)
+const char *json_read_text(struct json_object *object, const char *key, const char *otherwise)
 {
-    const cJSON *item = ask(object, key);
+    const cJSON *item = ask_for_key(object, key);
 
     if (item && !cJSON_IsString(item)) {
-        json_fail_key(object, key, "must be a text, and is %s", kind_of(item));
+        json_fail_key(object, key, "must be a text, and is %s", json_kind_name(item));
     }
     return item ? item->valuestring : otherwise;
 }
@@ -458,15 +462,15 @@ static void read_numbers(const struct json_place *place, const cJSON *item, size
     for (const cJSON *one = item->child; one; one = one->next, i++) {
         struct json_place below = {.file = place->file, .above = place, .index = i};
 
-        numbers[i] = checked(&below, one, min, max);
+        numbers[i] = checked_number(&below, one, min, max);
     }
 }
 
-bool json_numbers(struct json_object *object, const char *key, size_t count, double min, double max,
-                  double *numbers)
+bool json_read_numbers(struct json_object *object, const char *key, size_t count, double min,
+                       double max, double *numbers)
 {
     struct json_place place = key_place(object, key);
-    const cJSON *item = ask(object, key);
+    const cJSON *item = ask_for_key(object, key);
 
     if (item) {
         read_numbers(&place, item, count, min, max, numbers);
@@ -474,18 +478,18 @@ bool json_numbers(struct json_object *object, const char *key, size_t count, dou
     return item != NULL;
 }
 
-struct json_span json_between(struct json_object *object, const char *key, double min, double max,
-                              struct json_span otherwise)
+struct json_span json_read_span(struct json_object *object, const char *key, double min, double max,
+                                struct json_span otherwise)
 {
     struct json_place place = key_place(object, key);
-    const cJSON *item = ask(object, key);
+    const cJSON *item = ask_for_key(object, key);
     double ends[2] = {0, 0};
 
     if (!item) {
         return otherwise;
     }
     if (cJSON_IsNumber(item)) {
-        ends[0] = ends[1] = checked(&place, item, min, max);
+        ends[0] = ends[1] = checked_number(&place, item, min, max);
     } else if (!cJSON_IsArray(item) || cJSON_GetArraySize(item) != 2) {
         json_fail(&place, "must be a number or a list of two, [least, most]");
     } else {
@@ -497,10 +501,10 @@ struct json_span json_between(struct json_object *object, const char *key, doubl
     return (struct json_span){ends[0], ends[1]};
 }
 
-size_t json_choice(struct json_object *object, const char *key, const char *const *words,
-                   size_t count, size_t otherwise)
+size_t json_read_choice(struct json_object *object, const char *key, const char *const *words,
+                        size_t count, size_t otherwise)
 {
-    const char *text = json_text(object, key, NULL);
+    const char *text = json_read_text(object, key, NULL);
     char all[256] = "";
 
     if (!text) {
@@ -515,9 +519,9 @@ size_t json_choice(struct json_object *object, const char *key, const char *cons
     json_fail_key(object, key, "'%s' is none of %s", text, all);
 }
 
-bool json_below(struct json_object *object, const char *key, struct json_object *below)
+bool json_read_object(struct json_object *object, const char *key, struct json_object *below)
 {
-    const cJSON *item = ask(object, key);
+    const cJSON *item = ask_for_key(object, key);
 
     if (item) {
         *below = object_at(key_place(object, key), item);
@@ -525,12 +529,12 @@ bool json_below(struct json_object *object, const char *key, struct json_object 
     return item != NULL;
 }
 
-struct json_list json_list_of(struct json_object *object, const char *key, size_t max)
+struct json_list json_read_list(struct json_object *object, const char *key, size_t max)
 {
-    struct json_list list = {.place = key_place(object, key), .item = ask(object, key)};
+    struct json_list list = {.place = key_place(object, key), .item = ask_for_key(object, key)};
 
     if (list.item && !cJSON_IsArray(list.item)) {
-        json_fail(&list.place, "must be a list, [...], and is %s", kind_of(list.item));
+        json_fail(&list.place, "must be a list, [...], and is %s", json_kind_name(list.item));
     }
     list.count = list.item ? (size_t)cJSON_GetArraySize(list.item) : 0;
     if (list.count > max) {
@@ -561,12 +565,12 @@ double json_element_number(const struct json_list *list, size_t index, double mi
 {
     struct json_place place = element_place(list, index);
 
-    return checked(&place, cJSON_GetArrayItem(list->item, (int)index), min, max);
+    return checked_number(&place, cJSON_GetArrayItem(list->item, (int)index), min, max);
 }
 
 /* ---- keys that nobody knows ---- */
 
-/* For hint_nearest, which takes names by index alone. */
+/* For name_hint_nearest, which takes names by index alone. */
 static const struct json_object *hinted;
 
 static const char *asked_name(size_t index)
@@ -574,7 +578,7 @@ static const char *asked_name(size_t index)
     return index < hinted->num_asked ? hinted->asked[index] : NULL;
 }
 
-void json_end(const struct json_object *object)
+void json_refuse_unknown_keys(const struct json_object *object)
 {
     for (const cJSON *one = object->item->child; one; one = one->next) {
         const char *hint;
@@ -587,7 +591,7 @@ void json_end(const struct json_object *object)
             continue;
         }
         hinted = object;
-        hint = hint_nearest(one->string, asked_name);
+        hint = name_hint_nearest(one->string, asked_name);
         if (hint) {
             json_fail_key(object, one->string, "unknown key, did you mean '%s'?", hint);
         }

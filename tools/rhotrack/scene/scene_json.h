@@ -58,7 +58,7 @@ struct json_file json_open(const char *name, const char *text, size_t length);
  * stands there, or is added; behind the last element of a list, too. Exit 2, with the nearest,
  * where there is no such place.
  */
-void json_assign(struct json_file *file, const char *assignment);
+void json_assign_by_path(struct json_file *file, const char *assignment);
 
 void json_close(struct json_file *file);
 
@@ -70,44 +70,44 @@ _Noreturn void json_fail_key(const struct json_object *object, const char *key, 
 struct json_object json_root(const struct json_file *file);
 
 /* A value, or `otherwise` where it is not there. */
-bool json_has(struct json_object *object, const char *key);
-double json_number(struct json_object *object, const char *key, double min, double max,
-                   double otherwise);
-uint64_t json_count(struct json_object *object, const char *key, uint64_t min, uint64_t max,
-                    uint64_t otherwise);
-bool json_flag(struct json_object *object, const char *key, bool otherwise);
-const char *json_text(struct json_object *object, const char *key, const char *otherwise);
+bool json_has_key(struct json_object *object, const char *key);
+double json_read_number(struct json_object *object, const char *key, double min, double max,
+                        double otherwise);
+uint64_t json_read_count(struct json_object *object, const char *key, uint64_t min, uint64_t max,
+                         uint64_t otherwise);
+bool json_read_flag(struct json_object *object, const char *key, bool otherwise);
+const char *json_read_text(struct json_object *object, const char *key, const char *otherwise);
 
 /* A number, which is both ends, or a list of two, the first not above the second. */
-struct json_span json_between(struct json_object *object, const char *key, double min, double max,
-                              struct json_span otherwise);
+struct json_span json_read_span(struct json_object *object, const char *key, double min, double max,
+                                struct json_span otherwise);
 
 /* So many numbers in a list, within min .. max. False where it is not there. */
-bool json_numbers(struct json_object *object, const char *key, size_t count, double min, double max,
-                  double *numbers);
+bool json_read_numbers(struct json_object *object, const char *key, size_t count, double min,
+                       double max, double *numbers);
 
 /* The index of a word. */
-size_t json_choice(struct json_object *object, const char *key, const char *const *words,
-                   size_t count, size_t otherwise);
+size_t json_read_choice(struct json_object *object, const char *key, const char *const *words,
+                        size_t count, size_t otherwise);
 
 /* A member that is required: exit 2 where it is missing. */
-void json_require(struct json_object *object, const char *key);
+void json_require_key(struct json_object *object, const char *key);
 
 /* Of two keys that exclude each other: exit 2 where both are there. */
-void json_exclude(struct json_object *object, const char *key, const char *other);
+void json_exclude_keys(struct json_object *object, const char *key, const char *other);
 
 /*
  * A list of objects or numbers, empty where it is not there; an object below a key, false where it
  * is not there.
  */
-struct json_list json_list_of(struct json_object *object, const char *key, size_t max);
-bool json_below(struct json_object *object, const char *key, struct json_object *below);
+struct json_list json_read_list(struct json_object *object, const char *key, size_t max);
+bool json_read_object(struct json_object *object, const char *key, struct json_object *below);
 struct json_object json_element(const struct json_list *list, size_t index);
 void json_element_numbers(const struct json_list *list, size_t index, size_t count, double min,
                           double max, double *numbers);
 double json_element_number(const struct json_list *list, size_t index, double min, double max);
 
 /* Exit 2 where the object has a key that was never asked for. */
-void json_end(const struct json_object *object);
+void json_refuse_unknown_keys(const struct json_object *object);
 
 #endif

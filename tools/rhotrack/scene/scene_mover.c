@@ -7,13 +7,13 @@
 #include "base/common.h"
 #include "base/portable_math.h"
 
-bool mover_at(const struct scene_mover *mover, const struct scene_sensor *sensor, double t_s,
-              struct motion *at)
+bool mover_seen_at(const struct scene_mover *mover, const struct scene_sensor *sensor, double t_s,
+                   struct motion *at)
 {
     double dx_m, dy_m, range_m;
 
     if (mover->path) {
-        *at = path_at(mover->path, t_s);
+        *at = path_motion_at(mover->path, t_s);
     } else {
         *at = (struct motion){.x_m = mover->x_m + mover->vx_mps * t_s,
                               .y_m = mover->y_m + mover->vy_mps * t_s,
@@ -60,8 +60,8 @@ static const struct scene_sensor *first_sensor(const struct scene *scene, uint32
 }
 
 /* Even over the area where the source is: of its box, about its first sensor, or of the scene. */
-static void draw_place(const struct scene *scene, const struct scene_clutter *clutter,
-                       struct random *random, double *x_m, double *y_m)
+static void draw_clutter_place(const struct scene *scene, const struct scene_clutter *clutter,
+                               struct random *random, double *x_m, double *y_m)
 {
     const struct scene_sensor *sensor = first_sensor(scene, clutter->sensors);
     const double *box_m = clutter->has_box ? clutter->box_m : scene->area_m;
@@ -89,7 +89,7 @@ static void draw_place(const struct scene *scene, const struct scene_clutter *cl
 static void draw_standing(const struct scene *scene, const struct scene_clutter *clutter,
                           struct random *random, struct scene_mover *mover, size_t index)
 {
-    draw_place(scene, clutter, random, &mover->x_m, &mover->y_m);
+    draw_clutter_place(scene, clutter, random, &mover->x_m, &mover->y_m);
     if (clutter->places_m) {
         mover->x_m = clutter->places_m[index][0];
         mover->y_m = clutter->places_m[index][1];
@@ -120,19 +120,19 @@ static void draw_spike(const struct scene *scene, const struct scene_clutter *cl
 {
     double heading_rad;
 
-    draw_place(scene, clutter, random, &mover->x_m, &mover->y_m);
+    draw_clutter_place(scene, clutter, random, &mover->x_m, &mover->y_m);
     heading_rad = random_between(random, -PORTABLE_PI, PORTABLE_PI);
     mover->vx_mps = clutter->speed_mps * portable_cos(heading_rad);
     mover->vy_mps = clutter->speed_mps * portable_sin(heading_rad);
     mover->from_s = random_between(random, fmax(-clutter->life_s.hi, clutter->from_s),
                                    fmin(scene->duration_s, clutter->until_s));
-    mover->until_s = mover->from_s + draw_between(random, clutter->life_s);
+    mover->until_s = mover->from_s + random_in_span(random, clutter->life_s);
     mover->x_m -= mover->vx_mps * mover->from_s;
     mover->y_m -= mover->vy_mps * mover->from_s;
 }
 
-static size_t number_of(const struct scene *scene, const struct scene_clutter *clutter,
-                        struct random *random)
+static size_t number_of_movers(const struct scene *scene, const struct scene_clutter *clutter,
+                               struct random *random)
 {
     double from_s = fmax(-clutter->life_s.hi, clutter->from_s);
     double until_s = fmin(scene->duration_s, clutter->until_s);
@@ -143,12 +143,12 @@ static size_t number_of(const struct scene *scene, const struct scene_clutter *c
     return clutter->kind == CLUTTER_STANDING || clutter->kind == CLUTTER_FLOCK ? clutter->count : 0;
 }
 
-struct scene_mover *clutter_movers(const struct scene *scene, size_t source, uint64_t seed,
-                                   uint64_t run, size_t *count, struct scene_path **paths,
-                                   size_t *num_paths)
+struct scene_mover *draw_clutter_movers(const struct scene *scene, size_t source, uint64_t seed,
+                                        uint64_t run, size_t *count, struct scene_path **paths,
+                                        size_t *num_paths)
 {
     const struct scene_clutter *clutter = &scene->clutter[source];
-    struct random random = scene_stream(seed, run, STREAM_WORLD, source, 0, 0);
+    struct random random = scene_random_stream(seed, run, STREAM_WORLD, source, 0, 0);
     struct scene_mover *movers;
 
     *paths = NULL;
@@ -158,12 +158,12 @@ struct scene_mover *clutter_movers(const struct scene *scene, size_t source, uin
                               source + 1, num_paths);
         *count = *num_paths;
     } else {
-        *count = number_of(scene, clutter, &random);
+        *count = number_of_movers(scene, clutter, &random);
     }
     movers = must_calloc(*count + 1, sizeof *movers);
     for (size_t i = 0; i < *count; i++) {
         struct scene_mover *mover = &movers[i];
-        struct random own = scene_stream(seed, run, STREAM_WORLD, source, i, 1);
+        struct random own = scene_random_stream(seed, run, STREAM_WORLD, source, i, 1);
 
         *mover = (struct scene_mover){.from_s = clutter->from_s,
                                       .until_s = clutter->until_s,

@@ -22,16 +22,16 @@ struct scene_mover {
  * Where the sensor sees it, were it to see it. False: it is not there, or no echo of the second
  * time.
  */
-bool mover_at(const struct scene_mover *mover, const struct scene_sensor *sensor, double t_s,
-              struct motion *at);
+bool mover_seen_at(const struct scene_mover *mover, const struct scene_sensor *sensor, double t_s,
+                   struct motion *at);
 
 /*
  * Everything of a source of clutter that lasts, in new memory: places and lives are drawn. Kinds
  * that are drawn anew each scan have none. Paths of second-time-around echoes go to *paths, to be
  * freed after the movers.
  */
-struct scene_mover *clutter_movers(const struct scene *scene, size_t source, uint64_t seed,
-                                   uint64_t run, size_t *count, struct scene_path **paths,
-                                   size_t *num_paths);
+struct scene_mover *draw_clutter_movers(const struct scene *scene, size_t source, uint64_t seed,
+                                        uint64_t run, size_t *count, struct scene_path **paths,
+                                        size_t *num_paths);
 
 #endif

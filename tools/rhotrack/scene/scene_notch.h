@@ -26,6 +26,6 @@ struct scene_notch scene_notch_read_told(struct json_object *object, struct scen
 double scene_notch_pd(const struct scene_notch *notch, double range_rate_mps, double pd);
 
 /* Lines of a sensor in an INI file; none where there is no notch. */
-void scene_notch_write(const struct scene_notch *notch, FILE *file);
+void scene_notch_write_settings(const struct scene_notch *notch, FILE *file);
 
 #endif

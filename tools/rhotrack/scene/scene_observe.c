@@ -15,7 +15,7 @@
 
 /* ---- where sensors look ---- */
 
-static double direction(const struct scene_sensor *sensor)
+static double turn_direction(const struct scene_sensor *sensor)
 {
     return sensor->is_counter_clockwise ? 1.0 : -1.0;
 }
@@ -35,7 +35,7 @@ static size_t num_turns(const struct scene *scene, const struct scene_sensor *se
 static double turns_until(const struct scene_sensor *sensor, double azimuth_rad, double t_s)
 {
     double turns = (t_s - sensor->start_s) / sensor->turn_s;
-    double way = direction(sensor) * (azimuth_rad - sensor->start_rad) / PORTABLE_TURN - turns;
+    double way = turn_direction(sensor) * (azimuth_rad - sensor->start_rad) / PORTABLE_TURN - turns;
 
     way -= floor(way);
     return way < 1.0 ? way : 0.0;
@@ -55,7 +55,8 @@ static bool is_in_sector(const struct scene_coverage *coverage, double azimuth_r
     return !(width > 0.0) || way <= width;
 }
 
-static bool is_within(const struct scene_coverage *coverage, double range_m, double azimuth_rad)
+static bool is_in_coverage(const struct scene_coverage *coverage, double range_m,
+                           double azimuth_rad)
 {
     return range_m >= coverage->range_m.lo && range_m <= coverage->range_m.hi &&
            is_in_sector(coverage, azimuth_rad);
@@ -71,10 +72,11 @@ static bool sees_place(const struct scene *scene, const struct scene_sensor *sen
         return !scene->has_area ||
                (x_m >= area_m[0] && x_m <= area_m[1] && y_m >= area_m[2] && y_m <= area_m[3]);
     }
-    return is_within(&sensor->coverage, portable_hypot(dx_m, dy_m), portable_atan2(dy_m, dx_m));
+    return is_in_coverage(&sensor->coverage, portable_hypot(dx_m, dy_m),
+                          portable_atan2(dy_m, dx_m));
 }
 
-bool scene_covers(const struct scene *scene, double x_m, double y_m)
+bool scene_covers_place(const struct scene *scene, double x_m, double y_m)
 {
     for (size_t i = 0; i < scene->num_sensors; i++) {
         if (sees_place(scene, &scene->sensors[i], x_m, y_m)) {
@@ -86,7 +88,7 @@ bool scene_covers(const struct scene *scene, double x_m, double y_m)
 
 /* ---- what happens ---- */
 
-static bool happens(const struct scene_event *event, size_t sensor, double t_s)
+static bool event_happens(const struct scene_event *event, size_t sensor, double t_s)
 {
     return (event->sensors >> sensor & 1) && t_s >= event->from_s && t_s < event->until_s;
 }
@@ -98,9 +100,9 @@ static bool can_see(const struct scene *scene, size_t sensor, double t_s, double
     for (size_t i = 0; i < scene->num_events; i++) {
         const struct scene_event *event = &scene->events[i];
 
-        if (happens(event, sensor, t_s) &&
+        if (event_happens(event, sensor, t_s) &&
             (event->kind == EVENT_OUTAGE ||
-             (event->kind == EVENT_MASK && is_within(&event->within, range_m, azimuth_rad)))) {
+             (event->kind == EVENT_MASK && is_in_coverage(&event->within, range_m, azimuth_rad)))) {
             return false;
         }
     }
@@ -108,7 +110,7 @@ static bool can_see(const struct scene *scene, size_t sensor, double t_s, double
 }
 
 /* A scan that a silent outage touches is never there. */
-static bool is_lost(const struct scene *scene, size_t sensor, double start_s, double end_s)
+static bool is_scan_silent(const struct scene *scene, size_t sensor, double start_s, double end_s)
 {
     for (size_t i = 0; i < scene->num_events; i++) {
         const struct scene_event *event = &scene->events[i];
@@ -157,7 +159,7 @@ struct observer {
     struct sighting *sightings;
 };
 
-static double pd_at(const struct scene_curve *curve, double range_m)
+static double pd_at_range(const struct scene_curve *curve, double range_m)
 {
     size_t i = 0;
 
@@ -190,15 +192,16 @@ static void keep_plot(struct observer *observer, struct scene_plot plot)
     observer->plots[observer->num_plots++] = plot;
 }
 
-static double rate_of(const struct scene_sensor *sensor, const struct motion *at, double range_m)
+static double range_rate_of(const struct scene_sensor *sensor, const struct motion *at,
+                            double range_m)
 {
     return ((at->x_m - sensor->x_m) * at->vx_mps + (at->y_m - sensor->y_m) * at->vy_mps) /
            fmax(RANGE_LEAST_M, range_m);
 }
 
 /* With biases and noise. The same numbers are drawn whatever the sensor measures. */
-static struct scene_plot measure(const struct scene_sensor *sensor, const struct sighting *sighting,
-                                 struct random *random)
+static struct scene_plot measure_sighting(const struct scene_sensor *sensor,
+                                          const struct sighting *sighting, struct random *random)
 {
     double first = random_normal(random), second = random_normal(random),
            third = random_normal(random);
@@ -209,7 +212,7 @@ static struct scene_plot measure(const struct scene_sensor *sensor, const struct
         .target_id = sighting->target_id,
         .range_m = sighting->range_m + sensor->range_bias_m + sensor->sigma_range_m * first,
         .azimuth_rad = sighting->azimuth_rad + sensor->azimuth_bias_rad + sigma_rad * second,
-        .range_rate_mps = rate_of(sensor, &sighting->at, sighting->range_m) +
+        .range_rate_mps = range_rate_of(sensor, &sighting->at, sighting->range_m) +
                           sensor->sigma_range_rate_mps * third,
         .x_m = sighting->at.x_m + sensor->sigma_m * first,
         .y_m = sighting->at.y_m + sensor->sigma_m * second,
@@ -226,12 +229,12 @@ static struct scene_plot measure(const struct scene_sensor *sensor, const struct
 /* ---- things that are seen again and again ---- */
 
 /* When the antenna next points to it, after after_s. False: it is not there then. */
-static bool meet(const struct observer *observer, const struct scene_mover *mover, double after_s,
-                 struct sighting *sighting)
+static bool find_next_sighting(const struct observer *observer, const struct scene_mover *mover,
+                               double after_s, struct sighting *sighting)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double at_s = after_s;
-    bool is_there = mover_at(mover, sensor, at_s, &sighting->at);
+    bool is_there = mover_seen_at(mover, sensor, at_s, &sighting->at);
 
     for (int i = 0; sensor->turns && i < MEETING_STEPS; i++) {
         double azimuth_rad =
@@ -239,7 +242,7 @@ static bool meet(const struct observer *observer, const struct scene_mover *move
         double ahead = turns_until(sensor, azimuth_rad + sensor->azimuth_bias_rad, at_s);
 
         at_s += (i > 0 && ahead > 0.5 ? ahead - 1.0 : ahead) * sensor->turn_s;
-        is_there = mover_at(mover, sensor, at_s, &sighting->at);
+        is_there = mover_seen_at(mover, sensor, at_s, &sighting->at);
     }
     sighting->t_s = at_s;
     sighting->range_m =
@@ -266,7 +269,7 @@ static void observe_mover(struct observer *observer, const struct scene_mover *m
     }
     while (after_s < end_s) {
         struct sighting sighting = {.target_id = mover->target_id, .pass = pass};
-        bool is_there = meet(observer, mover, after_s, &sighting);
+        bool is_there = find_next_sighting(observer, mover, after_s, &sighting);
 
         if (is_there && sighting.t_s >= sensor->start_s && sighting.t_s < observer->end_s &&
             (sensor->is_cartesian || sighting.range_m > 0.0) &&
@@ -295,7 +298,7 @@ static struct target_fades draw_fades(const struct scene *scene, const struct sc
 
     for (size_t i = 0; i < scene->num_events; i++) {
         const struct scene_event *event = &scene->events[i];
-        struct random random = scene_stream(seed, run, STREAM_FADES, i, target, 0);
+        struct random random = scene_random_stream(seed, run, STREAM_FADES, i, target, 0);
         double from_s = fmax(0.0, event->from_s), until_s = fmin(scene->duration_s, event->until_s);
         uint64_t count =
             random_poisson(&random, event->per_hour / 3600.0 * fmax(0.0, until_s - from_s));
@@ -310,7 +313,7 @@ static struct target_fades draw_fades(const struct scene *scene, const struct sc
 
             if (event->per_hour > 0.0) {
                 fade.from_s = random_between(&random, from_s, until_s);
-                fade.until_s = fade.from_s + draw_between(&random, event->for_s);
+                fade.until_s = fade.from_s + random_in_span(&random, event->for_s);
             }
             fades.fades = must_grow(fades.fades, fades.count, &fades.room, sizeof *fades.fades);
             fades.fades[fades.count++] = fade;
@@ -331,8 +334,8 @@ static double faded_pd(const struct target_fades *fades, size_t sensor, double t
     return pd;
 }
 
-static void take_target(struct observer *observer, const struct scene_mover *mover,
-                        struct sighting *sighting, uint64_t item)
+static void keep_target_sighting(struct observer *observer, const struct scene_mover *mover,
+                                 struct sighting *sighting, uint64_t item)
 {
     (void)mover;
     (void)item;
@@ -341,13 +344,14 @@ static void take_target(struct observer *observer, const struct scene_mover *mov
     observer->sightings[observer->num_sightings++] = *sighting;
 }
 
-static struct random pass_stream(const struct observer *observer, const struct sighting *sighting)
+static struct random pass_random_stream(const struct observer *observer,
+                                        const struct sighting *sighting)
 {
-    return scene_stream(observer->seed, observer->run, STREAM_TARGET, observer->index,
-                        (uint64_t)sighting->target_id, sighting->pass);
+    return scene_random_stream(observer->seed, observer->run, STREAM_TARGET, observer->index,
+                               (uint64_t)sighting->target_id, sighting->pass);
 }
 
-static void split(struct observer *observer, const struct sighting *sighting)
+static void add_split_plots(struct observer *observer, const struct sighting *sighting)
 {
     const struct scene_sensor *sensor = observer->sensor;
 
@@ -355,36 +359,37 @@ static void split(struct observer *observer, const struct sighting *sighting)
         const struct scene_event *event = &observer->scene->events[i];
         struct random random;
 
-        if (event->kind != EVENT_SPLIT || !happens(event, observer->index, sighting->t_s)) {
+        if (event->kind != EVENT_SPLIT || !event_happens(event, observer->index, sighting->t_s)) {
             continue;
         }
-        random = scene_stream(observer->seed, observer->run, STREAM_SPLIT, i * 64 + observer->index,
-                              (uint64_t)sighting->target_id, sighting->pass);
+        random = scene_random_stream(observer->seed, observer->run, STREAM_SPLIT,
+                                     i * 64 + observer->index, (uint64_t)sighting->target_id,
+                                     sighting->pass);
         if (random_uniform(&random) < event->share) {
-            struct scene_plot second = measure(sensor, sighting, &random);
+            struct scene_plot second = measure_sighting(sensor, sighting, &random);
 
-            second.range_m += sensor->sigma_range_m * draw_between(&random, event->range_sigmas) +
-                              draw_between(&random, event->range_m);
+            second.range_m += sensor->sigma_range_m * random_in_span(&random, event->range_sigmas) +
+                              random_in_span(&random, event->range_m);
             second.azimuth_rad +=
-                sensor->sigma_azimuth_rad * draw_between(&random, event->azimuth_sigmas) +
-                draw_between(&random, event->azimuth_rad);
-            second.x_m += sensor->sigma_m * draw_between(&random, event->range_sigmas);
-            second.y_m += sensor->sigma_m * draw_between(&random, event->azimuth_sigmas);
+                sensor->sigma_azimuth_rad * random_in_span(&random, event->azimuth_sigmas) +
+                random_in_span(&random, event->azimuth_rad);
+            second.x_m += sensor->sigma_m * random_in_span(&random, event->range_sigmas);
+            second.y_m += sensor->sigma_m * random_in_span(&random, event->azimuth_sigmas);
             keep_plot(observer, second);
         }
     }
 }
 
 /* Images of what was seen, in the walls; they are plots of no target. */
-static void reflect(struct observer *observer, const struct sighting *sighting)
+static void add_image_plots(struct observer *observer, const struct sighting *sighting)
 {
     const struct scene_sensor *sensor = observer->sensor;
 
     for (size_t i = 0; !sensor->is_passive && i < observer->scene->reflectors.count; i++) {
         const struct scene_reflector *wall = &observer->scene->reflectors.items[i];
-        struct random random =
-            scene_stream(observer->seed, observer->run, STREAM_IMAGE, i * 64 + observer->index,
-                         (uint64_t)sighting->target_id, sighting->pass);
+        struct random random = scene_random_stream(observer->seed, observer->run, STREAM_IMAGE,
+                                                   i * 64 + observer->index,
+                                                   (uint64_t)sighting->target_id, sighting->pass);
         struct sighting image = *sighting;
 
         if (random_uniform(&random) >= wall->probability ||
@@ -395,7 +400,7 @@ static void reflect(struct observer *observer, const struct sighting *sighting)
         image.target_id = -1;
         image.range_m = portable_hypot(image.at.x_m - sensor->x_m, image.at.y_m - sensor->y_m);
         image.azimuth_rad = portable_atan2(image.at.y_m - sensor->y_m, image.at.x_m - sensor->x_m);
-        keep_plot(observer, measure(sensor, &image, &random));
+        keep_plot(observer, measure_sighting(sensor, &image, &random));
     }
 }
 
@@ -409,8 +414,8 @@ static int by_time(const void *a, const void *b)
     return (one->target_id > other->target_id) - (one->target_id < other->target_id);
 }
 
-static bool is_unresolved(const struct scene_sensor *sensor, const struct sighting *one,
-                          const struct sighting *other)
+static bool are_unresolved(const struct scene_sensor *sensor, const struct sighting *one,
+                           const struct sighting *other)
 {
     if (sensor->is_cartesian) {
         return portable_hypot(one->at.x_m - other->at.x_m, one->at.y_m - other->at.y_m) <
@@ -424,7 +429,7 @@ static bool is_unresolved(const struct scene_sensor *sensor, const struct sighti
 }
 
 /* Sightings in the order of time: those that are not resolved, one by one, get the same group. */
-static void find_groups(struct observer *observer)
+static void find_unresolved_groups(struct observer *observer)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double window_s =
@@ -437,7 +442,7 @@ static void find_groups(struct observer *observer)
         for (size_t k = i + 1; k < observer->num_sightings &&
                                observer->sightings[k].t_s - observer->sightings[i].t_s <= window_s;
              k++) {
-            if (is_unresolved(sensor, &observer->sightings[i], &observer->sightings[k])) {
+            if (are_unresolved(sensor, &observer->sightings[i], &observer->sightings[k])) {
                 size_t from = observer->sightings[k].group, to = observer->sightings[i].group;
                 size_t low = from < to ? from : to;
 
@@ -453,7 +458,7 @@ static void find_groups(struct observer *observer)
 }
 
 /* The middle of all in the group that begins with this one; seen where one of them is. */
-static struct sighting middle_of(const struct observer *observer, size_t first)
+static struct sighting merged_sighting(const struct observer *observer, size_t first)
 {
     struct sighting middle = observer->sightings[first];
     double dx_m = 0, dy_m = 0, vx_mps = 0, vy_mps = 0, range_m = 0, way_rad = 0, t_s = 0, n = 0;
@@ -501,11 +506,11 @@ static struct sighting middle_of(const struct observer *observer, size_t first)
 
 static double heading_rad(const struct scene_path *path, double t_s)
 {
-    const struct motion at = path_at(path, t_s);
+    const struct motion at = path_motion_at(path, t_s);
 
     return portable_hypot(at.vx_mps, at.vy_mps) > PATH_STANDS_MPS
                ? portable_atan2(at.vy_mps, at.vx_mps)
-               : path_leg_heading_rad(path_leg_of(path, t_s), t_s);
+               : path_leg_heading_rad(path_leg_at(path, t_s), t_s);
 }
 
 /* A place on the body, when its centre is looked at: it moves and turns with the body. */
@@ -535,9 +540,10 @@ static void observe_body(struct observer *observer, const struct scene_body *bod
 {
     const struct scene_sensor *sensor = observer->sensor;
     const uint64_t target = (uint64_t)centre->target_id;
-    struct random stay = scene_stream(observer->seed, observer->run, STREAM_BODY, 0, target, 0);
-    struct random look = scene_stream(observer->seed, observer->run, STREAM_LOOK, observer->index,
-                                      target, centre->pass);
+    struct random stay =
+        scene_random_stream(observer->seed, observer->run, STREAM_BODY, 0, target, 0);
+    struct random look = scene_random_stream(observer->seed, observer->run, STREAM_LOOK,
+                                             observer->index, target, centre->pass);
     double places_m[SCENE_SCATTERERS_MAX][2];
 
     scene_body_draw(body, body->is_anew ? &look : &stay, places_m);
@@ -545,19 +551,19 @@ static void observe_body(struct observer *observer, const struct scene_body *bod
         const struct sighting on = sighting_on(sensor, centre, path, places_m[i]);
         const double pd = faded_pd(
             fades, observer->index, on.t_s,
-            scene_notch_pd(&sensor->notch, rate_of(sensor, &on.at, on.range_m), body->seen));
+            scene_notch_pd(&sensor->notch, range_rate_of(sensor, &on.at, on.range_m), body->seen));
 
         if (random_uniform(&look) < pd &&
             sees_place(observer->scene, sensor, on.at.x_m, on.at.y_m)) {
-            keep_plot(observer, measure(sensor, &on, &look));
-            reflect(observer, &on);
+            keep_plot(observer, measure_sighting(sensor, &on, &look));
+            add_image_plots(observer, &on);
         }
     }
 }
 
 /* Bodies give their plots; points are left among the sightings. */
-static void take_bodies(struct observer *observer, const struct scene_run *run,
-                        const struct target_fades *fades)
+static void observe_bodies(struct observer *observer, const struct scene_run *run,
+                           const struct target_fades *fades)
 {
     size_t points = 0;
 
@@ -586,33 +592,33 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
                                           .pd = -1.0,
                                           .target_id = (int)i};
 
-        observe_mover(observer, &mover, take_target, 0);
+        observe_mover(observer, &mover, keep_target_sighting, 0);
     }
     if (observer->num_sightings > 0) {
         qsort(observer->sightings, observer->num_sightings, sizeof *observer->sightings, by_time);
     }
-    take_bodies(observer, run, fades);
+    observe_bodies(observer, run, fades);
     for (size_t i = 0; i < observer->num_sightings; i++) {
         struct sighting *one = &observer->sightings[i];
-        struct random random = pass_stream(observer, one);
+        struct random random = pass_random_stream(observer, one);
         double pd = scene_notch_pd(&observer->sensor->notch,
-                                   rate_of(observer->sensor, &one->at, one->range_m),
-                                   pd_at(&observer->sensor->pd, one->range_m));
+                                   range_rate_of(observer->sensor, &one->at, one->range_m),
+                                   pd_at_range(&observer->sensor->pd, one->range_m));
 
         one->is_seen = random_uniform(&random) <
                        faded_pd(&fades[one->target_id], observer->index, one->t_s, pd);
     }
-    find_groups(observer);
+    find_unresolved_groups(observer);
     for (size_t i = 0; i < observer->num_sightings; i++) {
         if (observer->sightings[i].group == i) {
-            struct sighting middle = middle_of(observer, i);
-            struct random random = pass_stream(observer, &observer->sightings[i]);
+            struct sighting middle = merged_sighting(observer, i);
+            struct random random = pass_random_stream(observer, &observer->sightings[i]);
 
             random_uniform(&random); /* which decided on its detection */
             if (middle.is_seen) {
-                keep_plot(observer, measure(observer->sensor, &middle, &random));
-                split(observer, &middle);
-                reflect(observer, &middle);
+                keep_plot(observer, measure_sighting(observer->sensor, &middle, &random));
+                add_split_plots(observer, &middle);
+                add_image_plots(observer, &middle);
             }
         }
     }
@@ -620,15 +626,15 @@ static void observe_targets(struct observer *observer, const struct scene_run *r
 
 /* ---- clutter ---- */
 
-static void take_echo(struct observer *observer, const struct scene_mover *mover,
-                      struct sighting *sighting, uint64_t item)
+static void draw_echo_plot(struct observer *observer, const struct scene_mover *mover,
+                           struct sighting *sighting, uint64_t item)
 {
     struct random random =
-        scene_stream(observer->seed, observer->run, STREAM_CLUTTER,
-                     (item >> 32) * 64 + observer->index, item & UINT32_MAX, sighting->pass);
+        scene_random_stream(observer->seed, observer->run, STREAM_CLUTTER,
+                            (item >> 32) * 64 + observer->index, item & UINT32_MAX, sighting->pass);
 
     if (random_uniform(&random) < mover->pd) {
-        keep_plot(observer, measure(observer->sensor, sighting, &random));
+        keep_plot(observer, measure_sighting(observer->sensor, sighting, &random));
     }
 }
 
@@ -637,10 +643,10 @@ static void observe_movers(struct observer *observer, const struct scene_run *ru
     struct scene_path *paths;
     size_t count, num_paths;
     struct scene_mover *movers =
-        clutter_movers(run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
+        draw_clutter_movers(run->scene, source, run->seed, run->run, &count, &paths, &num_paths);
 
     for (size_t i = 0; i < count; i++) {
-        observe_mover(observer, &movers[i], take_echo, (uint64_t)source << 32 | i);
+        observe_mover(observer, &movers[i], draw_echo_plot, (uint64_t)source << 32 | i);
     }
     for (size_t i = 0; i < num_paths; i++) {
         path_free(&paths[i]);
@@ -661,7 +667,7 @@ static void keep_clutter(struct observer *observer, size_t turn, double range_m,
                sensor->turn_s;
     }
     if (range_m > 0.0 && can_see(observer->scene, observer->index, t_s, range_m, azimuth_rad) &&
-        (sensor->is_cartesian || is_within(&sensor->coverage, range_m, azimuth_rad))) {
+        (sensor->is_cartesian || is_in_coverage(&sensor->coverage, range_m, azimuth_rad))) {
         keep_plot(observer,
                   (struct scene_plot){.t_s = t_s,
                                       .target_id = -1,
@@ -689,8 +695,8 @@ static void draw_azimuths(const struct scene_coverage *coverage, double *from_ra
     *to_rad += *to_rad <= *from_rad ? PORTABLE_TURN : 0.0;
 }
 
-static void draw_uniform(struct observer *observer, const struct scene_clutter *clutter,
-                         size_t turn, struct random *random)
+static void draw_uniform_clutter(struct observer *observer, const struct scene_clutter *clutter,
+                                 size_t turn, struct random *random)
 {
     const struct scene_sensor *sensor = observer->sensor;
     const struct scene_coverage *coverage = &sensor->coverage;
@@ -708,7 +714,7 @@ static void draw_uniform(struct observer *observer, const struct scene_clutter *
     } else {
         struct json_span range =
             clutter->within.range_m.lo < 0.0 ? coverage->range_m : clutter->within.range_m;
-        double from_rad, to_rad, range_m = draw_between(random, range);
+        double from_rad, to_rad, range_m = random_in_span(random, range);
 
         draw_azimuths(clutter->within.has_sector ? &clutter->within : coverage, &from_rad, &to_rad);
         keep_clutter(observer, turn, range_m, random_between(random, from_rad, to_rad), 0, 0,
@@ -716,8 +722,8 @@ static void draw_uniform(struct observer *observer, const struct scene_clutter *
     }
 }
 
-static void draw_cell(struct observer *observer, const struct scene_clutter *clutter, size_t turn,
-                      struct random *random)
+static void draw_clutter_cell(struct observer *observer, const struct scene_clutter *clutter,
+                              size_t turn, struct random *random)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + ((double)turn + (sensor->turns ? 0.5 : 0.0)) * sensor->turn_s;
@@ -737,12 +743,12 @@ static void draw_cell(struct observer *observer, const struct scene_clutter *clu
     }
     at = (struct motion){
         .x_m = x_m, .y_m = y_m, .vx_mps = clutter->vx_mps, .vy_mps = clutter->vy_mps};
-    rate_mps += rate_of(sensor, &at, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m));
+    rate_mps += range_rate_of(sensor, &at, portable_hypot(x_m - sensor->x_m, y_m - sensor->y_m));
     keep_clutter_at(observer, turn, x_m, y_m, rate_mps);
 }
 
-static void draw_strobe(struct observer *observer, const struct scene_clutter *clutter, size_t turn,
-                        struct random *random)
+static void draw_strobe_clutter(struct observer *observer, const struct scene_clutter *clutter,
+                                size_t turn, struct random *random)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + (double)turn * sensor->turn_s;
@@ -750,7 +756,7 @@ static void draw_strobe(struct observer *observer, const struct scene_clutter *c
         clutter->within.range_m.lo < 0.0 ? sensor->coverage.range_m : clutter->within.range_m;
     double azimuth_rad = clutter->azimuth_rad + clutter->azimuth_radps * t_s +
                          clutter->width_rad * (random_uniform(random) - 0.5);
-    double range_m = draw_between(random, range);
+    double range_m = random_in_span(random, range);
     double rate_mps =
         random_between(random, -observer->scene->v_max_mps, observer->scene->v_max_mps);
 
@@ -763,12 +769,13 @@ static void draw_strobe(struct observer *observer, const struct scene_clutter *c
 /*
  * Even in the ball (without heights, the disc) about the target that fills the beam's width there.
  */
-static void draw_about(struct observer *observer, const struct scene_clutter *clutter, size_t turn,
-                       const struct scene_path *path, struct random *random)
+static void draw_clutter_about_target(struct observer *observer,
+                                      const struct scene_clutter *clutter, size_t turn,
+                                      const struct scene_path *path, struct random *random)
 {
     const struct scene_sensor *sensor = observer->sensor;
     double t_s = sensor->start_s + ((double)turn + (sensor->turns ? 0.5 : 0.0)) * sensor->turn_s;
-    struct motion at = path_at(path, t_s), last = path_at(path, t_s - sensor->turn_s);
+    struct motion at = path_motion_at(path, t_s), last = path_motion_at(path, t_s - sensor->turn_s);
     double ground_m = portable_hypot(at.x_m - sensor->x_m, at.y_m - sensor->y_m);
     double radius_m = portable_hypot(ground_m, at.z_m) * portable_sin(0.5 * clutter->width_rad);
     double x, y, z;
@@ -785,7 +792,7 @@ static void draw_about(struct observer *observer, const struct scene_clutter *cl
             z = observer->scene->has_heights ? random_between(random, -1.0, 1.0) : 0.0;
         } while (x * x + y * y + z * z > 1.0);
         keep_clutter_at(observer, turn, at.x_m + radius_m * x, at.y_m + radius_m * y,
-                        rate_of(sensor, &at, ground_m));
+                        range_rate_of(sensor, &at, ground_m));
         if (observer->num_plots > before) {
             struct scene_plot *plot = &observer->plots[before];
 
@@ -797,7 +804,8 @@ static void draw_about(struct observer *observer, const struct scene_clutter *cl
     }
 }
 
-static void observe_about(struct observer *observer, const struct scene_run *run, size_t source)
+static void observe_clutter_about_targets(struct observer *observer, const struct scene_run *run,
+                                          size_t source)
 {
     const struct scene_clutter *clutter = &observer->scene->clutter[source];
 
@@ -806,17 +814,18 @@ static void observe_about(struct observer *observer, const struct scene_run *run
 
         for (size_t i = 0; i < run->num_paths && t_s >= clutter->from_s && t_s < clutter->until_s;
              i++) {
-            struct random random = scene_stream(observer->seed, observer->run, STREAM_CLUTTER,
-                                                source * 64 + observer->index, turn, i);
+            struct random random =
+                scene_random_stream(observer->seed, observer->run, STREAM_CLUTTER,
+                                    source * 64 + observer->index, turn, i);
 
             if (t_s >= run->paths[i].from_s && t_s < run->paths[i].until_s) {
-                draw_about(observer, clutter, turn, &run->paths[i], &random);
+                draw_clutter_about_target(observer, clutter, turn, &run->paths[i], &random);
             }
         }
     }
 }
 
-static double mean_plots(const struct scene *scene, const struct scene_clutter *clutter)
+static double mean_clutter_plots(const struct scene *scene, const struct scene_clutter *clutter)
 {
     const double *box_m = clutter->has_box ? clutter->box_m : scene->area_m;
 
@@ -828,12 +837,12 @@ static double mean_plots(const struct scene *scene, const struct scene_clutter *
 static void observe_clutter(struct observer *observer, size_t source)
 {
     const struct scene_clutter *clutter = &observer->scene->clutter[source];
-    double mean = mean_plots(observer->scene, clutter);
+    double mean = mean_clutter_plots(observer->scene, clutter);
 
     for (size_t turn = 0; turn < observer->turns; turn++) {
         double t_s = observer->sensor->start_s + (double)turn * observer->sensor->turn_s;
-        struct random random = scene_stream(observer->seed, observer->run, STREAM_CLUTTER,
-                                            source * 64 + observer->index, turn, 0);
+        struct random random = scene_random_stream(observer->seed, observer->run, STREAM_CLUTTER,
+                                                   source * 64 + observer->index, turn, 0);
         uint64_t count = random_poisson(&random, mean);
 
         if (t_s < clutter->from_s || t_s >= clutter->until_s) {
@@ -841,11 +850,11 @@ static void observe_clutter(struct observer *observer, size_t source)
         }
         for (uint64_t i = 0; i < count; i++) {
             if (clutter->kind == CLUTTER_UNIFORM) {
-                draw_uniform(observer, clutter, turn, &random);
+                draw_uniform_clutter(observer, clutter, turn, &random);
             } else if (clutter->kind == CLUTTER_CELL) {
-                draw_cell(observer, clutter, turn, &random);
+                draw_clutter_cell(observer, clutter, turn, &random);
             } else {
-                draw_strobe(observer, clutter, turn, &random);
+                draw_strobe_clutter(observer, clutter, turn, &random);
             }
         }
     }
@@ -856,8 +865,8 @@ static void observe_false_bearings(struct observer *observer)
     const struct scene_sensor *sensor = observer->sensor;
 
     for (size_t turn = 0; turn < observer->turns; turn++) {
-        struct random random =
-            scene_stream(observer->seed, observer->run, STREAM_BEARINGS, observer->index, turn, 0);
+        struct random random = scene_random_stream(observer->seed, observer->run, STREAM_BEARINGS,
+                                                   observer->index, turn, 0);
         uint64_t count = random_poisson(&random, sensor->false_bearings);
 
         for (uint64_t i = 0; i < count; i++) {
@@ -890,11 +899,11 @@ static int by_scan(const void *a, const void *b)
 }
 
 /* Where sector `index` of a turn begins, as the sensor says it: the same number every turn. */
-static double border_rad(const struct scene_sensor *sensor, size_t index)
+static double sector_border_rad(const struct scene_sensor *sensor, size_t index)
 {
     double share = (double)(index % sensor->sectors) / (double)sensor->sectors;
 
-    return portable_wrap(sensor->start_rad + direction(sensor) * PORTABLE_TURN * share);
+    return portable_wrap(sensor->start_rad + turn_direction(sensor) * PORTABLE_TURN * share);
 }
 
 static struct scene_scan scan_of(const struct observer *observer, size_t number)
@@ -907,7 +916,8 @@ static struct scene_scan scan_of(const struct observer *observer, size_t number)
                                        (double)(number + (sensor->turns ? 1 : 0)) * scan_s};
 
     if (sensor->sectors > 1) {
-        double first_rad = border_rad(sensor, number), last_rad = border_rad(sensor, number + 1);
+        double first_rad = sector_border_rad(sensor, number),
+               last_rad = sector_border_rad(sensor, number + 1);
 
         scan.from_rad = sensor->is_counter_clockwise ? first_rad : last_rad;
         scan.to_rad = sensor->is_counter_clockwise ? last_rad : first_rad;
@@ -926,8 +936,8 @@ static void keep_scans(struct scene_run *run, const struct observer *observer, s
 
     for (size_t i = 0; i < observer->turns * sensor->sectors; i++) {
         struct scene_scan scan = scan_of(observer, i);
-        struct random random =
-            scene_stream(observer->seed, observer->run, STREAM_ARRIVAL, observer->index, i, 0);
+        struct random random = scene_random_stream(observer->seed, observer->run, STREAM_ARRIVAL,
+                                                   observer->index, i, 0);
 
         scan.plots = observer->plots ? observer->plots + taken : NULL;
         while (taken < observer->num_plots && observer->plots[taken].scan == i) {
@@ -938,7 +948,7 @@ static void keep_scans(struct scene_run *run, const struct observer *observer, s
         if (random_uniform(&random) < sensor->late_share) {
             scan.received_s += sensor->late_s;
         }
-        if (!is_lost(run->scene, observer->index, scan.end_s - scan_s, scan.end_s)) {
+        if (!is_scan_silent(run->scene, observer->index, scan.end_s - scan_s, scan.end_s)) {
             run->scans = must_grow(run->scans, run->num_scans, room, sizeof *run->scans);
             run->scans[run->num_scans++] = scan;
         }
@@ -958,8 +968,8 @@ static int by_arrival(const void *a, const void *b)
     return (one->number > other->number) - (one->number < other->number);
 }
 
-static void observe_all(struct observer *observer, const struct scene_run *run,
-                        const struct target_fades *fades)
+static void observe_everything(struct observer *observer, const struct scene_run *run,
+                               const struct target_fades *fades)
 {
     observe_targets(observer, run, fades);
     for (size_t i = 0; !observer->sensor->is_passive && i < run->scene->num_clutter; i++) {
@@ -971,7 +981,7 @@ static void observe_all(struct observer *observer, const struct scene_run *run,
         if (kind == CLUTTER_UNIFORM || kind == CLUTTER_CELL || kind == CLUTTER_STROBE) {
             observe_clutter(observer, i);
         } else if (kind == CLUTTER_ABOUT_TARGETS) {
-            observe_about(observer, run, i);
+            observe_clutter_about_targets(observer, run, i);
         } else {
             observe_movers(observer, run, i);
         }
@@ -1001,16 +1011,16 @@ struct scene_run *scene_observe(const struct scene *scene, uint64_t seed, uint64
     }
     for (size_t i = 0; i < scene->num_sensors; i++) {
         struct scene_sensor sensor = scene->sensors[i];
-        struct random random = scene_stream(seed, run_number, STREAM_START, i, 0, 0);
+        struct random random = scene_random_stream(seed, run_number, STREAM_START, i, 0, 0);
         struct observer observer = {
             .scene = scene, .sensor = &sensor, .index = i, .seed = seed, .run = run_number};
 
-        sensor.start_s = draw_between(&random, sensor.starts_s);
-        sensor.start_rad = draw_between(&random, sensor.starts_rad);
+        sensor.start_s = random_in_span(&random, sensor.starts_s);
+        sensor.start_rad = random_in_span(&random, sensor.starts_rad);
         observer.turns = num_turns(scene, &sensor);
         observer.end_s = sensor.start_s + (double)observer.turns * sensor.turn_s;
         if (observer.turns > 0) {
-            observe_all(&observer, run, fades);
+            observe_everything(&observer, run, fades);
             keep_scans(run, &observer, &room);
         }
         run->plots[i] = observer.plots;

@@ -42,6 +42,6 @@ struct scene_run *scene_observe(const struct scene *scene, uint64_t seed, uint64
 void scene_run_free(struct scene_run *run);
 
 /* Whether some sensor could see what is there, were it not for events. */
-bool scene_covers(const struct scene *scene, double x_m, double y_m);
+bool scene_covers_place(const struct scene *scene, double x_m, double y_m);
 
 #endif

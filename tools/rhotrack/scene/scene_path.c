@@ -11,7 +11,7 @@
 
 /* ---- motion ---- */
 
-static bool is_pulled(const struct path_leg *leg)
+static bool has_fixed_acceleration(const struct path_leg *leg)
 {
     return fabs(leg->accel_mps2[0]) + fabs(leg->accel_mps2[1]) > 0.0;
 }
@@ -27,8 +27,8 @@ double path_leg_speed_mps(const struct path_leg *leg, double t_s)
     double vx_mps, vy_mps;
 
     pulled_velocity(leg, t_s - leg->t_s, &vx_mps, &vy_mps);
-    return is_pulled(leg) ? portable_hypot(vx_mps, vy_mps)
-                          : leg->speed_mps + leg->along_mps2 * (t_s - leg->t_s);
+    return has_fixed_acceleration(leg) ? portable_hypot(vx_mps, vy_mps)
+                                       : leg->speed_mps + leg->along_mps2 * (t_s - leg->t_s);
 }
 
 double path_leg_heading_rad(const struct path_leg *leg, double t_s)
@@ -36,11 +36,11 @@ double path_leg_heading_rad(const struct path_leg *leg, double t_s)
     double vx_mps, vy_mps;
 
     pulled_velocity(leg, t_s - leg->t_s, &vx_mps, &vy_mps);
-    return is_pulled(leg) ? portable_atan2(vy_mps, vx_mps)
-                          : leg->heading_rad + leg->turn_radps * (t_s - leg->t_s);
+    return has_fixed_acceleration(leg) ? portable_atan2(vy_mps, vx_mps)
+                                       : leg->heading_rad + leg->turn_radps * (t_s - leg->t_s);
 }
 
-static struct motion leg_at(const struct path_leg *leg, double t_s)
+static struct motion leg_motion_at(const struct path_leg *leg, double t_s)
 {
     double dt_s = t_s - leg->t_s, turn = leg->turn_radps, along = leg->along_mps2;
     double speed_mps = path_leg_speed_mps(leg, t_s), heading_rad = path_leg_heading_rad(leg, t_s);
@@ -53,7 +53,7 @@ static struct motion leg_at(const struct path_leg *leg, double t_s)
                         .z_m = leg->z_m + (leg->vz_mps + 0.5 * accel_mps2[2] * dt_s) * dt_s,
                         .vz_mps = leg->vz_mps + accel_mps2[2] * dt_s};
 
-    if (is_pulled(leg)) {
+    if (has_fixed_acceleration(leg)) {
         pulled_velocity(leg, dt_s, &at.vx_mps, &at.vy_mps);
         at.x_m += (at.vx_mps - 0.5 * accel_mps2[0] * dt_s) * dt_s;
         at.y_m += (at.vy_mps - 0.5 * accel_mps2[1] * dt_s) * dt_s;
@@ -72,7 +72,7 @@ static struct motion leg_at(const struct path_leg *leg, double t_s)
     return at;
 }
 
-const struct path_leg *path_leg_of(const struct scene_path *path, double t_s)
+const struct path_leg *path_leg_at(const struct scene_path *path, double t_s)
 {
     size_t first = 0, last = path->num_legs;
 
@@ -105,9 +105,9 @@ static void add_shake(const struct scene_path *path, double t_s, struct motion *
     at->vz_mps += shake->vz_mps + share * (next->vz_mps - shake->vz_mps);
 }
 
-struct motion path_at(const struct scene_path *path, double t_s)
+struct motion path_motion_at(const struct scene_path *path, double t_s)
 {
-    struct motion at = leg_at(path_leg_of(path, t_s), t_s);
+    struct motion at = leg_motion_at(path_leg_at(path, t_s), t_s);
 
     if (path->num_shakes > 0) {
         add_shake(path, t_s, &at);
@@ -129,8 +129,8 @@ void path_add_leg(struct scene_path *path, struct path_leg leg)
     path->legs[path->num_legs++] = leg;
 }
 
-void path_begin(struct scene_path *path, double x_m, double y_m, double speed_mps,
-                double heading_rad)
+void path_begin_first_leg(struct scene_path *path, double x_m, double y_m, double speed_mps,
+                          double heading_rad)
 {
     path_add_leg(path, (struct path_leg){.t_s = path->from_s,
                                          .x_m = x_m,
@@ -139,10 +139,10 @@ void path_begin(struct scene_path *path, double x_m, double y_m, double speed_mp
                                          .heading_rad = heading_rad});
 }
 
-void path_go_on(struct scene_path *path, double t_s, double along_mps2, double turn_radps)
+void path_begin_next_leg(struct scene_path *path, double t_s, double along_mps2, double turn_radps)
 {
     struct path_leg *last = &path->legs[path->num_legs - 1];
-    struct motion at = leg_at(last, t_s);
+    struct motion at = leg_motion_at(last, t_s);
     struct path_leg next = {.t_s = t_s,
                             .x_m = at.x_m,
                             .y_m = at.y_m,
@@ -168,7 +168,7 @@ double path_speed_mps(const struct scene_path *path, double t_s)
     return path_leg_speed_mps(&path->legs[path->num_legs - 1], t_s);
 }
 
-void paths_keep(struct scene_paths *paths, struct scene_path path)
+void paths_add(struct scene_paths *paths, struct scene_path path)
 {
     paths->paths = must_grow(paths->paths, paths->count, &paths->room, sizeof *paths->paths);
     paths->paths[paths->count++] = path;

@@ -12,7 +12,7 @@
 
 #include "scene/scene_body.h"
 #include "scene/scene_json.h"
-#include "scene/scene_stream.h"
+#include "scene/scene_random.h"
 
 struct motion {
     double x_m, y_m, vx_mps, vy_mps, z_m, vz_mps;
@@ -42,17 +42,17 @@ struct scene_paths {
     struct scene_path *paths;
 };
 
-struct motion path_at(const struct scene_path *path, double t_s);
+struct motion path_motion_at(const struct scene_path *path, double t_s);
 void path_free(struct scene_path *path);
-void paths_keep(struct scene_paths *paths, struct scene_path path);
+void paths_add(struct scene_paths *paths, struct scene_path path);
 
 /*
  * The first leg, from from_s on; and another one from t_s on, as fast and in the direction as the
  * last one is then. A leg that would begin where the last one does takes its place.
  */
-void path_begin(struct scene_path *path, double x_m, double y_m, double speed_mps,
-                double heading_rad);
-void path_go_on(struct scene_path *path, double t_s, double along_mps2, double turn_radps);
+void path_begin_first_leg(struct scene_path *path, double x_m, double y_m, double speed_mps,
+                          double heading_rad);
+void path_begin_next_leg(struct scene_path *path, double t_s, double along_mps2, double turn_radps);
 double path_speed_mps(const struct scene_path *path, double t_s); /* in the last leg */
 void path_add_leg(struct scene_path *path, struct path_leg leg);
 
@@ -61,7 +61,7 @@ void path_add_leg(struct scene_path *path, struct path_leg leg);
  * heading to turn.
  */
 #define PATH_STANDS_MPS 1e-3
-const struct path_leg *path_leg_of(const struct scene_path *path, double t_s);
+const struct path_leg *path_leg_at(const struct scene_path *path, double t_s);
 double path_leg_speed_mps(const struct path_leg *leg, double t_s);
 double path_leg_heading_rad(const struct path_leg *leg, double t_s);
 

@@ -24,8 +24,8 @@ static struct scene_coverage read_coverage(struct json_object *object,
     struct scene_coverage coverage = otherwise;
     double sector_rad[2];
 
-    coverage.range_m = json_between(object, "range_m", 0, RANGE_MAX_M, otherwise.range_m);
-    if (json_numbers(object, "sector_rad", 2, -PORTABLE_TURN, PORTABLE_TURN, sector_rad)) {
+    coverage.range_m = json_read_span(object, "range_m", 0, RANGE_MAX_M, otherwise.range_m);
+    if (json_read_numbers(object, "sector_rad", 2, -PORTABLE_TURN, PORTABLE_TURN, sector_rad)) {
         coverage.has_sector = true;
         coverage.from_rad = sector_rad[0];
         coverage.to_rad = sector_rad[1];
@@ -37,15 +37,15 @@ static void read_xy(struct json_object *object, const char *key, double max, dou
 {
     double numbers[2] = {*x, *y};
 
-    json_numbers(object, key, 2, -max, max, numbers);
+    json_read_numbers(object, key, 2, -max, max, numbers);
     *x = numbers[0];
     *y = numbers[1];
 }
 
 static void read_times(struct json_object *object, double *from_s, double *until_s)
 {
-    *from_s = json_number(object, "from_s", -DURATION_MAX_S, DURATION_MAX_S, -INFINITY);
-    *until_s = json_number(object, "until_s", -DURATION_MAX_S, DURATION_MAX_S, INFINITY);
+    *from_s = json_read_number(object, "from_s", -DURATION_MAX_S, DURATION_MAX_S, -INFINITY);
+    *until_s = json_read_number(object, "until_s", -DURATION_MAX_S, DURATION_MAX_S, INFINITY);
     if (*until_s <= *from_s) {
         json_fail_key(object, "until_s", "is not after from_s");
     }
@@ -54,7 +54,7 @@ static void read_times(struct json_object *object, double *from_s, double *until
 /* "sensors": [1, 3]: a bit for each; all of them where it is not said. */
 static uint32_t read_sensors(struct json_object *object, const struct scene *scene)
 {
-    struct json_list list = json_list_of(object, "sensors", 2 * SCENE_SENSORS_MAX);
+    struct json_list list = json_read_list(object, "sensors", 2 * SCENE_SENSORS_MAX);
     uint32_t sensors = 0;
 
     for (size_t i = 0; i < list.count; i++) {
@@ -77,9 +77,9 @@ static struct scene_curve read_curve(struct json_object *object, const char *key
 {
     struct scene_curve curve = {.count = 1, .value = {otherwise}};
 
-    if (json_has(object, key) &&
+    if (json_has_key(object, key) &&
         cJSON_IsArray(cJSON_GetObjectItemCaseSensitive(object->item, key))) {
-        struct json_list list = json_list_of(object, key, SCENE_CURVE_MAX);
+        struct json_list list = json_read_list(object, key, SCENE_CURVE_MAX);
 
         if (list.count == 0) {
             json_fail(&list.place, "is empty");
@@ -98,7 +98,7 @@ static struct scene_curve read_curve(struct json_object *object, const char *key
             curve.value[curve.count] = point[1];
         }
     } else {
-        curve.value[0] = json_number(object, key, 0, 1, otherwise);
+        curve.value[0] = json_read_number(object, key, 0, 1, otherwise);
     }
     return curve;
 }
@@ -106,7 +106,7 @@ static struct scene_curve read_curve(struct json_object *object, const char *key
 /* ---- sensors ---- */
 
 /* By default a tracker is told the truth about a sensor, but for its biases. */
-static void read_stated(struct json_object *object, struct scene_sensor *sensor)
+static void read_stated_values(struct json_object *object, struct scene_sensor *sensor)
 {
     struct scene_stated *told = &sensor->told;
     struct json_object below;
@@ -122,88 +122,91 @@ static void read_stated(struct json_object *object, struct scene_sensor *sensor)
                                   .sigma_rad = sensor->sigma_rad,
                                   .coverage = sensor->coverage,
                                   .notch = sensor->notch};
-    if (!json_below(object, "told", &below)) {
+    if (!json_read_object(object, "told", &below)) {
         return;
     }
-    told->pd = json_number(&below, "pd", 0.01, 0.999, told->pd);
+    told->pd = json_read_number(&below, "pd", 0.01, 0.999, told->pd);
     if (sensor->is_passive) {
-        told->sigma_rad = json_number(&below, "sigma_rad", 1e-6, 0.5, told->sigma_rad);
+        told->sigma_rad = json_read_number(&below, "sigma_rad", 1e-6, 0.5, told->sigma_rad);
     } else if (sensor->is_cartesian) {
-        told->sigma_m = json_number(&below, "sigma_m", 1e-3, 1e5, told->sigma_m);
+        told->sigma_m = json_read_number(&below, "sigma_m", 1e-3, 1e5, told->sigma_m);
         if (sensor->sigma_mps > 0.0) {
-            told->sigma_mps = json_number(&below, "sigma_mps", 1e-3, 1e5, told->sigma_mps);
+            told->sigma_mps = json_read_number(&below, "sigma_mps", 1e-3, 1e5, told->sigma_mps);
         }
     } else {
-        told->sigma_range_m = json_number(&below, "sigma_range_m", 1e-3, 1e5, told->sigma_range_m);
+        told->sigma_range_m =
+            json_read_number(&below, "sigma_range_m", 1e-3, 1e5, told->sigma_range_m);
         told->sigma_azimuth_rad =
-            json_number(&below, "sigma_azimuth_rad", 1e-6, 0.5, told->sigma_azimuth_rad);
+            json_read_number(&below, "sigma_azimuth_rad", 1e-6, 0.5, told->sigma_azimuth_rad);
         told->sigma_range_rate_mps =
-            json_number(&below, "sigma_range_rate_mps", 1e-3, 1e5, told->sigma_range_rate_mps);
-        told->range_bias_m = json_number(&below, "range_bias_m", -1e4, 1e4, 0);
+            json_read_number(&below, "sigma_range_rate_mps", 1e-3, 1e5, told->sigma_range_rate_mps);
+        told->range_bias_m = json_read_number(&below, "range_bias_m", -1e4, 1e4, 0);
         told->notch = scene_notch_read_told(&below, told->notch);
     }
     read_xy(&below, "at_m", PLACE_MAX_M, &told->x_m, &told->y_m);
-    told->azimuth_bias_rad = json_number(&below, "azimuth_bias_rad", -0.5, 0.5, 0);
-    told->time_bias_s = json_number(&below, "time_bias_s", -10, 10, 0);
+    told->azimuth_bias_rad = json_read_number(&below, "azimuth_bias_rad", -0.5, 0.5, 0);
+    told->time_bias_s = json_read_number(&below, "time_bias_s", -10, 10, 0);
     told->coverage = read_coverage(&below, told->coverage);
-    json_end(&below);
+    json_refuse_unknown_keys(&below);
 }
 
 /* How the antenna goes round; or, with interval_s, looks everywhere at once. */
 static void read_antenna(struct json_object *object, struct scene_sensor *sensor)
 {
-    json_exclude(object, "turn_s", "interval_s");
-    sensor->turns = json_has(object, "turn_s");
-    sensor->turn_s = json_number(object, "turn_s", 1e-3, 3600, 0);
-    sensor->turn_s = json_number(object, "interval_s", 1e-3, 3600, sensor->turn_s);
+    json_exclude_keys(object, "turn_s", "interval_s");
+    sensor->turns = json_has_key(object, "turn_s");
+    sensor->turn_s = json_read_number(object, "turn_s", 1e-3, 3600, 0);
+    sensor->turn_s = json_read_number(object, "interval_s", 1e-3, 3600, sensor->turn_s);
     if (!(sensor->turn_s > 0.0)) {
         json_fail(&object->place, "turn_s or interval_s is missing");
     }
     sensor->sectors = 1;
     if (sensor->turns) {
-        sensor->sectors = (size_t)json_count(object, "sectors", 1, 360, 1);
-        sensor->is_counter_clockwise = json_flag(object, "is_counter_clockwise", false);
-        sensor->starts_rad = json_between(object, "start_rad", -PORTABLE_TURN, PORTABLE_TURN,
-                                          (struct json_span){PORTABLE_PI / 2.0, PORTABLE_PI / 2.0});
+        sensor->sectors = (size_t)json_read_count(object, "sectors", 1, 360, 1);
+        sensor->is_counter_clockwise = json_read_flag(object, "is_counter_clockwise", false);
+        sensor->starts_rad =
+            json_read_span(object, "start_rad", -PORTABLE_TURN, PORTABLE_TURN,
+                           (struct json_span){PORTABLE_PI / 2.0, PORTABLE_PI / 2.0});
     }
     sensor->starts_s =
-        json_between(object, "start_s", -3600, DURATION_MAX_S, (struct json_span){0, 0});
+        json_read_span(object, "start_s", -3600, DURATION_MAX_S, (struct json_span){0, 0});
     sensor->start_s = sensor->starts_s.lo;
     sensor->start_rad = sensor->starts_rad.lo;
-    sensor->late_share = json_number(object, "late_share", 0, 1, 0);
-    sensor->late_s = json_number(object, "late_s", 0, 60, 0);
+    sensor->late_share = json_read_number(object, "late_share", 0, 1, 0);
+    sensor->late_s = json_read_number(object, "late_s", 0, 60, 0);
 }
 
 static void read_resolution(struct json_object *object, struct scene_sensor *sensor)
 {
-    sensor->resolution_m = json_number(object, "resolution_m", 0, 1e5, 0);
+    sensor->resolution_m = json_read_number(object, "resolution_m", 0, 1e5, 0);
     if (!sensor->is_cartesian) {
-        sensor->resolution_rad = json_number(object, "resolution_rad", 0, 1, 0);
+        sensor->resolution_rad = json_read_number(object, "resolution_rad", 0, 1, 0);
         if (sensor->resolution_m > 0.0) {
-            json_require(object, "resolution_rad");
+            json_require_key(object, "resolution_rad");
         }
     }
 }
 
 static void read_radar(struct json_object *object, struct scene_sensor *sensor)
 {
-    json_exclude(object, "sigma_m", "sigma_range_m");
-    sensor->is_cartesian = json_has(object, "sigma_m");
-    sensor->sigma_m = json_number(object, "sigma_m", 1e-3, 1e5, 0);
+    json_exclude_keys(object, "sigma_m", "sigma_range_m");
+    sensor->is_cartesian = json_has_key(object, "sigma_m");
+    sensor->sigma_m = json_read_number(object, "sigma_m", 1e-3, 1e5, 0);
     if (sensor->is_cartesian) {
-        sensor->sigma_mps = json_number(object, "sigma_mps", 1e-3, 1e5, 0);
+        sensor->sigma_mps = json_read_number(object, "sigma_mps", 1e-3, 1e5, 0);
     } else {
-        json_require(object, "sigma_range_m");
-        json_require(object, "sigma_azimuth_rad");
-        sensor->sigma_range_m = json_number(object, "sigma_range_m", 1e-3, 1e5, 0);
-        sensor->sigma_azimuth_rad = json_number(object, "sigma_azimuth_rad", 1e-6, 0.5, 0);
-        sensor->has_range_rate = json_has(object, "sigma_range_rate_mps");
-        sensor->sigma_range_rate_mps = json_number(object, "sigma_range_rate_mps", 1e-3, 1e5, 0);
-        sensor->range_rate_span_mps = json_number(object, "range_rate_span_mps", 0, 4e4, 0);
+        json_require_key(object, "sigma_range_m");
+        json_require_key(object, "sigma_azimuth_rad");
+        sensor->sigma_range_m = json_read_number(object, "sigma_range_m", 1e-3, 1e5, 0);
+        sensor->sigma_azimuth_rad = json_read_number(object, "sigma_azimuth_rad", 1e-6, 0.5, 0);
+        sensor->has_range_rate = json_has_key(object, "sigma_range_rate_mps");
+        sensor->sigma_range_rate_mps =
+            json_read_number(object, "sigma_range_rate_mps", 1e-3, 1e5, 0);
+        sensor->range_rate_span_mps = json_read_number(object, "range_rate_span_mps", 0, 4e4, 0);
         sensor->notch = scene_notch_read(object);
-        sensor->range_bias_m = json_number(object, "range_bias_m", -1e4, 1e4, 0);
-        sensor->azimuth_bias_rad = json_number(object, "azimuth_bias_rad", -0.5, 0.5, 0);
-        sensor->time_bias_s = json_number(object, "time_bias_s", -10, 10, 0);
+        sensor->range_bias_m = json_read_number(object, "range_bias_m", -1e4, 1e4, 0);
+        sensor->azimuth_bias_rad = json_read_number(object, "azimuth_bias_rad", -0.5, 0.5, 0);
+        sensor->time_bias_s = json_read_number(object, "time_bias_s", -10, 10, 0);
         if (sensor->range_rate_span_mps > 0.0 && sensor->range_rate_span_mps < 1.0) {
             json_fail_key(object, "range_rate_span_mps", "must be 0 or 1 and more");
         }
@@ -211,17 +214,17 @@ static void read_radar(struct json_object *object, struct scene_sensor *sensor)
     read_resolution(object, sensor);
 }
 
-static void read_passive(struct json_object *object, struct scene_sensor *sensor)
+static void read_passive_sensor(struct json_object *object, struct scene_sensor *sensor)
 {
     double sector_rad[2] = {-PORTABLE_PI, PORTABLE_PI};
 
     sensor->is_passive = true;
-    json_require(object, "sigma_rad");
-    sensor->sigma_rad = json_number(object, "sigma_rad", 1e-6, 0.5, 0);
-    sensor->azimuth_bias_rad = json_number(object, "azimuth_bias_rad", -0.5, 0.5, 0);
-    sensor->time_bias_s = json_number(object, "time_bias_s", -10, 10, 0);
-    sensor->false_bearings = json_number(object, "false_bearings", 0, 250, 0);
-    json_numbers(object, "false_sector_rad", 2, -PORTABLE_TURN, PORTABLE_TURN, sector_rad);
+    json_require_key(object, "sigma_rad");
+    sensor->sigma_rad = json_read_number(object, "sigma_rad", 1e-6, 0.5, 0);
+    sensor->azimuth_bias_rad = json_read_number(object, "azimuth_bias_rad", -0.5, 0.5, 0);
+    sensor->time_bias_s = json_read_number(object, "time_bias_s", -10, 10, 0);
+    sensor->false_bearings = json_read_number(object, "false_bearings", 0, 250, 0);
+    json_read_numbers(object, "false_sector_rad", 2, -PORTABLE_TURN, PORTABLE_TURN, sector_rad);
     sensor->false_from_rad = sector_rad[0];
     sensor->false_to_rad = sector_rad[1];
     if (sector_rad[0] > sector_rad[1]) {
@@ -234,9 +237,9 @@ static void read_sensor(struct scene *scene, struct json_object *object, bool is
     struct scene_sensor *sensor = &scene->sensors[scene->num_sensors];
     const struct scene_coverage everywhere = {.range_m = {0, is_passive ? RANGE_MAX_M : 100e3}};
 
-    json_text(object, "text", NULL);
+    json_read_text(object, "text", NULL);
     sensor->sensor_id =
-        (int32_t)json_count(object, "sensor_id", 0, 32767, (uint64_t)scene->num_sensors + 1);
+        (int32_t)json_read_count(object, "sensor_id", 0, 32767, (uint64_t)scene->num_sensors + 1);
     for (size_t i = 0; i < scene->num_sensors; i++) {
         if (scene->sensors[i].sensor_id == sensor->sensor_id) {
             json_fail_key(object, "sensor_id", "sensor %d is there already", sensor->sensor_id);
@@ -245,7 +248,7 @@ static void read_sensor(struct scene *scene, struct json_object *object, bool is
     read_xy(object, "at_m", PLACE_MAX_M, &sensor->x_m, &sensor->y_m);
     read_antenna(object, sensor);
     if (is_passive) {
-        read_passive(object, sensor);
+        read_passive_sensor(object, sensor);
     } else {
         read_radar(object, sensor);
     }
@@ -255,8 +258,8 @@ static void read_sensor(struct scene *scene, struct json_object *object, bool is
         sensor->coverage = (struct scene_coverage){.range_m = {0, 4 * RANGE_MAX_M}};
     }
     sensor->pd = read_curve(object, "pd", 0.9);
-    read_stated(object, sensor);
-    json_end(object);
+    read_stated_values(object, sensor);
+    json_refuse_unknown_keys(object);
     if (!is_passive && scene->num_sensors > 0 &&
         scene->sensors[0].is_cartesian != sensor->is_cartesian) {
         json_fail(&object->place, "radars measure all range and azimuth, or all places (sigma_m)");
@@ -266,8 +269,8 @@ static void read_sensor(struct scene *scene, struct json_object *object, bool is
 
 static void read_all_sensors(struct scene *scene, struct json_object *root)
 {
-    struct json_list radars = json_list_of(root, "radars", SCENE_SENSORS_MAX);
-    struct json_list passive = json_list_of(root, "passive", SCENE_SENSORS_MAX);
+    struct json_list radars = json_read_list(root, "radars", SCENE_SENSORS_MAX);
+    struct json_list passive = json_read_list(root, "passive", SCENE_SENSORS_MAX);
 
     if (radars.count + passive.count == 0) {
         json_fail(&root->place, "no sensors: neither radars nor passive");
@@ -289,55 +292,56 @@ static void read_all_sensors(struct scene *scene, struct json_object *root)
 
 static const struct scene_coverage anywhere = {.range_m = {0, 4 * RANGE_MAX_M}};
 
-static void read_where(struct json_object *object, struct scene_clutter *clutter)
+static void read_clutter_area(struct json_object *object, struct scene_clutter *clutter)
 {
     clutter->within = read_coverage(object, (struct scene_coverage){.range_m = {-1, -1}});
-    clutter->has_box = json_numbers(object, "box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, clutter->box_m);
-    json_exclude(object, "box_m", "range_m");
-    json_exclude(object, "box_m", "sector_rad");
+    clutter->has_box =
+        json_read_numbers(object, "box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, clutter->box_m);
+    json_exclude_keys(object, "box_m", "range_m");
+    json_exclude_keys(object, "box_m", "sector_rad");
     if (clutter->has_box &&
         (clutter->box_m[0] > clutter->box_m[1] || clutter->box_m[2] > clutter->box_m[3])) {
         json_fail_key(object, "box_m", "must be [x_min, x_max, y_min, y_max]");
     }
 }
 
-static void read_uniform(struct json_object *object, struct scene_clutter *clutter)
+static void read_uniform_clutter(struct json_object *object, struct scene_clutter *clutter)
 {
-    json_exclude(object, "plots", "plots_per_km2");
-    if (!json_has(object, "plots_per_km2")) {
-        json_require(object, "plots");
+    json_exclude_keys(object, "plots", "plots_per_km2");
+    if (!json_has_key(object, "plots_per_km2")) {
+        json_require_key(object, "plots");
     }
-    clutter->plots = json_number(object, "plots", 0, PLOTS_MAX, 0);
-    clutter->plots_per_km2 = json_number(object, "plots_per_km2", 0, 1e4, 0);
-    clutter->rate_max_mps = json_number(object, "range_rate_max_mps", 0, 2e4, 0);
-    json_exclude(object, "range_rate_max_mps", "range_rate_sigma_mps");
-    clutter->rate_sigma_mps = json_number(object, "range_rate_sigma_mps", 0, 1e3, 0);
-    read_where(object, clutter);
+    clutter->plots = json_read_number(object, "plots", 0, PLOTS_MAX, 0);
+    clutter->plots_per_km2 = json_read_number(object, "plots_per_km2", 0, 1e4, 0);
+    clutter->rate_max_mps = json_read_number(object, "range_rate_max_mps", 0, 2e4, 0);
+    json_exclude_keys(object, "range_rate_max_mps", "range_rate_sigma_mps");
+    clutter->rate_sigma_mps = json_read_number(object, "range_rate_sigma_mps", 0, 1e3, 0);
+    read_clutter_area(object, clutter);
 }
 
-static void read_cell(struct json_object *object, struct scene_clutter *clutter)
+static void read_clutter_cell(struct json_object *object, struct scene_clutter *clutter)
 {
     static const char *const shapes[] = {"gaussian", "disc"};
 
-    json_require(object, "plots");
-    json_require(object, "at_m");
-    json_require(object, "radius_m");
-    clutter->plots = json_number(object, "plots", 0, PLOTS_MAX, 0);
-    clutter->is_disc = json_choice(object, "shape", shapes, 2, 0) == 1;
-    clutter->radius_m = json_number(object, "radius_m", 1, PLACE_MAX_M, 0);
+    json_require_key(object, "plots");
+    json_require_key(object, "at_m");
+    json_require_key(object, "radius_m");
+    clutter->plots = json_read_number(object, "plots", 0, PLOTS_MAX, 0);
+    clutter->is_disc = json_read_choice(object, "shape", shapes, 2, 0) == 1;
+    clutter->radius_m = json_read_number(object, "radius_m", 1, PLACE_MAX_M, 0);
     read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
     read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
-    clutter->rate_sigma_mps = json_number(object, "range_rate_sigma_mps", 0, 1e3, 0);
+    clutter->rate_sigma_mps = json_read_number(object, "range_rate_sigma_mps", 0, 1e3, 0);
 }
 
-static void read_standing(struct json_object *object, struct scene_clutter *clutter)
+static void read_standing_clutter(struct json_object *object, struct scene_clutter *clutter)
 {
-    struct json_list list = json_list_of(object, "places_m", 10000);
+    struct json_list list = json_read_list(object, "places_m", 10000);
 
-    json_exclude(object, "count", "places_m");
-    clutter->pd = json_number(object, "pd", 0, 1, 1);
-    clutter->count = json_count(object, "count", 0, 10000, 0);
-    read_where(object, clutter);
+    json_exclude_keys(object, "count", "places_m");
+    clutter->pd = json_read_number(object, "pd", 0, 1, 1);
+    clutter->count = json_read_count(object, "count", 0, 10000, 0);
+    read_clutter_area(object, clutter);
     if (list.item) {
         clutter->count = list.count;
         clutter->places_m = must_calloc(list.count + 1, sizeof *clutter->places_m);
@@ -345,61 +349,62 @@ static void read_standing(struct json_object *object, struct scene_clutter *clut
             json_element_numbers(&list, i, 2, -PLACE_MAX_M, PLACE_MAX_M, clutter->places_m[i]);
         }
     } else {
-        json_require(object, "count");
+        json_require_key(object, "count");
     }
 }
 
 static void read_spikes(struct json_object *object, struct scene_clutter *clutter)
 {
-    json_require(object, "born_per_s");
-    json_require(object, "life_s");
-    clutter->per_s = json_number(object, "born_per_s", 0, 1e4, 0);
-    clutter->life_s = json_between(object, "life_s", 1e-3, 1e5, (struct json_span){0});
-    clutter->pd = json_number(object, "pd", 0, 1, 1);
-    clutter->speed_mps = json_number(object, "speed_mps", 0, 2e4, 0);
-    read_where(object, clutter);
+    json_require_key(object, "born_per_s");
+    json_require_key(object, "life_s");
+    clutter->per_s = json_read_number(object, "born_per_s", 0, 1e4, 0);
+    clutter->life_s = json_read_span(object, "life_s", 1e-3, 1e5, (struct json_span){0});
+    clutter->pd = json_read_number(object, "pd", 0, 1, 1);
+    clutter->speed_mps = json_read_number(object, "speed_mps", 0, 2e4, 0);
+    read_clutter_area(object, clutter);
 }
 
 static void read_strobe(struct json_object *object, struct scene_clutter *clutter)
 {
-    json_require(object, "plots");
-    json_require(object, "azimuth_rad");
-    json_require(object, "width_rad");
-    clutter->plots = json_number(object, "plots", 0, PLOTS_MAX, 0);
-    clutter->azimuth_rad = json_number(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
-    clutter->width_rad = json_number(object, "width_rad", 0, PORTABLE_TURN, 0);
-    clutter->azimuth_radps = json_number(object, "azimuth_radps", -10, 10, 0);
+    json_require_key(object, "plots");
+    json_require_key(object, "azimuth_rad");
+    json_require_key(object, "width_rad");
+    clutter->plots = json_read_number(object, "plots", 0, PLOTS_MAX, 0);
+    clutter->azimuth_rad =
+        json_read_number(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
+    clutter->width_rad = json_read_number(object, "width_rad", 0, PORTABLE_TURN, 0);
+    clutter->azimuth_radps = json_read_number(object, "azimuth_radps", -10, 10, 0);
     clutter->within.range_m =
-        json_between(object, "range_m", 0, RANGE_MAX_M, (struct json_span){-1, -1});
+        json_read_span(object, "range_m", 0, RANGE_MAX_M, (struct json_span){-1, -1});
 }
 
 static void read_flock(struct json_object *object, struct scene_clutter *clutter)
 {
-    json_require(object, "count");
-    json_require(object, "at_m");
-    json_require(object, "radius_m");
-    clutter->count = json_count(object, "count", 0, 10000, 0);
-    clutter->radius_m = json_number(object, "radius_m", 1, PLACE_MAX_M, 0);
+    json_require_key(object, "count");
+    json_require_key(object, "at_m");
+    json_require_key(object, "radius_m");
+    clutter->count = json_read_count(object, "count", 0, 10000, 0);
+    clutter->radius_m = json_read_number(object, "radius_m", 1, PLACE_MAX_M, 0);
     read_xy(object, "at_m", PLACE_MAX_M, &clutter->x_m, &clutter->y_m);
     read_xy(object, "velocity_mps", 2e4, &clutter->vx_mps, &clutter->vy_mps);
-    clutter->speed_mps = json_number(object, "speed_mps", 0, 2e4, 0);
-    clutter->pd = json_number(object, "pd", 0, 1, 1);
+    clutter->speed_mps = json_read_number(object, "speed_mps", 0, 2e4, 0);
+    clutter->pd = json_read_number(object, "pd", 0, 1, 1);
 }
 
 static void read_second_time(struct json_object *object, struct scene_clutter *clutter)
 {
-    json_require(object, "unambiguous_range_m");
-    clutter->unambiguous_m = json_number(object, "unambiguous_range_m", 1, RANGE_MAX_M, 0);
-    clutter->pd = json_number(object, "pd", 0, 1, 1);
+    json_require_key(object, "unambiguous_range_m");
+    clutter->unambiguous_m = json_read_number(object, "unambiguous_range_m", 1, RANGE_MAX_M, 0);
+    clutter->pd = json_read_number(object, "pd", 0, 1, 1);
     clutter->targets = targets_read(object, "targets");
 }
 
-static void read_about(struct json_object *object, struct scene_clutter *clutter)
+static void read_clutter_about_targets(struct json_object *object, struct scene_clutter *clutter)
 {
-    json_require(object, "count");
-    json_require(object, "width_rad");
-    clutter->count = json_count(object, "count", 0, 10000, 0);
-    clutter->width_rad = json_number(object, "width_rad", 0, PORTABLE_PI, 0);
+    json_require_key(object, "count");
+    json_require_key(object, "width_rad");
+    clutter->count = json_read_count(object, "count", 0, 10000, 0);
+    clutter->width_rad = json_read_number(object, "width_rad", 0, PORTABLE_PI, 0);
 }
 
 /* Where it is even, in the area it is told; and what a radar measures of it. */
@@ -430,19 +435,19 @@ static void read_clutter(struct scene *scene, struct json_object *object)
         "uniform", "cell",  "standing",           "spikes",
         "strobe",  "flock", "second-time-around", "about-targets"};
     static void (*const readers[CLUTTER_KINDS])(struct json_object *, struct scene_clutter *) = {
-        read_uniform, read_cell,  read_standing,    read_spikes,
-        read_strobe,  read_flock, read_second_time, read_about};
+        read_uniform_clutter, read_clutter_cell, read_standing_clutter, read_spikes,
+        read_strobe,          read_flock,        read_second_time,      read_clutter_about_targets};
     struct scene_clutter *clutter = &scene->clutter[scene->num_clutter];
 
-    json_require(object, "kind");
-    json_text(object, "text", NULL);
-    clutter->kind = (enum clutter_kind)json_choice(object, "kind", kinds, CLUTTER_KINDS, 0);
+    json_require_key(object, "kind");
+    json_read_text(object, "text", NULL);
+    clutter->kind = (enum clutter_kind)json_read_choice(object, "kind", kinds, CLUTTER_KINDS, 0);
     clutter->sensors = read_sensors(object, scene);
     clutter->within = anywhere;
     read_times(object, &clutter->from_s, &clutter->until_s);
     readers[clutter->kind](object, clutter);
     check_clutter(scene, object, clutter);
-    json_end(object);
+    json_refuse_unknown_keys(object);
     scene->num_clutter++;
 }
 
@@ -450,20 +455,20 @@ static void read_clutter(struct scene *scene, struct json_object *object)
 
 static void read_outage(struct json_object *object, struct scene_event *event)
 {
-    json_require(object, "from_s");
-    json_require(object, "until_s");
-    event->is_silent = json_flag(object, "is_silent", true);
+    json_require_key(object, "from_s");
+    json_require_key(object, "until_s");
+    event->is_silent = json_read_flag(object, "is_silent", true);
 }
 
 static void read_fades(struct json_object *object, struct scene_event *event)
 {
-    struct json_list list = json_list_of(object, "targets", 32);
+    struct json_list list = json_read_list(object, "targets", 32);
 
-    event->pd = json_number(object, "pd", 0, 1, 0);
-    event->per_hour = json_number(object, "per_hour", 0, 3600, 0);
-    event->for_s = json_between(object, "for_s", 1e-3, 1e6, (struct json_span){0});
+    event->pd = json_read_number(object, "pd", 0, 1, 0);
+    event->per_hour = json_read_number(object, "per_hour", 0, 3600, 0);
+    event->for_s = json_read_span(object, "for_s", 1e-3, 1e6, (struct json_span){0});
     if (event->per_hour > 0.0) {
-        json_require(object, "for_s");
+        json_require_key(object, "for_s");
     }
     event->has_targets = list.item != NULL;
     for (size_t i = 0; i < list.count; i++) {
@@ -485,12 +490,12 @@ static void read_split(struct json_object *object, struct scene_event *event)
 {
     const struct json_span none = {0, 0};
 
-    json_require(object, "share");
-    event->share = json_number(object, "share", 0, 1, 0);
-    event->range_sigmas = json_between(object, "range_sigmas", -1e3, 1e3, none);
-    event->azimuth_sigmas = json_between(object, "azimuth_sigmas", -1e3, 1e3, none);
-    event->range_m = json_between(object, "range_m", -1e5, 1e5, none);
-    event->azimuth_rad = json_between(object, "azimuth_rad", -1, 1, none);
+    json_require_key(object, "share");
+    event->share = json_read_number(object, "share", 0, 1, 0);
+    event->range_sigmas = json_read_span(object, "range_sigmas", -1e3, 1e3, none);
+    event->azimuth_sigmas = json_read_span(object, "azimuth_sigmas", -1e3, 1e3, none);
+    event->range_m = json_read_span(object, "range_m", -1e5, 1e5, none);
+    event->azimuth_rad = json_read_span(object, "azimuth_rad", -1, 1, none);
 }
 
 static void read_event(struct scene *scene, struct json_object *object)
@@ -500,13 +505,13 @@ static void read_event(struct scene *scene, struct json_object *object)
         read_outage, read_fades, read_mask, read_split};
     struct scene_event *event = &scene->events[scene->num_events];
 
-    json_require(object, "kind");
-    json_text(object, "text", NULL);
-    event->kind = (enum event_kind)json_choice(object, "kind", kinds, EVENT_KINDS, 0);
+    json_require_key(object, "kind");
+    json_read_text(object, "text", NULL);
+    event->kind = (enum event_kind)json_read_choice(object, "kind", kinds, EVENT_KINDS, 0);
     event->sensors = read_sensors(object, scene);
     read_times(object, &event->from_s, &event->until_s);
     readers[event->kind](object, event);
-    json_end(object);
+    json_refuse_unknown_keys(object);
     scene->num_events++;
 }
 
@@ -520,9 +525,9 @@ static void read_settings(struct scene *scene, struct json_object *root)
     size_t used = 0, room = 4096;
 
     scene->settings = must_calloc(room, 1);
-    parameters_default(&parameters);
+    parameters_set_defaults(&parameters);
     scene->v_max_mps = parameters.value[PARAMETER_V_MAX_MPS];
-    if (!json_below(root, "settings", &settings)) {
+    if (!json_read_object(root, "settings", &settings)) {
         return;
     }
     for (const cJSON *one = settings.item->child; one; one = one->next) {
@@ -554,27 +559,27 @@ static void read_settings(struct scene *scene, struct json_object *root)
 }
 
 /* The lab's bars and its oracle's: checked here, so that mistakes show. */
-static void check_lab(struct json_object *root)
+static void check_lab_keys(struct json_object *root)
 {
     static const char *const figures[] = {"completeness", "false_per_scan", "switches", "rms_m",
                                           "delay_scans"};
     struct json_object below;
 
-    if (json_below(root, "goal", &below)) {
+    if (json_read_object(root, "goal", &below)) {
         for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
             const cJSON *item = cJSON_GetObjectItemCaseSensitive(below.item, figures[i]);
 
             if (cJSON_IsNull(item)) {
-                json_has(&below, figures[i]);
+                json_has_key(&below, figures[i]);
             } else {
-                json_number(&below, figures[i], 0, 1e9, 0);
+                json_read_number(&below, figures[i], 0, 1e9, 0);
             }
         }
-        json_end(&below);
+        json_refuse_unknown_keys(&below);
     }
-    if (json_below(root, "oracle", &below)) {
-        json_number(&below, "process_noise_mps2", 0, 1e3, 0);
-        json_end(&below);
+    if (json_read_object(root, "oracle", &below)) {
+        json_read_number(&below, "process_noise_mps2", 0, 1e3, 0);
+        json_refuse_unknown_keys(&below);
     }
 }
 
@@ -584,13 +589,13 @@ static void read_area(struct scene *scene, struct json_object *root)
 {
     double *area_m = scene->area_m;
 
-    scene->has_area = json_numbers(root, "area", 4, -PLACE_MAX_M, PLACE_MAX_M, area_m);
+    scene->has_area = json_read_numbers(root, "area", 4, -PLACE_MAX_M, PLACE_MAX_M, area_m);
     if (scene->has_area && (area_m[0] >= area_m[1] || area_m[2] >= area_m[3])) {
         json_fail_key(root, "area", "must be [x_min, x_max, y_min, y_max]");
     }
 }
 
-static void check_size(const struct scene *scene, const struct json_object *root)
+static void check_scene_size(const struct scene *scene, const struct json_object *root)
 {
     double scans = 0.0, plots = 0.0;
 
@@ -617,17 +622,17 @@ struct scene *scene_read(const char *name, char *text, size_t length, const char
     struct json_list list;
 
     for (size_t i = 0; i < num_sets; i++) {
-        json_assign(&file, sets[i]);
+        json_assign_by_path(&file, sets[i]);
     }
     root = json_root(&file);
-    scene->name = must_copy(name);
-    json_require(&root, "version");
-    if (json_count(&root, "version", 1, 1000, 1) != VERSION) {
+    scene->name = must_copy_text(name);
+    json_require_key(&root, "version");
+    if (json_read_count(&root, "version", 1, 1000, 1) != VERSION) {
         json_fail_key(&root, "version", "this program knows version %d", VERSION);
     }
-    scene->title = must_copy(json_text(&root, "text", ""));
-    json_require(&root, "duration_s");
-    scene->duration_s = json_number(&root, "duration_s", 1e-3, DURATION_MAX_S, 0);
+    scene->title = must_copy_text(json_read_text(&root, "text", ""));
+    json_require_key(&root, "duration_s");
+    scene->duration_s = json_read_number(&root, "duration_s", 1e-3, DURATION_MAX_S, 0);
     read_area(scene, &root);
     read_settings(scene, &root);
     read_all_sensors(scene, &root);
@@ -638,25 +643,25 @@ struct scene *scene_read(const char *name, char *text, size_t length, const char
     if (scene->has_heights && (scene->num_radars == 0 || !scene->sensors[0].is_cartesian)) {
         json_fail_key(&root, "targets", "heights are for radars with sigma_m");
     }
-    list = json_list_of(&root, "clutter", SCENE_ITEMS_MAX);
+    list = json_read_list(&root, "clutter", SCENE_ITEMS_MAX);
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);
 
         read_clutter(scene, &one);
     }
     scene->reflectors = scene_reflectors_read(&root);
-    list = json_list_of(&root, "events", SCENE_ITEMS_MAX);
+    list = json_read_list(&root, "events", SCENE_ITEMS_MAX);
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);
 
         read_event(scene, &one);
     }
-    if (json_has(&root, "platforms") && json_list_of(&root, "platforms", 1000).count > 0) {
+    if (json_has_key(&root, "platforms") && json_read_list(&root, "platforms", 1000).count > 0) {
         json_fail_key(&root, "platforms", "sensors that move are not simulated yet");
     }
-    check_lab(&root);
-    json_end(&root);
-    check_size(scene, &root);
+    check_lab_keys(&root);
+    json_refuse_unknown_keys(&root);
+    check_scene_size(scene, &root);
     json_close(&file);
     free(text);
     return scene;

@@ -9,25 +9,25 @@
 
 struct scene_reflectors scene_reflectors_read(struct json_object *root)
 {
-    struct json_list list = json_list_of(root, "reflectors", SCENE_REFLECTORS_MAX);
+    struct json_list list = json_read_list(root, "reflectors", SCENE_REFLECTORS_MAX);
     struct scene_reflectors reflectors = {.count = list.count};
 
     for (size_t i = 0; i < list.count; i++) {
         struct json_object one = json_element(&list, i);
         struct scene_reflector *reflector = &reflectors.items[i];
 
-        json_text(&one, "text", NULL);
-        json_require(&one, "from_m");
-        json_require(&one, "to_m");
-        json_numbers(&one, "from_m", 2, -PLACE_MAX_M, PLACE_MAX_M, reflector->from_m);
-        json_numbers(&one, "to_m", 2, -PLACE_MAX_M, PLACE_MAX_M, reflector->to_m);
-        reflector->probability = json_number(&one, "probability", 0, 1, 1);
-        reflector->is_told = json_flag(&one, "is_told", true);
+        json_read_text(&one, "text", NULL);
+        json_require_key(&one, "from_m");
+        json_require_key(&one, "to_m");
+        json_read_numbers(&one, "from_m", 2, -PLACE_MAX_M, PLACE_MAX_M, reflector->from_m);
+        json_read_numbers(&one, "to_m", 2, -PLACE_MAX_M, PLACE_MAX_M, reflector->to_m);
+        reflector->probability = json_read_number(&one, "probability", 0, 1, 1);
+        reflector->is_told = json_read_flag(&one, "is_told", true);
         if (portable_hypot(reflector->to_m[0] - reflector->from_m[0],
                            reflector->to_m[1] - reflector->from_m[1]) < 1.0) {
             json_fail_key(&one, "to_m", "is less than 1 m from from_m");
         }
-        json_end(&one);
+        json_refuse_unknown_keys(&one);
     }
     return reflectors;
 }
@@ -58,7 +58,7 @@ bool scene_reflector_image(const struct scene_reflector *reflector, double senso
     return crossing_m >= 0.0 && crossing_m <= length_m;
 }
 
-void scene_reflectors_write(const struct scene_reflectors *reflectors, FILE *file)
+void scene_reflectors_write_settings(const struct scene_reflectors *reflectors, FILE *file)
 {
     const char *before = "reflectors = ";
 

@@ -32,6 +32,6 @@ bool scene_reflector_image(const struct scene_reflector *reflector, double senso
                            double sensor_y_m, const struct motion *at, struct motion *image);
 
 /* The line of an INI file; none where none is told. */
-void scene_reflectors_write(const struct scene_reflectors *reflectors, FILE *file);
+void scene_reflectors_write_settings(const struct scene_reflectors *reflectors, FILE *file);
 
 #endif

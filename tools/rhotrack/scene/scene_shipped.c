@@ -58,6 +58,6 @@ struct scene *scene_find(const char *name, const char *const *sets, size_t num_s
     if (!shipped_scenes[index].name) {
         return NULL;
     }
-    return scene_read(name, must_copy(shipped_scenes[index].text),
+    return scene_read(name, must_copy_text(shipped_scenes[index].text),
                       strlen(shipped_scenes[index].text), sets, num_sets);
 }

@@ -25,8 +25,8 @@ static double change_speed(struct scene_path *path, double t_s, double to_mps, d
     double change_mps = to_mps - path_speed_mps(path, t_s), for_s = fabs(change_mps) / along_mps2;
 
     if (for_s > 0.0) {
-        path_go_on(path, t_s, change_mps > 0.0 ? along_mps2 : -along_mps2, 0.0);
-        path_go_on(path, t_s + for_s, 0.0, 0.0);
+        path_begin_next_leg(path, t_s, change_mps > 0.0 ? along_mps2 : -along_mps2, 0.0);
+        path_begin_next_leg(path, t_s + for_s, 0.0, 0.0);
         path->legs[path->num_legs - 1].speed_mps = to_mps;
     }
     return t_s + for_s;
@@ -40,7 +40,7 @@ static double change_speed(struct scene_path *path, double t_s, double to_mps, d
  */
 #define PART_S 1.0
 
-static double follow_step(struct scene_path *path, double t_s, const struct path_step *step)
+static double add_step_legs(struct scene_path *path, double t_s, const struct path_step *step)
 {
     double speed_mps = path_speed_mps(path, t_s), turn_radps = step->turn_radps,
            for_s = step->for_s;
@@ -69,31 +69,32 @@ static double follow_step(struct scene_path *path, double t_s, const struct path
             double part_s = for_s / (double)parts;
             double middle_mps = speed_mps + along_mps2 * part_s * ((double)i + 0.5);
 
-            path_go_on(path, t_s + part_s * (double)i, along_mps2,
-                       middle_mps > PATH_STANDS_MPS ? step->across_mps2 / middle_mps : 0.0);
+            path_begin_next_leg(path, t_s + part_s * (double)i, along_mps2,
+                                middle_mps > PATH_STANDS_MPS ? step->across_mps2 / middle_mps
+                                                             : 0.0);
         }
     } else {
-        path_go_on(path, t_s, along_mps2, turn_radps);
+        path_begin_next_leg(path, t_s, along_mps2, turn_radps);
         memcpy(path->legs[path->num_legs - 1].accel_mps2, step->accel_mps2,
                sizeof step->accel_mps2);
     }
-    path_go_on(path, t_s + for_s, 0.0, 0.0);
+    path_begin_next_leg(path, t_s + for_s, 0.0, 0.0);
     if (step->has_speed) {
         path->legs[path->num_legs - 1].speed_mps = step->to_speed_mps;
     }
     return t_s + for_s;
 }
 
-static void follow_steps(struct scene_path *path, const struct target_item *item)
+static void add_steps_legs(struct scene_path *path, const struct target_item *item)
 {
     double t_s = path->from_s;
 
     for (size_t i = 0; i < item->num_steps; i++) {
-        t_s = follow_step(path, t_s, &item->steps[i]);
+        t_s = add_step_legs(path, t_s, &item->steps[i]);
     }
 }
 
-static void follow_points(struct scene_path *path, const struct target_item *item)
+static void add_legs_through_points(struct scene_path *path, const struct target_item *item)
 {
     for (size_t i = 0; i + 1 < item->num_points; i++) {
         const double *from = item->points[i], *to = item->points[i + 1];
@@ -135,24 +136,25 @@ static struct scene_path described_path(const struct target_item *item, size_t i
     struct scene_path path = {.from_s = item->from_s, .until_s = item->until_s, .item = index};
 
     if (item->num_points > 0) {
-        follow_points(&path, item);
+        add_legs_through_points(&path, item);
         return path;
     }
     if (parent) {
-        const struct path_leg *leg = path_leg_of(parent, item->from_s);
-        struct motion at = path_at(parent, item->from_s);
+        const struct path_leg *leg = path_leg_at(parent, item->from_s);
+        struct motion at = path_motion_at(parent, item->from_s);
 
-        path_begin(&path, at.x_m, at.y_m,
-                   fmax(0.0, path_leg_speed_mps(leg, item->from_s) + item->speed_change_mps),
-                   path_leg_heading_rad(leg, item->from_s) + item->heading_change_rad);
+        path_begin_first_leg(
+            &path, at.x_m, at.y_m,
+            fmax(0.0, path_leg_speed_mps(leg, item->from_s) + item->speed_change_mps),
+            path_leg_heading_rad(leg, item->from_s) + item->heading_change_rad);
         path.legs[0].z_m = at.z_m;
         path.legs[0].vz_mps = at.vz_mps;
     } else {
-        path_begin(&path, item->x_m, item->y_m, item->speed_mps, item->heading_rad);
+        path_begin_first_leg(&path, item->x_m, item->y_m, item->speed_mps, item->heading_rad);
         path.legs[0].z_m = item->z_m;
         path.legs[0].vz_mps = item->vz_mps;
     }
-    follow_steps(&path, item);
+    add_steps_legs(&path, item);
     return path;
 }
 
@@ -161,7 +163,7 @@ static struct scene_path described_path(const struct target_item *item, size_t i
 static void draw_start(const struct target_item *item, struct scene_path *path,
                        struct random *random)
 {
-    double x_m, y_m, heading_rad, speed_mps = draw_between(random, item->speed);
+    double x_m, y_m, heading_rad, speed_mps = random_in_span(random, item->speed);
 
     if (item->has_box) {
         x_m = random_between(random, item->box_m[0], item->box_m[1]);
@@ -169,27 +171,27 @@ static void draw_start(const struct target_item *item, struct scene_path *path,
     } else {
         double lo = item->range.lo, hi = item->range.hi; /* even over the area */
         double range_m = sqrt(random_between(random, lo * lo, hi * hi));
-        double azimuth_rad = draw_between(random, item->azimuth);
+        double azimuth_rad = random_in_span(random, item->azimuth);
 
         x_m = item->about_x_m + range_m * portable_cos(azimuth_rad);
         y_m = item->about_y_m + range_m * portable_sin(azimuth_rad);
     }
-    heading_rad = draw_between(random, item->heading);
+    heading_rad = random_in_span(random, item->heading);
     if (item->is_either && random_uniform(random) < 0.5) {
         heading_rad = -heading_rad;
     }
     if (item->is_relative) {
         heading_rad += portable_atan2(item->about_y_m - y_m, item->about_x_m - x_m);
     }
-    path_begin(path, x_m, y_m, speed_mps, portable_wrap(heading_rad));
+    path_begin_first_leg(path, x_m, y_m, speed_mps, portable_wrap(heading_rad));
 }
 
 /* To which side a turn goes: far out back to the centre, else to either. */
-static double draw_side(const struct target_item *item, const struct scene_path *path, double t_s,
-                        struct random *random)
+static double draw_turn_side(const struct target_item *item, const struct scene_path *path,
+                             double t_s, struct random *random)
 {
     double side = random_uniform(random) < 0.5 ? 1.0 : -1.0;
-    struct motion at = path_at(path, t_s);
+    struct motion at = path_motion_at(path, t_s);
     double x_m = item->about_x_m - at.x_m, y_m = item->about_y_m - at.y_m;
 
     if (item->has_keep && portable_hypot(x_m, y_m) > TURN_BACK_SHARE * item->keep.hi) {
@@ -198,31 +200,31 @@ static double draw_side(const struct target_item *item, const struct scene_path 
     return side;
 }
 
-static double draw_turn(const struct target_item *item, struct scene_path *path, double t_s,
-                        struct random *random)
+static double draw_turn_legs(const struct target_item *item, struct scene_path *path, double t_s,
+                             struct random *random)
 {
-    double across_mps2 = draw_between(random, item->turn_across),
+    double across_mps2 = random_in_span(random, item->turn_across),
            speed_mps = path_speed_mps(path, t_s);
-    double side = draw_side(item, path, t_s, random), for_s;
+    double side = draw_turn_side(item, path, t_s, random), for_s;
     double turn_radps = speed_mps > PATH_STANDS_MPS ? across_mps2 / speed_mps : 0.0;
 
     if (item->has_turn_for) {
-        for_s = draw_between(random, item->turn_for);
+        for_s = random_in_span(random, item->turn_for);
     } else {
-        for_s = turn_radps > 0.0 ? draw_between(random, item->turn_rad) / turn_radps : 0.0;
+        for_s = turn_radps > 0.0 ? random_in_span(random, item->turn_rad) / turn_radps : 0.0;
     }
-    path_go_on(path, t_s, 0.0, side * turn_radps);
-    path_go_on(path, t_s + for_s, 0.0, 0.0);
+    path_begin_next_leg(path, t_s, 0.0, side * turn_radps);
+    path_begin_next_leg(path, t_s + for_s, 0.0, 0.0);
     return t_s + for_s;
 }
 
-static double draw_stop(const struct target_item *item, struct scene_path *path, double t_s,
-                        struct random *random)
+static double draw_stop_legs(const struct target_item *item, struct scene_path *path, double t_s,
+                             struct random *random)
 {
     double speed_mps = path_speed_mps(path, t_s),
-           along_mps2 = draw_between(random, item->stop_along);
+           along_mps2 = random_in_span(random, item->stop_along);
 
-    t_s = change_speed(path, t_s, 0.0, along_mps2) + draw_between(random, item->stop_for);
+    t_s = change_speed(path, t_s, 0.0, along_mps2) + random_in_span(random, item->stop_for);
     return change_speed(path, t_s, speed_mps, along_mps2);
 }
 
@@ -231,9 +233,10 @@ static void draw_manoeuvres(const struct target_item *item, struct scene_path *p
                             struct random *random)
 {
     double t_s = path->from_s;
-    double turn_s = item->has_turns ? t_s + draw_between(random, item->turn_every) : INFINITY;
-    double change_s = item->has_changes ? t_s + draw_between(random, item->change_every) : INFINITY;
-    double stop_s = item->has_stops ? t_s + draw_between(random, item->stop_every) : INFINITY;
+    double turn_s = item->has_turns ? t_s + random_in_span(random, item->turn_every) : INFINITY;
+    double change_s =
+        item->has_changes ? t_s + random_in_span(random, item->change_every) : INFINITY;
+    double stop_s = item->has_stops ? t_s + random_in_span(random, item->stop_every) : INFINITY;
 
     for (;;) {
         double next_s = fmin(turn_s, fmin(change_s, stop_s));
@@ -243,16 +246,16 @@ static void draw_manoeuvres(const struct target_item *item, struct scene_path *p
             return;
         }
         if (turn_s <= next_s) {
-            t_s = draw_turn(item, path, t_s, random);
-            turn_s = t_s + draw_between(random, item->turn_every);
+            t_s = draw_turn_legs(item, path, t_s, random);
+            turn_s = t_s + random_in_span(random, item->turn_every);
         } else if (change_s <= next_s) {
-            double to_mps = draw_between(random, item->change_speed);
+            double to_mps = random_in_span(random, item->change_speed);
 
-            t_s = change_speed(path, t_s, to_mps, draw_between(random, item->change_along));
-            change_s = t_s + draw_between(random, item->change_every);
+            t_s = change_speed(path, t_s, to_mps, random_in_span(random, item->change_along));
+            change_s = t_s + random_in_span(random, item->change_every);
         } else {
-            t_s = draw_stop(item, path, t_s, random);
-            stop_s = t_s + draw_between(random, item->stop_every);
+            t_s = draw_stop_legs(item, path, t_s, random);
+            stop_s = t_s + random_in_span(random, item->stop_every);
         }
     }
 }
@@ -263,7 +266,7 @@ static bool is_in_span(double number, double lo, double hi)
 }
 
 /* In how many of the rings a place is. */
-static size_t count_discs(const struct target_item *item, const struct motion *at)
+static size_t count_rings_at(const struct target_item *item, const struct motion *at)
 {
     size_t count = 0;
 
@@ -276,7 +279,7 @@ static size_t count_discs(const struct target_item *item, const struct motion *a
     return count;
 }
 
-static bool keeps_at(const struct target_item *item, const struct motion *at)
+static bool keeps_limits_at(const struct target_item *item, const struct motion *at)
 {
     const double *box_m = item->keep_box_m;
     double range_m = portable_hypot(at->x_m - item->about_x_m, at->y_m - item->about_y_m);
@@ -287,14 +290,14 @@ static bool keeps_at(const struct target_item *item, const struct motion *at)
 }
 
 /* Never nearer than spacing_m to those that are there already. */
-static bool is_apart(const struct target_item *item, const struct motion *at, double t_s,
-                     const struct scene_paths *others)
+static bool is_far_from_others(const struct target_item *item, const struct motion *at, double t_s,
+                               const struct scene_paths *others)
 {
     for (size_t i = 0; item->spacing_m > 0.0 && i < others->count; i++) {
         const struct scene_path *other = &others->paths[i];
 
         if (t_s >= other->from_s && t_s < other->until_s) {
-            struct motion its = path_at(other, t_s);
+            struct motion its = path_motion_at(other, t_s);
 
             if (portable_hypot(at->x_m - its.x_m, at->y_m - its.y_m) < item->spacing_m) {
                 return false;
@@ -304,7 +307,7 @@ static bool is_apart(const struct target_item *item, const struct motion *at, do
     return true;
 }
 
-static bool keeps_within(const struct target_item *item, const struct scene_path *path,
+static bool keeps_limits(const struct target_item *item, const struct scene_path *path,
                          double end_s, const struct scene_paths *others)
 {
     double first_s = fmax(0.0, path->from_s);
@@ -315,11 +318,11 @@ static bool keeps_within(const struct target_item *item, const struct scene_path
 
     for (size_t i = 0; i < count; i++) {
         double t_s = first_s + (double)i * KEEP_STEP_S;
-        struct motion at = path_at(path, t_s);
-        size_t discs = count_discs(item, &at);
+        struct motion at = path_motion_at(path, t_s);
+        size_t discs = count_rings_at(item, &at);
 
-        if (!keeps_at(item, &at) || (item->num_keep_discs > 0 && discs == 0) ||
-            !is_apart(item, &at, t_s, others)) {
+        if (!keeps_limits_at(item, &at) || (item->num_keep_discs > 0 && discs == 0) ||
+            !is_far_from_others(item, &at, t_s, others)) {
             return false;
         }
         in_all += discs == item->num_keep_discs;
@@ -327,7 +330,7 @@ static bool keeps_within(const struct target_item *item, const struct scene_path
     return (double)in_all >= item->keep_all_share * (double)count;
 }
 
-static const char *kept_by(const struct target_item *item)
+static const char *limit_names(const struct target_item *item)
 {
     return item->spacing_m > 0.0      ? "its place, spacing_m from others"
            : item->num_keep_discs > 0 ? "keep_discs_m"
@@ -346,7 +349,7 @@ static struct scene_path random_path(const struct target_draft *draft, double fr
 
         draw_start(draft->item, &path, random);
         draw_manoeuvres(draft->item, &path, end_s, random);
-        if (keeps_within(draft->item, &path, end_s, others)) {
+        if (keeps_limits(draft->item, &path, end_s, others)) {
             return path;
         }
         path_free(&path);
@@ -354,18 +357,18 @@ static struct scene_path random_path(const struct target_draft *draft, double fr
     fail(EXIT_USAGE,
          "%s: targets[%zu]: none of %d random paths keeps within %s; take a shorter life_s, "
          "less speed, or turns, which lead back",
-         draft->file, draft->index, DRAFTS_MAX, kept_by(draft->item));
+         draft->file, draft->index, DRAFTS_MAX, limit_names(draft->item));
 }
 
 /* ---- all paths ---- */
 
 /* Where one ends, after a pause, the next one begins. The first one is somewhere in its life. */
-static void draw_member(struct scene_paths *paths, const struct target_draft *draft,
-                        struct random *random)
+static void draw_successive_paths(struct scene_paths *paths, const struct target_draft *draft,
+                                  struct random *random)
 {
     const struct target_item *item = draft->item;
-    double life_s = item->has_life ? draw_between(random, item->life) : INFINITY;
-    double from_s = draw_between(random, item->from);
+    double life_s = item->has_life ? random_in_span(random, item->life) : INFINITY;
+    double from_s = random_in_span(random, item->from);
 
     if (item->is_replaced) {
         from_s -= life_s * random_uniform(random);
@@ -374,14 +377,14 @@ static void draw_member(struct scene_paths *paths, const struct target_draft *dr
         double until_s = from_s + life_s;
 
         if (until_s > 0.0) {
-            paths_keep(paths, random_path(draft, from_s, until_s, paths, random));
+            paths_add(paths, random_path(draft, from_s, until_s, paths, random));
         }
         from_s = until_s;
         if (!item->is_replaced) {
             return;
         }
-        from_s += draw_between(random, item->pause);
-        life_s = draw_between(random, item->life);
+        from_s += random_in_span(random, item->pause);
+        life_s = random_in_span(random, item->life);
         if (!(from_s < draft->duration_s)) {
             return;
         }
@@ -401,24 +404,24 @@ struct scene_path *targets_draw(const struct scene_targets *targets, const char 
 
         first[i] = paths.count;
         if (item->flights > 0) {
-            struct random random = scene_stream(seed, run, STREAM_PATH, source, i, 0);
+            struct random random = scene_random_stream(seed, run, STREAM_PATH, source, i, 0);
 
             flights_draw(&draft, &paths, &random);
         } else if (item->count == 0) {
             const struct scene_path *parent =
                 item->has_parent ? &paths.paths[first[item->parent]] : NULL;
             struct scene_path path = described_path(item, i, parent);
-            struct random random = scene_stream(seed, run, STREAM_PATH, source, i, 0);
+            struct random random = scene_random_stream(seed, run, STREAM_PATH, source, i, 0);
 
             if (item->shake_s > 0.0) {
                 draw_shakes(&path, item, duration_s, &random);
             }
-            paths_keep(&paths, path);
+            paths_add(&paths, path);
         }
         for (size_t k = 0; k < item->count; k++) {
-            struct random random = scene_stream(seed, run, STREAM_PATH, source, i, k);
+            struct random random = scene_random_stream(seed, run, STREAM_PATH, source, i, k);
 
-            draw_member(&paths, &draft, &random);
+            draw_successive_paths(&paths, &draft, &random);
         }
         if (paths.count > 100000) {
             fail(EXIT_USAGE, "%s: targets: more than 100000 of them", file);
@@ -439,14 +442,14 @@ static bool read_vector(struct json_object *object, const char *key, double max,
     size_t count = cJSON_GetArraySize(item) == 3 ? 3 : 2;
 
     *has_height = *has_height || count == 3;
-    return json_numbers(object, key, count, -max, max, vector);
+    return json_read_numbers(object, key, count, -max, max, vector);
 }
 
 static void read_place(struct json_object *object, const char *key, double *x_m, double *y_m)
 {
     double place_m[2] = {*x_m, *y_m};
 
-    json_numbers(object, key, 2, -PLACE_MAX_M, PLACE_MAX_M, place_m);
+    json_read_numbers(object, key, 2, -PLACE_MAX_M, PLACE_MAX_M, place_m);
     *x_m = place_m[0];
     *y_m = place_m[1];
 }
@@ -457,38 +460,38 @@ static struct path_step read_step(struct json_object object, bool *has_height)
                                          "to_speed_mps"};
     struct path_step step = {0};
 
-    step.for_s = json_number(&object, "for_s", 0, 1e6, 0);
-    step.along_mps2 = json_number(&object, "along_mps2", -ACCEL_MAX_MPS2, ACCEL_MAX_MPS2, 0);
-    step.across_mps2 = json_number(&object, "across_mps2", -ACCEL_MAX_MPS2, ACCEL_MAX_MPS2, 0);
-    step.turn_radps = json_number(&object, "turn_degps", -360, 360, 0) * PORTABLE_PI / 180.0;
-    step.turn_rad = json_number(&object, "turn_deg", -36000, 36000, 0) * PORTABLE_PI / 180.0;
-    step.has_speed = json_has(&object, "to_speed_mps");
-    step.to_speed_mps = json_number(&object, "to_speed_mps", 0, SPEED_MAX_MPS, 0);
+    step.for_s = json_read_number(&object, "for_s", 0, 1e6, 0);
+    step.along_mps2 = json_read_number(&object, "along_mps2", -ACCEL_MAX_MPS2, ACCEL_MAX_MPS2, 0);
+    step.across_mps2 = json_read_number(&object, "across_mps2", -ACCEL_MAX_MPS2, ACCEL_MAX_MPS2, 0);
+    step.turn_radps = json_read_number(&object, "turn_degps", -360, 360, 0) * PORTABLE_PI / 180.0;
+    step.turn_rad = json_read_number(&object, "turn_deg", -36000, 36000, 0) * PORTABLE_PI / 180.0;
+    step.has_speed = json_has_key(&object, "to_speed_mps");
+    step.to_speed_mps = json_read_number(&object, "to_speed_mps", 0, SPEED_MAX_MPS, 0);
     if (read_vector(&object, "accel_mps2", ACCEL_MAX_MPS2, step.accel_mps2, has_height)) {
         for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-            json_exclude(&object, "accel_mps2", others[i]);
+            json_exclude_keys(&object, "accel_mps2", others[i]);
         }
     }
-    json_exclude(&object, "across_mps2", "turn_degps");
-    json_exclude(&object, "for_s", "to_speed_mps");
-    json_exclude(&object, "for_s", "turn_deg");
-    json_exclude(&object, "to_speed_mps", "turn_deg");
+    json_exclude_keys(&object, "across_mps2", "turn_degps");
+    json_exclude_keys(&object, "for_s", "to_speed_mps");
+    json_exclude_keys(&object, "for_s", "turn_deg");
+    json_exclude_keys(&object, "to_speed_mps", "turn_deg");
     if (step.has_speed && !(fabs(step.along_mps2) > 0.0)) {
         json_fail_key(&object, "to_speed_mps", "needs along_mps2, other than 0");
     }
     if (fabs(step.turn_rad) > 0.0 && !(fabs(step.across_mps2) + fabs(step.turn_radps) > 0.0)) {
         json_fail_key(&object, "turn_deg", "needs across_mps2 or turn_degps, other than 0");
     }
-    if (!json_has(&object, "for_s") && !step.has_speed && !json_has(&object, "turn_deg")) {
+    if (!json_has_key(&object, "for_s") && !step.has_speed && !json_has_key(&object, "turn_deg")) {
         json_fail(&object.place, "says no end: for_s, to_speed_mps or turn_deg");
     }
-    json_end(&object);
+    json_refuse_unknown_keys(&object);
     return step;
 }
 
 static void read_steps(struct json_object *object, struct target_item *item)
 {
-    struct json_list list = json_list_of(object, "legs", LEGS_MAX);
+    struct json_list list = json_read_list(object, "legs", LEGS_MAX);
 
     item->num_steps = list.count;
     item->steps = must_calloc(list.count + 1, sizeof *item->steps);
@@ -501,17 +504,17 @@ static void read_velocity(struct json_object *object, struct target_item *item)
 {
     double velocity_mps[3] = {0};
 
-    json_exclude(object, "velocity_mps", "speed_mps");
-    json_exclude(object, "velocity_mps", "heading_rad");
-    item->speed_mps = json_number(object, "speed_mps", 0, SPEED_MAX_MPS, 0);
-    item->heading_rad = json_number(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
+    json_exclude_keys(object, "velocity_mps", "speed_mps");
+    json_exclude_keys(object, "velocity_mps", "heading_rad");
+    item->speed_mps = json_read_number(object, "speed_mps", 0, SPEED_MAX_MPS, 0);
+    item->heading_rad = json_read_number(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
     if (read_vector(object, "velocity_mps", SPEED_MAX_MPS, velocity_mps, &item->has_height)) {
         item->vz_mps = velocity_mps[2];
         item->speed_mps = portable_hypot(velocity_mps[0], velocity_mps[1]);
         item->heading_rad = portable_atan2(velocity_mps[1], velocity_mps[0]);
     } else {
-        json_require(object, "speed_mps");
-        json_require(object, "heading_rad");
+        json_require_key(object, "speed_mps");
+        json_require_key(object, "heading_rad");
     }
 }
 
@@ -521,30 +524,30 @@ static void read_parent(struct json_object *object, struct target_item *item,
     const struct target_item *parent;
 
     item->has_parent = true;
-    item->parent = json_count(object, "parent", 0, ITEMS_MAX, 0);
+    item->parent = json_read_count(object, "parent", 0, ITEMS_MAX, 0);
     if (item->parent >= before->count || before->items[item->parent].count > 0 ||
         before->items[item->parent].flights > 0) {
         json_fail_key(object, "parent", "targets[%zu] is no path before this one", item->parent);
     }
     parent = &before->items[item->parent];
-    json_require(object, "from_s");
+    json_require_key(object, "from_s");
     if (item->from_s < parent->from_s || item->from_s > parent->until_s) {
         json_fail_key(object, "from_s", "the parent is not there then");
     }
     item->speed_change_mps =
-        json_number(object, "speed_change_mps", -SPEED_MAX_MPS, SPEED_MAX_MPS, 0);
+        json_read_number(object, "speed_change_mps", -SPEED_MAX_MPS, SPEED_MAX_MPS, 0);
     item->heading_change_rad =
-        json_number(object, "heading_change_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
+        json_read_number(object, "heading_change_rad", -PORTABLE_TURN, PORTABLE_TURN, 0);
 }
 
 static void read_points(struct json_object *object, struct target_item *item)
 {
     static const char *const others[] = {"at_m",   "velocity_mps", "speed_mps", "heading_rad",
                                          "from_s", "parent",       "legs"};
-    struct json_list list = json_list_of(object, "points", LEGS_MAX);
+    struct json_list list = json_read_list(object, "points", LEGS_MAX);
 
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        json_exclude(object, "points", others[i]);
+        json_exclude_keys(object, "points", others[i]);
     }
     if (list.count < 2) {
         json_fail(&list.place, "must be two or more, each [t_s, x_m, y_m]");
@@ -564,12 +567,12 @@ static void read_shake(struct json_object *object, struct target_item *item)
 {
     struct json_object shake;
 
-    if (json_below(object, "shake", &shake)) {
-        json_require(&shake, "every_s");
-        json_require(&shake, "sigma_mps2");
-        item->shake_s = json_number(&shake, "every_s", 0.01, 1e6, 0);
-        item->shake_mps2 = json_number(&shake, "sigma_mps2", 0, ACCEL_MAX_MPS2, 0);
-        json_end(&shake);
+    if (json_read_object(object, "shake", &shake)) {
+        json_require_key(&shake, "every_s");
+        json_require_key(&shake, "sigma_mps2");
+        item->shake_s = json_read_number(&shake, "every_s", 0.01, 1e6, 0);
+        item->shake_mps2 = json_read_number(&shake, "sigma_mps2", 0, ACCEL_MAX_MPS2, 0);
+        json_refuse_unknown_keys(&shake);
     }
 }
 
@@ -578,10 +581,10 @@ static void read_path(struct json_object *object, struct target_item *item,
 {
     double place_m[3] = {0};
 
-    item->from_s = json_number(object, "from_s", -1e6, 1e6, 0);
-    item->until_s = json_number(object, "until_s", -1e6, 1e6, INFINITY);
+    item->from_s = json_read_number(object, "from_s", -1e6, 1e6, 0);
+    item->until_s = json_read_number(object, "until_s", -1e6, 1e6, INFINITY);
     read_shake(object, item);
-    if (json_has(object, "points")) {
+    if (json_has_key(object, "points")) {
         read_points(object, item);
     }
     if (item->until_s <= item->from_s) {
@@ -590,10 +593,10 @@ static void read_path(struct json_object *object, struct target_item *item,
     if (item->num_points > 0) {
         return;
     }
-    if (json_has(object, "parent")) {
+    if (json_has_key(object, "parent")) {
         read_parent(object, item, before);
     } else {
-        json_require(object, "at_m");
+        json_require_key(object, "at_m");
         read_vector(object, "at_m", PLACE_MAX_M, place_m, &item->has_height);
         item->x_m = place_m[0];
         item->y_m = place_m[1];
@@ -607,20 +610,20 @@ static void read_turns(struct json_object *object, struct target_item *item)
 {
     struct json_object turns;
 
-    item->has_turns = json_below(object, "turns", &turns);
+    item->has_turns = json_read_object(object, "turns", &turns);
     if (item->has_turns) {
-        json_require(&turns, "every_s");
-        json_require(&turns, "across_mps2");
-        item->turn_every = json_between(&turns, "every_s", 0.1, 1e6, (struct json_span){0});
+        json_require_key(&turns, "every_s");
+        json_require_key(&turns, "across_mps2");
+        item->turn_every = json_read_span(&turns, "every_s", 0.1, 1e6, (struct json_span){0});
         item->turn_across =
-            json_between(&turns, "across_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
-        item->has_turn_for = json_has(&turns, "for_s");
-        item->turn_for = json_between(&turns, "for_s", 0.1, 1e6, (struct json_span){0});
-        item->turn_rad = json_between(&turns, "turn_deg", 0.1, 3600, (struct json_span){20, 90});
+            json_read_span(&turns, "across_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
+        item->has_turn_for = json_has_key(&turns, "for_s");
+        item->turn_for = json_read_span(&turns, "for_s", 0.1, 1e6, (struct json_span){0});
+        item->turn_rad = json_read_span(&turns, "turn_deg", 0.1, 3600, (struct json_span){20, 90});
         item->turn_rad.lo *= PORTABLE_PI / 180.0;
         item->turn_rad.hi *= PORTABLE_PI / 180.0;
-        json_exclude(&turns, "for_s", "turn_deg");
-        json_end(&turns);
+        json_exclude_keys(&turns, "for_s", "turn_deg");
+        json_refuse_unknown_keys(&turns);
     }
 }
 
@@ -628,15 +631,16 @@ static void read_changes(struct json_object *object, struct target_item *item)
 {
     struct json_object changes;
 
-    item->has_changes = json_below(object, "speed_changes", &changes);
+    item->has_changes = json_read_object(object, "speed_changes", &changes);
     if (item->has_changes) {
-        json_require(&changes, "every_s");
-        json_require(&changes, "along_mps2");
-        item->change_every = json_between(&changes, "every_s", 0.1, 1e6, (struct json_span){0});
-        item->change_speed = json_between(&changes, "to_speed_mps", 0, SPEED_MAX_MPS, item->speed);
+        json_require_key(&changes, "every_s");
+        json_require_key(&changes, "along_mps2");
+        item->change_every = json_read_span(&changes, "every_s", 0.1, 1e6, (struct json_span){0});
+        item->change_speed =
+            json_read_span(&changes, "to_speed_mps", 0, SPEED_MAX_MPS, item->speed);
         item->change_along =
-            json_between(&changes, "along_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
-        json_end(&changes);
+            json_read_span(&changes, "along_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
+        json_refuse_unknown_keys(&changes);
     }
 }
 
@@ -644,30 +648,30 @@ static void read_stops(struct json_object *object, struct target_item *item)
 {
     struct json_object stops;
 
-    item->has_stops = json_below(object, "stops", &stops);
+    item->has_stops = json_read_object(object, "stops", &stops);
     if (item->has_stops) {
-        json_require(&stops, "every_s");
-        json_require(&stops, "for_s");
-        json_require(&stops, "along_mps2");
-        item->stop_every = json_between(&stops, "every_s", 0.1, 1e6, (struct json_span){0});
-        item->stop_for = json_between(&stops, "for_s", 0, 1e6, (struct json_span){0});
+        json_require_key(&stops, "every_s");
+        json_require_key(&stops, "for_s");
+        json_require_key(&stops, "along_mps2");
+        item->stop_every = json_read_span(&stops, "every_s", 0.1, 1e6, (struct json_span){0});
+        item->stop_for = json_read_span(&stops, "for_s", 0, 1e6, (struct json_span){0});
         item->stop_along =
-            json_between(&stops, "along_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
-        json_end(&stops);
+            json_read_span(&stops, "along_mps2", 1e-3, ACCEL_MAX_MPS2, (struct json_span){0});
+        json_refuse_unknown_keys(&stops);
     }
 }
 
 static void read_lives(struct json_object *object, struct target_item *item)
 {
-    item->from = json_between(object, "from_s", -1e6, 1e6, (struct json_span){0, 0});
-    item->has_life = json_has(object, "life_s");
-    item->life = json_between(object, "life_s", 1e-3, 1e6, (struct json_span){0, 0});
-    item->is_replaced = json_flag(object, "is_replaced", false);
-    item->pause = json_between(object, "pause_s", 0, 1e6, (struct json_span){0, 0});
+    item->from = json_read_span(object, "from_s", -1e6, 1e6, (struct json_span){0, 0});
+    item->has_life = json_has_key(object, "life_s");
+    item->life = json_read_span(object, "life_s", 1e-3, 1e6, (struct json_span){0, 0});
+    item->is_replaced = json_read_flag(object, "is_replaced", false);
+    item->pause = json_read_span(object, "pause_s", 0, 1e6, (struct json_span){0, 0});
     if (item->is_replaced) {
-        json_require(object, "life_s");
+        json_require_key(object, "life_s");
     }
-    if (json_has(object, "pause_s") && !item->is_replaced) {
+    if (json_has_key(object, "pause_s") && !item->is_replaced) {
         json_fail_key(object, "pause_s", "needs is_replaced");
     }
 }
@@ -676,7 +680,7 @@ static void read_box(struct json_object *object, struct target_item *item)
 {
     const double *box_m = item->box_m;
 
-    item->has_box = json_numbers(object, "box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->box_m);
+    item->has_box = json_read_numbers(object, "box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->box_m);
     if (item->has_box && (box_m[0] > box_m[1] || box_m[2] > box_m[3])) {
         json_fail_key(object, "box_m", "must be [x_min, x_max, y_min, y_max]");
     }
@@ -684,7 +688,7 @@ static void read_box(struct json_object *object, struct target_item *item)
 
 static void read_discs(struct json_object *object, struct target_item *item)
 {
-    struct json_list list = json_list_of(object, "keep_discs_m", KEEP_DISCS_MAX);
+    struct json_list list = json_read_list(object, "keep_discs_m", KEEP_DISCS_MAX);
 
     for (size_t i = 0; i < list.count; i++) {
         double *disc_m = item->keep_discs_m[i];
@@ -695,39 +699,39 @@ static void read_discs(struct json_object *object, struct target_item *item)
         }
     }
     item->num_keep_discs = list.count;
-    if (json_has(object, "keep_all_share") && list.count == 0) {
+    if (json_has_key(object, "keep_all_share") && list.count == 0) {
         json_fail_key(object, "keep_all_share", "needs keep_discs_m");
     }
-    item->keep_all_share = json_number(object, "keep_all_share", 0, 1, 0);
+    item->keep_all_share = json_read_number(object, "keep_all_share", 0, 1, 0);
 }
 
 static void read_group(struct json_object *object, struct target_item *item)
 {
     static const struct json_span all_round = {-PORTABLE_PI, PORTABLE_PI};
 
-    item->count = json_count(object, "count", 1, GROUP_MAX, 0);
+    item->count = json_read_count(object, "count", 1, GROUP_MAX, 0);
     read_lives(object, item);
     read_place(object, "about_m", &item->about_x_m, &item->about_y_m);
     read_box(object, item);
-    item->range = json_between(object, "range_m", 0, PLACE_MAX_M, (struct json_span){0});
-    item->azimuth = json_between(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
-    json_exclude(object, "box_m", "range_m");
-    json_exclude(object, "box_m", "azimuth_rad");
+    item->range = json_read_span(object, "range_m", 0, PLACE_MAX_M, (struct json_span){0});
+    item->azimuth = json_read_span(object, "azimuth_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
+    json_exclude_keys(object, "box_m", "range_m");
+    json_exclude_keys(object, "box_m", "azimuth_rad");
     if (!item->has_box) {
-        json_require(object, "range_m");
+        json_require_key(object, "range_m");
     }
-    json_require(object, "speed_mps");
-    item->speed = json_between(object, "speed_mps", 0, SPEED_MAX_MPS, (struct json_span){0});
-    json_exclude(object, "heading_rad", "inbound_rad");
-    item->heading = json_between(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
-    item->is_relative = item->is_either = json_has(object, "inbound_rad");
-    item->heading = json_between(object, "inbound_rad", 0, PORTABLE_PI, item->heading);
-    item->has_keep = json_has(object, "keep_range_m");
-    item->keep = json_between(object, "keep_range_m", 0, PLACE_MAX_M, (struct json_span){0});
+    json_require_key(object, "speed_mps");
+    item->speed = json_read_span(object, "speed_mps", 0, SPEED_MAX_MPS, (struct json_span){0});
+    json_exclude_keys(object, "heading_rad", "inbound_rad");
+    item->heading = json_read_span(object, "heading_rad", -PORTABLE_TURN, PORTABLE_TURN, all_round);
+    item->is_relative = item->is_either = json_has_key(object, "inbound_rad");
+    item->heading = json_read_span(object, "inbound_rad", 0, PORTABLE_PI, item->heading);
+    item->has_keep = json_has_key(object, "keep_range_m");
+    item->keep = json_read_span(object, "keep_range_m", 0, PLACE_MAX_M, (struct json_span){0});
     item->has_keep_box =
-        json_numbers(object, "keep_box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->keep_box_m);
+        json_read_numbers(object, "keep_box_m", 4, -PLACE_MAX_M, PLACE_MAX_M, item->keep_box_m);
     read_discs(object, item);
-    item->spacing_m = json_number(object, "spacing_m", 0, PLACE_MAX_M, 0);
+    item->spacing_m = json_read_number(object, "spacing_m", 0, PLACE_MAX_M, 0);
     read_turns(object, item);
     read_changes(object, item);
     read_stops(object, item);
@@ -735,34 +739,34 @@ static void read_group(struct json_object *object, struct target_item *item)
 
 static void read_flights(struct json_object *object, struct target_item *item)
 {
-    item->flights = json_count(object, "flights", 1, GROUP_MAX, 0);
-    json_require(object, "box_m");
+    item->flights = json_read_count(object, "flights", 1, GROUP_MAX, 0);
+    json_require_key(object, "box_m");
     read_box(object, item);
-    json_require(object, "least_s");
-    item->flights_least = json_number(object, "least_s", 1, 1e5, 0);
-    item->crossing_share = json_number(object, "crossing_share", 0, 1, 0);
+    json_require_key(object, "least_s");
+    item->flights_least = json_read_number(object, "least_s", 1, 1e5, 0);
+    item->crossing_share = json_read_number(object, "crossing_share", 0, 1, 0);
 }
 
 struct scene_targets targets_read(struct json_object *object, const char *key)
 {
-    struct json_list list = json_list_of(object, key, ITEMS_MAX);
+    struct json_list list = json_read_list(object, key, ITEMS_MAX);
     struct scene_targets targets = {.items = must_calloc(list.count + 1, sizeof *targets.items)};
 
     for (; targets.count < list.count; targets.count++) {
         struct json_object one = json_element(&list, targets.count);
         struct target_item *item = &targets.items[targets.count];
 
-        json_text(&one, "text", NULL);
+        json_read_text(&one, "text", NULL);
         item->body = scene_body_read(&one);
-        json_exclude(&one, "count", "flights");
-        if (json_has(&one, "flights")) {
+        json_exclude_keys(&one, "count", "flights");
+        if (json_has_key(&one, "flights")) {
             read_flights(&one, item);
-        } else if (json_has(&one, "count")) {
+        } else if (json_has_key(&one, "count")) {
             read_group(&one, item);
         } else {
             read_path(&one, item, &targets);
         }
-        json_end(&one);
+        json_refuse_unknown_keys(&one);
     }
     return targets;
 }

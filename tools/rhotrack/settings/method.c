@@ -39,8 +39,8 @@ enum method method_find(const char *name)
     fail(EXIT_USAGE, "no method '%s'; there are: " METHOD_NAMES, name);
 }
 
-static void suggest_bearings(struct parameters *parameters, double rho_cell_m,
-                             double theta_cell_rad, int prune)
+static void suggest_bearing_parameters(struct parameters *parameters, double rho_cell_m,
+                                       double theta_cell_rad, int prune)
 {
     parameters_suggest(parameters, PARAMETER_SCANS, 8);
     parameters_suggest(parameters, PARAMETER_D_RHO_M, rho_cell_m);
@@ -49,22 +49,23 @@ static void suggest_bearings(struct parameters *parameters, double rho_cell_m,
     parameters_suggest(parameters, PARAMETER_PRUNE, prune);
 }
 
-void method_suggest(enum method method, struct parameters *parameters)
+void method_suggest_parameters(enum method method, struct parameters *parameters)
 {
     if (method == METHOD_PASSIVE) {
-        suggest_bearings(parameters, 2000, M_PI / 36, 0); /* safe */
+        suggest_bearing_parameters(parameters, 2000, M_PI / 36, 0); /* safe */
         parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, 5);
     } else if (method == METHOD_PASSIVE_PAPER) {
-        suggest_bearings(parameters, 1000, M_PI / 90, 1);  /* literal */
-        parameters_suggest(parameters, PARAMETER_VOTE, 0); /* scans */
-    } else if (method != METHOD_KERNEL) {                  /* the paper's */
+        suggest_bearing_parameters(parameters, 1000, M_PI / 90, 1); /* literal */
+        parameters_suggest(parameters, PARAMETER_VOTE, 0);          /* scans */
+    } else if (method != METHOD_KERNEL) {                           /* the paper's */
         parameters_suggest(parameters, PARAMETER_V_MIN_MPS, 100);
         parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 400);
         parameters_suggest(parameters, PARAMETER_VOTE, 1); /* counts */
     }
 }
 
-static enum rho_hough_method hough_of(enum method method, const struct parameters *parameters)
+static enum rho_hough_method hough_method_of(enum method method,
+                                             const struct parameters *parameters)
 {
     switch (method) {
     case METHOD_HT:
@@ -85,7 +86,7 @@ static double count_cells(double range_m, double cell_m)
 }
 
 /* The least cell of three digits that leaves few enough. */
-static double cell_for(double range_m)
+static double least_cell_for(double range_m)
 {
     double cell_m = 2.0 * range_m / (RHO_MAX_RHO_CELLS - 2);
     double digit_m = pow(10.0, floor(log10(cell_m)) - 2.0);
@@ -103,8 +104,8 @@ void method_fit_cells(struct parameters *parameters, double range_m)
     const double eps_cells = value[PARAMETER_EPS_RHO_M] / value[PARAMETER_D_RHO_M];
 
     if (2.0 * count_cells(range_m, value[PARAMETER_D_RHO_M]) > RHO_MAX_RHO_CELLS) {
-        parameters_suggest(parameters, PARAMETER_D_RHO_M, cell_for(range_m));
-        parameters_suggest(parameters, PARAMETER_EPS_RHO_M, eps_cells * cell_for(range_m));
+        parameters_suggest(parameters, PARAMETER_D_RHO_M, least_cell_for(range_m));
+        parameters_suggest(parameters, PARAMETER_EPS_RHO_M, eps_cells * least_cell_for(range_m));
     }
 }
 
@@ -116,7 +117,7 @@ static double cells_for(double range_m, double cell_m)
         fail(EXIT_USAGE,
              "plots %.0f m from the origin take %.0f cells of rho at d_rho_m %.9g; there are %d: "
              "d_rho_m %.3g would do",
-             range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS, cell_for(range_m));
+             range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS, least_cell_for(range_m));
     }
     return cells;
 }
@@ -131,16 +132,16 @@ static void check_cells_in_eps(const struct parameters *parameters, enum paramet
     }
 }
 
-struct rho_hough_config method_hough(enum method method, const struct parameters *parameters,
-                                     double range_m)
+struct rho_hough_config method_hough_config(enum method method, const struct parameters *parameters,
+                                            double range_m)
 {
     const double *value = parameters->value;
     struct rho_hough_config config;
 
-    parameters_check(parameters);
+    parameters_check_together(parameters);
     check_cells_in_eps(parameters, PARAMETER_EPS_RHO_M, PARAMETER_D_RHO_M);
     check_cells_in_eps(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
-    rho_hough_config_default(&config, hough_of(method, parameters));
+    rho_hough_config_default(&config, hough_method_of(method, parameters));
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.rho_max_m = (float)cells_for(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
@@ -179,7 +180,7 @@ static void check_bearings(const struct parameters *parameters, int rho_cells, i
     const double *value = parameters->value;
     double cells = 2.0 * value[PARAMETER_RANGE_MAX_M] / value[PARAMETER_D_RHO_M];
 
-    parameters_check(parameters);
+    parameters_check_together(parameters);
     if (value[PARAMETER_SCANS] < 4) {
         fail(EXIT_USAGE, "scans %.9g are too few for bearings: 4 or more", value[PARAMETER_SCANS]);
     }
@@ -197,7 +198,7 @@ static void check_bearings(const struct parameters *parameters, int rho_cells, i
     }
 }
 
-static enum rho_ghost_rule rule_of(const struct parameters *parameters)
+static enum rho_ghost_rule ghost_rule_of(const struct parameters *parameters)
 {
     static const enum rho_ghost_rule rules[3] = {RHO_GHOST_SAFE, RHO_GHOST_LITERAL,
                                                  RHO_GHOST_NO_RULE};
@@ -205,7 +206,7 @@ static enum rho_ghost_rule rule_of(const struct parameters *parameters)
     return rules[(int)parameters->value[PARAMETER_PRUNE]];
 }
 
-struct rho_passive_config method_passive(const struct parameters *parameters)
+struct rho_passive_config method_passive_config(const struct parameters *parameters)
 {
     struct parameters fitted = *parameters;
     const double *value = fitted.value;
@@ -220,11 +221,11 @@ struct rho_passive_config method_passive(const struct parameters *parameters)
     config.scans = (uint16_t)value[PARAMETER_SCANS];
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
-    config.rule = rule_of(parameters);
+    config.rule = ghost_rule_of(parameters);
     return config;
 }
 
-struct rho_passive_paper_config method_passive_paper(const struct parameters *parameters)
+struct rho_passive_paper_config method_passive_paper_config(const struct parameters *parameters)
 {
     struct parameters fitted = *parameters;
     const double *value = fitted.value;
@@ -243,6 +244,6 @@ struct rho_passive_paper_config method_passive_paper(const struct parameters *pa
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
     config.votes = value[PARAMETER_VOTE] > 0 ? RHO_VOTES_POINTS : RHO_VOTES_SCANS;
-    config.rule = rule_of(parameters);
+    config.rule = ghost_rule_of(parameters);
     return config;
 }

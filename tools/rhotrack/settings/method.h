@@ -37,7 +37,7 @@ enum method method_of_bearings(const struct parameters *parameters);
 enum method method_find(const char *name);
 
 /* The method's own customary values (parameters_suggest). */
-void method_suggest(enum method method, struct parameters *parameters);
+void method_suggest_parameters(enum method method, struct parameters *parameters);
 
 /*
  * Suggests cells of rho, and epsilon with them, that hold plots so far from the origin, where the
@@ -49,15 +49,15 @@ void method_fit_cells(struct parameters *parameters, double range_m);
  * The config of ht, mht, iht and nht, for plots at most so far from the origin. Exit 2 where that
  * takes more cells of rho than there are.
  */
-struct rho_hough_config method_hough(enum method method, const struct parameters *parameters,
-                                     double range_m);
+struct rho_hough_config method_hough_config(enum method method, const struct parameters *parameters,
+                                            double range_m);
 
 /*
  * The config of passive, and of passive-paper, with cells of rho that hold range_max_m and the
  * parameters' passive_apart_m where d_rho_m is not set. Exit 2 where cells as set do not hold
  * range_max_m or half a turn, or they take no such scans, range or votes.
  */
-struct rho_passive_config method_passive(const struct parameters *parameters);
-struct rho_passive_paper_config method_passive_paper(const struct parameters *parameters);
+struct rho_passive_config method_passive_config(const struct parameters *parameters);
+struct rho_passive_paper_config method_passive_paper_config(const struct parameters *parameters);
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/hint.h"
+#include "base/name_hint.h"
 #include "base/number_text.h"
 
 static const struct parameter_text texts[NUM_PARAMETERS] = {
@@ -25,7 +25,7 @@ static const struct parameter_text sensor_texts[NUM_SENSOR_PARAMETERS] = {
 };
 
 /* Parameters that are words. */
-static const char *choices_of(enum parameter_id id)
+static const char *parameter_choices(enum parameter_id id)
 {
     switch (id) {
     case PARAMETER_NHT_READING:
@@ -57,7 +57,7 @@ struct parameter_text parameters_text(enum parameter_id id)
 {
     struct parameter_text text = texts[id];
 
-    text.choices = choices_of(id);
+    text.choices = parameter_choices(id);
     text.is_sum = id == PARAMETER_PLANES;
     return text;
 }
@@ -119,7 +119,7 @@ const char *parameters_source_name(enum parameter_source source)
 
 /* ---- One assignment ---- */
 
-static const char *text_name(size_t index)
+static const char *parameter_name_at(size_t index)
 {
     return index < NUM_PARAMETERS        ? texts[index].name
            : index == NUM_PARAMETERS     ? "sensors_allowed"
@@ -127,7 +127,7 @@ static const char *text_name(size_t index)
                                          : NULL;
 }
 
-static const char *sensor_text_name(size_t index)
+static const char *sensor_parameter_name_at(size_t index)
 {
     return index < NUM_SENSOR_PARAMETERS    ? sensor_texts[index].name
            : index == NUM_SENSOR_PARAMETERS ? "name"
@@ -135,7 +135,7 @@ static const char *sensor_text_name(size_t index)
 }
 
 /* Index of a name, or -1 and the reason with a hint. */
-static int find_name(const char *key, hint_name name, char *reason)
+static int find_parameter_name(const char *key, name_by_index name, char *reason)
 {
     const char *known, *hint;
 
@@ -144,14 +144,14 @@ static int find_name(const char *key, hint_name name, char *reason)
             return (int)i;
         }
     }
-    hint = hint_nearest(key, name);
+    hint = name_hint_nearest(key, name);
     snprintf(reason, PARAMETER_REASON_BYTES, "unknown parameter '%.60s'%s%s%s", key,
              hint ? ", did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
     return -1;
 }
 
 /* The number of a word of so many bytes among "a|b|c", or -1. */
-static int find_word(const char *words, const char *word, size_t bytes)
+static int find_choice(const char *words, const char *word, size_t bytes)
 {
     for (int i = 0;; i++, words++) {
         size_t length = strcspn(words, "|");
@@ -167,13 +167,13 @@ static int find_word(const char *words, const char *word, size_t bytes)
 }
 
 /* The sum of 1, 2, 4, ... of the words in "a+b", in any order, or -1. */
-static int find_sum(const char *words, const char *cell)
+static int find_sum_of_choices(const char *words, const char *cell)
 {
     unsigned sum = 0;
 
     for (;; cell++) {
         size_t bytes = strcspn(cell, "+");
-        int index = find_word(words, cell, bytes);
+        int index = find_choice(words, cell, bytes);
 
         if (index < 0) {
             return -1;
@@ -186,11 +186,11 @@ static int find_sum(const char *words, const char *cell)
     }
 }
 
-static bool read_word(const struct parameter_text *text, const char *cell, double *value,
-                      char *reason)
+static bool read_choice_value(const struct parameter_text *text, const char *cell, double *value,
+                              char *reason)
 {
-    *value =
-        text->is_sum ? find_sum(text->choices, cell) : find_word(text->choices, cell, strlen(cell));
+    *value = text->is_sum ? find_sum_of_choices(text->choices, cell)
+                          : find_choice(text->choices, cell, strlen(cell));
     if (*value < 0) {
         snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not one of %s%s", text->name, cell,
                  text->choices, text->is_sum ? ", or several joined by +" : "");
@@ -205,7 +205,7 @@ static bool read_value(const struct parameter_text *text, const char *cell, doub
     const char *why;
 
     if (text->choices) {
-        return read_word(text, cell, value, reason);
+        return read_choice_value(text, cell, value, reason);
     }
     why = text_to_number(cell, &number);
     if (why) {
@@ -225,7 +225,7 @@ static bool read_value(const struct parameter_text *text, const char *cell, doub
 }
 
 /* Range rates that are ambiguous by next to nothing say nothing. */
-static bool check_span(double span_mps, char *reason)
+static bool check_range_rate_span(double span_mps, char *reason)
 {
     bool is_span = span_mps <= 0.0 || span_mps >= (double)RHO_LIMIT_SPAN_MIN_MPS;
 
@@ -237,8 +237,8 @@ static bool check_span(double span_mps, char *reason)
     return is_span;
 }
 
-static void store(double *value, enum parameter_source *source, double number,
-                  enum parameter_source from)
+static void store_by_precedence(double *value, enum parameter_source *source, double number,
+                                enum parameter_source from)
 {
     if (from >= *source) {
         *value = number;
@@ -258,7 +258,8 @@ static const struct sensor_parameters *find_sensor(const struct parameters *para
 }
 
 /* The sensor, added where it is new; NULL where there is no room. */
-static struct sensor_parameters *have_sensor(struct parameters *parameters, int32_t sensor_id)
+static struct sensor_parameters *find_or_add_sensor(struct parameters *parameters,
+                                                    int32_t sensor_id)
 {
     const struct sensor_parameters *found = find_sensor(parameters, sensor_id);
     struct sensor_parameters *sensor;
@@ -360,26 +361,27 @@ static bool assign_sensor(struct parameters *parameters, const char *key, const 
                  "'sensor.%.60s' is not sensor.N.key with a whole number N", key);
         return false;
     }
-    id = find_name(dot + 1, sensor_text_name, reason);
+    id = find_parameter_name(dot + 1, sensor_parameter_name_at, reason);
     if (id == NUM_SENSOR_PARAMETERS) {
         return assign_sensor_name(parameters, sensor_id, value, source, reason);
     }
     if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason) ||
-        (id == SENSOR_RANGE_RATE_SPAN_MPS && !check_span(number, reason))) {
+        (id == SENSOR_RANGE_RATE_SPAN_MPS && !check_range_rate_span(number, reason))) {
         return false;
     }
-    sensor = have_sensor(parameters, sensor_id);
+    sensor = find_or_add_sensor(parameters, sensor_id);
     if (!sensor) {
         snprintf(reason, PARAMETER_REASON_BYTES, "more than %d sensors", RHO_MAX_SENSORS);
         return false;
     }
-    store(&sensor->value[id], &sensor->source[id], number, source);
+    store_by_precedence(&sensor->value[id], &sensor->source[id], number, source);
     return true;
 }
 
 /* sensors_allowed: numbers of sensors, with blanks or commas between them; empty: all. */
-static bool allow(struct parameters *parameters, const char *value, enum parameter_source source,
-                  char reason[PARAMETER_REASON_BYTES])
+static bool assign_allowed_sensors(struct parameters *parameters, const char *value,
+                                   enum parameter_source source,
+                                   char reason[PARAMETER_REASON_BYTES])
 {
     static const char between[] = " \t,";
     int16_t allowed[RHO_MAX_SENSORS] = {0};
@@ -423,7 +425,7 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
     int id;
 
     if (!strcmp(key, "sensors_allowed")) {
-        return allow(parameters, value, source, reason);
+        return assign_allowed_sensors(parameters, value, source, reason);
     }
     if (!strcmp(key, "reflectors")) {
         return parameters_assign_reflectors(parameters, value, source, reason);
@@ -434,22 +436,22 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
     if (!strncmp(key, "zone.", strlen("zone."))) {
         return parameters_assign_zone(parameters, key + strlen("zone."), value, source, reason);
     }
-    id = find_name(key, text_name, reason);
+    id = find_parameter_name(key, parameter_name_at, reason);
     if (id < 0) {
         return false;
     }
     text = parameters_text((enum parameter_id)id);
     if (!read_value(&text, value, &number, reason) ||
-        (id == PARAMETER_RANGE_RATE_SPAN_MPS && !check_span(number, reason))) {
+        (id == PARAMETER_RANGE_RATE_SPAN_MPS && !check_range_rate_span(number, reason))) {
         return false;
     }
-    store(&parameters->value[id], &parameters->source[id], number, source);
+    store_by_precedence(&parameters->value[id], &parameters->source[id], number, source);
     return true;
 }
 
 /* ---- Values ---- */
 
-void parameters_default(struct parameters *parameters)
+void parameters_set_defaults(struct parameters *parameters)
 {
     memset(parameters, 0, sizeof *parameters);
     for (int i = 0; i < NUM_PARAMETERS; i++) {
@@ -460,10 +462,10 @@ void parameters_default(struct parameters *parameters)
 
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value)
 {
-    store(&parameters->value[id], &parameters->source[id], value, SOURCE_METHOD);
+    store_by_precedence(&parameters->value[id], &parameters->source[id], value, SOURCE_METHOD);
 }
 
-void parameters_set(struct parameters *parameters, const char *assignment)
+void parameters_set_assignment(struct parameters *parameters, const char *assignment)
 {
     const char *equals = strchr(assignment, '=');
     char reason[PARAMETER_REASON_BYTES], key[80] = "";
@@ -514,8 +516,8 @@ bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_i
     return find_sensor(parameters, sensor_id) != NULL;
 }
 
-double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,
-                            enum sensor_parameter_id id, double otherwise)
+double parameters_value_of_sensor(const struct parameters *parameters, int32_t sensor_id,
+                                  enum sensor_parameter_id id, double otherwise)
 {
     const struct sensor_parameters *sensor = find_sensor(parameters, sensor_id);
 
@@ -524,8 +526,8 @@ double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_
 
 /* ---- What only holds together ---- */
 
-static void check_below(const struct parameters *parameters, enum parameter_id low,
-                        enum parameter_id high)
+static void check_parameter_below(const struct parameters *parameters, enum parameter_id low,
+                                  enum parameter_id high)
 {
     if (parameters->value[low] >= parameters->value[high]) {
         fail(EXIT_USAGE, "%s %.9g is not below %s %.9g", texts[low].name, parameters->value[low],
@@ -533,7 +535,7 @@ static void check_below(const struct parameters *parameters, enum parameter_id l
     }
 }
 
-static void check_scans(const struct parameters *parameters)
+static void check_scan_numbers(const struct parameters *parameters)
 {
     double scans = parameters->value[PARAMETER_SCANS];
     double min_scans = parameters->value[PARAMETER_MIN_SCANS];
@@ -562,8 +564,8 @@ static void check_area(const struct parameters *parameters)
              "%d of 4 are set",
              num_set);
     }
-    check_below(parameters, PARAMETER_AREA_X_MIN_M, PARAMETER_AREA_X_MAX_M);
-    check_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
+    check_parameter_below(parameters, PARAMETER_AREA_X_MIN_M, PARAMETER_AREA_X_MAX_M);
+    check_parameter_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
 }
 
 /* Blind speeds whose notches overlap would leave nothing to see. */
@@ -575,21 +577,21 @@ static void check_notch(double notch_mps, double blind_mps, const char *of)
     }
 }
 
-void parameters_check(const struct parameters *parameters)
+void parameters_check_together(const struct parameters *parameters)
 {
     double range_min_m = parameters->value[PARAMETER_RANGE_MIN_M];
     double range_max_m = parameters->value[PARAMETER_RANGE_MAX_M];
 
-    check_below(parameters, PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS);
-    check_below(parameters, PARAMETER_RANGE_MIN_M, PARAMETER_RANGE_MAX_M);
-    check_scans(parameters);
+    check_parameter_below(parameters, PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS);
+    check_parameter_below(parameters, PARAMETER_RANGE_MIN_M, PARAMETER_RANGE_MAX_M);
+    check_scan_numbers(parameters);
     check_area(parameters);
     check_notch(parameters->value[PARAMETER_NOTCH_MPS],
                 parameters->value[PARAMETER_BLIND_SPEED_MPS], "");
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         int32_t id = parameters->sensors[i].sensor_id;
-        double low = parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
-        double high = parameters_of_sensor(parameters, id, SENSOR_RANGE_MAX_M, range_max_m);
+        double low = parameters_value_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
+        double high = parameters_value_of_sensor(parameters, id, SENSOR_RANGE_MAX_M, range_max_m);
         char of[32];
 
         if (low >= high) {
@@ -597,10 +599,10 @@ void parameters_check(const struct parameters *parameters)
                  low, high);
         }
         snprintf(of, sizeof of, "sensor %d: ", (int)id);
-        check_notch(parameters_of_sensor(parameters, id, SENSOR_NOTCH_MPS,
-                                         parameters->value[PARAMETER_NOTCH_MPS]),
-                    parameters_of_sensor(parameters, id, SENSOR_BLIND_SPEED_MPS,
-                                         parameters->value[PARAMETER_BLIND_SPEED_MPS]),
+        check_notch(parameters_value_of_sensor(parameters, id, SENSOR_NOTCH_MPS,
+                                               parameters->value[PARAMETER_NOTCH_MPS]),
+                    parameters_value_of_sensor(parameters, id, SENSOR_BLIND_SPEED_MPS,
+                                               parameters->value[PARAMETER_BLIND_SPEED_MPS]),
                     of);
     }
 }

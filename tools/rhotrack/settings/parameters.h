@@ -300,7 +300,7 @@ struct parameters {
     double passive_apart_m; /* the farthest two sensors of bearings, where they are known; else 0 */
 };
 
-void parameters_default(struct parameters *parameters);
+void parameters_set_defaults(struct parameters *parameters);
 
 /* A method's or scenario's own default: counts only where nobody set the parameter. */
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
@@ -309,25 +309,25 @@ void parameters_suggest(struct parameters *parameters, enum parameter_id id, dou
  * "key=value", "sensor.N.key=value" or "zone.N.key=value" from --set. On error prints `rhotrack:
  * --set key=value: what is wrong` and exits with 2.
  */
-void parameters_set(struct parameters *parameters, const char *assignment);
+void parameters_set_assignment(struct parameters *parameters, const char *assignment);
 
 /*
  * INI file (no section, [rhotrack], [sensor N] or [zone N]); errors as `rhotrack: FILE:LINE: what
  * is wrong`, exit 2.
  */
-void parameters_load(struct parameters *parameters, const char *path);
+void parameters_load_ini(struct parameters *parameters, const char *path);
 
 /*
  * Checks what only holds together (v_min < v_max, min_scans <= scans, all four area sides or none,
  * min < max); exit 2.
  */
-void parameters_check(const struct parameters *parameters);
+void parameters_check_together(const struct parameters *parameters);
 
 /*
  * Places of sensors on the earth become x_m, y_m and z_m. Exit 2 without an origin, where a place
  * is half said or twice, or too far away. Once, when all is set.
  */
-void parameters_locate(struct parameters *parameters);
+void parameters_locate_sensors(struct parameters *parameters);
 
 /*
  * The origin of the local frame is set. Its frame, to be closed; the origin's height where none is
@@ -345,7 +345,7 @@ bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sen
                                 double geodetic[3]);
 
 /* By how much its azimuths are turned in the local frame then (local_frame_turn_rad); else 0. */
-double parameters_turn_rad(const struct parameters *parameters, int32_t sensor_id);
+double parameters_azimuth_turn_rad(const struct parameters *parameters, int32_t sensor_id);
 
 bool parameters_is_set(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);
@@ -399,8 +399,8 @@ bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_i
 const char *parameters_sensor_name(const struct parameters *parameters, int32_t sensor_id);
 
 /* A sensor's own value, or otherwise the value for all. */
-double parameters_of_sensor(const struct parameters *parameters, int32_t sensor_id,
-                            enum sensor_parameter_id id, double otherwise);
+double parameters_value_of_sensor(const struct parameters *parameters, int32_t sensor_id,
+                                  enum sensor_parameter_id id, double otherwise);
 
 /* How far a sensor sees: its own range_max_m, or the one for all. */
 double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id);
@@ -414,9 +414,9 @@ void parameters_time_biases_us(const struct parameters *parameters, int32_t *lea
                                int32_t *largest_us);
 
 /*
- * The library's configs from the parameters, checked (parameters_check). A sensor is described only
- * where somebody set something of it, or the range limits of all: else false, and *sensor is
- * unchanged.
+ * The library's configs from the parameters, checked (parameters_check_together). A sensor is
+ * described only where somebody set something of it, or the range limits of all: else false, and
+ * *sensor is unchanged.
  */
 bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
                           struct rho_sensor *sensor);
@@ -428,7 +428,8 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
                               struct rho_sensor *sensor);
 
 /*
- * The settings from which the library's configs follow; checked as parameters_check does, exit 2.
+ * The settings from which the library's configs follow; checked as parameters_check_together does,
+ * exit 2.
  */
 struct rho_settings parameters_settings(const struct parameters *parameters);
 
@@ -450,8 +451,8 @@ void parameters_to_assembler(const struct parameters *parameters,
                              struct rho_scan_assembler *assembler);
 
 /* The same descriptions of sensors anew, while messages come. */
-void parameters_describe_again(const struct parameters *parameters,
-                               struct rho_scan_assembler *assembler);
+void parameters_describe_sensors_again(const struct parameters *parameters,
+                                       struct rho_scan_assembler *assembler);
 
 /* key: "N.name", of a zone. false: *reason says why. */
 bool parameters_assign_zone(struct parameters *parameters, const char *key, const char *value,

@@ -5,13 +5,13 @@
 #include "base/common.h"
 #include "settings/parameters.h"
 
-static struct rho_scan_assembler_noise noise_of(const struct parameters *parameters,
-                                                int32_t sensor_id)
+static struct rho_scan_assembler_noise sensor_noise(const struct parameters *parameters,
+                                                    int32_t sensor_id)
 {
     const double *value = parameters->value;
 
 #define OF_SENSOR(id)                                                                              \
-    (float)parameters_of_sensor(parameters, sensor_id, SENSOR_##id, value[PARAMETER_##id])
+    (float)parameters_value_of_sensor(parameters, sensor_id, SENSOR_##id, value[PARAMETER_##id])
     return (struct rho_scan_assembler_noise){.sigma_m = OF_SENSOR(SIGMA_M),
                                              .sigma_mps = OF_SENSOR(SIGMA_MPS),
                                              .sigma_range_m = OF_SENSOR(SIGMA_RANGE_M),
@@ -23,10 +23,10 @@ static struct rho_scan_assembler_noise noise_of(const struct parameters *paramet
 #undef OF_SENSOR
 }
 
-static struct rho_scan_assembler_sensor describe(const struct parameters *parameters,
-                                                 int32_t sensor_id)
+static struct rho_scan_assembler_sensor describe_sensor(const struct parameters *parameters,
+                                                        int32_t sensor_id)
 {
-    struct rho_scan_assembler_sensor known = {.noise = noise_of(parameters, sensor_id)};
+    struct rho_scan_assembler_sensor known = {.noise = sensor_noise(parameters, sensor_id)};
 
     parameters_to_any_sensor(parameters, sensor_id, &known.sensor);
     return known;
@@ -35,28 +35,28 @@ static struct rho_scan_assembler_sensor describe(const struct parameters *parame
 /* A sensor that nobody described: one beyond those that can have messages. */
 #define NO_SENSOR INT32_MAX
 
-static enum rho_status set_sensors(const struct parameters *parameters,
-                                   struct rho_scan_assembler *assembler)
+static enum rho_status describe_all_sensors(const struct parameters *parameters,
+                                            struct rho_scan_assembler *assembler)
 {
     enum rho_status status = RHO_OK;
 
     for (size_t i = 0; i < parameters->num_sensors && status == RHO_OK; i++) {
         struct rho_scan_assembler_sensor known =
-            describe(parameters, parameters->sensors[i].sensor_id);
+            describe_sensor(parameters, parameters->sensors[i].sensor_id);
 
         status = rho_scan_assembler_set_sensor(assembler, &known);
     }
     return status;
 }
 
-void parameters_describe_again(const struct parameters *parameters,
-                               struct rho_scan_assembler *assembler)
+void parameters_describe_sensors_again(const struct parameters *parameters,
+                                       struct rho_scan_assembler *assembler)
 {
     struct rho_sensor any;
 
     assembler->config.gives_other = parameters_to_sensor(parameters, NO_SENSOR, &any);
-    assembler->config.other = describe(parameters, NO_SENSOR);
-    must_succeed(set_sensors(parameters, assembler), "assembler");
+    assembler->config.other = describe_sensor(parameters, NO_SENSOR);
+    must_succeed(describe_all_sensors(parameters, assembler), "assembler");
 }
 
 void parameters_to_assembler(const struct parameters *parameters,
@@ -73,11 +73,12 @@ void parameters_to_assembler(const struct parameters *parameters,
         .stranger_plots_per_s = (uint32_t)value[PARAMETER_STRANGER_PLOTS_PER_S],
         .num_allowed = parameters->num_allowed,
         .gives_other = parameters_to_sensor(parameters, NO_SENSOR, &any),
-        .other = describe(parameters, NO_SENSOR),
+        .other = describe_sensor(parameters, NO_SENSOR),
     };
     enum rho_status status;
 
     memcpy(config.allowed, parameters->allowed, sizeof config.allowed);
     status = rho_scan_assembler_init(assembler, sizeof *assembler, &config);
-    must_succeed(status == RHO_OK ? set_sensors(parameters, assembler) : status, "assembler");
+    must_succeed(status == RHO_OK ? describe_all_sensors(parameters, assembler) : status,
+                 "assembler");
 }

@@ -39,7 +39,7 @@ struct rho_settings parameters_settings(const struct parameters *parameters)
     const double *value = parameters->value;
     struct rho_settings settings;
 
-    parameters_check(parameters);
+    parameters_check_together(parameters);
     rho_settings_default(&settings);
 #define TAKE(id, name, type) settings.name = (type)value[PARAMETER_##id];
     SAME_FIELDS(TAKE)
@@ -54,17 +54,17 @@ struct rho_settings parameters_settings(const struct parameters *parameters)
     return settings;
 }
 
-/* Sensors that have ranges of their own have them above the others' least, too. */
-static bool go_with_sensors(const struct parameters *parameters,
-                            const struct rho_settings *settings)
+/* With these settings every sensor's least range is below its largest. */
+static bool fit_sensor_ranges(const struct parameters *parameters,
+                              const struct rho_settings *settings)
 {
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const int32_t id = parameters->sensors[i].sensor_id;
 
-        if (parameters_of_sensor(parameters, id, SENSOR_RANGE_MIN_M,
-                                 (double)settings->range_min_m) >=
-            parameters_of_sensor(parameters, id, SENSOR_RANGE_MAX_M,
-                                 (double)settings->range_max_m)) {
+        if (parameters_value_of_sensor(parameters, id, SENSOR_RANGE_MIN_M,
+                                       (double)settings->range_min_m) >=
+            parameters_value_of_sensor(parameters, id, SENSOR_RANGE_MAX_M,
+                                       (double)settings->range_max_m)) {
             return false;
         }
     }
@@ -85,7 +85,7 @@ bool parameters_take_settings(struct parameters *parameters, const struct rho_se
              fmin(LATE_SCANS * (double)settings->scan_interval_s, LATE_LIMIT_S)},
     };
 
-    if (!go_with_sensors(parameters, settings)) {
+    if (!fit_sensor_ranges(parameters, settings)) {
         return false;
     }
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
@@ -139,38 +139,39 @@ static void parameters_to_input(const struct parameters *parameters,
     config->initial_variance = (float)value[PARAMETER_INITIAL_VARIANCE];
 }
 
-static bool is_asked_for(const struct parameters *parameters, enum parameter_id id)
+static bool is_parameter_asked_for(const struct parameters *parameters, enum parameter_id id)
 {
     return parameters->source[id] > SOURCE_DEFAULT;
 }
 
 /* Somebody has said what the noise of places is, of all sensors or of one. */
-static bool says_noise(const struct parameters *parameters)
+static bool is_noise_stated(const struct parameters *parameters)
 {
-    bool says = is_asked_for(parameters, PARAMETER_SIGMA_M) ||
-                is_asked_for(parameters, PARAMETER_SIGMA_RANGE_M) ||
-                is_asked_for(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
+    bool says = is_parameter_asked_for(parameters, PARAMETER_SIGMA_M) ||
+                is_parameter_asked_for(parameters, PARAMETER_SIGMA_RANGE_M) ||
+                is_parameter_asked_for(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
 
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const int32_t id = parameters->sensors[i].sensor_id;
 
-        says |= !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_M, NAN)) ||
-                !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_RANGE_M, NAN)) ||
-                !isnan(parameters_of_sensor(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD, NAN));
+        says |= !isnan(parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_M, NAN)) ||
+                !isnan(parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_RANGE_M, NAN)) ||
+                !isnan(parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD, NAN));
     }
     return says;
 }
 
 /* A value that was not set is a default, which knows nothing of the radar: it may be far off. */
-static void set_bounds(const struct parameters *parameters, struct rho_tracker_config *config)
+static void set_learning_bounds(const struct parameters *parameters,
+                                struct rho_tracker_config *config)
 {
     const double *value = parameters->value;
-    const bool says = says_noise(parameters);
+    const bool says = is_noise_stated(parameters);
 
-    config->learn_noise_min = says || is_asked_for(parameters, PARAMETER_LEARN_NOISE_MIN)
+    config->learn_noise_min = says || is_parameter_asked_for(parameters, PARAMETER_LEARN_NOISE_MIN)
                                   ? (float)value[PARAMETER_LEARN_NOISE_MIN]
                                   : UNSTATED_MIN;
-    config->learn_noise_max = says || is_asked_for(parameters, PARAMETER_LEARN_NOISE_MAX)
+    config->learn_noise_max = says || is_parameter_asked_for(parameters, PARAMETER_LEARN_NOISE_MAX)
                                   ? (float)value[PARAMETER_LEARN_NOISE_MAX]
                                   : UNSTATED_MAX;
     config->learn_pd_min = (float)value[PARAMETER_LEARN_PD_MIN];
@@ -185,7 +186,7 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     rho_settings_apply(&settings, config, NULL, NULL);
     config->steady_s = (float)value[PARAMETER_STEADY_S];
     config->late_max_s = (float)value[PARAMETER_LATE_MAX_S];
-    set_bounds(parameters, config);
+    set_learning_bounds(parameters, config);
     config->gate = (uint8_t)value[PARAMETER_GATE];
     config->planes = (uint8_t)value[PARAMETER_PLANES];
     config->theta_cell_rad = (float)(value[PARAMETER_GATE_THETA_DEG] * (3.141592653589793 / 180.0));
@@ -195,8 +196,8 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
 
 double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id)
 {
-    return parameters_of_sensor(parameters, sensor_id, SENSOR_RANGE_MAX_M,
-                                parameters->value[PARAMETER_RANGE_MAX_M]);
+    return parameters_value_of_sensor(parameters, sensor_id, SENSOR_RANGE_MAX_M,
+                                      parameters->value[PARAMETER_RANGE_MAX_M]);
 }
 
 /* A sector that the sensor counts from its own east. Equal ends, the whole circle, stay equal. */
@@ -215,11 +216,12 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
                               struct rho_sensor *sensor)
 {
     const double *value = parameters->value;
-    double range_max_m = is_asked_for(parameters, PARAMETER_RANGE_MAX_M)
+    double range_max_m = is_parameter_asked_for(parameters, PARAMETER_RANGE_MAX_M)
                              ? value[PARAMETER_RANGE_MAX_M]
                              : 2.0 * (double)RHO_LIMIT_POSITION_M;
 
-#define OF_SENSOR(id, otherwise) (float)parameters_of_sensor(parameters, sensor_id, id, otherwise)
+#define OF_SENSOR(id, otherwise)                                                                   \
+    (float)parameters_value_of_sensor(parameters, sensor_id, id, otherwise)
     *sensor = (struct rho_sensor){
         .sensor_id = sensor_id,
         .x_m = OF_SENSOR(SENSOR_X_M, 0),
@@ -245,13 +247,13 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
             OF_SENSOR(SENSOR_RESOLUTION_RANGE_RATE_MPS, value[PARAMETER_RESOLUTION_RANGE_RATE_MPS]),
     };
 #undef OF_SENSOR
-    turn_sector(sensor, parameters_turn_rad(parameters, sensor_id));
+    turn_sector(sensor, parameters_azimuth_turn_rad(parameters, sensor_id));
 }
 
 int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id)
 {
-    const struct rho_sensor sensor = {
-        .time_bias_s = (float)parameters_of_sensor(parameters, sensor_id, SENSOR_TIME_BIAS_S, 0.0)};
+    const struct rho_sensor sensor = {.time_bias_s = (float)parameters_value_of_sensor(
+                                          parameters, sensor_id, SENSOR_TIME_BIAS_S, 0.0)};
 
     return rho_measurement_time_bias_us(&sensor);
 }
@@ -272,8 +274,8 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
                           struct rho_sensor *sensor)
 {
     if (!parameters_has_sensor(parameters, sensor_id) &&
-        !is_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
-        !is_asked_for(parameters, PARAMETER_RANGE_MAX_M) &&
+        !is_parameter_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
+        !is_parameter_asked_for(parameters, PARAMETER_RANGE_MAX_M) &&
         !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0) &&
         !(parameters->value[PARAMETER_NOTCH_MPS] > 0.0) &&
         !(parameters->value[PARAMETER_RESOLUTION_RANGE_M] > 0.0) &&

@@ -58,7 +58,7 @@ static bool section_prefix(const char *section, char *prefix, size_t bytes)
     return false;
 }
 
-static int on_value(void *user, const char *section, const char *name, const char *value)
+static int on_ini_value(void *user, const char *section, const char *name, const char *value)
 {
     struct loading *loading = user;
     char prefix[32], key[128], reason[PARAMETER_REASON_BYTES];
@@ -75,7 +75,7 @@ static int on_value(void *user, const char *section, const char *name, const cha
     return 1;
 }
 
-void parameters_load(struct parameters *parameters, const char *path)
+void parameters_load_ini(struct parameters *parameters, const char *path)
 {
     static char comment_marks[] = ";#";
     struct loading loading = {parameters, path, fopen(path, "r"), 0};
@@ -89,7 +89,7 @@ void parameters_load(struct parameters *parameters, const char *path)
     ini_stop_on_first_error = true;
     ini_use_stack = false;
     ini_initial_alloc = ini_max_line = 400;
-    bad_line = ini_parse_stream(read_line, &loading, on_value, &loading);
+    bad_line = ini_parse_stream(read_line, &loading, on_ini_value, &loading);
     if (bad_line < 0) {
         fail(EXIT_RUNTIME, "out of memory");
     }

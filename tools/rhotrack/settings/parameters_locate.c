@@ -12,7 +12,7 @@
 const char parameters_no_origin[] = "origin_lat_deg and origin_lon_deg are not set, where the "
                                     "local frame has its origin (--set or --config)";
 
-static bool is_said(const struct sensor_parameters *sensor, enum sensor_parameter_id id)
+static bool is_value_set(const struct sensor_parameters *sensor, enum sensor_parameter_id id)
 {
     return sensor->source[id] != SOURCE_UNSET;
 }
@@ -23,7 +23,7 @@ static const struct sensor_parameters *find_located(const struct parameters *par
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const struct sensor_parameters *sensor = &parameters->sensors[i];
 
-        if (sensor->sensor_id == sensor_id && is_said(sensor, SENSOR_LAT_DEG)) {
+        if (sensor->sensor_id == sensor_id && is_value_set(sensor, SENSOR_LAT_DEG)) {
             return sensor;
         }
     }
@@ -60,20 +60,22 @@ static void check_origin(const struct parameters *parameters)
 /* ---- Sensors ---- */
 
 /* Whether it has a place on the earth, which then is whole and the only one. */
-static bool check_sensor(const struct parameters *parameters,
-                         const struct sensor_parameters *sensor)
+static bool check_place_on_earth(const struct parameters *parameters,
+                                 const struct sensor_parameters *sensor)
 {
-    bool has_lat = is_said(sensor, SENSOR_LAT_DEG), has_lon = is_said(sensor, SENSOR_LON_DEG);
+    bool has_lat = is_value_set(sensor, SENSOR_LAT_DEG),
+         has_lon = is_value_set(sensor, SENSOR_LON_DEG);
     int id = (int)sensor->sensor_id;
 
-    if (!has_lat && !has_lon && !is_said(sensor, SENSOR_ALT_M)) {
+    if (!has_lat && !has_lon && !is_value_set(sensor, SENSOR_ALT_M)) {
         return false;
     }
     if (!has_lat || !has_lon) {
         fail(EXIT_USAGE, "sensor %d: lat_deg, lon_deg and alt_m go together: %s is not set", id,
              has_lat ? "lon_deg" : "lat_deg");
     }
-    if (is_said(sensor, SENSOR_X_M) || is_said(sensor, SENSOR_Y_M) || is_said(sensor, SENSOR_Z_M)) {
+    if (is_value_set(sensor, SENSOR_X_M) || is_value_set(sensor, SENSOR_Y_M) ||
+        is_value_set(sensor, SENSOR_Z_M)) {
         fail(EXIT_USAGE, "sensor %d: its place is said twice, in metres and by lat_deg, lon_deg",
              id);
     }
@@ -83,14 +85,15 @@ static bool check_sensor(const struct parameters *parameters,
     return true;
 }
 
-static void put(struct sensor_parameters *sensor, enum sensor_parameter_id id, double value)
+static void put_place_value(struct sensor_parameters *sensor, enum sensor_parameter_id id,
+                            double value)
 {
     sensor->value[id] = value;
     sensor->source[id] = sensor->source[SENSOR_LAT_DEG];
 }
 
-static void locate(const struct parameters *parameters, const struct local_frame *origin,
-                   struct sensor_parameters *sensor)
+static void locate_sensor(const struct parameters *parameters, const struct local_frame *origin,
+                          struct sensor_parameters *sensor)
 {
     double geodetic[3] = {0, 0, 0}, place_m[3];
     struct local_frame *own;
@@ -104,20 +107,20 @@ static void locate(const struct parameters *parameters, const struct local_frame
     own = local_frame_open(geodetic[0], geodetic[1], geodetic[2]);
     sensor->turn_rad = local_frame_turn_rad(own, origin);
     local_frame_close(own);
-    put(sensor, SENSOR_X_M, place_m[0]);
-    put(sensor, SENSOR_Y_M, place_m[1]);
-    put(sensor, SENSOR_Z_M, place_m[2]);
+    put_place_value(sensor, SENSOR_X_M, place_m[0]);
+    put_place_value(sensor, SENSOR_Y_M, place_m[1]);
+    put_place_value(sensor, SENSOR_Z_M, place_m[2]);
 }
 
-void parameters_locate(struct parameters *parameters)
+void parameters_locate_sensors(struct parameters *parameters)
 {
     struct local_frame *origin = NULL;
 
     check_origin(parameters);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
-        if (check_sensor(parameters, &parameters->sensors[i])) {
+        if (check_place_on_earth(parameters, &parameters->sensors[i])) {
             origin = origin ? origin : parameters_open_origin(parameters);
-            locate(parameters, origin, &parameters->sensors[i]);
+            locate_sensor(parameters, origin, &parameters->sensors[i]);
         }
     }
     local_frame_close(origin);
@@ -133,12 +136,12 @@ bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sen
     }
     geodetic[0] = sensor->value[SENSOR_LAT_DEG];
     geodetic[1] = sensor->value[SENSOR_LON_DEG];
-    geodetic[2] = is_said(sensor, SENSOR_ALT_M) ? sensor->value[SENSOR_ALT_M]
-                                                : parameters->value[PARAMETER_ORIGIN_ALT_M];
+    geodetic[2] = is_value_set(sensor, SENSOR_ALT_M) ? sensor->value[SENSOR_ALT_M]
+                                                     : parameters->value[PARAMETER_ORIGIN_ALT_M];
     return true;
 }
 
-double parameters_turn_rad(const struct parameters *parameters, int32_t sensor_id)
+double parameters_azimuth_turn_rad(const struct parameters *parameters, int32_t sensor_id)
 {
     const struct sensor_parameters *sensor = find_located(parameters, sensor_id);
 

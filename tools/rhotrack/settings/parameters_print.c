@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-static void print_row(FILE *out, const struct parameter_text *text, const char *value,
-                      enum parameter_source source)
+static void print_parameter_row(FILE *out, const struct parameter_text *text, const char *value,
+                                enum parameter_source source)
 {
     char initial[PARAMETER_VALUE_BYTES] = "unset", range[48];
 
@@ -19,7 +19,7 @@ static void print_row(FILE *out, const struct parameter_text *text, const char *
             value, parameters_source_name(source), text->text);
 }
 
-static void print_sensor(FILE *out, const struct sensor_parameters *sensor)
+static void print_sensor_values(FILE *out, const struct sensor_parameters *sensor)
 {
     for (int i = 0; i < NUM_SENSOR_PARAMETERS; i++) {
         struct parameter_text text = parameters_sensor_text((enum sensor_parameter_id)i);
@@ -31,11 +31,11 @@ static void print_sensor(FILE *out, const struct sensor_parameters *sensor)
         snprintf(name, sizeof name, "sensor.%d.%s", (int)sensor->sensor_id, text.name);
         snprintf(value, sizeof value, "%.9g", sensor->value[i]);
         text.name = name;
-        print_row(out, &text, value, sensor->source[i]);
+        print_parameter_row(out, &text, value, sensor->source[i]);
     }
 }
 
-static void print_names(const struct parameters *parameters, FILE *out)
+static void print_sensor_names(const struct parameters *parameters, FILE *out)
 {
     for (size_t i = 0; i < parameters->num_names; i++) {
         const struct sensor_name *named = &parameters->names[i];
@@ -44,7 +44,7 @@ static void print_names(const struct parameters *parameters, FILE *out)
             .name = key, .unit = "-", .choices = "text", .text = "how it is called"};
 
         snprintf(key, sizeof key, "sensor.%d.name", (int)named->sensor_id);
-        print_row(out, &text, named->text, named->source);
+        print_parameter_row(out, &text, named->text, named->source);
     }
 }
 
@@ -74,7 +74,7 @@ static void print_zone_keys(FILE *out)
         out);
 }
 
-static void print_allowed(const struct parameters *parameters, FILE *out)
+static void print_allowed_sensors(const struct parameters *parameters, FILE *out)
 {
     const struct parameter_text text = {.name = "sensors_allowed",
                                         .unit = "-",
@@ -87,7 +87,7 @@ static void print_allowed(const struct parameters *parameters, FILE *out)
         length += (size_t)snprintf(list + length, sizeof list - length, "%s%d", i ? " " : "",
                                    parameters->allowed[i]);
     }
-    print_row(out, &text, list, parameters->allowed_source);
+    print_parameter_row(out, &text, list, parameters->allowed_source);
 }
 
 static void print_reflectors(const struct parameters *parameters, FILE *out)
@@ -99,7 +99,7 @@ static void print_reflectors(const struct parameters *parameters, FILE *out)
     char list[PARAMETER_REFLECTORS_BYTES];
 
     parameters_reflectors_text(parameters, list);
-    print_row(out, &text, list, parameters->reflectors_source);
+    print_parameter_row(out, &text, list, parameters->reflectors_source);
 }
 
 void parameters_print(const struct parameters *parameters, FILE *out)
@@ -113,14 +113,14 @@ void parameters_print(const struct parameters *parameters, FILE *out)
         if (parameters->source[i] != SOURCE_UNSET) {
             parameters_value_text(&text, parameters->value[i], value);
         }
-        print_row(out, &text, value, parameters->source[i]);
+        print_parameter_row(out, &text, value, parameters->source[i]);
     }
-    print_allowed(parameters, out);
+    print_allowed_sensors(parameters, out);
     print_reflectors(parameters, out);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
-        print_sensor(out, &parameters->sensors[i]);
+        print_sensor_values(out, &parameters->sensors[i]);
     }
-    print_names(parameters, out);
+    print_sensor_names(parameters, out);
     print_sensor_keys(out);
     print_zone_keys(out);
 }

@@ -11,7 +11,7 @@ static const char *const keys[NUM_ZONE_PARAMETERS] = {"corners_m", "heading_rad"
                                                       "queue_mps"};
 
 /* The zone, added where it is new; NULL where there is no room. */
-static struct zone_parameters *have_zone(struct parameters *parameters, int32_t zone_id)
+static struct zone_parameters *find_or_add_zone(struct parameters *parameters, int32_t zone_id)
 {
     struct zone_parameters *zone;
 
@@ -58,8 +58,8 @@ static bool read_corners(const char *value, struct rho_zone *zone, char *reason)
     return true;
 }
 
-static bool read_number(enum zone_parameter_id id, const char *value, struct rho_zone *zone,
-                        char *reason)
+static bool read_zone_number(enum zone_parameter_id id, const char *value, struct rho_zone *zone,
+                             char *reason)
 {
     static const struct {
         double min, max;
@@ -83,7 +83,7 @@ static bool read_number(enum zone_parameter_id id, const char *value, struct rho
 }
 
 /* The place of the key; -1 where there is none. */
-static int find_key(const char *name, char *reason)
+static int find_zone_key(const char *name, char *reason)
 {
     for (int i = 0; i < NUM_ZONE_PARAMETERS; i++) {
         if (!strcmp(keys[i], name)) {
@@ -112,8 +112,8 @@ bool parameters_assign_zone(struct parameters *parameters, const char *key, cons
                  "'zone.%.60s' is not zone.N.key with a whole number N", key);
         return false;
     }
-    id = find_key(dot + 1, reason);
-    zone = id < 0 ? NULL : have_zone(parameters, zone_id);
+    id = find_zone_key(dot + 1, reason);
+    zone = id < 0 ? NULL : find_or_add_zone(parameters, zone_id);
     if (!zone) {
         if (id >= 0) {
             snprintf(reason, PARAMETER_REASON_BYTES, "more than %d zones", RHO_MAX_ZONES);
@@ -123,7 +123,7 @@ bool parameters_assign_zone(struct parameters *parameters, const char *key, cons
     read = *zone;
     if (!(id == ZONE_CORNERS_M
               ? read_corners(value, &read.zone, reason)
-              : read_number((enum zone_parameter_id)id, value, &read.zone, reason))) {
+              : read_zone_number((enum zone_parameter_id)id, value, &read.zone, reason))) {
         return false;
     }
     if (source >= zone->source[id]) {

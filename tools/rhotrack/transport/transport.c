@@ -9,24 +9,24 @@
 #include "base/common.h"
 #include "transport/transport_parts.h"
 
-static const char *or_default(const char *url)
+static const char *url_or_default(const char *url)
 {
     const char *variable = getenv("LCM_DEFAULT_URL");
 
     return url ? url : variable && *variable ? variable : TRANSPORT_DEFAULT_URL;
 }
 
-bool transport_is_file(const char *url, const char *path)
+bool transport_url_is_file(const char *url, const char *path)
 {
     struct stat one, other;
     char *name;
     bool is_same;
 
-    url = or_default(url);
-    if (transport_is_live(url)) {
+    url = url_or_default(url);
+    if (transport_url_is_live(url)) {
         return false;
     }
-    name = must_copy(url + 7);
+    name = must_copy_text(url + 7);
     name[strcspn(name, "?")] = '\0';
     is_same = stat(name, &one) == 0 && stat(path, &other) == 0 && S_ISREG(one.st_mode) &&
               one.st_dev == other.st_dev && one.st_ino == other.st_ino;
@@ -34,9 +34,9 @@ bool transport_is_file(const char *url, const char *path)
     return is_same;
 }
 
-bool transport_is_live(const char *url)
+bool transport_url_is_live(const char *url)
 {
-    return strncmp(or_default(url), "file://", 7) != 0;
+    return strncmp(url_or_default(url), "file://", 7) != 0;
 }
 
 struct transport *transport_open(const char *url, enum transport_use use)
@@ -44,8 +44,8 @@ struct transport *transport_open(const char *url, enum transport_use use)
     struct transport *transport = must_calloc(1, sizeof *transport);
 
     transport->source = url ? "--lcm" : "LCM_DEFAULT_URL";
-    url = or_default(url);
-    transport->url = must_copy(url);
+    url = url_or_default(url);
+    transport->url = must_copy_text(url);
     transport->last_us = INT64_MIN;
     if (!strstr(url, "://")) {
         transport_refuse(transport, "no LCM URL; it looks like %s", TRANSPORT_DEFAULT_URL);

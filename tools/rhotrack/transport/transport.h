@@ -60,10 +60,10 @@ struct transport_counters {
 struct transport *transport_open(const char *url, enum transport_use use);
 
 /* Whether this URL is that file: opening it may empty it, so it is asked before. */
-bool transport_is_file(const char *url, const char *path);
+bool transport_url_is_file(const char *url, const char *path);
 
 /* False: this URL is a file, whose messages wait for what goes out. NULL as above. */
-bool transport_is_live(const char *url);
+bool transport_url_is_live(const char *url);
 
 const char *transport_url(const struct transport *transport);
 

@@ -45,16 +45,16 @@ static void on_message(const lcm_recv_buf_t *buffer, const char *channel, void *
     provider->has_message = true;
 }
 
-static int descriptor_of(const void *object)
+static int lcm_descriptor(const void *object)
 {
     return lcm_get_fileno(((const struct provider *)object)->lcm);
 }
 
-static enum transport_found receive(struct transport *transport, void *object,
-                                    struct transport_message *message)
+static enum transport_found receive_message(struct transport *transport, void *object,
+                                            struct transport_message *message)
 {
     struct provider *provider = object;
-    struct pollfd here = {.fd = descriptor_of(object), .events = POLLIN};
+    struct pollfd here = {.fd = lcm_descriptor(object), .events = POLLIN};
 
     provider->has_message = false;
     while (!provider->has_ended && !provider->has_message) {
@@ -66,11 +66,11 @@ static enum transport_found receive(struct transport *transport, void *object,
     if (!provider->has_message) {
         return TRANSPORT_END;
     }
-    *message =
-        (struct transport_message){.channel = provider->channel,
-                                   .data = provider->data,
-                                   .size = provider->size,
-                                   .received_us = transport_time_us(transport, provider->time_us)};
+    *message = (struct transport_message){
+        .channel = provider->channel,
+        .data = provider->data,
+        .size = provider->size,
+        .received_us = transport_reception_time_us(transport, provider->time_us)};
     return TRANSPORT_MESSAGE;
 }
 
@@ -93,7 +93,7 @@ static void close_lcm(void *object)
 }
 
 /* The value of one of the URL's options, and what is behind it; "" where it is not said. */
-static const char *option_of(const char *url, const char *name)
+static const char *url_option(const char *url, const char *name)
 {
     size_t length = strlen(name);
 
@@ -112,19 +112,19 @@ static const char *option_of(const char *url, const char *name)
  */
 static char file_mode(const char *url)
 {
-    const char *mode = option_of(url, "mode");
+    const char *mode = url_option(url, "mode");
 
     return *mode ? *mode : 'r';
 }
 
-static bool is_instant(const char *url)
+static bool is_played_at_once(const char *url)
 {
-    const char *speed = option_of(url, "speed");
+    const char *speed = url_option(url, "speed");
 
     return *speed && !(strtod(speed, NULL) > 0);
 }
 
-static void check_file(const struct transport *transport, enum transport_use use)
+static void check_file_mode(const struct transport *transport, enum transport_use use)
 {
     bool is_read = file_mode(transport->url) == 'r';
 
@@ -141,19 +141,19 @@ static void check_file(const struct transport *transport, enum transport_use use
 
 void transport_open_lcm(struct transport *transport, enum transport_use use)
 {
-    static const struct transport_provider methods = {descriptor_of, receive, send_message,
+    static const struct transport_provider methods = {lcm_descriptor, receive_message, send_message,
                                                       close_lcm};
     bool is_file = strncmp(transport->url, "file://", 7) == 0;
     struct provider *provider;
     lcm_subscription_t *all;
 
     if (is_file) {
-        check_file(transport, use);
+        check_file_mode(transport, use);
         if (use == TRANSPORT_SEND) {
             transport_open_written_log(transport, file_mode(transport->url) == 'a' ? "ab" : "wb");
             return;
         }
-        if (is_instant(transport->url)) {
+        if (is_played_at_once(transport->url)) {
             transport_open_log(transport);
             return;
         }

@@ -19,14 +19,14 @@ struct log {
     bool has_event; /* the first one, which sets the clock, was not given yet */
 };
 
-static int descriptor_of(const void *object)
+static int no_descriptor(const void *object)
 {
     (void)object;
     return -1; /* nothing is ever waited for */
 }
 
-static enum transport_found receive(struct transport *transport, void *object,
-                                    struct transport_message *message)
+static enum transport_found receive_event(struct transport *transport, void *object,
+                                          struct transport_message *message)
 {
     struct log *log = object;
 
@@ -44,19 +44,19 @@ static enum transport_found receive(struct transport *transport, void *object,
     return TRANSPORT_MESSAGE;
 }
 
-static void close_log(void *object)
+static void close_read_log(void *object)
 {
     struct log *log = object;
 
-    lcm_log_report(log->reader);
+    lcm_log_report_skipped(log->reader);
     lcm_log_close(log->reader);
     free(log);
 }
 
 /* The URL's file, in new memory. */
-static char *path_of(const struct transport *transport)
+static char *log_path(const struct transport *transport)
 {
-    char *path = must_copy(transport->url + strlen("file://"));
+    char *path = must_copy_text(transport->url + strlen("file://"));
 
     path[strcspn(path, "?")] = '\0';
     return path;
@@ -64,9 +64,10 @@ static char *path_of(const struct transport *transport)
 
 void transport_open_log(struct transport *transport)
 {
-    static const struct transport_provider provider = {descriptor_of, receive, NULL, close_log};
+    static const struct transport_provider provider = {no_descriptor, receive_event, NULL,
+                                                       close_read_log};
     struct log *log = must_calloc(1, sizeof *log);
-    char *path = path_of(transport);
+    char *path = log_path(transport);
 
     log->reader = lcm_log_open(path);
     log->has_event = lcm_log_next(log->reader, &log->event);
@@ -97,14 +98,14 @@ static enum transport_found receive_nothing(struct transport *transport, void *o
     return TRANSPORT_NOTHING;
 }
 
-static bool write_message(void *object, const char *channel, const uint8_t *data, size_t size)
+static bool write_log_event(void *object, const char *channel, const uint8_t *data, size_t size)
 {
     struct written_log *log = object;
 
     return lcm_log_write(&log->writer, transport_now_us(log->transport), channel, data, size);
 }
 
-static void close_written(void *object)
+static void close_written_log(void *object)
 {
     struct written_log *log = object;
 
@@ -117,12 +118,12 @@ static void close_written(void *object)
 
 void transport_open_written_log(struct transport *transport, const char *mode)
 {
-    static const struct transport_provider provider = {descriptor_of, receive_nothing,
-                                                       write_message, close_written};
+    static const struct transport_provider provider = {no_descriptor, receive_nothing,
+                                                       write_log_event, close_written_log};
     struct written_log *log = must_calloc(1, sizeof *log);
 
     log->transport = transport;
-    log->path = path_of(transport);
+    log->path = log_path(transport);
     log->writer.file = fopen(log->path, mode);
     if (!log->writer.file) {
         fail(EXIT_RUNTIME, "%s: %s", log->path, strerror(errno));

@@ -20,7 +20,7 @@ void transport_refuse(const struct transport *transport, const char *format, ...
 
 /* ---- The reception clock ---- */
 
-static int64_t system_us(void)
+static int64_t system_time_us(void)
 {
     struct timespec now;
 
@@ -31,7 +31,7 @@ static int64_t system_us(void)
 int64_t transport_now_us(struct transport *transport)
 {
     int64_t now_us =
-        transport->has_own_clock ? transport->last_us : system_us() + transport->ahead_us;
+        transport->has_own_clock ? transport->last_us : system_time_us() + transport->ahead_us;
 
     if (now_us < transport->last_us) { /* set back */
         transport->ahead_us += transport->last_us - now_us;
@@ -41,7 +41,7 @@ int64_t transport_now_us(struct transport *transport)
     return now_us;
 }
 
-int64_t transport_time_us(struct transport *transport, int64_t time_us)
+int64_t transport_reception_time_us(struct transport *transport, int64_t time_us)
 {
     int64_t before_us = transport->last_us, now_us = transport_now_us(transport);
 

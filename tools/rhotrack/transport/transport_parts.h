@@ -31,7 +31,7 @@ _Noreturn void transport_refuse(const struct transport *transport, const char *f
     __attribute__((format(printf, 2, 3)));
 
 /* A time of the system's clock, a little ago, on the reception clock. */
-int64_t transport_time_us(struct transport *transport, int64_t time_us);
+int64_t transport_reception_time_us(struct transport *transport, int64_t time_us);
 
 /* Open the URL of the transport, and set provider, object and can_send. */
 void transport_open_udpm(struct transport *transport, enum transport_use use);

@@ -128,7 +128,7 @@ static void read_group(struct transport *transport, struct udpm *udpm, char *tex
 
 static void read_url(struct transport *transport, struct udpm *udpm)
 {
-    char *text = must_copy(transport->url + strlen("udpm://"));
+    char *text = must_copy_text(transport->url + strlen("udpm://"));
     char *options = strchr(text, '?'), *rest = NULL;
 
     if (options) {
@@ -144,18 +144,18 @@ static void read_url(struct transport *transport, struct udpm *udpm)
 
 /* ---- Sockets ---- */
 
-static void must_set(const struct transport *transport, int descriptor, int level, int option,
-                     const void *value, socklen_t size)
+static void must_set_option(const struct transport *transport, int descriptor, int level,
+                            int option, const void *value, socklen_t size)
 {
     if (setsockopt(descriptor, level, option, value, size)) {
         fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
     }
 }
 
-static void set_number(const struct transport *transport, int descriptor, int level, int option,
-                       int value)
+static void set_number_option(const struct transport *transport, int descriptor, int level,
+                              int option, int value)
 {
-    must_set(transport, descriptor, level, option, &value, sizeof value);
+    must_set_option(transport, descriptor, level, option, &value, sizeof value);
 }
 
 static int open_socket(const struct transport *transport)
@@ -172,7 +172,7 @@ static int open_socket(const struct transport *transport)
  * A machine without a network can still talk to itself: where no route leads to the group, the
  * loopback does.
  */
-static void find_route(const struct transport *transport, struct udpm *udpm)
+static void find_route_or_loopback(const struct transport *transport, struct udpm *udpm)
 {
     int descriptor = open_socket(transport);
 
@@ -190,13 +190,13 @@ static void find_route(const struct transport *transport, struct udpm *udpm)
     close(descriptor);
 }
 
-static void set_buffer(const struct transport *transport, const struct udpm *udpm)
+static void set_receive_buffer(const struct transport *transport, const struct udpm *udpm)
 {
     int wanted = udpm->wanted_bytes ? udpm->wanted_bytes : WANTED_BYTES, granted = 0;
     socklen_t size = sizeof granted;
 
     if (setsockopt(udpm->receiver, SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted)) {
-        set_number(transport, udpm->receiver, SOL_SOCKET, SO_RCVBUF, wanted);
+        set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_RCVBUF, wanted);
     }
     if (getsockopt(udpm->receiver, SOL_SOCKET, SO_RCVBUF, &granted, &size) == 0) {
         granted /= 2; /* the kernel doubles it for its own needs */
@@ -216,15 +216,16 @@ static void open_receiver(const struct transport *transport, struct udpm *udpm)
                               .imr_ifindex = (int)udpm->interface};
 
     udpm->receiver = open_socket(transport);
-    set_number(transport, udpm->receiver, SOL_SOCKET, SO_REUSEADDR, 1);
-    set_number(transport, udpm->receiver, SOL_SOCKET, SO_REUSEPORT, 1);
-    set_number(transport, udpm->receiver, SOL_SOCKET, SO_TIMESTAMPNS, 1);
-    set_number(transport, udpm->receiver, SOL_SOCKET, SO_RXQ_OVFL, 1);
-    set_buffer(transport, udpm);
+    set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEADDR, 1);
+    set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEPORT, 1);
+    set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_TIMESTAMPNS, 1);
+    set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_RXQ_OVFL, 1);
+    set_receive_buffer(transport, udpm);
     if (bind(udpm->receiver, (const struct sockaddr *)&udpm->group, sizeof udpm->group)) {
         fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
     }
-    must_set(transport, udpm->receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member);
+    must_set_option(transport, udpm->receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member,
+                    sizeof member);
     for (int i = 0; i < BATCH; i++) {
         udpm->parts[i] = (struct iovec){udpm->bytes[i], DATAGRAM_BYTES};
     }
@@ -236,22 +237,22 @@ static void open_sender(const struct transport *transport, struct udpm *udpm)
     struct timeval wait = {.tv_usec = 100000};
 
     udpm->sender = open_socket(transport);
-    set_number(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
-    set_number(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_TTL, udpm->ttl);
-    must_set(transport, udpm->sender, SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
+    set_number_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
+    set_number_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_TTL, udpm->ttl);
+    must_set_option(transport, udpm->sender, SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
     if (udpm->interface) {
-        must_set(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out);
+        must_set_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out);
     }
 }
 
 /* ---- Receiving ---- */
 
-static int descriptor_of(const void *object)
+static int receiver_descriptor(const void *object)
 {
     return ((const struct udpm *)object)->receiver;
 }
 
-static void take_batch(struct udpm *udpm)
+static void receive_batch(struct udpm *udpm)
 {
     int count;
 
@@ -269,7 +270,7 @@ static void take_batch(struct udpm *udpm)
 }
 
 /* When the kernel took the datagram; how many it had to drop before. */
-static int64_t read_control(struct transport *transport, struct msghdr *header)
+static int64_t read_reception_time(struct transport *transport, struct msghdr *header)
 {
     int64_t time_us = INT64_MAX;
 
@@ -287,11 +288,11 @@ static int64_t read_control(struct transport *transport, struct msghdr *header)
         }
     }
     return time_us == INT64_MAX ? transport_now_us(transport)
-                                : transport_time_us(transport, time_us);
+                                : transport_reception_time_us(transport, time_us);
 }
 
 /* Messages that this program has sent come back: no fault. */
-static bool is_own(struct udpm *udpm, const struct sockaddr_in *source)
+static bool is_own_datagram(struct udpm *udpm, const struct sockaddr_in *source)
 {
     struct sockaddr_in own = {.sin_port = 0};
     socklen_t size = sizeof own;
@@ -302,13 +303,13 @@ static bool is_own(struct udpm *udpm, const struct sockaddr_in *source)
     return udpm->own_port != 0 && udpm->own_port == source->sin_port;
 }
 
-static bool is_admitted(struct transport *transport, struct udpm *udpm,
-                        const struct sockaddr_in *source)
+static bool is_source_admitted(struct transport *transport, struct udpm *udpm,
+                               const struct sockaddr_in *source)
 {
     if (rho_udpm_admits(&udpm->guard, ntohl(source->sin_addr.s_addr))) {
         return true;
     }
-    transport->counters.refused_source += !is_own(udpm, source);
+    transport->counters.refused_source += !is_own_datagram(udpm, source);
     return false;
 }
 
@@ -323,7 +324,7 @@ static bool open_datagram(struct transport *transport, struct mmsghdr *here, con
     bool is_cut = here->msg_hdr.msg_flags & MSG_TRUNC;
     size_t size = here->msg_len < DATAGRAM_BYTES ? here->msg_len : DATAGRAM_BYTES;
 
-    message->received_us = read_control(transport, &here->msg_hdr);
+    message->received_us = read_reception_time(transport, &here->msg_hdr);
     if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
         transport->counters.refused++;
         return false;
@@ -339,22 +340,22 @@ static bool open_datagram(struct transport *transport, struct mmsghdr *here, con
 }
 
 /* One batch a call, so that a flood of refused datagrams does not hold the program here. */
-static enum transport_found receive(struct transport *transport, void *object,
-                                    struct transport_message *message)
+static enum transport_found receive_message(struct transport *transport, void *object,
+                                            struct transport_message *message)
 {
     struct udpm *udpm = object;
 
     if (udpm->next == udpm->num_here) {
-        take_batch(udpm);
+        receive_batch(udpm);
     }
     while (udpm->next < udpm->num_here) {
         int i = udpm->next++;
 
-        if (is_admitted(transport, udpm, &udpm->sources[i]) &&
+        if (is_source_admitted(transport, udpm, &udpm->sources[i]) &&
             open_datagram(transport, &udpm->here[i], udpm->bytes[i], message)) {
             message->sender = (struct transport_sender){ntohl(udpm->sources[i].sin_addr.s_addr),
                                                         ntohs(udpm->sources[i].sin_port),
-                                                        is_own(udpm, &udpm->sources[i])};
+                                                        is_own_datagram(udpm, &udpm->sources[i])};
             return TRANSPORT_MESSAGE;
         }
     }
@@ -404,15 +405,15 @@ static void close_sockets(void *object)
 
 void transport_open_udpm(struct transport *transport, enum transport_use use)
 {
-    static const struct transport_provider provider = {descriptor_of, receive, send_message,
-                                                       close_sockets};
+    static const struct transport_provider provider = {receiver_descriptor, receive_message,
+                                                       send_message, close_sockets};
     struct udpm *udpm = must_calloc(1, sizeof *udpm);
 
     udpm->receiver = -1;
     udpm->group = (struct sockaddr_in){.sin_family = AF_INET, .sin_port = htons(RHO_UDPM_PORT)};
     inet_pton(AF_INET, RHO_UDPM_GROUP, &udpm->group.sin_addr);
     read_url(transport, udpm);
-    find_route(transport, udpm);
+    find_route_or_loopback(transport, udpm);
     if (use == TRANSPORT_SEND_AND_RECEIVE) {
         open_receiver(transport, udpm);
     }

@@ -75,7 +75,7 @@ int board_open(void)
 }
 
 /* Switches forget the members of a multicast group that do not report again. */
-static void join(void)
+static void report_group_membership(void)
 {
     static uint8_t frame[UDP_FRAME_JOIN];
     int64_t now_us = board_time_us();
@@ -91,7 +91,7 @@ size_t board_receive(uint8_t *buffer, size_t capacity, uint32_t *source_ipv4)
     static uint8_t frame[UDP_FRAME_MAX];
     const uint8_t *payload;
     size_t size, length;
-    join();
+    report_group_membership();
     for (int i = 0; i < FOREIGN_MAX && (size = lan9118_receive(frame, sizeof frame)) > 0; i++) {
         length = udp_frame_open(frame, size, &payload);
         if (length > 0 && length <= capacity) {
@@ -132,7 +132,7 @@ void board_wait(int64_t until_us)
 
 /* ---- Words ---- */
 
-static void put(char character)
+static void put_character(char character)
 {
     while (UART0_STATE & UART_FULL) {
     }
@@ -142,10 +142,10 @@ static void put(char character)
 void board_say(const char *text)
 {
     while (*text) {
-        put(*text++);
+        put_character(*text++);
     }
-    put('\r');
-    put('\n');
+    put_character('\r');
+    put_character('\n');
 }
 
 /* ---- Start and end ---- */

@@ -75,7 +75,7 @@ int lan9118_open(const uint8_t mac[6])
            set_mac(MAC_CONTROL, MAC_RX_TX_MULTICAST);
 }
 
-static void discard(size_t words)
+static void discard_words(size_t words)
 {
     while (words-- > 0) {
         (void)RX_DATA;
@@ -90,7 +90,7 @@ size_t lan9118_receive(uint8_t *frame, size_t capacity)
         /* with 4 bytes of checksum */
         size_t length = status >> 16 & 0x3fff, words = (length + 3) / 4;
         if ((status & RX_DAMAGED) || length <= 4 || length - 4 > capacity) {
-            discard(words);
+            discard_words(words);
             continue;
         }
         size = length - 4;

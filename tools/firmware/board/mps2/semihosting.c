@@ -28,7 +28,7 @@
 #define EXIT_ARGUMENTS 119u /* more than that, or a line that is too long */
 #define EXIT_FAULT 120u     /* and the exception's number */
 
-static uint32_t call(uint32_t operation, const void *operands)
+static uint32_t call_debugger(uint32_t operation, const void *operands)
 {
     register uint32_t r0 __asm__("r0") = operation;
     register const void *r1 __asm__("r1") = operands;
@@ -36,7 +36,7 @@ static uint32_t call(uint32_t operation, const void *operands)
     return r0;
 }
 
-static uint32_t to_word(const void *pointer)
+static uint32_t pointer_as_word(const void *pointer)
 {
     return (uint32_t)(uintptr_t)pointer;
 }
@@ -46,8 +46,8 @@ static uint32_t to_word(const void *pointer)
 /* The machine's numbers are 0 and above, -1 where it did not work. */
 static int open_file(const char *path, uint32_t mode)
 {
-    const uint32_t operands[3] = {to_word(path), mode, (uint32_t)strlen(path)};
-    return (int)call(SYS_OPEN, operands) + 1;
+    const uint32_t operands[3] = {pointer_as_word(path), mode, (uint32_t)strlen(path)};
+    return (int)call_debugger(SYS_OPEN, operands) + 1;
 }
 
 int files_open_to_read(const char *path)
@@ -63,25 +63,25 @@ int files_open_to_write(const char *path)
 /* Both operations say how many bytes are missing. */
 size_t files_read(int file, uint8_t *bytes, size_t size)
 {
-    const uint32_t operands[3] = {(uint32_t)file - 1, to_word(bytes), (uint32_t)size};
-    return size - call(SYS_READ, operands);
+    const uint32_t operands[3] = {(uint32_t)file - 1, pointer_as_word(bytes), (uint32_t)size};
+    return size - call_debugger(SYS_READ, operands);
 }
 
 int files_write(int file, const uint8_t *bytes, size_t size)
 {
-    const uint32_t operands[3] = {(uint32_t)file - 1, to_word(bytes), (uint32_t)size};
-    return call(SYS_WRITE, operands) == 0;
+    const uint32_t operands[3] = {(uint32_t)file - 1, pointer_as_word(bytes), (uint32_t)size};
+    return call_debugger(SYS_WRITE, operands) == 0;
 }
 
 int files_close(int file)
 {
     const uint32_t operands[1] = {(uint32_t)file - 1};
-    return call(SYS_CLOSE, operands) == 0;
+    return call_debugger(SYS_CLOSE, operands) == 0;
 }
 
 void files_say(const char *text)
 {
-    (void)call(SYS_WRITE0, text);
+    (void)call_debugger(SYS_WRITE0, text);
 }
 
 size_t files_stack_used(void)
@@ -117,27 +117,27 @@ __attribute__((weak)) void mps2_close_console(void)
 {
 }
 
-static void stop(uint32_t status) __attribute__((noreturn));
-static void stop(uint32_t status)
+static void exit_program(uint32_t status) __attribute__((noreturn));
+static void exit_program(uint32_t status)
 {
     const uint32_t operands[2] = {EXIT_BY_PROGRAM, status};
-    (void)call(SYS_EXIT_EXTENDED, operands);
+    (void)call_debugger(SYS_EXIT_EXTENDED, operands);
     for (;;) {
     }
 }
 
 void mps2_fault(unsigned exception)
 {
-    stop(EXIT_FAULT + exception);
+    exit_program(EXIT_FAULT + exception);
 }
 
 /* Words of the command line, in place. */
-static int split(char *line, char **words)
+static int split_command_line(char *line, char **words)
 {
     int count = 0;
     for (char *next = line; *next; count++) {
         if (count == ARGUMENTS_MAX) {
-            stop(EXIT_ARGUMENTS);
+            exit_program(EXIT_ARGUMENTS);
         }
         words[count] = next;
         next += strcspn(next, " ");
@@ -152,16 +152,16 @@ void mps2_run(void)
 {
     static char line[1024];
     static char *words[ARGUMENTS_MAX + 1];
-    const uint32_t operands[2] = {to_word(line), sizeof line};
+    const uint32_t operands[2] = {pointer_as_word(line), sizeof line};
     int status;
-    if (call(SYS_GET_CMDLINE, operands) != 0) {
-        stop(EXIT_ARGUMENTS);
+    if (call_debugger(SYS_GET_CMDLINE, operands) != 0) {
+        exit_program(EXIT_ARGUMENTS);
     }
     TIMER0_RELOAD = UINT32_MAX;
     TIMER0_VALUE = UINT32_MAX;
     TIMER0_CONTROL = TIMER_RUN;
     mps2_open_console();
-    status = main(split(line, words), words);
+    status = main(split_command_line(line, words), words);
     mps2_close_console();
-    stop((uint32_t)status);
+    exit_program((uint32_t)status);
 }

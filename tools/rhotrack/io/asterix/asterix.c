@@ -18,11 +18,11 @@ struct cursor {
     struct asterix_error *error;
 };
 
-static bool refuse(const struct cursor *cursor, size_t at, const char *format, ...)
+static bool refuse_record(const struct cursor *cursor, size_t at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Always false. */
-static bool refuse(const struct cursor *cursor, size_t at, const char *format, ...)
+static bool refuse_record(const struct cursor *cursor, size_t at, const char *format, ...)
 {
     va_list arguments;
 
@@ -42,17 +42,18 @@ bool asterix_block_read(const uint8_t *data, size_t size, struct asterix_block *
     size_t length;
 
     if (size < ASTERIX_HEADER_BYTES) {
-        return refuse(&cursor, 0, "a data block has %u bytes at least, and here are %zu",
-                      ASTERIX_HEADER_BYTES, size);
+        return refuse_record(&cursor, 0, "a data block has %u bytes at least, and here are %zu",
+                             ASTERIX_HEADER_BYTES, size);
     }
     length = (size_t)data[1] << 8 | data[2];
     if (length < ASTERIX_HEADER_BYTES) {
-        return refuse(&cursor, 1, "a data block of category %u says that it has %zu bytes", data[0],
-                      length);
+        return refuse_record(&cursor, 1, "a data block of category %u says that it has %zu bytes",
+                             data[0], length);
     }
     if (length > size) {
-        return refuse(&cursor, 0, "a data block of category %u has %zu bytes, and here are %zu",
-                      data[0], length, size);
+        return refuse_record(&cursor, 0,
+                             "a data block of category %u has %zu bytes, and here are %zu", data[0],
+                             length, size);
     }
     *block = (struct asterix_block){.category = data[0],
                                     .records = data + ASTERIX_HEADER_BYTES,
@@ -81,7 +82,7 @@ bool asterix_category_is_service(uint8_t category)
  * How many bytes there are up to one whose last bit is clear, `step` at a time; beyond the size
  * where there is none.
  */
-static size_t count_extended(const struct cursor *cursor, size_t step)
+static size_t count_extended_bytes(const struct cursor *cursor, size_t step)
 {
     size_t bytes = step;
 
@@ -95,7 +96,7 @@ static size_t count_extended(const struct cursor *cursor, size_t step)
  * How long an item is that is no compound; beyond the bytes where it is cut. 0: its own length is
  * none.
  */
-static size_t count_bytes(const struct cursor *cursor, const struct asterix_item *item)
+static size_t count_item_bytes(const struct cursor *cursor, const struct asterix_item *item)
 {
     size_t first = cursor->at < cursor->size ? cursor->data[cursor->at] : cursor->size + 1;
 
@@ -104,7 +105,7 @@ static size_t count_bytes(const struct cursor *cursor, const struct asterix_item
         return item->bytes;
     case ASTERIX_EXTENDED:
     case ASTERIX_REPEATED_FX:
-        return count_extended(cursor, item->bytes);
+        return count_extended_bytes(cursor, item->bytes);
     case ASTERIX_REPEATED:
         return cursor->at < cursor->size ? 1 + first * item->bytes : 1;
     case ASTERIX_EXPLICIT:
@@ -115,18 +116,19 @@ static size_t count_bytes(const struct cursor *cursor, const struct asterix_item
 }
 
 /* Takes an item that is no compound. */
-static bool take_simple(struct cursor *cursor, const struct asterix_item *item, const char *part)
+static bool take_simple_item(struct cursor *cursor, const struct asterix_item *item,
+                             const char *part)
 {
-    size_t bytes = count_bytes(cursor, item);
+    size_t bytes = count_item_bytes(cursor, item);
 
     if (bytes == 0) {
-        return refuse(cursor, cursor->at, "I%03u/%s says that it has no bytes", cursor->category,
-                      item->name);
+        return refuse_record(cursor, cursor->at, "I%03u/%s says that it has no bytes",
+                             cursor->category, item->name);
     }
     if (bytes > cursor->size - cursor->at) {
-        return refuse(cursor, cursor->at, "I%03u/%s%s%s goes beyond its data block",
-                      cursor->category, part ? part : item->name, part ? "/" : "",
-                      part ? item->name : "");
+        return refuse_record(cursor, cursor->at, "I%03u/%s%s%s goes beyond its data block",
+                             cursor->category, part ? part : item->name, part ? "/" : "",
+                             part ? item->name : "");
     }
     cursor->at += bytes;
     return true;
@@ -136,25 +138,26 @@ static bool take_simple(struct cursor *cursor, const struct asterix_item *item, 
  * Which of the places of a profile are taken: the bits of the field specification at the cursor,
  * which moves behind it.
  */
-static bool take_specification(struct cursor *cursor, const struct asterix_item *items,
-                               size_t num_items, const char *name, uint64_t *present)
+static bool take_field_specification(struct cursor *cursor, const struct asterix_item *items,
+                                     size_t num_items, const char *name, uint64_t *present)
 {
-    size_t start = cursor->at, bytes = count_extended(cursor, 1);
+    size_t start = cursor->at, bytes = count_extended_bytes(cursor, 1);
 
     if (start + bytes > cursor->size) {
-        return refuse(cursor, start, "the field specification of %s goes beyond its data block",
-                      name);
+        return refuse_record(cursor, start,
+                             "the field specification of %s goes beyond its data block", name);
     }
     if (bytes > (num_items + BITS - 1) / BITS) {
-        return refuse(cursor, start, "the field specification of %s has %zu bytes", name, bytes);
+        return refuse_record(cursor, start, "the field specification of %s has %zu bytes", name,
+                             bytes);
     }
     *present = 0;
     for (size_t place = 0; place < bytes * BITS; place++) {
         bool is_there = cursor->data[start + place / BITS] >> (BITS - place % BITS) & 1;
 
         if (is_there && (place >= num_items || items[place].form == ASTERIX_NONE)) {
-            return refuse(cursor, start + place / BITS,
-                          "%s has an item at place %zu, where none is", name, place + 1);
+            return refuse_record(cursor, start + place / BITS,
+                                 "%s has an item at place %zu, where none is", name, place + 1);
         }
         if (is_there) {
             *present |= UINT64_C(1) << place;
@@ -164,17 +167,17 @@ static bool take_specification(struct cursor *cursor, const struct asterix_item 
     return true;
 }
 
-static bool take_compound(struct cursor *cursor, const struct asterix_item *item)
+static bool take_compound_item(struct cursor *cursor, const struct asterix_item *item)
 {
     char name[16];
     uint64_t present = 0;
 
     snprintf(name, sizeof name, "I%03u/%s", cursor->category, item->name);
-    if (!take_specification(cursor, item->parts, item->num_parts, name, &present)) {
+    if (!take_field_specification(cursor, item->parts, item->num_parts, name, &present)) {
         return false;
     }
     for (size_t i = 0; i < item->num_parts; i++) {
-        if ((present >> i & 1) && !take_simple(cursor, &item->parts[i], item->name)) {
+        if ((present >> i & 1) && !take_simple_item(cursor, &item->parts[i], item->name)) {
             return false;
         }
     }
@@ -182,7 +185,7 @@ static bool take_compound(struct cursor *cursor, const struct asterix_item *item
 }
 
 /* Items in any order, each behind its place in the profile; none of them has parts. */
-static bool take_any(struct cursor *cursor, const struct asterix_category *profile)
+static bool take_random_fields(struct cursor *cursor, const struct asterix_category *profile)
 {
     size_t start = cursor->at, count = start < cursor->size ? cursor->data[start] : 0;
 
@@ -193,35 +196,35 @@ static bool take_any(struct cursor *cursor, const struct asterix_category *profi
             place > 0 && place <= profile->num_items ? &profile->items[place - 1] : NULL;
 
         if (!item || item->form == ASTERIX_NONE || item->form == ASTERIX_ANY) {
-            return refuse(cursor, start, "I%03u/RFS has an item at place %zu, where none is",
-                          cursor->category, place);
+            return refuse_record(cursor, start, "I%03u/RFS has an item at place %zu, where none is",
+                                 cursor->category, place);
         }
         cursor->at++;
-        if (!take_simple(cursor, item, NULL)) {
+        if (!take_simple_item(cursor, item, NULL)) {
             return false;
         }
     }
     return start < cursor->size ||
-           refuse(cursor, start, "I%03u/RFS goes beyond its data block", cursor->category);
+           refuse_record(cursor, start, "I%03u/RFS goes beyond its data block", cursor->category);
 }
 
-static bool take(struct cursor *cursor, const struct asterix_category *profile,
-                 const struct asterix_item *item)
+static bool take_item(struct cursor *cursor, const struct asterix_category *profile,
+                      const struct asterix_item *item)
 {
     switch (item->form) {
     case ASTERIX_COMPOUND:
-        return take_compound(cursor, item);
+        return take_compound_item(cursor, item);
     case ASTERIX_ANY:
-        return take_any(cursor, profile);
+        return take_random_fields(cursor, profile);
     default:
-        return take_simple(cursor, item, NULL);
+        return take_simple_item(cursor, item, NULL);
     }
 }
 
 /* CAT001: the first bit of item 020 chooses the profile. */
-static bool is_of_track(const struct cursor *cursor)
+static bool is_track_record(const struct cursor *cursor)
 {
-    const size_t behind = count_extended(cursor, 1);
+    const size_t behind = count_extended_bytes(cursor, 1);
 
     return cursor->category == ASTERIX_OLD_PLOTS && cursor->size > 0 &&
            (cursor->data[0] >> (BITS - I001_020) & 1) &&
@@ -233,16 +236,16 @@ bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
                          struct asterix_record *record, struct asterix_error *error)
 {
     struct cursor cursor = {.data = data, .size = size, .category = category, .error = error};
-    const bool is_track = is_of_track(&cursor);
+    const bool is_track = is_track_record(&cursor);
     const struct asterix_category *profile = asterix_category_find(category, is_track);
     char name[24];
     uint64_t present = 0;
 
     if (!profile) {
-        return refuse(&cursor, 0, "category %u is not known", category);
+        return refuse_record(&cursor, 0, "category %u is not known", category);
     }
     snprintf(name, sizeof name, "a record of CAT%03u", category);
-    if (!take_specification(&cursor, profile->items, profile->num_items, name, &present)) {
+    if (!take_field_specification(&cursor, profile->items, profile->num_items, name, &present)) {
         return false;
     }
     *record = (struct asterix_record){.category = category, .is_track = is_track};
@@ -253,7 +256,7 @@ bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
         if (!(present >> i & 1)) {
             continue;
         }
-        if (!take(&cursor, profile, item)) {
+        if (!take_item(&cursor, profile, item)) {
             return false;
         }
         record->items[i] = data + start;

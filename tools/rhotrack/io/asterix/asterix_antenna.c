@@ -12,13 +12,14 @@ static int64_t absolute(int64_t value)
     return value < 0 ? -value : value;
 }
 
-int64_t asterix_look_turn_128(const struct asterix_look *look)
+int64_t asterix_look_turn_time_128(const struct asterix_look *look)
 {
     return (look->end_128 - look->start_128) * ASTERIX_TURN / look->advance;
 }
 
 /* Whether more than half a turn too much time went by since the last crossing. */
-static bool is_gap_of(const struct asterix_antenna *antenna, int64_t took_128, uint32_t advance)
+static bool is_gap_before_crossing(const struct asterix_antenna *antenna, int64_t took_128,
+                                   uint32_t advance)
 {
     if (antenna->period_128 == 0) {
         return took_128 > TURN_MAX_128;
@@ -27,15 +28,16 @@ static bool is_gap_of(const struct asterix_antenna *antenna, int64_t took_128, u
 }
 
 /* Less than half a turn went by, and the antenna is where it was. */
-static bool is_again(const struct asterix_antenna *antenna, int64_t took_128, uint16_t azimuth)
+static bool is_repeated_crossing(const struct asterix_antenna *antenna, int64_t took_128,
+                                 uint16_t azimuth)
 {
     int64_t limit_128 = antenna->period_128 > 0 ? antenna->period_128 / 2 : AGAIN_128;
 
     return azimuth == antenna->last && absolute(took_128) < limit_128;
 }
 
-static enum asterix_crossing begin(struct asterix_antenna *antenna, int64_t time_128,
-                                   uint16_t azimuth)
+static enum asterix_crossing begin_at_crossing(struct asterix_antenna *antenna, int64_t time_128,
+                                               uint16_t azimuth)
 {
     antenna->has_last = true;
     antenna->last_128 = time_128;
@@ -53,30 +55,30 @@ enum asterix_crossing asterix_antenna_cross(struct asterix_antenna *antenna, int
     *is_gap = false;
     advance = advance == 0 ? ASTERIX_TURN : advance;
     if (!antenna->has_last) {
-        return begin(antenna, time_128, azimuth);
+        return begin_at_crossing(antenna, time_128, azimuth);
     }
-    if (is_again(antenna, took_128, azimuth)) {
+    if (is_repeated_crossing(antenna, took_128, azimuth)) {
         return ASTERIX_AGAIN;
     }
     if (took_128 <= 0) {
         return ASTERIX_BACK;
     }
-    if (is_gap_of(antenna, took_128, advance)) {
+    if (is_gap_before_crossing(antenna, took_128, advance)) {
         *is_gap = true;
-        return begin(antenna, time_128, azimuth);
+        return begin_at_crossing(antenna, time_128, azimuth);
     }
     *look = (struct asterix_look){.start_128 = antenna->last_128,
                                   .end_128 = time_128,
                                   .from = antenna->last,
                                   .advance = advance};
     if (!antenna->is_period_said) {
-        antenna->period_128 = asterix_look_turn_128(look);
+        antenna->period_128 = asterix_look_turn_time_128(look);
     }
-    begin(antenna, time_128, azimuth);
+    begin_at_crossing(antenna, time_128, azimuth);
     return ASTERIX_LOOKED;
 }
 
-bool asterix_look_has(const struct asterix_look *look, int64_t time_128, uint16_t azimuth,
+bool asterix_look_saw(const struct asterix_look *look, int64_t time_128, uint16_t azimuth,
                       int64_t *distance_128)
 {
     uint32_t offset = (uint16_t)(azimuth - look->from);
@@ -87,11 +89,11 @@ bool asterix_look_has(const struct asterix_look *look, int64_t time_128, uint16_
     }
     there_128 = look->start_128 + (look->end_128 - look->start_128) * offset / look->advance;
     *distance_128 = absolute(time_128 - there_128);
-    return 2 * *distance_128 <= asterix_look_turn_128(look);
+    return 2 * *distance_128 <= asterix_look_turn_time_128(look);
 }
 
-bool asterix_antenna_rest(const struct asterix_antenna *antenna, int64_t time_128,
-                          struct asterix_look *look)
+bool asterix_antenna_look_so_far(const struct asterix_antenna *antenna, int64_t time_128,
+                                 struct asterix_look *look)
 {
     int64_t took_128 = time_128 - antenna->last_128, advance;
 

@@ -41,17 +41,17 @@ enum asterix_crossing asterix_antenna_cross(struct asterix_antenna *antenna, int
                                             bool *is_gap);
 
 /* How long a turn takes at the look's own speed. */
-int64_t asterix_look_turn_128(const struct asterix_look *look);
+int64_t asterix_look_turn_time_128(const struct asterix_look *look);
 
 /*
  * Whether the antenna looked there in this look, and how long before or after it did the time is. A
  * plot of half a turn before or after is one of another look.
  */
-bool asterix_look_has(const struct asterix_look *look, int64_t time_128, uint16_t azimuth,
+bool asterix_look_saw(const struct asterix_look *look, int64_t time_128, uint16_t azimuth,
                       int64_t *distance_128);
 
 /* The look since the newest crossing, up to a time. False where nothing is known of it. */
-bool asterix_antenna_rest(const struct asterix_antenna *antenna, int64_t time_128,
-                          struct asterix_look *look);
+bool asterix_antenna_look_so_far(const struct asterix_antenna *antenna, int64_t time_128,
+                                 struct asterix_look *look);
 
 #endif

@@ -31,7 +31,7 @@ struct asterix_file {
 
 /* ---- What sort of file ---- */
 
-static bool is_wanted(const struct asterix_file *file, uint8_t category)
+static bool is_wanted_category(const struct asterix_file *file, uint8_t category)
 {
     return file->wants_tracks
                ? category == ASTERIX_TRACKS
@@ -58,7 +58,7 @@ bool asterix_block_is_good(const uint8_t *data, size_t size)
 }
 
 /* Its first block. */
-static bool begins_good(const char *path)
+static bool begins_with_good_block(const char *path)
 {
     uint8_t *bytes = must_alloc(ASTERIX_BLOCK_MAX);
     FILE *file = fopen(path, "rb");
@@ -79,13 +79,13 @@ bool asterix_file_is_asterix(const char *path)
         captured_datagrams_is_capture(path)) {
         return true;
     }
-    return !stat(path, &status) && S_ISREG(status.st_mode) && begins_good(path);
+    return !stat(path, &status) && S_ISREG(status.st_mode) && begins_with_good_block(path);
 }
 
 /* ---- Bytes ---- */
 
 /* Whether the bytes are blocks, of any category, from the first to the last one. */
-static bool is_of_blocks(const uint8_t *data, size_t size)
+static bool is_all_blocks(const uint8_t *data, size_t size)
 {
     struct asterix_block block;
     struct asterix_error error;
@@ -113,7 +113,7 @@ static void fill_from_capture(struct asterix_file *file)
     file->size = file->at = 0;
     while (file->size == 0 &&
            captured_datagrams_next(file->captured, file->keep_going, &data, &size)) {
-        if (is_of_blocks(data, size)) {
+        if (is_all_blocks(data, size)) {
             memcpy(file->bytes, data, size);
             file->size = size;
         } else {
@@ -124,7 +124,7 @@ static void fill_from_capture(struct asterix_file *file)
 }
 
 /* A whole block, if there is one, and another one behind it are in memory from the position on. */
-static void fill(struct asterix_file *file)
+static void fill_buffer(struct asterix_file *file)
 {
     size_t got;
 
@@ -152,7 +152,7 @@ struct asterix_file *asterix_file_open(const char *path, bool keep_going)
     struct asterix_file *file = must_calloc(1, sizeof *file);
     struct stat status;
 
-    file->path = must_copy(path);
+    file->path = must_copy_text(path);
     file->keep_going = keep_going;
     if (!stat(path, &status) && !S_ISREG(status.st_mode)) {
         fail(EXIT_USAGE,
@@ -168,7 +168,7 @@ struct asterix_file *asterix_file_open(const char *path, bool keep_going)
     if (!file->file) {
         fail(EXIT_USAGE, "%s: %s", path, strerror(errno));
     }
-    fill(file);
+    fill_buffer(file);
     if (file->size == 0) {
         fail(EXIT_USAGE, "%s: byte 0: the file is empty", path);
     }
@@ -186,10 +186,10 @@ struct asterix_file *asterix_file_open_tracks(const char *path, bool keep_going)
 /* ---- Bad places ---- */
 
 /* Up to the next good block, or the end. */
-static void find_block(struct asterix_file *file)
+static void find_good_block(struct asterix_file *file)
 {
     for (;;) {
-        fill(file);
+        fill_buffer(file);
         if (file->at == file->size ||
             asterix_block_is_good(file->bytes + file->at, file->size - file->at)) {
             return;
@@ -198,11 +198,12 @@ static void find_block(struct asterix_file *file)
     }
 }
 
-static _Noreturn void fail_at(const struct asterix_file *file, const struct asterix_error *error)
+static _Noreturn void fail_with_place(const struct asterix_file *file,
+                                      const struct asterix_error *error)
 {
     if (file->captured) {
         fail(EXIT_USAGE, "%s: packet %" PRIu64 ", byte %zu of its content: %s", file->path,
-             captured_datagrams_packet(file->captured), file->at + error->at, error->reason);
+             captured_datagrams_packet_number(file->captured), file->at + error->at, error->reason);
     }
     fail(EXIT_USAGE, "%s: byte %" PRIu64 ": %s", file->path, file->offset + file->at + error->at,
          error->reason);
@@ -212,20 +213,20 @@ static _Noreturn void fail_at(const struct asterix_file *file, const struct aste
  * The block at the position is bad, as `error` says: the reading ends, or skips it. A block's own
  * length is believed where another good one, or the end, is behind it.
  */
-static void skip_bad(struct asterix_file *file, const struct asterix_error *error)
+static void skip_bad_block(struct asterix_file *file, const struct asterix_error *error)
 {
     uint64_t start = file->offset + file->at;
     size_t end = file->block_end;
 
     if (!file->keep_going) {
-        fail_at(file, error);
+        fail_with_place(file, error);
     }
     if (end > file->at &&
         (end == file->size || asterix_block_is_good(file->bytes + end, file->size - end))) {
         file->at = end;
     } else {
         file->at++;
-        find_block(file);
+        find_good_block(file);
     }
     file->block_end = file->at;
     file->places_skipped++;
@@ -257,14 +258,14 @@ static bool next_block(struct asterix_file *file)
     struct asterix_error error;
 
     for (;;) {
-        fill(file);
+        fill_buffer(file);
         file->block_end = file->at;
         if (file->at == file->size) {
             return false;
         }
         if (!asterix_block_read(file->bytes + file->at, file->size - file->at, &block, &error)) {
-            skip_bad(file, &error);
-        } else if (is_wanted(file, block.category)) {
+            skip_bad_block(file, &error);
+        } else if (is_wanted_category(file, block.category)) {
             file->category = block.category;
             file->at += ASTERIX_HEADER_BYTES;
             file->block_end = file->at + block.size;
@@ -277,7 +278,7 @@ static bool next_block(struct asterix_file *file)
     }
 }
 
-bool asterix_file_next(struct asterix_file *file, struct asterix_record *record)
+bool asterix_file_next_record(struct asterix_file *file, struct asterix_record *record)
 {
     struct asterix_error error;
 
@@ -294,7 +295,7 @@ bool asterix_file_next(struct asterix_file *file, struct asterix_record *record)
             file->records++;
             return true;
         }
-        skip_bad(file, &error);
+        skip_bad_block(file, &error);
     }
 }
 
@@ -303,17 +304,17 @@ uint64_t asterix_file_position(const struct asterix_file *file)
     return file->offset + file->at;
 }
 
-uint64_t asterix_file_records(const struct asterix_file *file)
+uint64_t asterix_file_num_records(const struct asterix_file *file)
 {
     return file->records;
 }
 
-uint64_t asterix_file_others(const struct asterix_file *file, uint8_t category)
+uint64_t asterix_file_num_skipped_blocks(const struct asterix_file *file, uint8_t category)
 {
     return file->others[category];
 }
 
-struct asterix_place asterix_file_place(const char *path)
+struct asterix_place asterix_file_radar_place(const char *path)
 {
     struct asterix_service service = {.has_type = false};
     struct asterix_record record;
@@ -325,7 +326,7 @@ struct asterix_place asterix_file_place(const char *path)
         return service.place;
     }
     file = asterix_file_open(path, true);
-    while (!service.place.is_given && asterix_file_next(file, &record)) {
+    while (!service.place.is_given && asterix_file_next_record(file, &record)) {
         if (asterix_category_is_service(record.category)) {
             asterix_service_read(&record, &service);
         }
@@ -337,7 +338,7 @@ struct asterix_place asterix_file_place(const char *path)
 /* ---- What was skipped ---- */
 
 /* A line a category. */
-static void report_others(const struct asterix_file *file)
+static void report_skipped_categories(const struct asterix_file *file)
 {
     for (int i = 0; i < 256; i++) {
         if (file->others[i] == 0) {
@@ -352,25 +353,25 @@ static void report_others(const struct asterix_file *file)
     }
 }
 
-void asterix_file_report(const struct asterix_file *file)
+void asterix_file_report_skipped(const struct asterix_file *file)
 {
     if (file->places_skipped > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " bytes skipped at %" PRIu64 " bad places\n",
                 file->path, file->bytes_skipped, file->places_skipped);
     }
-    report_others(file);
+    report_skipped_categories(file);
     if (file->foreign > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams that are not ASTERIX left out\n",
                 file->path, file->foreign);
     }
-    if (file->captured && captured_datagrams_cut(file->captured)) {
+    if (file->captured && captured_datagrams_why_cut(file->captured)) {
         fprintf(stderr, "rhotrack: %s: behind packet %" PRIu64 ": %s; the rest is left out\n",
-                file->path, captured_datagrams_packet(file->captured),
-                captured_datagrams_cut(file->captured));
+                file->path, captured_datagrams_packet_number(file->captured),
+                captured_datagrams_why_cut(file->captured));
     }
-    if (file->captured && captured_datagrams_incomplete(file->captured) > 0) {
+    if (file->captured && captured_datagrams_num_incomplete(file->captured) > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " datagrams left out: fragments, or cut short\n",
-                file->path, captured_datagrams_incomplete(file->captured));
+                file->path, captured_datagrams_num_incomplete(file->captured));
     }
 }
 

@@ -31,7 +31,7 @@ bool asterix_block_is_good(const uint8_t *data, size_t size);
  * The first place of a radar that a recording tells; none in any other file. Nothing is said of bad
  * ones.
  */
-struct asterix_place asterix_file_place(const char *path);
+struct asterix_place asterix_file_radar_place(const char *path);
 
 struct asterix_file;
 
@@ -42,19 +42,19 @@ struct asterix_file *asterix_file_open(const char *path, bool keep_going);
 struct asterix_file *asterix_file_open_tracks(const char *path, bool keep_going);
 
 /* The next record, valid until the next call. Returns false after the last. */
-bool asterix_file_next(struct asterix_file *file, struct asterix_record *record);
+bool asterix_file_next_record(struct asterix_file *file, struct asterix_record *record);
 
 /* How many bytes of the file, or of the blocks in its datagrams, are taken. */
 uint64_t asterix_file_position(const struct asterix_file *file);
 
 /* How many records there were so far. */
-uint64_t asterix_file_records(const struct asterix_file *file);
+uint64_t asterix_file_num_records(const struct asterix_file *file);
 
 /* How many blocks of a category that is not read were left out so far. */
-uint64_t asterix_file_others(const struct asterix_file *file, uint8_t category);
+uint64_t asterix_file_num_skipped_blocks(const struct asterix_file *file, uint8_t category);
 
 /* Tells on standard error what was skipped, if anything. */
-void asterix_file_report(const struct asterix_file *file);
+void asterix_file_report_skipped(const struct asterix_file *file);
 void asterix_file_close(struct asterix_file *file);
 
 #endif

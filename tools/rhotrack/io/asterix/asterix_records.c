@@ -53,7 +53,7 @@ static bool has_column(const struct asterix_columns *columns, int column)
     return column < AT_SENSOR_LAT_DEG || columns->has_place;
 }
 
-struct table *asterix_records_table(const char *path, const struct asterix_columns *columns)
+struct table *asterix_records_empty_table(const char *path, const struct asterix_columns *columns)
 {
     struct table_column list[NUM_COLUMNS];
     size_t count = 0;
@@ -82,7 +82,7 @@ static double azimuth_rad(uint32_t azimuth)
 }
 
 /* The number that the column's decimals say: a file that was converted means the same. */
-static void put(struct record *record, enum column column, double value)
+static void put_cell(struct record *record, enum column column, double value)
 {
     static const double scales[] = {1, 10, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
     double scale = scales[all_columns[column].decimals];
@@ -90,54 +90,54 @@ static void put(struct record *record, enum column column, double value)
     record->cells[column] = rint(value * scale) / scale;
 }
 
-static void put_mark(struct record *record, const struct asterix_mark *mark)
+static void put_plot(struct record *record, const struct asterix_mark *mark)
 {
-    put(record, AT_RANGE_M, mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M);
-    put(record, AT_AZIMUTH_RAD, azimuth_rad(mark->azimuth));
+    put_cell(record, AT_RANGE_M, mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M);
+    put_cell(record, AT_AZIMUTH_RAD, azimuth_rad(mark->azimuth));
     if (mark->has_alt) {
-        put(record, AT_ALT_M, mark->alt * ASTERIX_HEIGHT_M);
+        put_cell(record, AT_ALT_M, mark->alt * ASTERIX_HEIGHT_M);
     }
     if (mark->has_doppler) {
-        put(record, AT_RANGE_RATE_MPS, mark->doppler_mps);
+        put_cell(record, AT_RANGE_RATE_MPS, mark->doppler_mps);
     }
 }
 
-static void put_place(struct record *record, const struct asterix_place *place)
+static void put_radar_place(struct record *record, const struct asterix_place *place)
 {
-    put(record, AT_SENSOR_LAT_DEG, place->lat_deg);
-    put(record, AT_SENSOR_LON_DEG, place->lon_deg);
-    put(record, AT_SENSOR_ALT_M, place->alt_m);
+    put_cell(record, AT_SENSOR_LAT_DEG, place->lat_deg);
+    put_cell(record, AT_SENSOR_LON_DEG, place->lon_deg);
+    put_cell(record, AT_SENSOR_ALT_M, place->alt_m);
 }
 
 /* A row of a scan: its opening (NULL), or a plot. */
-static struct record record_of(const struct asterix_scan *scan, const struct asterix_mark *mark)
+static struct record row_of_scan(const struct asterix_scan *scan, const struct asterix_mark *mark)
 {
     struct record record = {.time_128 = mark ? mark->time_128 : scan->time_128};
 
     for (int i = 0; i < NUM_COLUMNS; i++) {
         record.cells[i] = (double)NAN;
     }
-    put(&record, AT_SENSOR_ID, scan->sensor_id);
+    put_cell(&record, AT_SENSOR_ID, scan->sensor_id);
     if (mark) {
-        put_mark(&record, mark);
+        put_plot(&record, mark);
     }
     if (scan->place.is_given) {
-        put_place(&record, &scan->place);
+        put_radar_place(&record, &scan->place);
     }
     /* The antenna turns clockwise: counter-clockwise the sector goes from its end to its start. */
     if (!scan->is_turn) {
-        put(&record, AT_SECTOR_FROM_RAD, azimuth_rad(scan->look.from + scan->look.advance));
-        put(&record, AT_SECTOR_TO_RAD, azimuth_rad(scan->look.from));
+        put_cell(&record, AT_SECTOR_FROM_RAD, azimuth_rad(scan->look.from + scan->look.advance));
+        put_cell(&record, AT_SECTOR_TO_RAD, azimuth_rad(scan->look.from));
     }
     if (scan->is_numbered) {
-        put(&record, AT_SCAN, scan->number);
+        put_cell(&record, AT_SCAN, scan->number);
     }
     return record;
 }
 
-static void add_to_table(struct table *table, const struct record *record, uint32_t line)
+static void add_row_to_table(struct table *table, const struct record *record, uint32_t line)
 {
-    double *cells = table_add_numbers(table, asterix_time_us(record->time_128), line);
+    double *cells = table_add_row_of_numbers(table, asterix_time_us(record->time_128), line);
     int column = 0;
 
     for (size_t i = 0; i < table->num_columns; i++) {
@@ -150,12 +150,12 @@ static void add_to_table(struct table *table, const struct record *record, uint3
 
 void asterix_records_add_scan(struct table *table, const struct asterix_scan *scan)
 {
-    struct record record = record_of(scan, NULL);
+    struct record record = row_of_scan(scan, NULL);
 
-    add_to_table(table, &record, 2);
+    add_row_to_table(table, &record, 2);
     for (size_t i = 0; i < scan->count; i++) {
-        record = record_of(scan, &scan->marks[i]);
-        add_to_table(table, &record, (uint32_t)i + 3);
+        record = row_of_scan(scan, &scan->marks[i]);
+        add_row_to_table(table, &record, (uint32_t)i + 3);
     }
 }
 
@@ -182,8 +182,8 @@ const char asterix_records_no_tracks[] =
 
 /* ---- Rules, origin ---- */
 
-struct asterix_rules asterix_records_rules(const struct parameters *parameters, double hold_s,
-                                           double wait_s)
+struct asterix_rules asterix_records_scan_rules(const struct parameters *parameters, double hold_s,
+                                                double wait_s)
 {
     return (struct asterix_rules){
         .hold_s = hold_s,
@@ -205,7 +205,7 @@ void asterix_records_suggest_origin(const char *path, const struct asterix_place
             path, place->lat_deg, place->lon_deg, place->alt_m);
 }
 
-void asterix_records_report(const char *path, const struct asterix_counts *counts)
+void asterix_records_report_left_out(const char *path, const struct asterix_counts *counts)
 {
     const struct {
         uint64_t count;
@@ -245,12 +245,13 @@ void asterix_records_report(const char *path, const struct asterix_counts *count
 /* ---- Looking at the file ---- */
 
 /* Notes which columns the file fills. True where the record tells a time or a place. */
-static bool note_contents(struct asterix_records *records, const struct asterix_record *record)
+static bool note_columns_filled(struct asterix_records *records,
+                                const struct asterix_record *record)
 {
     struct asterix_service service;
     struct asterix_plot plot;
 
-    asterix_scans_look(records->scans, record);
+    asterix_scans_preview_record(records->scans, record);
     if (asterix_category_is_plots(record->category)) {
         asterix_plot_read(record, &plot);
         return plot.has_position;
@@ -262,16 +263,16 @@ static bool note_contents(struct asterix_records *records, const struct asterix_
     return service.has_type && service.has_time;
 }
 
-static void look_through(struct asterix_records *records, bool keep_going)
+static void look_through_recording(struct asterix_records *records, bool keep_going)
 {
     struct asterix_file *file = asterix_file_open(records->path, keep_going);
     struct asterix_record record;
     bool has_any = false;
 
-    while (asterix_file_next(file, &record)) {
-        has_any |= note_contents(records, &record);
+    while (asterix_file_next_record(file, &record)) {
+        has_any |= note_columns_filled(records, &record);
     }
-    if (!has_any && asterix_file_others(file, ASTERIX_TRACKS) > 0) {
+    if (!has_any && asterix_file_num_skipped_blocks(file, ASTERIX_TRACKS) > 0) {
         fail(EXIT_USAGE, "%s: %s", records->path, asterix_records_no_tracks);
     }
     if (!has_any) {
@@ -287,7 +288,8 @@ static void look_through(struct asterix_records *records, bool keep_going)
  * A radar whose place nobody says stands at the origin, which is right of one radar alone and
  * without places on the earth.
  */
-static void find_placeless(struct asterix_records *records, const struct parameters *parameters)
+static void find_placeless_radars(struct asterix_records *records,
+                                  const struct parameters *parameters)
 {
     size_t count = asterix_scans_num_sensors(records->scans);
     int32_t sensor_id;
@@ -296,8 +298,8 @@ static void find_placeless(struct asterix_records *records, const struct paramet
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        if (!asterix_scans_sensor(records->scans, i, &sensor_id) &&
-            isnan(parameters_of_sensor(parameters, sensor_id, SENSOR_X_M, NAN))) {
+        if (!asterix_scans_sensor_at(records->scans, i, &sensor_id) &&
+            isnan(parameters_value_of_sensor(parameters, sensor_id, SENSOR_X_M, NAN))) {
             records->placeless[records->num_placeless++] = sensor_id;
         }
     }
@@ -310,32 +312,32 @@ struct asterix_records *asterix_records_open(const char *path, const struct para
     struct asterix_records *records = must_calloc(1, sizeof *records);
 
     if (parameters) {
-        rules = asterix_records_rules(parameters, HOLD_S, 0);
+        rules = asterix_records_scan_rules(parameters, HOLD_S, 0);
     }
-    records->path = must_copy(path);
+    records->path = must_copy_text(path);
     records->line = 2;
     records->columns.has_scan = rules.interval_s > 0;
     records->has_interval = rules.interval_s > 0;
     records->scans = asterix_scans_open(&rules);
-    look_through(records, keep_going);
+    look_through_recording(records, keep_going);
     if (parameters) {
-        find_placeless(records, parameters);
+        find_placeless_radars(records, parameters);
     }
     records->file = asterix_file_open(path, keep_going);
     return records;
 }
 
-void asterix_records_hush(struct asterix_records *records)
+void asterix_records_report_nothing(struct asterix_records *records)
 {
     records->is_hushed = true;
 }
 
 /* ---- Rows ---- */
 
-static void add_record(struct asterix_records *records, const struct asterix_scan *scan,
-                       const struct asterix_mark *mark)
+static void add_scan_row(struct asterix_records *records, const struct asterix_scan *scan,
+                         const struct asterix_mark *mark)
 {
-    struct record record = record_of(scan, mark);
+    struct record record = row_of_scan(scan, mark);
 
     if (records->has_given && record.time_128 < records->given_128) {
         records->late++;
@@ -347,13 +349,13 @@ static void add_record(struct asterix_records *records, const struct asterix_sca
     records->list[records->count++] = record;
 }
 
-static void add_scan(struct asterix_records *records, const struct asterix_scan *scan)
+static void add_scan_rows(struct asterix_records *records, const struct asterix_scan *scan)
 {
     if (scan->is_numbered) {
-        add_record(records, scan, NULL);
+        add_scan_row(records, scan, NULL);
     }
     for (size_t i = 0; i < scan->count; i++) {
-        add_record(records, scan, &scan->marks[i]);
+        add_scan_row(records, scan, &scan->marks[i]);
     }
 }
 
@@ -366,7 +368,7 @@ static int by_time(const void *a, const void *b)
 }
 
 /* Replaces the records that were given out by those of the next scans. */
-static void add_scans(struct asterix_records *records)
+static void add_complete_scans(struct asterix_records *records)
 {
     struct asterix_scan scan;
     size_t before = records->count;
@@ -379,19 +381,19 @@ static void add_scans(struct asterix_records *records)
             records->next = 0;
             before = 0;
         }
-        add_scan(records, &scan);
+        add_scan_rows(records, &scan);
     }
     if (records->count != before) {
         qsort(records->list, records->count, sizeof *records->list, by_time);
     }
 }
 
-static void report(const struct asterix_records *records)
+static void report_at_end(const struct asterix_records *records)
 {
     const struct asterix_counts *counts = asterix_scans_counts(records->scans);
 
-    asterix_file_report(records->file);
-    asterix_records_report(records->path, counts);
+    asterix_file_report_skipped(records->file);
+    asterix_records_report_left_out(records->path, counts);
     for (size_t i = 0; i < records->num_placeless; i++) {
         fprintf(stderr,
                 "rhotrack: %s: sensor %" PRId32 " does not say where it stands, and is taken to be "
@@ -412,44 +414,44 @@ static void report(const struct asterix_records *records)
 }
 
 /* One record more, or the end. */
-static void take_record(struct asterix_records *records)
+static void take_next_record(struct asterix_records *records)
 {
     struct asterix_record record;
 
-    if (asterix_file_next(records->file, &record)) {
-        asterix_scans_take(records->scans, &record);
+    if (asterix_file_next_record(records->file, &record)) {
+        asterix_scans_take_record(records->scans, &record);
     } else {
         asterix_scans_finish(records->scans);
         records->is_over = true;
     }
-    add_scans(records);
+    add_complete_scans(records);
     if (records->is_over && !records->is_hushed) {
-        report(records);
+        report_at_end(records);
     }
 }
 
 /* A record that nothing can come before any more. */
-static bool has_record(const struct asterix_records *records)
+static bool has_settled_row(const struct asterix_records *records)
 {
     return records->next < records->count &&
            (records->is_over ||
             records->list[records->next].time_128 < asterix_scans_settled_128(records->scans));
 }
 
-bool asterix_records_next(struct asterix_records *records, struct table *table)
+bool asterix_records_next_row(struct asterix_records *records, struct table *table)
 {
     const struct record *record;
 
-    while (!has_record(records)) {
+    while (!has_settled_row(records)) {
         if (records->is_over) {
             return false;
         }
-        take_record(records);
+        take_next_record(records);
     }
     record = &records->list[records->next++];
     records->has_given = true;
     records->given_128 = record->time_128;
-    add_to_table(table, record, records->line++);
+    add_row_to_table(table, record, records->line++);
     return true;
 }
 

@@ -29,7 +29,7 @@ struct asterix_records *asterix_records_open(const char *path, const struct para
                                              bool keep_going);
 
 /* Nothing is said at the end. */
-void asterix_records_hush(struct asterix_records *records);
+void asterix_records_report_nothing(struct asterix_records *records);
 
 /* The refusal of tracks that are given as input. */
 extern const char asterix_records_no_tracks[];
@@ -39,10 +39,10 @@ struct asterix_columns {
     bool has_place, has_scan;
 };
 const struct asterix_columns *asterix_records_columns(const struct asterix_records *records);
-struct table *asterix_records_table(const char *path, const struct asterix_columns *columns);
+struct table *asterix_records_empty_table(const char *path, const struct asterix_columns *columns);
 
 /* Adds the next record to the table; false: no more. Reports on standard error then, once. */
-bool asterix_records_next(struct asterix_records *records, struct table *table);
+bool asterix_records_next_row(struct asterix_records *records, struct table *table);
 
 /* How many bytes of the file are taken. */
 uint64_t asterix_records_position(const struct asterix_records *records);
@@ -54,14 +54,14 @@ void asterix_records_close(struct asterix_records *records);
 void asterix_records_add_scan(struct table *table, const struct asterix_scan *scan);
 
 /* The rules for scans that the parameters say. */
-struct asterix_rules asterix_records_rules(const struct parameters *parameters, double hold_s,
-                                           double wait_s);
+struct asterix_rules asterix_records_scan_rules(const struct parameters *parameters, double hold_s,
+                                                double wait_s);
 
 /* The place of a radar becomes the origin; a line on standard error says so. */
 void asterix_records_suggest_origin(const char *path, const struct asterix_place *place,
                                     struct parameters *parameters);
 
 /* The fates of records, where there is anything to say, on standard error in one line. */
-void asterix_records_report(const char *path, const struct asterix_counts *counts);
+void asterix_records_report_left_out(const char *path, const struct asterix_counts *counts);
 
 #endif

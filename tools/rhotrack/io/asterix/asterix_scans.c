@@ -75,7 +75,7 @@ size_t asterix_scans_num_sensors(const struct asterix_scans *scans)
     return scans->num_sensors;
 }
 
-bool asterix_scans_sensor(const struct asterix_scans *scans, size_t index, int32_t *sensor_id)
+bool asterix_scans_sensor_at(const struct asterix_scans *scans, size_t index, int32_t *sensor_id)
 {
     *sensor_id = scans->sensors[index].sensor_id;
     return scans->sensors[index].place.is_given;
@@ -116,8 +116,8 @@ static int by_time(const void *a, const void *b)
 }
 
 /* A complete revolution or sector becomes a scan. */
-static void make_ready(struct asterix_scans *scans, struct asterix_sensor *sensor,
-                       struct asterix_open *open)
+static void make_scan_ready(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                            struct asterix_open_scan *open)
 {
     struct asterix_scan scan = {.sensor_id = sensor->sensor_id,
                                 .is_numbered = open->has_look || scans->interval_128 > 0,
@@ -132,7 +132,7 @@ static void make_ready(struct asterix_scans *scans, struct asterix_sensor *senso
     if (scan.count > 0) {
         qsort(open->marks.list, scan.count, sizeof *open->marks.list, by_time);
     }
-    asterix_marks_even(&open->marks, &sensor->place, &scans->counts);
+    asterix_marks_all_or_none(&open->marks, &sensor->place, &scans->counts);
     scans->counts.placed += scan.count;
     scans->ready =
         must_grow(scans->ready, scans->num_ready, &scans->ready_capacity, sizeof *scans->ready);
@@ -143,46 +143,46 @@ static void end_turn(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
     if (sensor->has_turn) {
         sensor->has_turn = false;
-        make_ready(scans, sensor, &sensor->turn);
-        sensor->turn = (struct asterix_open){.has_look = false};
+        make_scan_ready(scans, sensor, &sensor->turn);
+        sensor->turn = (struct asterix_open_scan){.has_look = false};
     }
 }
 
 /* The sensor's first open look is complete. */
-static void complete(struct asterix_scans *scans, struct asterix_sensor *sensor)
+static void complete_first_look(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
-    struct asterix_open open = asterix_sensor_take(sensor);
+    struct asterix_open_scan open = asterix_sensor_take_scan(sensor);
 
     if (!scans->is_by_turn || !open.has_look) {
-        make_ready(scans, sensor, &open);
+        make_scan_ready(scans, sensor, &open);
         return;
     }
-    if (!asterix_sensor_turn(sensor, &open)) {
+    if (!asterix_sensor_extend_turn(sensor, &open)) {
         end_turn(scans, sensor);
-        (void)asterix_sensor_turn(sensor, &open);
+        (void)asterix_sensor_extend_turn(sensor, &open);
     }
     if (sensor->turn.look.advance == ASTERIX_TURN) {
         end_turn(scans, sensor);
     }
 }
 
-static void complete_until(struct asterix_scans *scans, struct asterix_sensor *sensor,
-                           int64_t time_128)
+static void complete_looks_until(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                                 int64_t time_128)
 {
     while (sensor->num_open > 0 && sensor->open[0].look.end_128 <= time_128) {
-        complete(scans, sensor);
+        complete_first_look(scans, sensor);
     }
 }
 
 /* All that the sensor has. */
-static void flush(struct asterix_scans *scans, struct asterix_sensor *sensor)
+static void flush_sensor(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
     if (sensor->has_crossings) {
-        asterix_sensor_rest(sensor, scans->hold_128);
+        asterix_sensor_end_last_look(sensor, scans->hold_128);
     }
-    complete_until(scans, sensor, INT64_MAX);
+    complete_looks_until(scans, sensor, INT64_MAX);
     end_turn(scans, sensor);
-    asterix_sensor_drop(sensor, true, &scans->counts);
+    asterix_sensor_drop_waiting(sensor, true, &scans->counts);
 }
 
 bool asterix_scans_next(struct asterix_scans *scans, struct asterix_scan *scan)
@@ -208,7 +208,7 @@ int64_t asterix_scans_settled_128(const struct asterix_scans *scans)
         struct asterix_sensor *sensor = &scans->sensors[i];
 
         if (sensor->has_clock && scans->clock_128 - sensor->seen_128 <= SILENT_128) {
-            int64_t time_128 = asterix_sensor_settled(sensor, scans->hold_128);
+            int64_t time_128 = asterix_sensor_settled_time(sensor, scans->hold_128);
 
             settled_128 = time_128 < settled_128 ? time_128 : settled_128;
         }
@@ -217,28 +217,28 @@ int64_t asterix_scans_settled_128(const struct asterix_scans *scans)
 }
 
 /* Ends the scans of sensors that are silent. */
-static void flush_silent(struct asterix_scans *scans)
+static void flush_silent_sensors(struct asterix_scans *scans)
 {
     for (size_t i = 0; i < scans->num_sensors; i++) {
         struct asterix_sensor *sensor = &scans->sensors[i];
 
         if (sensor->has_clock && scans->clock_128 - sensor->seen_128 > SILENT_128 &&
             (sensor->num_open > 0 || sensor->waiting.count > 0)) {
-            flush(scans, sensor);
+            flush_sensor(scans, sensor);
         }
     }
 }
 
 /* The record's time, and clocks set to it. */
-static bool take_time(struct asterix_scans *scans, struct asterix_sensor *sensor,
-                      uint32_t time_of_day_128, int64_t *time_128)
+static bool take_time_of_day(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                             uint32_t time_of_day_128, int64_t *time_128)
 {
     const int64_t *reference_128 = scans->has_clock   ? &scans->clock_128
                                    : scans->has_start ? &scans->start_128
                                                       : NULL;
 
     if (time_of_day_128 >= ASTERIX_DAY ||
-        !asterix_sensor_time(sensor, time_of_day_128, reference_128, time_128)) {
+        !asterix_sensor_unwrap_time(sensor, time_of_day_128, reference_128, time_128)) {
         return false;
     }
     if (!scans->has_clock || sensor->clock_128 > scans->clock_128) {
@@ -250,8 +250,8 @@ static bool take_time(struct asterix_scans *scans, struct asterix_sensor *sensor
 }
 
 /* The time of day that is nearest to what is known, of one that lacks multiples of 512 s. */
-static uint32_t complete_time(const struct asterix_scans *scans,
-                              const struct asterix_sensor *sensor, uint32_t truncated_128)
+static uint32_t untruncated_time_of_day(const struct asterix_scans *scans,
+                                        const struct asterix_sensor *sensor, uint32_t truncated_128)
 {
     const int64_t near_128 = sensor->has_clock  ? sensor->clock_128
                              : scans->has_clock ? scans->clock_128
@@ -265,7 +265,7 @@ static uint32_t complete_time(const struct asterix_scans *scans,
 }
 
 /* A radar without crossings is waited for so long, but where that is known. */
-static void end_waiting(struct asterix_scans *scans, struct asterix_sensor *sensor)
+static void end_wait_for_crossings(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
     if (sensor->is_known || sensor->has_crossings ||
         sensor->clock_128 - sensor->first_128 < scans->wait_128) {
@@ -276,26 +276,26 @@ static void end_waiting(struct asterix_scans *scans, struct asterix_sensor *sens
         qsort(sensor->waiting.list, sensor->waiting.count, sizeof *sensor->waiting.list, by_time);
     }
     for (size_t i = 0; i < sensor->waiting.count; i++) {
-        asterix_sensor_add_free(sensor, &sensor->waiting.list[i], scans->interval_128);
+        asterix_sensor_add_plot_by_time(sensor, &sensor->waiting.list[i], scans->interval_128);
     }
     sensor->waiting.count = 0;
 }
 
 /* After a record of the sensor. */
-static void pass_time(struct asterix_scans *scans, struct asterix_sensor *sensor)
+static void complete_what_is_over(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
-    end_waiting(scans, sensor);
-    complete_until(scans, sensor, sensor->clock_128 - scans->hold_128);
+    end_wait_for_crossings(scans, sensor);
+    complete_looks_until(scans, sensor, sensor->clock_128 - scans->hold_128);
     if (sensor->has_crossings) {
-        asterix_sensor_drop(sensor, false, &scans->counts);
+        asterix_sensor_drop_waiting(sensor, false, &scans->counts);
     }
-    flush_silent(scans);
+    flush_silent_sensors(scans);
 }
 
 /* ---- Plots ---- */
 
 /* Where it counts among those that are left out, or NULL. */
-static uint64_t *why_not(struct asterix_counts *counts, const struct asterix_plot *plot)
+static uint64_t *left_out_counter(struct asterix_counts *counts, const struct asterix_plot *plot)
 {
     if (plot->is_simulated || plot->is_test || plot->is_fixed) {
         return &counts->not_real;
@@ -310,8 +310,8 @@ static uint64_t *why_not(struct asterix_counts *counts, const struct asterix_plo
     return NULL;
 }
 
-static struct asterix_mark mark_of(const struct asterix_plot *plot, int64_t time_128,
-                                   struct asterix_counts *counts)
+static struct asterix_mark mark_of_plot(const struct asterix_plot *plot, int64_t time_128,
+                                        struct asterix_counts *counts)
 {
     struct asterix_mark mark = {
         .time_128 = time_128, .range = plot->range, .azimuth = plot->azimuth};
@@ -329,18 +329,18 @@ static struct asterix_mark mark_of(const struct asterix_plot *plot, int64_t time
 static void add_mark(struct asterix_scans *scans, struct asterix_sensor *sensor,
                      const struct asterix_mark *mark)
 {
-    if (mark->time_128 < asterix_sensor_settled(sensor, scans->hold_128)) {
+    if (mark->time_128 < asterix_sensor_settled_time(sensor, scans->hold_128)) {
         scans->counts.late++;
     } else if (!sensor->is_known || sensor->has_crossings) {
-        asterix_sensor_add(sensor, mark, scans->hold_128);
+        asterix_sensor_add_plot(sensor, mark, scans->hold_128);
     } else {
-        asterix_sensor_add_free(sensor, mark, scans->interval_128);
+        asterix_sensor_add_plot_by_time(sensor, mark, scans->interval_128);
     }
 }
 
 static void take_plot(struct asterix_scans *scans, const struct asterix_plot *plot)
 {
-    uint64_t *count = why_not(&scans->counts, plot);
+    uint64_t *count = left_out_counter(&scans->counts, plot);
     struct asterix_sensor *sensor;
     uint32_t of_day_128 = plot->time_128;
     int64_t time_128;
@@ -352,23 +352,24 @@ static void take_plot(struct asterix_scans *scans, const struct asterix_plot *pl
     }
     sensor = find_sensor(scans, &plot->source);
     if (sensor && plot->is_time_truncated) {
-        of_day_128 = complete_time(scans, sensor, plot->time_128);
+        of_day_128 = untruncated_time_of_day(scans, sensor, plot->time_128);
     }
     if (!sensor) {
         scans->counts.no_room++;
-    } else if (!take_time(scans, sensor, of_day_128, &time_128)) {
+    } else if (!take_time_of_day(scans, sensor, of_day_128, &time_128)) {
         scans->counts.bad_times++;
     } else {
-        const struct asterix_mark mark = mark_of(plot, time_128, &scans->counts);
+        const struct asterix_mark mark = mark_of_plot(plot, time_128, &scans->counts);
 
         add_mark(scans, sensor, &mark);
-        pass_time(scans, sensor);
+        complete_what_is_over(scans, sensor);
     }
 }
 
 /* ---- Antenna ---- */
 
-static void learn(struct asterix_sensor *sensor, const struct asterix_service *service)
+static void learn_place_and_period(struct asterix_sensor *sensor,
+                                   const struct asterix_service *service)
 {
     if (!sensor->place.is_given) {
         sensor->place = service->place;
@@ -395,20 +396,21 @@ static void take_service(struct asterix_scans *scans, const struct asterix_servi
 
     scans->counts.services++;
     if (sensor) {
-        learn(sensor, service);
+        learn_place_and_period(sensor, service);
     }
     if (service->has_type && service->type != ASTERIX_NORTH && service->type != ASTERIX_SECTOR) {
         scans->counts.services_other++;
     } else if (!sensor || !is_crossing(service) ||
-               !take_time(scans, sensor, service->time_128, &time_128) ||
-               !asterix_sensor_cross(sensor, time_128, azimuth, scans->hold_128, &scans->counts)) {
+               !take_time_of_day(scans, sensor, service->time_128, &time_128) ||
+               !asterix_sensor_cross_azimuth(sensor, time_128, azimuth, scans->hold_128,
+                                             &scans->counts)) {
         scans->counts.services_left++;
     } else {
-        pass_time(scans, sensor);
+        complete_what_is_over(scans, sensor);
     }
 }
 
-void asterix_scans_take(struct asterix_scans *scans, const struct asterix_record *record)
+void asterix_scans_take_record(struct asterix_scans *scans, const struct asterix_record *record)
 {
     if (asterix_category_is_plots(record->category)) {
         struct asterix_plot plot;
@@ -423,7 +425,7 @@ void asterix_scans_take(struct asterix_scans *scans, const struct asterix_record
     }
 }
 
-void asterix_scans_look(struct asterix_scans *scans, const struct asterix_record *record)
+void asterix_scans_preview_record(struct asterix_scans *scans, const struct asterix_record *record)
 {
     struct asterix_sensor *sensor = NULL;
 
@@ -438,7 +440,7 @@ void asterix_scans_look(struct asterix_scans *scans, const struct asterix_record
         asterix_service_read(record, &service);
         sensor = service.source.is_given ? find_sensor(scans, &service.source) : NULL;
         if (sensor) {
-            learn(sensor, &service);
+            learn_place_and_period(sensor, &service);
             sensor->has_crossings |= is_crossing(&service);
             if (service.has_time && !scans->has_hint) {
                 scans->has_hint = true;
@@ -458,9 +460,9 @@ void asterix_scans_finish(struct asterix_scans *scans)
 
         if (sensor->has_clock && !sensor->is_known && !sensor->has_crossings) {
             scans->wait_128 = 0;
-            end_waiting(scans, sensor);
+            end_wait_for_crossings(scans, sensor);
         }
-        flush(scans, sensor);
+        flush_sensor(scans, sensor);
     }
     scans->is_over = true;
 }

@@ -86,13 +86,13 @@ void asterix_scans_close(struct asterix_scans *scans);
  * Looks at a record without taking it: which radars tell crossings, and where they stand, is known
  * from then on. A radar that was looked at is not waited for.
  */
-void asterix_scans_look(struct asterix_scans *scans, const struct asterix_record *record);
+void asterix_scans_preview_record(struct asterix_scans *scans, const struct asterix_record *record);
 
 /*
  * The radars that are known: how many, and of each its number and whether it said where it stands.
  */
 size_t asterix_scans_num_sensors(const struct asterix_scans *scans);
-bool asterix_scans_sensor(const struct asterix_scans *scans, size_t index, int32_t *sensor_id);
+bool asterix_scans_sensor_at(const struct asterix_scans *scans, size_t index, int32_t *sensor_id);
 
 /*
  * The first record's time is the one of its time of day that is nearest to this one; without, of
@@ -101,7 +101,7 @@ bool asterix_scans_sensor(const struct asterix_scans *scans, size_t index, int32
 void asterix_scans_start_near(struct asterix_scans *scans, int64_t time_128);
 
 /* Takes a record of a radar's plots, or of its antenna. */
-void asterix_scans_take(struct asterix_scans *scans, const struct asterix_record *record);
+void asterix_scans_take_record(struct asterix_scans *scans, const struct asterix_record *record);
 
 /* Nothing comes any more: what there is becomes scans. */
 void asterix_scans_finish(struct asterix_scans *scans);

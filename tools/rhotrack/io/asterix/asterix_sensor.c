@@ -14,7 +14,7 @@
 /*
  * The time of that time of day that is nearest to the reference; half a day before is the next day.
  */
-static int64_t unwrap(int64_t reference_128, uint32_t time_of_day_128)
+static int64_t unwrap_time_of_day(int64_t reference_128, uint32_t time_of_day_128)
 {
     int64_t of_day = reference_128 % ASTERIX_DAY;
     int64_t later = (int64_t)time_of_day_128 - (of_day < 0 ? of_day + ASTERIX_DAY : of_day);
@@ -27,23 +27,24 @@ static int64_t unwrap(int64_t reference_128, uint32_t time_of_day_128)
     return reference_128 + later;
 }
 
-static bool is_near(int64_t time_128, int64_t other_128)
+static bool is_near_in_time(int64_t time_128, int64_t other_128)
 {
     return time_128 - other_128 <= JUMP_128 && other_128 - time_128 <= JUMP_128;
 }
 
-bool asterix_sensor_time(struct asterix_sensor *sensor, uint32_t time_of_day_128,
-                         const int64_t *reference_128, int64_t *time_128)
+bool asterix_sensor_unwrap_time(struct asterix_sensor *sensor, uint32_t time_of_day_128,
+                                const int64_t *reference_128, int64_t *time_128)
 {
     if (!sensor->has_clock) {
-        *time_128 = reference_128 ? unwrap(*reference_128, time_of_day_128) : time_of_day_128;
+        *time_128 =
+            reference_128 ? unwrap_time_of_day(*reference_128, time_of_day_128) : time_of_day_128;
         sensor->has_clock = true;
         sensor->first_128 = sensor->clock_128 = *time_128;
         return true;
     }
-    *time_128 = unwrap(sensor->clock_128, time_of_day_128);
-    if (!is_near(*time_128, sensor->clock_128)) {
-        bool is_again = sensor->has_suspect && is_near(*time_128, sensor->suspect_128);
+    *time_128 = unwrap_time_of_day(sensor->clock_128, time_of_day_128);
+    if (!is_near_in_time(*time_128, sensor->clock_128)) {
+        bool is_again = sensor->has_suspect && is_near_in_time(*time_128, sensor->suspect_128);
 
         sensor->has_suspect = true;
         sensor->suspect_128 = *time_128;
@@ -64,29 +65,30 @@ void asterix_marks_add(struct asterix_marks *marks, const struct asterix_mark *m
     marks->list[marks->count++] = *mark;
 }
 
-static struct asterix_open *begin(struct asterix_sensor *sensor, const struct asterix_look *look,
-                                  bool has_look)
+static struct asterix_open_scan *begin_open_scan(struct asterix_sensor *sensor,
+                                                 const struct asterix_look *look, bool has_look)
 {
-    struct asterix_open *open;
+    struct asterix_open_scan *open;
 
     sensor->open =
         must_grow(sensor->open, sensor->num_open, &sensor->open_capacity, sizeof *sensor->open);
     open = &sensor->open[sensor->num_open++];
-    *open = (struct asterix_open){.has_look = has_look, .look = *look};
+    *open = (struct asterix_open_scan){.has_look = has_look, .look = *look};
     return open;
 }
 
 /* Into the look that saw its azimuth nearest to its time. Returns false where none did. */
-static bool place(struct asterix_sensor *sensor, const struct asterix_mark *mark, int64_t hold_128)
+static bool place_in_look(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+                          int64_t hold_128)
 {
-    struct asterix_open *nearest = NULL;
+    struct asterix_open_scan *nearest = NULL;
     int64_t least_128 = INT64_MAX, distance_128;
 
     for (size_t i = 0; i < sensor->num_open; i++) {
-        struct asterix_open *open = &sensor->open[i];
+        struct asterix_open_scan *open = &sensor->open[i];
 
         if (open->has_look &&
-            asterix_look_has(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
+            asterix_look_saw(&open->look, mark->time_128, mark->azimuth, &distance_128) &&
             mark->time_128 >= open->look.start_128 - hold_128 && distance_128 < least_128) {
             nearest = open;
             least_128 = distance_128;
@@ -98,12 +100,12 @@ static bool place(struct asterix_sensor *sensor, const struct asterix_mark *mark
     return nearest;
 }
 
-static void place_waiting(struct asterix_sensor *sensor, int64_t hold_128)
+static void place_waiting_plots(struct asterix_sensor *sensor, int64_t hold_128)
 {
     size_t kept = 0;
 
     for (size_t i = 0; i < sensor->waiting.count; i++) {
-        if (!place(sensor, &sensor->waiting.list[i], hold_128)) {
+        if (!place_in_look(sensor, &sensor->waiting.list[i], hold_128)) {
             sensor->waiting.list[kept++] = sensor->waiting.list[i];
         }
     }
@@ -111,7 +113,7 @@ static void place_waiting(struct asterix_sensor *sensor, int64_t hold_128)
 }
 
 /* Of the plots that wait; otherwise where there are none. */
-static int64_t first_waiting(const struct asterix_sensor *sensor, int64_t otherwise_128)
+static int64_t first_waiting_time(const struct asterix_sensor *sensor, int64_t otherwise_128)
 {
     int64_t first_128 = otherwise_128;
 
@@ -124,7 +126,7 @@ static int64_t first_waiting(const struct asterix_sensor *sensor, int64_t otherw
 }
 
 /* It had no look yet: plots that wait may make one before the first crossing, or be without. */
-static bool is_at_start(const struct asterix_sensor *sensor)
+static bool is_before_first_look(const struct asterix_sensor *sensor)
 {
     return !sensor->has_closed && sensor->num_open == 0;
 }
@@ -133,13 +135,14 @@ static bool is_at_start(const struct asterix_sensor *sensor)
  * Before the first look: back to the first plot, but at most a turn, as the antenna then turned. As
  * wide as that look, the earliest one as wide as is left.
  */
-static void begin_before(struct asterix_sensor *sensor, const struct asterix_look *first)
+static void begin_looks_before_first(struct asterix_sensor *sensor,
+                                     const struct asterix_look *first)
 {
-    const int64_t turn_128 = asterix_look_turn_128(first);
-    int64_t took_128 = first->start_128 - first_waiting(sensor, first->start_128);
+    const int64_t turn_128 = asterix_look_turn_time_128(first);
+    int64_t took_128 = first->start_128 - first_waiting_time(sensor, first->start_128);
     uint32_t before, width; /* of the antenna's way to the first look; of a look */
 
-    if (!is_at_start(sensor)) {
+    if (!is_before_first_look(sensor)) {
         return;
     }
     took_128 = took_128 < turn_128 ? took_128 : turn_128;
@@ -151,12 +154,12 @@ static void begin_before(struct asterix_sensor *sensor, const struct asterix_loo
         look.start_128 = first->start_128 - before * turn_128 / ASTERIX_TURN;
         look.end_128 = first->start_128 - (before - width) * turn_128 / ASTERIX_TURN;
         if (look.end_128 > look.start_128) {
-            begin(sensor, &look, true);
+            begin_open_scan(sensor, &look, true);
         }
     }
 }
 
-static int64_t find_settled(const struct asterix_sensor *sensor, int64_t hold_128)
+static int64_t find_settled_time(const struct asterix_sensor *sensor, int64_t hold_128)
 {
     int64_t settled_128 = sensor->clock_128 - hold_128;
     int64_t looks_128 = sensor->clock_128; /* the start of those that are not complete */
@@ -178,12 +181,12 @@ static int64_t find_settled(const struct asterix_sensor *sensor, int64_t hold_12
     }
     looks_128 -= hold_128; /* plots may be so much earlier than their look */
     settled_128 = looks_128 < settled_128 ? looks_128 : settled_128;
-    return is_at_start(sensor) ? first_waiting(sensor, settled_128) : settled_128;
+    return is_before_first_look(sensor) ? first_waiting_time(sensor, settled_128) : settled_128;
 }
 
-int64_t asterix_sensor_settled(struct asterix_sensor *sensor, int64_t hold_128)
+int64_t asterix_sensor_settled_time(struct asterix_sensor *sensor, int64_t hold_128)
 {
-    int64_t settled_128 = find_settled(sensor, hold_128);
+    int64_t settled_128 = find_settled_time(sensor, hold_128);
 
     if (!sensor->has_settled || settled_128 > sensor->settled_128) {
         sensor->has_settled = true;
@@ -192,37 +195,38 @@ int64_t asterix_sensor_settled(struct asterix_sensor *sensor, int64_t hold_128)
     return sensor->settled_128;
 }
 
-bool asterix_sensor_cross(struct asterix_sensor *sensor, int64_t time_128, uint16_t azimuth,
-                          int64_t hold_128, struct asterix_counts *counts)
+bool asterix_sensor_cross_azimuth(struct asterix_sensor *sensor, int64_t time_128, uint16_t azimuth,
+                                  int64_t hold_128, struct asterix_counts *counts)
 {
     struct asterix_look look;
     bool is_gap;
     enum asterix_crossing crossing;
 
-    if (!sensor->antenna.has_last && time_128 < asterix_sensor_settled(sensor, hold_128)) {
+    if (!sensor->antenna.has_last && time_128 < asterix_sensor_settled_time(sensor, hold_128)) {
         return false;
     }
     crossing = asterix_antenna_cross(&sensor->antenna, time_128, azimuth, &look, &is_gap);
     sensor->has_crossings = true;
     counts->gaps += is_gap;
     if (crossing == ASTERIX_LOOKED) {
-        begin_before(sensor, &look);
-        begin(sensor, &look, true);
-        place_waiting(sensor, hold_128);
+        begin_looks_before_first(sensor, &look);
+        begin_open_scan(sensor, &look, true);
+        place_waiting_plots(sensor, hold_128);
     }
     return crossing != ASTERIX_BACK;
 }
 
-void asterix_sensor_add(struct asterix_sensor *sensor, const struct asterix_mark *mark,
-                        int64_t hold_128)
+void asterix_sensor_add_plot(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+                             int64_t hold_128)
 {
-    if (!place(sensor, mark, hold_128)) {
+    if (!place_in_look(sensor, mark, hold_128)) {
         asterix_marks_add(&sensor->waiting, mark);
     }
 }
 
 /* The newest scan that began before a time, else the oldest; NULL where none is open. */
-static struct asterix_open *find_begun(struct asterix_sensor *sensor, int64_t time_128)
+static struct asterix_open_scan *find_scan_begun_before(struct asterix_sensor *sensor,
+                                                        int64_t time_128)
 {
     size_t at = sensor->num_open;
 
@@ -232,16 +236,17 @@ static struct asterix_open *find_begun(struct asterix_sensor *sensor, int64_t ti
     return at > 0 ? &sensor->open[at - 1] : NULL;
 }
 
-void asterix_sensor_add_free(struct asterix_sensor *sensor, const struct asterix_mark *mark,
-                             int64_t interval_128)
+void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+                                     int64_t interval_128)
 {
     struct asterix_look look = {.start_128 = mark->time_128,
                                 .end_128 = mark->time_128 + interval_128,
                                 .advance = ASTERIX_TURN};
-    struct asterix_open *open = interval_128 > 0 ? find_begun(sensor, mark->time_128) : NULL;
+    struct asterix_open_scan *open =
+        interval_128 > 0 ? find_scan_begun_before(sensor, mark->time_128) : NULL;
 
     if (!open || mark->time_128 >= open->look.end_128) {
-        asterix_marks_add(&begin(sensor, &look, false)->marks, mark);
+        asterix_marks_add(&begin_open_scan(sensor, &look, false)->marks, mark);
         return;
     }
     if (mark->time_128 < open->look.start_128) {
@@ -250,7 +255,8 @@ void asterix_sensor_add_free(struct asterix_sensor *sensor, const struct asterix
     asterix_marks_add(&open->marks, mark);
 }
 
-void asterix_sensor_drop(struct asterix_sensor *sensor, bool all, struct asterix_counts *counts)
+void asterix_sensor_drop_waiting(struct asterix_sensor *sensor, bool all,
+                                 struct asterix_counts *counts)
 {
     size_t kept = 0;
 
@@ -266,21 +272,21 @@ void asterix_sensor_drop(struct asterix_sensor *sensor, bool all, struct asterix
     sensor->waiting.count = kept;
 }
 
-void asterix_sensor_rest(struct asterix_sensor *sensor, int64_t hold_128)
+void asterix_sensor_end_last_look(struct asterix_sensor *sensor, int64_t hold_128)
 {
     struct asterix_look look;
 
     if (sensor->waiting.count > 0 &&
-        asterix_antenna_rest(&sensor->antenna, sensor->clock_128, &look)) {
-        begin(sensor, &look, true);
-        place_waiting(sensor, hold_128);
+        asterix_antenna_look_so_far(&sensor->antenna, sensor->clock_128, &look)) {
+        begin_open_scan(sensor, &look, true);
+        place_waiting_plots(sensor, hold_128);
     }
     sensor->antenna.has_last = false;
 }
 
-struct asterix_open asterix_sensor_take(struct asterix_sensor *sensor)
+struct asterix_open_scan asterix_sensor_take_scan(struct asterix_sensor *sensor)
 {
-    struct asterix_open open = sensor->open[0];
+    struct asterix_open_scan open = sensor->open[0];
 
     sensor->num_open--;
     memmove(sensor->open, sensor->open + 1, sensor->num_open * sizeof *sensor->open);
@@ -288,9 +294,9 @@ struct asterix_open asterix_sensor_take(struct asterix_sensor *sensor)
     return open;
 }
 
-bool asterix_sensor_turn(struct asterix_sensor *sensor, struct asterix_open *open)
+bool asterix_sensor_extend_turn(struct asterix_sensor *sensor, struct asterix_open_scan *open)
 {
-    struct asterix_open *turn = &sensor->turn;
+    struct asterix_open_scan *turn = &sensor->turn;
 
     if (!sensor->has_turn) {
         *turn = *open;

@@ -11,7 +11,7 @@ struct asterix_marks {
 };
 
 /* A scan on its way. The look's start is there in any case. */
-struct asterix_open {
+struct asterix_open_scan {
     bool has_look;
     struct asterix_look look;
     struct asterix_marks marks;
@@ -29,61 +29,62 @@ struct asterix_sensor {
     bool has_suspect;
     int64_t suspect_128; /* a time that jumped */
     struct asterix_antenna antenna;
-    struct asterix_open *open; /* by their starts */
+    struct asterix_open_scan *open; /* by their starts */
     size_t num_open, open_capacity;
     bool has_settled, has_closed; /* closed: a look was complete */
     int64_t settled_128;          /* nothing comes before it */
     bool has_turn;
-    struct asterix_open turn;     /* complete looks that are no whole turn yet */
-    struct asterix_marks waiting; /* no look is known yet that saw them */
-    int32_t scan;                 /* number of the newest one */
+    struct asterix_open_scan turn; /* complete looks that are no whole turn yet */
+    struct asterix_marks waiting;  /* no look is known yet that saw them */
+    int32_t scan;                  /* number of the newest one */
 };
 
 /*
  * Time of day as a time that goes on at midnight, or false: a jump. reference: where the radar has
  * no time yet.
  */
-bool asterix_sensor_time(struct asterix_sensor *sensor, uint32_t time_of_day_128,
-                         const int64_t *reference_128, int64_t *time_128);
+bool asterix_sensor_unwrap_time(struct asterix_sensor *sensor, uint32_t time_of_day_128,
+                                const int64_t *reference_128, int64_t *time_128);
 
 /* Nothing of the sensor that comes is before this time, but what is late. It never goes back. */
-int64_t asterix_sensor_settled(struct asterix_sensor *sensor, int64_t hold_128);
+int64_t asterix_sensor_settled_time(struct asterix_sensor *sensor, int64_t hold_128);
 
 /* The antenna crosses an azimuth. Returns false where that is before the newest crossing. */
-bool asterix_sensor_cross(struct asterix_sensor *sensor, int64_t time_128, uint16_t azimuth,
-                          int64_t hold_128, struct asterix_counts *counts);
+bool asterix_sensor_cross_azimuth(struct asterix_sensor *sensor, int64_t time_128, uint16_t azimuth,
+                                  int64_t hold_128, struct asterix_counts *counts);
 
 /* A plot: into a look that saw it, or kept until there is one. */
-void asterix_sensor_add(struct asterix_sensor *sensor, const struct asterix_mark *mark,
-                        int64_t hold_128);
+void asterix_sensor_add_plot(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+                             int64_t hold_128);
 
 /*
  * A plot of a radar without crossings: into a scan of interval_128, or of its own where that is 0.
  */
-void asterix_sensor_add_free(struct asterix_sensor *sensor, const struct asterix_mark *mark,
-                             int64_t interval_128);
+void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+                                     int64_t interval_128);
 
 /* Plots that waited for a look in vain, if it is over, are given up. */
-void asterix_sensor_drop(struct asterix_sensor *sensor, bool all, struct asterix_counts *counts);
+void asterix_sensor_drop_waiting(struct asterix_sensor *sensor, bool all,
+                                 struct asterix_counts *counts);
 
 /* Plots since the newest north crossing become a scan. */
-void asterix_sensor_rest(struct asterix_sensor *sensor, int64_t hold_128);
+void asterix_sensor_end_last_look(struct asterix_sensor *sensor, int64_t hold_128);
 
 /* The first open scan, which is taken out: its marks are the caller's. */
-struct asterix_open asterix_sensor_take(struct asterix_sensor *sensor);
+struct asterix_open_scan asterix_sensor_take_scan(struct asterix_sensor *sensor);
 
 /*
  * A complete look after those of the turn: false, and nothing is changed, where it does not go on
  * where they end.
  */
-bool asterix_sensor_turn(struct asterix_sensor *sensor, struct asterix_open *open);
+bool asterix_sensor_extend_turn(struct asterix_sensor *sensor, struct asterix_open_scan *open);
 
 /*
  * Heights and speeds count where all plots of a scan have them; else heights make ground ranges of
  * slant ranges.
  */
-void asterix_marks_even(struct asterix_marks *marks, const struct asterix_place *place,
-                        struct asterix_counts *counts);
+void asterix_marks_all_or_none(struct asterix_marks *marks, const struct asterix_place *place,
+                               struct asterix_counts *counts);
 
 void asterix_marks_add(struct asterix_marks *marks, const struct asterix_mark *mark);
 void asterix_sensor_free(struct asterix_sensor *sensor);

@@ -68,7 +68,7 @@ struct reading {
     uint64_t incomplete, on_earth; /* on_earth: of these, without a place but for 105 */
 };
 
-bool asterix_tracks_are_in(const char *path)
+bool asterix_file_has_only_tracks(const char *path)
 {
     struct asterix_file *file;
     struct asterix_record record;
@@ -78,14 +78,14 @@ bool asterix_tracks_are_in(const char *path)
         return false;
     }
     file = asterix_file_open(path, true);
-    has_radar = asterix_file_next(file, &record);
-    has_tracks = asterix_file_others(file, ASTERIX_TRACKS) > 0;
+    has_radar = asterix_file_next_record(file, &record);
+    has_tracks = asterix_file_num_skipped_blocks(file, ASTERIX_TRACKS) > 0;
     asterix_file_close(file);
     return has_tracks && !has_radar;
 }
 
 /* A time of day half a day or more before the one before is of the next day. */
-static int64_t pass_time(struct reading *reading, uint32_t of_day_128)
+static int64_t time_since_first_midnight(struct reading *reading, uint32_t of_day_128)
 {
     const int64_t day_128 = reading->time_128 - reading->time_128 % ASTERIX_DAY;
     int64_t time_128 = day_128 + of_day_128 % ASTERIX_DAY;
@@ -98,7 +98,7 @@ static int64_t pass_time(struct reading *reading, uint32_t of_day_128)
     return time_128;
 }
 
-static double spread(double x, double y)
+static double rms_sigma(double x, double y)
 {
     return sqrt(0.5 * (x * x + y * y));
 }
@@ -135,8 +135,8 @@ static void put_motion(const struct asterix_track *track, double *cells)
         cells[AT_AY_MPS2] = track->ay_mps2;
     }
     if (track->has_sigma) {
-        cells[AT_SIGMA_M] = spread(track->sigma_x_m, track->sigma_y_m);
-        cells[AT_SIGMA_MPS] = spread(track->sigma_vx_mps, track->sigma_vy_mps);
+        cells[AT_SIGMA_M] = rms_sigma(track->sigma_x_m, track->sigma_y_m);
+        cells[AT_SIGMA_MPS] = rms_sigma(track->sigma_vx_mps, track->sigma_vy_mps);
     }
 }
 
@@ -151,8 +151,9 @@ static void add_track(struct reading *reading, const struct asterix_track *track
         reading->on_earth += track->has_geodetic;
         return;
     }
-    cells = table_add_numbers(reading->table, asterix_time_us(pass_time(reading, track->time_128)),
-                              reading->line++);
+    cells = table_add_row_of_numbers(
+        reading->table, asterix_time_us(time_since_first_midnight(reading, track->time_128)),
+        reading->line++);
     cells[AT_TRACK_ID] = track->number;
     cells[AT_STATUS] = track->is_last        ? RHO_MESSAGE_TRACK_DELETED
                        : track->is_tentative ? RHO_MESSAGE_TRACK_TENTATIVE
@@ -165,7 +166,7 @@ static void add_track(struct reading *reading, const struct asterix_track *track
     }
 }
 
-static void report(const struct reading *reading, const char *path)
+static void report_incomplete(const struct reading *reading, const char *path)
 {
     if (reading->table->num_rows == 0 && reading->on_earth > 0) {
         fail(EXIT_USAGE, "%s: tracks (CAT062) with places on the earth alone (I062/105): %s", path,
@@ -190,15 +191,15 @@ struct table *asterix_track_table_read(const char *path, const struct parameters
     if (parameters && parameters_has_origin(parameters)) {
         reading.frame = parameters_open_origin(parameters);
     }
-    while (asterix_file_next(file, &record)) {
+    while (asterix_file_next_record(file, &record)) {
         struct asterix_track track;
 
         asterix_track_read(&record, &track);
         add_track(&reading, &track);
     }
-    asterix_file_report(file);
+    asterix_file_report_skipped(file);
     asterix_file_close(file);
     local_frame_close(reading.frame);
-    report(&reading, path);
+    report_incomplete(&reading, path);
     return reading.table;
 }

@@ -7,7 +7,7 @@
 #include "settings/parameters.h"
 
 /* The recording has tracks, and nothing of radars before them. */
-bool asterix_tracks_are_in(const char *path);
+bool asterix_file_has_only_tracks(const char *path);
 
 /*
  * A row a record: places by latitude and longitude (105) where the origin is set, else in the

@@ -31,14 +31,14 @@ struct asterix_tracks {
     size_t size; /* of the block; 0: none is begun */
 };
 
-bool asterix_tracks_is_asterix(const char *path)
+bool asterix_tracks_path_is_asterix(const char *path)
 {
     return path && (path_ends_with(path, ".ast") || path_ends_with(path, ".asterix"));
 }
 
 void asterix_tracks_refuse_covariance(const char *path, bool with_covariance)
 {
-    if (with_covariance && asterix_tracks_is_asterix(path)) {
+    if (with_covariance && asterix_tracks_path_is_asterix(path)) {
         fail(EXIT_USAGE,
              "%s: --covariance has no place in CAT062, which has standard deviations (I062/500) "
              "without it",
@@ -102,7 +102,7 @@ static void write_track(struct asterix_tracks *tracks, const struct asterix_trac
 /* ---- Tracks ---- */
 
 /* Time of day. */
-static uint32_t time_of(int64_t utime)
+static uint32_t time_of_day_128(int64_t utime)
 {
     int64_t day_us = INT64_C(86400000000), of_day = utime % day_us;
 
@@ -111,21 +111,21 @@ static uint32_t time_of(int64_t utime)
 }
 
 /* Of the covariance's lower triangle. */
-static double variance(const struct rho_message_track *track, int state)
+static double variance_of_state(const struct rho_message_track *track, int state)
 {
     return (double)track->covariance[state * (state + 1) / 2 + state];
 }
 
-static double sigma(const struct rho_message_track *track, int state)
+static double sigma_of_state(const struct rho_message_track *track, int state)
 {
-    return sqrt(fmax(0.0, variance(track, state)));
+    return sqrt(fmax(0.0, variance_of_state(track, state)));
 }
 
 static void put_geodetic(const struct asterix_tracks *tracks,
                          const struct rho_message_track *message, struct asterix_track *track)
 {
     const double place_m[3] = {(double)message->x_m, (double)message->y_m, (double)message->z_m};
-    bool has_height = variance(message, 2) > 0;
+    bool has_height = variance_of_state(message, 2) > 0;
     double geodetic[3];
 
     if (!tracks->frame) {
@@ -140,12 +140,12 @@ static void put_geodetic(const struct asterix_tracks *tracks,
     track->climb_mps = (double)message->vz_mps;
 }
 
-static struct asterix_track track_of(const struct asterix_tracks *tracks, int64_t utime,
-                                     const struct rho_message_track *message)
+static struct asterix_track asterix_track_of(const struct asterix_tracks *tracks, int64_t utime,
+                                             const struct rho_message_track *message)
 {
     struct asterix_track track = {
         .source = tracks->source,
-        .time_128 = time_of(utime),
+        .time_128 = time_of_day_128(utime),
         .number = (uint16_t)message->track_id,
         .is_tentative = message->status == RHO_MESSAGE_TRACK_TENTATIVE,
         .is_coasting = message->status == RHO_MESSAGE_TRACK_COASTING,
@@ -158,11 +158,11 @@ static struct asterix_track track_of(const struct asterix_tracks *tracks, int64_
         .has_accel = true,
         .ax_mps2 = (double)message->ax_mps2,
         .ay_mps2 = (double)message->ay_mps2,
-        .has_sigma = variance(message, 0) > 0,
-        .sigma_x_m = sigma(message, 0),
-        .sigma_y_m = sigma(message, 1),
-        .sigma_vx_mps = sigma(message, 3),
-        .sigma_vy_mps = sigma(message, 4),
+        .has_sigma = variance_of_state(message, 0) > 0,
+        .sigma_x_m = sigma_of_state(message, 0),
+        .sigma_y_m = sigma_of_state(message, 1),
+        .sigma_vx_mps = sigma_of_state(message, 3),
+        .sigma_vy_mps = sigma_of_state(message, 4),
     };
 
     put_geodetic(tracks, message, &track);
@@ -170,7 +170,7 @@ static struct asterix_track track_of(const struct asterix_tracks *tracks, int64_
 }
 
 /* A track is of one sensor as long as no track was of another. */
-static void note_sensor(struct asterix_tracks *tracks, int16_t sensor_id)
+static void note_sensor_of_track(struct asterix_tracks *tracks, int16_t sensor_id)
 {
     tracks->is_multisensor |= tracks->has_sensor && sensor_id != tracks->sensor_id;
     tracks->sensor_id = tracks->has_sensor ? tracks->sensor_id : sensor_id;
@@ -186,7 +186,8 @@ static int by_identity(const void *a, const void *b)
     return (one->track_id > other->track_id) - (one->track_id < other->track_id);
 }
 
-static void write_last(struct asterix_tracks *tracks, const struct entry *entry, uint32_t time_128)
+static void write_last_record(struct asterix_tracks *tracks, const struct entry *entry,
+                              uint32_t time_128)
 {
     struct asterix_track track = entry->track;
 
@@ -206,7 +207,7 @@ static void write_list(struct asterix_tracks *tracks, uint32_t time_128)
         struct entry *entry = &tracks->now.entries[i];
 
         while (gone < before->count && before->entries[gone].track_id < entry->track_id) {
-            write_last(tracks, &before->entries[gone++], time_128);
+            write_last_record(tracks, &before->entries[gone++], time_128);
         }
         entry->track.is_first =
             gone == before->count || before->entries[gone].track_id > entry->track_id;
@@ -215,7 +216,7 @@ static void write_list(struct asterix_tracks *tracks, uint32_t time_128)
         write_track(tracks, &entry->track);
     }
     while (gone < before->count) {
-        write_last(tracks, &before->entries[gone++], time_128);
+        write_last_record(tracks, &before->entries[gone++], time_128);
     }
     end_block(tracks);
 }
@@ -227,7 +228,7 @@ static void end_list(struct asterix_tracks *tracks, int64_t utime)
     if (tracks->now.count > 0) {
         qsort(tracks->now.entries, tracks->now.count, sizeof *tracks->now.entries, by_identity);
     }
-    write_list(tracks, time_of(utime));
+    write_list(tracks, time_of_day_128(utime));
     tracks->before = tracks->now;
     tracks->now = before;
     tracks->now.count = 0;
@@ -243,8 +244,8 @@ void asterix_tracks_add(struct asterix_tracks *tracks, const struct rho_message_
             now->entries =
                 must_grow(now->entries, now->count, &now->capacity, sizeof *now->entries);
             now->entries[now->count++] =
-                (struct entry){track->track_id, track_of(tracks, message->utime, track)};
-            note_sensor(tracks, track->sensor_id);
+                (struct entry){track->track_id, asterix_track_of(tracks, message->utime, track)};
+            note_sensor_of_track(tracks, track->sensor_id);
         }
     }
     if (message->part + 1 >= message->num_parts) {

@@ -23,7 +23,7 @@
 struct asterix_tracks;
 
 /* Whether an output of this name is such a recording: it ends with .ast or .asterix. */
-bool asterix_tracks_is_asterix(const char *path);
+bool asterix_tracks_path_is_asterix(const char *path);
 
 /* Exit 2 where an output of this name is asked for with covariances, which it has no place for. */
 void asterix_tracks_refuse_covariance(const char *path, bool with_covariance);

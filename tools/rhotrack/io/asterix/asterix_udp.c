@@ -23,7 +23,7 @@ bool asterix_udp_is_url(const char *text)
 
 /* ---- Records ---- */
 
-static bool take_block(struct asterix_scans *scans, const struct asterix_block *block)
+static bool take_block_records(struct asterix_scans *scans, const struct asterix_block *block)
 {
     struct asterix_record record;
     struct asterix_error error;
@@ -33,13 +33,13 @@ static bool take_block(struct asterix_scans *scans, const struct asterix_block *
                                  &error)) {
             return false;
         }
-        asterix_scans_take(scans, &record);
+        asterix_scans_take_record(scans, &record);
     }
     return true;
 }
 
-void asterix_datagram_take(struct asterix_scans *scans, const uint8_t *data, size_t size,
-                           struct asterix_heard *heard)
+void asterix_datagram_take_records(struct asterix_scans *scans, const uint8_t *data, size_t size,
+                                   struct asterix_heard *heard)
 {
     struct asterix_block block;
     struct asterix_error error;
@@ -53,7 +53,7 @@ void asterix_datagram_take(struct asterix_scans *scans, const uint8_t *data, siz
         if (!asterix_category_is_plots(block.category) &&
             !asterix_category_is_service(block.category)) {
             heard->others++;
-        } else if (!take_block(scans, &block)) {
+        } else if (!take_block_records(scans, &block)) {
             heard->bad++;
             return;
         }
@@ -65,7 +65,7 @@ void asterix_datagram_take(struct asterix_scans *scans, const uint8_t *data, siz
 static struct sockaddr_in read_url(const char *url)
 {
     struct sockaddr_in address = {.sin_family = AF_INET};
-    char *text = must_copy(url + strlen(SCHEME)), *port = strrchr(text, ':'), *end = NULL;
+    char *text = must_copy_text(url + strlen(SCHEME)), *port = strrchr(text, ':'), *end = NULL;
     long number = port ? strtol(port + 1, &end, 10) : 0;
 
     if (!port || end == port + 1 || *end || port[1] < '0' || port[1] > '9' || number < 1 ||
@@ -81,14 +81,14 @@ static struct sockaddr_in read_url(const char *url)
     return address;
 }
 
-static void must(const char *url, int result)
+static void fail_if_error(const char *url, int result)
 {
     if (result) {
         fail(EXIT_RUNTIME, "%s: %s", url, strerror(errno));
     }
 }
 
-static void join(const char *url, int receiver, const struct sockaddr_in *group)
+static void join_group(const char *url, int receiver, const struct sockaddr_in *group)
 {
     struct ip_mreqn member = {.imr_multiaddr = group->sin_addr};
 
@@ -96,7 +96,7 @@ static void join(const char *url, int receiver, const struct sockaddr_in *group)
         return;
     }
     member.imr_ifindex = (int)if_nametoindex("lo");
-    must(url, setsockopt(receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member));
+    fail_if_error(url, setsockopt(receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member));
     fprintf(stderr,
             "rhotrack: %s: no route to this group; the loopback is used: programs of this machine "
             "alone\n",
@@ -108,14 +108,14 @@ int asterix_udp_open(const char *url)
     struct sockaddr_in address = read_url(url);
     int receiver = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), yes = 1, bytes = BUFFER_BYTES;
 
-    must(url, receiver < 0);
-    must(url, setsockopt(receiver, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes));
+    fail_if_error(url, receiver < 0);
+    fail_if_error(url, setsockopt(receiver, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes));
     if (setsockopt(receiver, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes)) {
-        must(url, setsockopt(receiver, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes));
+        fail_if_error(url, setsockopt(receiver, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes));
     }
-    must(url, bind(receiver, (const struct sockaddr *)&address, sizeof address));
+    fail_if_error(url, bind(receiver, (const struct sockaddr *)&address, sizeof address));
     if (IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
-        join(url, receiver, &address);
+        join_group(url, receiver, &address);
     }
     return receiver;
 }

@@ -25,7 +25,7 @@ struct asterix_heard {
 };
 
 /* Takes the records of a datagram. Any bytes will do. */
-void asterix_datagram_take(struct asterix_scans *scans, const uint8_t *data, size_t size,
-                           struct asterix_heard *heard);
+void asterix_datagram_take_records(struct asterix_scans *scans, const uint8_t *data, size_t size,
+                                   struct asterix_heard *heard);
 
 #endif

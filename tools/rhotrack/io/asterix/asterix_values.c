@@ -19,7 +19,7 @@ static uint32_t read_unsigned(const uint8_t *data, int bytes)
 }
 
 /* The last so many bits, two's complement. */
-static int32_t sign(uint32_t value, int bits)
+static int32_t sign_extend(uint32_t value, int bits)
 {
     uint32_t top = UINT32_C(1) << (bits - 1), all = top | (top - 1);
 
@@ -29,7 +29,7 @@ static int32_t sign(uint32_t value, int bits)
 
 static int32_t read_signed(const uint8_t *data, int bytes)
 {
-    return sign(read_unsigned(data, bytes), 8 * bytes);
+    return sign_extend(read_unsigned(data, bytes), 8 * bytes);
 }
 
 static struct asterix_source read_source(const uint8_t *item)
@@ -40,7 +40,7 @@ static struct asterix_source read_source(const uint8_t *item)
 
 int32_t asterix_sensor_id(const struct asterix_source *source)
 {
-    return sign((uint32_t)source->sac << 8 | source->sic, 16);
+    return sign_extend((uint32_t)source->sac << 8 | source->sic, 16);
 }
 
 /* ---- CAT048 ---- */
@@ -65,7 +65,7 @@ static void read_doppler(const uint8_t *item, struct asterix_plot *plot)
     plot->has_raw_doppler = item[0] >> 6 & 1;
     if (plot->has_doppler) {
         plot->is_doppler_bad = item[1] >> 7 & 1;
-        plot->doppler_mps = (int16_t)sign(read_unsigned(item + 1, 2), 10);
+        plot->doppler_mps = (int16_t)sign_extend(read_unsigned(item + 1, 2), 10);
     }
 }
 
@@ -76,11 +76,11 @@ static void read_heights(const struct asterix_record *record, struct asterix_plo
     if (level) {
         plot->has_level = true;
         plot->is_level_bad = level[0] >> 6 != 0;
-        plot->level = (int16_t)sign(read_unsigned(level, 2), 14);
+        plot->level = (int16_t)sign_extend(read_unsigned(level, 2), 14);
     }
     if (height) {
         plot->has_height = true;
-        plot->height = (int16_t)sign(read_unsigned(height, 2), 14);
+        plot->height = (int16_t)sign_extend(read_unsigned(height, 2), 14);
     }
 }
 
@@ -97,7 +97,7 @@ static void read_identity(const struct asterix_record *record, struct asterix_pl
     plot->track = track ? (uint16_t)(read_unsigned(track, 2) & 0xfff) : 0;
 }
 
-static void read_plot(const struct asterix_record *record, struct asterix_plot *plot)
+static void read_cat048_plot(const struct asterix_record *record, struct asterix_plot *plot)
 {
     const uint8_t *time = record->items[I048_140], *position = record->items[I048_040];
 
@@ -126,7 +126,7 @@ static void read_plot(const struct asterix_record *record, struct asterix_plot *
 /* Items of both profiles, and where they are: of plots, of tracks. */
 enum { OLD_010, OLD_020, OLD_040, OLD_070, OLD_090, OLD_120, OLD_141, OLD_161, NUM_OLD };
 
-static const uint8_t *old_item(const struct asterix_record *record, int item)
+static const uint8_t *cat001_item(const struct asterix_record *record, int item)
 {
     static const int places[2][NUM_OLD] = {{0, 1, 2, 3, 4, 8, 6, -1}, {0, 1, 3, 6, 7, 11, 8, 2}};
     const int place = places[record->is_track][item];
@@ -135,19 +135,19 @@ static const uint8_t *old_item(const struct asterix_record *record, int item)
 }
 
 /* 020: its second byte is there where the first has its last bit set. Doppler speeds are raw. */
-static void read_old_plot(const struct asterix_record *record, struct asterix_plot *plot)
+static void read_cat001_plot(const struct asterix_record *record, struct asterix_plot *plot)
 {
-    const uint8_t *type = old_item(record, OLD_020), *position = old_item(record, OLD_040);
-    const uint8_t *time = old_item(record, OLD_141), *level = old_item(record, OLD_090);
-    const uint8_t *mode_a = old_item(record, OLD_070), *track = old_item(record, OLD_161);
+    const uint8_t *type = cat001_item(record, OLD_020), *position = cat001_item(record, OLD_040);
+    const uint8_t *time = cat001_item(record, OLD_141), *level = cat001_item(record, OLD_090);
+    const uint8_t *mode_a = cat001_item(record, OLD_070), *track = cat001_item(record, OLD_161);
 
-    *plot = (struct asterix_plot){.source = read_source(old_item(record, OLD_010)),
+    *plot = (struct asterix_plot){.source = read_source(cat001_item(record, OLD_010)),
                                   .has_time = time,
                                   .is_time_truncated = time,
                                   .has_type = type,
                                   .has_position = position,
                                   .has_level = level,
-                                  .has_raw_doppler = old_item(record, OLD_120),
+                                  .has_raw_doppler = cat001_item(record, OLD_120),
                                   .has_mode_a = mode_a,
                                   .has_track = track};
     plot->time_128 = time ? read_unsigned(time, 2) : 0;
@@ -160,7 +160,7 @@ static void read_old_plot(const struct asterix_record *record, struct asterix_pl
     plot->range = position ? 2 * read_unsigned(position, 2) : 0;
     plot->azimuth = position ? (uint16_t)read_unsigned(position + 2, 2) : 0;
     plot->is_level_bad = level && level[0] >> 6 != 0;
-    plot->level = level ? (int16_t)sign(read_unsigned(level, 2), 14) : 0;
+    plot->level = level ? (int16_t)sign_extend(read_unsigned(level, 2), 14) : 0;
     plot->mode_a = mode_a ? (uint16_t)(read_unsigned(mode_a, 2) & 0xfff) : 0;
     plot->track = track ? (uint16_t)read_unsigned(track, 2) : 0;
 }
@@ -168,9 +168,9 @@ static void read_old_plot(const struct asterix_record *record, struct asterix_pl
 void asterix_plot_read(const struct asterix_record *record, struct asterix_plot *plot)
 {
     if (record->category == ASTERIX_OLD_PLOTS) {
-        read_old_plot(record, plot);
+        read_cat001_plot(record, plot);
     } else {
-        read_plot(record, plot);
+        read_cat048_plot(record, plot);
     }
 }
 

@@ -60,7 +60,7 @@ struct captured_datagrams *captured_datagrams_open(const char *path)
     struct captured_datagrams *captured = must_calloc(1, sizeof *captured);
     char reason[PCAP_ERRBUF_SIZE] = "";
 
-    captured->path = must_copy(path);
+    captured->path = must_copy_text(path);
     captured->capture = pcap_open_offline(path, reason);
     if (!captured->capture) {
         fail(EXIT_USAGE, "%s: not a network recording that can be read: %s", path, reason);
@@ -97,7 +97,7 @@ static unsigned two_bytes(const uint8_t *data)
 }
 
 /* Takes so many bytes off; false where there are fewer. */
-static bool pass(struct rest *rest, size_t size)
+static bool skip_bytes(struct rest *rest, size_t size)
 {
     if (rest->size < size) {
         return false;
@@ -108,7 +108,7 @@ static bool pass(struct rest *rest, size_t size)
 }
 
 /* Type of the packet behind the link's header; 0: none that is read. */
-static unsigned pass_link(const struct captured_datagrams *captured, struct rest *rest)
+static unsigned skip_link_header(const struct captured_datagrams *captured, struct rest *rest)
 {
     static const struct {
         int link;
@@ -124,21 +124,21 @@ static unsigned pass_link(const struct captured_datagrams *captured, struct rest
             return 0;
         }
         type = two_bytes(rest->data + links[i].type_at);
-        pass(rest, links[i].bytes);
+        skip_bytes(rest, links[i].bytes);
         while ((type == TYPE_VLAN || type == TYPE_VLANS) && rest->size >= VLAN_BYTES) {
             type = two_bytes(rest->data + 2);
-            pass(rest, VLAN_BYTES);
+            skip_bytes(rest, VLAN_BYTES);
         }
         return type;
     }
-    if ((captured->link == DLT_NULL || captured->link == DLT_LOOP) && !pass(rest, 4)) {
+    if ((captured->link == DLT_NULL || captured->link == DLT_LOOP) && !skip_bytes(rest, 4)) {
         return 0;
     }
     return rest->size > 0 && rest->data[0] >> 4 == 6 ? TYPE_IPV6 : TYPE_IPV4;
 }
 
 /* To the UDP header. Sets what is left to what belongs to the packet: frames may be longer. */
-static bool pass_ipv4(struct rest *rest, bool *is_incomplete)
+static bool skip_ipv4_header(struct rest *rest, bool *is_incomplete)
 {
     size_t header, total;
 
@@ -155,27 +155,27 @@ static bool pass_ipv4(struct rest *rest, bool *is_incomplete)
         return false;
     }
     rest->size = total;
-    return pass(rest, header);
+    return skip_bytes(rest, header);
 }
 
 /* Without extension headers. */
-static bool pass_ipv6(struct rest *rest)
+static bool skip_ipv6_header(struct rest *rest)
 {
     if (rest->size < IPV6_BYTES || rest->data[0] >> 4 != 6 || rest->data[6] != PROTOCOL_UDP) {
         return false;
     }
-    return pass(rest, IPV6_BYTES);
+    return skip_bytes(rest, IPV6_BYTES);
 }
 
 /* A datagram's content; false where the packet is none. */
-static bool find_content(struct captured_datagrams *captured, struct rest *rest)
+static bool find_udp_content(struct captured_datagrams *captured, struct rest *rest)
 {
-    const unsigned type = pass_link(captured, rest);
+    const unsigned type = skip_link_header(captured, rest);
     bool is_incomplete = false;
     size_t size;
 
-    if (!(type == TYPE_IPV4 ? pass_ipv4(rest, &is_incomplete)
-                            : type == TYPE_IPV6 && pass_ipv6(rest)) ||
+    if (!(type == TYPE_IPV4 ? skip_ipv4_header(rest, &is_incomplete)
+                            : type == TYPE_IPV6 && skip_ipv6_header(rest)) ||
         rest->size < UDP_BYTES) {
         captured->incomplete += is_incomplete;
         return false;
@@ -186,7 +186,7 @@ static bool find_content(struct captured_datagrams *captured, struct rest *rest)
         return false;
     }
     rest->size = size;
-    return pass(rest, UDP_BYTES) && rest->size > 0;
+    return skip_bytes(rest, UDP_BYTES) && rest->size > 0;
 }
 
 /* ---- Packets ---- */
@@ -201,7 +201,7 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
     while ((got = pcap_next_ex(captured->capture, &header, &bytes)) == 1) {
         struct rest rest = {bytes, header->caplen};
         captured->packets++;
-        if (find_content(captured, &rest)) {
+        if (find_udp_content(captured, &rest)) {
             *data = rest.data;
             *size = rest.size;
             return true;
@@ -215,17 +215,17 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
     return false;
 }
 
-uint64_t captured_datagrams_packet(const struct captured_datagrams *captured)
+uint64_t captured_datagrams_packet_number(const struct captured_datagrams *captured)
 {
     return captured->packets;
 }
 
-const char *captured_datagrams_cut(const struct captured_datagrams *captured)
+const char *captured_datagrams_why_cut(const struct captured_datagrams *captured)
 {
     return captured->is_cut ? pcap_geterr(captured->capture) : NULL;
 }
 
-uint64_t captured_datagrams_incomplete(const struct captured_datagrams *captured)
+uint64_t captured_datagrams_num_incomplete(const struct captured_datagrams *captured)
 {
     return captured->incomplete;
 }

@@ -31,13 +31,13 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
                              const uint8_t **data, size_t *size);
 
 /* The number of the packet that was read last, from 1 on, as Wireshark counts. */
-uint64_t captured_datagrams_packet(const struct captured_datagrams *captured);
+uint64_t captured_datagrams_packet_number(const struct captured_datagrams *captured);
 
 /* How many were left out so far, as a part of them is not there. */
-uint64_t captured_datagrams_incomplete(const struct captured_datagrams *captured);
+uint64_t captured_datagrams_num_incomplete(const struct captured_datagrams *captured);
 
 /* Why it could not be read to its end; NULL: it was. */
-const char *captured_datagrams_cut(const struct captured_datagrams *captured);
+const char *captured_datagrams_why_cut(const struct captured_datagrams *captured);
 
 void captured_datagrams_close(struct captured_datagrams *captured);
 

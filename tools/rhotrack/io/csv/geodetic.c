@@ -33,24 +33,25 @@ struct geodetic {
 
 /* ---- Columns ---- */
 
-static void refuse_both(const struct table *table, const char *first, const char *second)
+static void refuse_both_columns(const struct table *table, const char *first, const char *second)
 {
-    if (table_find(table, first) >= 0 && table_find(table, second) >= 0) {
-        table_fail(table, TABLE_HEADER, "both '%s' and '%s' are there", first, second);
+    if (table_find_column(table, first) >= 0 && table_find_column(table, second) >= 0) {
+        table_fail_at_row(table, TABLE_HEADER, "both '%s' and '%s' are there", first, second);
     }
 }
 
-static void refuse_pairs(const struct table *table, const char *const (*pairs)[2], size_t count)
+static void refuse_column_pairs(const struct table *table, const char *const (*pairs)[2],
+                                size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        refuse_both(table, pairs[i][0], pairs[i][1]);
+        refuse_both_columns(table, pairs[i][0], pairs[i][1]);
     }
 }
 
-static void refuse_without(const struct table *table, const char *name, const char *other)
+static void refuse_column_without(const struct table *table, const char *name, const char *other)
 {
-    if (table_find(table, name) >= 0 && table_find(table, other) < 0) {
-        table_fail(table, TABLE_HEADER, "no column '%s' beside '%s'", other, name);
+    if (table_find_column(table, name) >= 0 && table_find_column(table, other) < 0) {
+        table_fail_at_row(table, TABLE_HEADER, "no column '%s' beside '%s'", other, name);
     }
 }
 
@@ -61,7 +62,7 @@ static void check_polar_columns(const struct table *table)
                                            {"alt_m", "elevation_rad"},
                                            {"alt_m", "elevation_deg"}};
 
-    refuse_pairs(table, pairs, sizeof pairs / sizeof *pairs);
+    refuse_column_pairs(table, pairs, sizeof pairs / sizeof *pairs);
 }
 
 static void check_place_columns(const struct table *table)
@@ -70,9 +71,9 @@ static void check_place_columns(const struct table *table)
                                            {"lat_deg", "z_m"}, {"lon_deg", "x_m"},
                                            {"lon_deg", "y_m"}, {"lon_deg", "z_m"}};
 
-    refuse_pairs(table, pairs, sizeof pairs / sizeof *pairs);
-    row_need_both(table, "lat_deg", "lon_deg");
-    refuse_without(table, "alt_m", "lat_deg");
+    refuse_column_pairs(table, pairs, sizeof pairs / sizeof *pairs);
+    row_need_both_columns(table, "lat_deg", "lon_deg");
+    refuse_column_without(table, "alt_m", "lat_deg");
 }
 
 static void check_sensor_columns(const struct table *table)
@@ -82,15 +83,15 @@ static void check_sensor_columns(const struct table *table)
                                            {"sensor_lat_deg", "sensor_z_m"},
                                            {"sensor_alt_m", "sensor_z_m"}};
 
-    refuse_pairs(table, pairs, sizeof pairs / sizeof *pairs);
-    row_need_both(table, "sensor_lat_deg", "sensor_lon_deg");
+    refuse_column_pairs(table, pairs, sizeof pairs / sizeof *pairs);
+    row_need_both_columns(table, "sensor_lat_deg", "sensor_lon_deg");
 }
 
 static void need_origin(const struct table *table, const struct parameters *parameters,
                         const char *column)
 {
-    if (!parameters_has_origin(parameters) && table_find(table, column) >= 0) {
-        table_fail(table, TABLE_HEADER, "column '%s': %s", column, parameters_no_origin);
+    if (!parameters_has_origin(parameters) && table_find_column(table, column) >= 0) {
+        table_fail_at_row(table, TABLE_HEADER, "column '%s': %s", column, parameters_no_origin);
     }
 }
 
@@ -99,17 +100,17 @@ struct geodetic *geodetic_open(const struct table *table, const struct parameter
     struct geodetic *geodetic = must_calloc(1, sizeof *geodetic);
 
     *geodetic = (struct geodetic){.parameters = parameters,
-                                  .is_polar = table_find(table, "range_m") >= 0,
-                                  .lat_deg = table_find(table, "lat_deg"),
-                                  .lon_deg = table_find(table, "lon_deg"),
-                                  .alt_m = table_find(table, "alt_m"),
-                                  .sigma_alt_m = table_find(table, "sigma_alt_m"),
-                                  .sensor_x_m = table_find(table, "sensor_x_m"),
-                                  .sensor_y_m = table_find(table, "sensor_y_m"),
-                                  .sensor_z_m = table_find(table, "sensor_z_m"),
-                                  .sensor_lat_deg = table_find(table, "sensor_lat_deg"),
-                                  .sensor_lon_deg = table_find(table, "sensor_lon_deg"),
-                                  .sensor_alt_m = table_find(table, "sensor_alt_m")};
+                                  .is_polar = table_find_column(table, "range_m") >= 0,
+                                  .lat_deg = table_find_column(table, "lat_deg"),
+                                  .lon_deg = table_find_column(table, "lon_deg"),
+                                  .alt_m = table_find_column(table, "alt_m"),
+                                  .sigma_alt_m = table_find_column(table, "sigma_alt_m"),
+                                  .sensor_x_m = table_find_column(table, "sensor_x_m"),
+                                  .sensor_y_m = table_find_column(table, "sensor_y_m"),
+                                  .sensor_z_m = table_find_column(table, "sensor_z_m"),
+                                  .sensor_lat_deg = table_find_column(table, "sensor_lat_deg"),
+                                  .sensor_lon_deg = table_find_column(table, "sensor_lon_deg"),
+                                  .sensor_alt_m = table_find_column(table, "sensor_alt_m")};
     if (geodetic->is_polar) {
         check_polar_columns(table);
     } else {
@@ -134,7 +135,7 @@ void geodetic_close(struct geodetic *geodetic)
 }
 
 /* PROJ takes its time to begin: not before there is a place. */
-static const struct local_frame *origin_of(struct geodetic *geodetic)
+static const struct local_frame *origin_frame(struct geodetic *geodetic)
 {
     if (!geodetic->origin) {
         geodetic->origin = parameters_open_origin(geodetic->parameters);
@@ -142,7 +143,7 @@ static const struct local_frame *origin_of(struct geodetic *geodetic)
     return geodetic->origin;
 }
 
-bool geodetic_has_places(const struct geodetic *geodetic)
+bool geodetic_has_place_columns(const struct geodetic *geodetic)
 {
     return geodetic && !geodetic->is_polar && geodetic->lat_deg >= 0;
 }
@@ -153,13 +154,14 @@ bool geodetic_has_places(const struct geodetic *geodetic)
 static bool read_geodetic(const struct row_check *check, int lat_deg, int lon_deg, int alt_m,
                           double geodetic[3])
 {
-    return row_double(check, lat_deg, -90, 90, &geodetic[0]) &&
-           row_double(check, lon_deg, LON_MIN_DEG, LON_MAX_DEG, &geodetic[1]) &&
-           (!row_has(check, alt_m) || row_double(check, alt_m, ALT_MIN_M, ALT_MAX_M, &geodetic[2]));
+    return row_read_double(check, lat_deg, -90, 90, &geodetic[0]) &&
+           row_read_double(check, lon_deg, LON_MIN_DEG, LON_MAX_DEG, &geodetic[1]) &&
+           (!row_has_cell(check, alt_m) ||
+            row_read_double(check, alt_m, ALT_MIN_M, ALT_MAX_M, &geodetic[2]));
 }
 
-static bool check_distance(const struct row_check *check, int lat_deg, const double geodetic[3],
-                           const double place_m[3])
+static bool check_distance_to_origin(const struct row_check *check, int lat_deg,
+                                     const double geodetic[3], const double place_m[3])
 {
     double distance_m = hypot(hypot(place_m[0], place_m[1]), place_m[2]);
 
@@ -169,23 +171,23 @@ static bool check_distance(const struct row_check *check, int lat_deg, const dou
                       (double)RHO_LIMIT_POSITION_M / 1000);
 }
 
-bool geodetic_is_said(const struct geodetic *geodetic, const struct row_check *check)
+bool geodetic_row_has_place(const struct geodetic *geodetic, const struct row_check *check)
 {
-    return row_has(check, geodetic->lat_deg) || row_has(check, geodetic->lon_deg) ||
-           row_has(check, geodetic->alt_m);
+    return row_has_cell(check, geodetic->lat_deg) || row_has_cell(check, geodetic->lon_deg) ||
+           row_has_cell(check, geodetic->alt_m);
 }
 
-bool geodetic_place(struct geodetic *geodetic, const struct row_check *check, double place_m[3],
-                    bool *has_alt)
+bool geodetic_read_place(struct geodetic *geodetic, const struct row_check *check,
+                         double place_m[3], bool *has_alt)
 {
     double on_earth[3] = {0, 0, geodetic->parameters->value[PARAMETER_ORIGIN_ALT_M]};
 
-    *has_alt = row_has(check, geodetic->alt_m);
+    *has_alt = row_has_cell(check, geodetic->alt_m);
     if (!read_geodetic(check, geodetic->lat_deg, geodetic->lon_deg, geodetic->alt_m, on_earth)) {
         return false;
     }
-    local_frame_to_local(origin_of(geodetic), on_earth, place_m);
-    if (!check_distance(check, geodetic->lat_deg, on_earth, place_m)) {
+    local_frame_to_local(origin_frame(geodetic), on_earth, place_m);
+    if (!check_distance_to_origin(check, geodetic->lat_deg, on_earth, place_m)) {
         return false;
     }
     place_m[2] = *has_alt ? place_m[2] : 0.0;
@@ -219,15 +221,15 @@ static bool is_same_place(const double one[3], const double other[3])
 }
 
 /* Its frame, made anew where the radar is not the one that was kept there, or has moved. */
-static const struct radar_frame *have_radar(struct geodetic *geodetic, int32_t sensor_id,
-                                            bool has_own_north, const double on_earth[3])
+static const struct radar_frame *radar_frame_of_sensor(struct geodetic *geodetic, int32_t sensor_id,
+                                                       bool has_own_north, const double on_earth[3])
 {
     struct kept_radar *radar = find_radar(geodetic, sensor_id, has_own_north);
 
     if (!radar->frame || radar->sensor_id != sensor_id || radar->has_own_north != has_own_north ||
         !is_same_place(radar->geodetic, on_earth)) {
         radar_frame_close(radar->frame);
-        radar->frame = radar_frame_open(origin_of(geodetic), on_earth, has_own_north);
+        radar->frame = radar_frame_open(origin_frame(geodetic), on_earth, has_own_north);
         radar->sensor_id = sensor_id;
         radar->has_own_north = has_own_north;
         memcpy(radar->geodetic, on_earth, sizeof radar->geodetic);
@@ -236,62 +238,64 @@ static const struct radar_frame *have_radar(struct geodetic *geodetic, int32_t s
 }
 
 /* The row's place, else the parameters'. *is_said false: neither is on the earth. */
-static bool find_place(const struct geodetic *geodetic, const struct row_check *check,
-                       int32_t sensor_id, double on_earth[3], bool *is_said)
+static bool find_radar_place(const struct geodetic *geodetic, const struct row_check *check,
+                             int32_t sensor_id, double on_earth[3], bool *is_said)
 {
     const struct parameters *parameters = geodetic->parameters;
     bool has_known = parameters_sensor_on_earth(parameters, sensor_id, on_earth);
 
-    *is_said = row_has(check, geodetic->sensor_lat_deg) || row_has(check, geodetic->sensor_lon_deg);
+    *is_said = row_has_cell(check, geodetic->sensor_lat_deg) ||
+               row_has_cell(check, geodetic->sensor_lon_deg);
     if (*is_said) {
         on_earth[2] = has_known ? on_earth[2] : parameters->value[PARAMETER_ORIGIN_ALT_M];
         return read_geodetic(check, geodetic->sensor_lat_deg, geodetic->sensor_lon_deg,
                              geodetic->sensor_alt_m, on_earth);
     }
-    *is_said =
-        has_known && !row_has(check, geodetic->sensor_x_m) && !row_has(check, geodetic->sensor_y_m);
-    if (*is_said && row_has(check, geodetic->sensor_z_m)) {
+    *is_said = has_known && !row_has_cell(check, geodetic->sensor_x_m) &&
+               !row_has_cell(check, geodetic->sensor_y_m);
+    if (*is_said && row_has_cell(check, geodetic->sensor_z_m)) {
         return row_refuse(check, "sensor_z_m is there, and the sensor's place is said by lat_deg "
                                  "and lon_deg, beside which sensor_alt_m goes");
     }
-    if (*is_said && row_has(check, geodetic->sensor_alt_m)) {
-        return row_double(check, geodetic->sensor_alt_m, ALT_MIN_M, ALT_MAX_M, &on_earth[2]);
+    if (*is_said && row_has_cell(check, geodetic->sensor_alt_m)) {
+        return row_read_double(check, geodetic->sensor_alt_m, ALT_MIN_M, ALT_MAX_M, &on_earth[2]);
     }
-    return *is_said || !row_has(check, geodetic->sensor_alt_m) ||
+    return *is_said || !row_has_cell(check, geodetic->sensor_alt_m) ||
            row_refuse(check, "sensor_alt_m is there, and neither sensor_lat_deg nor the sensor's "
                              "parameter lat_deg");
 }
 
-bool geodetic_radar(struct geodetic *geodetic, const struct row_check *check, int32_t sensor_id,
-                    const struct radar_frame **frame)
+bool geodetic_find_radar_frame(struct geodetic *geodetic, const struct row_check *check,
+                               int32_t sensor_id, const struct radar_frame **frame)
 {
     double on_earth[3] = {0, 0, 0};
     bool is_said = false;
 
     *frame = NULL;
-    if (!find_place(geodetic, check, sensor_id, on_earth, &is_said)) {
+    if (!find_radar_place(geodetic, check, sensor_id, on_earth, &is_said)) {
         return false;
     }
     if (is_said) {
-        *frame = have_radar(geodetic, sensor_id, true, on_earth);
+        *frame = radar_frame_of_sensor(geodetic, sensor_id, true, on_earth);
     }
-    return !row_has(check, geodetic->sensor_lat_deg) ||
-           check_distance(check, geodetic->sensor_lat_deg, on_earth, radar_frame_place_m(*frame));
+    return !row_has_cell(check, geodetic->sensor_lat_deg) ||
+           check_distance_to_origin(check, geodetic->sensor_lat_deg, on_earth,
+                                    radar_frame_place_m(*frame));
 }
 
 /* ---- Polar plots ---- */
 
 /* With an origin a place in metres is one on the earth, too. */
-static const struct radar_frame *frame_of(struct geodetic *geodetic,
-                                          const struct geodetic_polar *polar)
+static const struct radar_frame *frame_of_polar_plot(struct geodetic *geodetic,
+                                                     const struct geodetic_polar *polar)
 {
     double on_earth[3];
 
     if (polar->frame || !parameters_has_origin(geodetic->parameters)) {
         return polar->frame;
     }
-    local_frame_to_geodetic(origin_of(geodetic), polar->place_m, on_earth);
-    return have_radar(geodetic, polar->sensor_id, false, on_earth);
+    local_frame_to_geodetic(origin_frame(geodetic), polar->place_m, on_earth);
+    return radar_frame_of_sensor(geodetic, polar->sensor_id, false, on_earth);
 }
 
 static bool read_height(const struct geodetic *geodetic, const struct row_check *check,
@@ -300,12 +304,12 @@ static bool read_height(const struct geodetic *geodetic, const struct row_check 
     const struct parameters *parameters = geodetic->parameters;
 
     height->sigma_range_m = polar->sigma_range_m;
-    height->sigma_alt_m = parameters_of_sensor(parameters, polar->sensor_id, SENSOR_SIGMA_ALT_M,
-                                               parameters->value[PARAMETER_SIGMA_ALT_M]);
-    return row_double(check, geodetic->alt_m, ALT_MIN_M, ALT_MAX_M, &height->alt_m) &&
-           (!row_has(check, geodetic->sigma_alt_m) ||
-            row_double(check, geodetic->sigma_alt_m, (double)RHO_LIMIT_SIGMA_MIN,
-                       (double)RHO_LIMIT_SIGMA_MAX, &height->sigma_alt_m));
+    height->sigma_alt_m = parameters_value_of_sensor(
+        parameters, polar->sensor_id, SENSOR_SIGMA_ALT_M, parameters->value[PARAMETER_SIGMA_ALT_M]);
+    return row_read_double(check, geodetic->alt_m, ALT_MIN_M, ALT_MAX_M, &height->alt_m) &&
+           (!row_has_cell(check, geodetic->sigma_alt_m) ||
+            row_read_double(check, geodetic->sigma_alt_m, (double)RHO_LIMIT_SIGMA_MIN,
+                            (double)RHO_LIMIT_SIGMA_MAX, &height->sigma_alt_m));
 }
 
 /* The elevation is that of the range without its bias, as which the range will be taken. */
@@ -313,31 +317,32 @@ static bool read_elevation(struct geodetic *geodetic, const struct row_check *ch
                            struct geodetic_polar *polar)
 {
     double range_m = polar->look.range_m;
-    double bias_m =
-        parameters_of_sensor(geodetic->parameters, polar->sensor_id, SENSOR_RANGE_BIAS_M, 0.0);
+    double bias_m = parameters_value_of_sensor(geodetic->parameters, polar->sensor_id,
+                                               SENSOR_RANGE_BIAS_M, 0.0);
     struct radar_height height;
 
     if (!read_height(geodetic, check, polar, &height)) {
         return false;
     }
     polar->look.range_m -= bias_m;
-    polar->has_elevation = polar->look.range_m > 0 &&
-                           radar_frame_raise(frame_of(geodetic, polar), polar->place_m[2], &height,
-                                             &polar->look, &polar->sigma_elevation_rad);
+    polar->has_elevation =
+        polar->look.range_m > 0 &&
+        radar_frame_elevation_from_height(frame_of_polar_plot(geodetic, polar), polar->place_m[2],
+                                          &height, &polar->look, &polar->sigma_elevation_rad);
     polar->look.range_m = range_m;
     return polar->has_elevation ||
            row_refuse(check, "alt_m %.9g differs from the radar's height by more than range_m %.9g",
                       height.alt_m, range_m);
 }
 
-bool geodetic_polar(struct geodetic *geodetic, const struct row_check *check,
-                    struct geodetic_polar *polar)
+bool geodetic_convert_polar(struct geodetic *geodetic, const struct row_check *check,
+                            struct geodetic_polar *polar)
 {
-    if (row_has(check, geodetic->alt_m)) {
+    if (row_has_cell(check, geodetic->alt_m)) {
         return read_elevation(geodetic, check, polar);
     }
     if (polar->frame) {
-        radar_frame_turn(polar->frame, polar->has_elevation, &polar->look);
+        radar_frame_turn_look(polar->frame, polar->has_elevation, &polar->look);
     }
     return true;
 }

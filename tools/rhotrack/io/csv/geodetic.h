@@ -30,28 +30,28 @@ struct geodetic *geodetic_open(const struct table *table, const struct parameter
 void geodetic_close(struct geodetic *geodetic); /* NULL: nothing */
 
 /* lat_deg and lon_deg are there and mean places. NULL: no. */
-bool geodetic_has_places(const struct geodetic *geodetic);
+bool geodetic_has_place_columns(const struct geodetic *geodetic);
 
 /* Below, bool false: the row is bad, and the reason is set. */
 
 /* The row has anything in lat_deg, lon_deg or alt_m. */
-bool geodetic_is_said(const struct geodetic *geodetic, const struct row_check *check);
+bool geodetic_row_has_place(const struct geodetic *geodetic, const struct row_check *check);
 
 /* The place. Without alt_m it is that of the origin's height, and z_m is 0. */
-bool geodetic_place(struct geodetic *geodetic, const struct row_check *check, double place_m[3],
-                    bool *has_alt);
+bool geodetic_read_place(struct geodetic *geodetic, const struct row_check *check,
+                         double place_m[3], bool *has_alt);
 
 /*
  * The radar's frame, where its place was said on the earth, by the row or the parameters; else
  * NULL. Valid until closed.
  */
-bool geodetic_radar(struct geodetic *geodetic, const struct row_check *check, int32_t sensor_id,
-                    const struct radar_frame **frame);
+bool geodetic_find_radar_frame(struct geodetic *geodetic, const struct row_check *check,
+                               int32_t sensor_id, const struct radar_frame **frame);
 
 /* A polar plot on its way. */
 struct geodetic_polar {
     int32_t sensor_id;
-    const struct radar_frame *frame; /* as geodetic_radar found it */
+    const struct radar_frame *frame; /* as geodetic_find_radar_frame found it */
     double place_m[3];               /* of the radar */
     struct radar_look look;
     bool has_elevation;
@@ -60,7 +60,7 @@ struct geodetic_polar {
 };
 
 /* From the radar's own north to the local frame, and alt_m, if the row has it, to an elevation. */
-bool geodetic_polar(struct geodetic *geodetic, const struct row_check *check,
-                    struct geodetic_polar *polar);
+bool geodetic_convert_polar(struct geodetic *geodetic, const struct row_check *check,
+                            struct geodetic_polar *polar);
 
 #endif

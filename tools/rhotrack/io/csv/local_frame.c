@@ -79,8 +79,8 @@ void local_frame_at_height(const struct local_frame *frame, double x_m, double y
     }
 }
 
-void local_frame_between(const struct local_frame *from, const struct local_frame *to,
-                         const double place_m[3], double other_m[3])
+void local_frame_convert_place(const struct local_frame *from, const struct local_frame *to,
+                               const double place_m[3], double other_m[3])
 {
     double geodetic[3];
 
@@ -93,14 +93,15 @@ double local_frame_turn_rad(const struct local_frame *from, const struct local_f
     static const double origin_m[3] = {0, 0, 0}, north_m[3] = {0, 1000, 0};
     double origin[3], north[3];
 
-    local_frame_between(from, to, origin_m, origin);
-    local_frame_between(from, to, north_m, north);
+    local_frame_convert_place(from, to, origin_m, origin);
+    local_frame_convert_place(from, to, north_m, north);
     return atan2(origin[0] - north[0], north[1] - origin[1]);
 }
 
 /* ---- A slant range and a height ---- */
 
-static void place_at(const struct local_frame_plot *plot, double sin_elevation, double place_m[3])
+static void place_at_elevation(const struct local_frame_plot *plot, double sin_elevation,
+                               double place_m[3])
 {
     double cos_elevation = sqrt(1 - sin_elevation * sin_elevation);
 
@@ -115,8 +116,8 @@ static void place_at(const struct local_frame_plot *plot, double sin_elevation, 
  * derivative serves for Newton's method on the ellipsoid: each step is right to its flattening,
  * 1/298.
  */
-bool local_frame_from_radar(const struct local_frame *radar, const struct local_frame_plot *plot,
-                            double place_m[3])
+bool local_frame_from_range_and_height(const struct local_frame *radar,
+                                       const struct local_frame_plot *plot, double place_m[3])
 {
     enum { STEPS_MAX = 50 };
     const double tolerance_m = 1e-4;
@@ -130,7 +131,7 @@ bool local_frame_from_radar(const struct local_frame *radar, const struct local_
     for (int i = 0; i < STEPS_MAX; i++) {
         double found_m[3], geodetic[3];
 
-        place_at(plot, sine, found_m);
+        place_at_elevation(plot, sine, found_m);
         local_frame_to_geodetic(radar, found_m, geodetic);
         if (fabs(geodetic[2] - plot->alt_m) <= tolerance_m) {
             for (int axis = 0; axis < 3; axis++) {

@@ -46,12 +46,12 @@ struct local_frame_plot {
  * ellipsoid, to 0.1 mm. False, and nothing is filled, where there is no such place: the height
  * differs from the radar's by more than range_m.
  */
-bool local_frame_from_radar(const struct local_frame *radar, const struct local_frame_plot *plot,
-                            double place_m[3]);
+bool local_frame_from_range_and_height(const struct local_frame *radar,
+                                       const struct local_frame_plot *plot, double place_m[3]);
 
 /* A place of one frame in another one. The arrays may be one. */
-void local_frame_between(const struct local_frame *from, const struct local_frame *to,
-                         const double place_m[3], double other_m[3]);
+void local_frame_convert_place(const struct local_frame *from, const struct local_frame *to,
+                               const double place_m[3], double other_m[3]);
 
 /*
  * By how much the true north of `from`, at its origin, is turned in `to`, in radians

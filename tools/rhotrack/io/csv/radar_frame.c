@@ -52,11 +52,12 @@ double radar_frame_turn_rad(const struct radar_frame *frame)
 /* ---- From frame to frame ---- */
 
 /* A place of the radar's frame as a line of sight of the common one. */
-static void look_at(const struct radar_frame *frame, const double own_m[3], struct radar_look *look)
+static void look_at_place(const struct radar_frame *frame, const double own_m[3],
+                          struct radar_look *look)
 {
     double place_m[3];
 
-    local_frame_between(frame->own, frame->common, own_m, place_m);
+    local_frame_convert_place(frame->own, frame->common, own_m, place_m);
     for (int i = 0; i < 3; i++) {
         place_m[i] -= frame->place_m[i];
     }
@@ -64,7 +65,8 @@ static void look_at(const struct radar_frame *frame, const double own_m[3], stru
     look->elevation_rad = atan2(place_m[2], hypot(place_m[0], place_m[1]));
 }
 
-void radar_frame_turn(const struct radar_frame *frame, bool has_elevation, struct radar_look *look)
+void radar_frame_turn_look(const struct radar_frame *frame, bool has_elevation,
+                           struct radar_look *look)
 {
     double ground_m = look->range_m * cos(look->elevation_rad);
     const double own_m[3] = {ground_m * cos(look->azimuth_rad), ground_m * sin(look->azimuth_rad),
@@ -74,7 +76,7 @@ void radar_frame_turn(const struct radar_frame *frame, bool has_elevation, struc
         return;
     }
     if (has_elevation) {
-        look_at(frame, own_m, look);
+        look_at_place(frame, own_m, look);
     } else {
         look->azimuth_rad = remainder(look->azimuth_rad + frame->turn_rad, TURN);
     }
@@ -98,8 +100,8 @@ static double sigma_up_over_range(const struct radar_height *height, double sin_
     return fmax((double)RHO_LIMIT_SIGMA_RAD_MIN, fmin((double)RHO_LIMIT_SIGMA_RAD_MAX, sigma_rad));
 }
 
-static bool raise_flat(double radar_z_m, const struct radar_height *height, struct radar_look *look,
-                       double *sigma_elevation_rad)
+static bool elevation_on_flat_earth(double radar_z_m, const struct radar_height *height,
+                                    struct radar_look *look, double *sigma_elevation_rad)
 {
     double sine = (height->alt_m - radar_z_m) / look->range_m;
 
@@ -115,7 +117,7 @@ static bool raise_flat(double radar_z_m, const struct radar_height *height, stru
  * The elevation of the line of sight where it meets the target, on a sphere: from the triangle with
  * its centre.
  */
-static double sine_at_target(double radar_alt_m, double target_alt_m, double range_m)
+static double elevation_sine_at_target(double radar_alt_m, double target_alt_m, double range_m)
 {
     double up_m = target_alt_m - radar_alt_m, target_m = EARTH_RADIUS_M + target_alt_m;
     double sine = (up_m * (target_m + EARTH_RADIUS_M + radar_alt_m) + range_m * range_m) /
@@ -124,23 +126,24 @@ static double sine_at_target(double radar_alt_m, double target_alt_m, double ran
     return fmax(-1.0, fmin(1.0, sine));
 }
 
-bool radar_frame_raise(const struct radar_frame *frame, double radar_z_m,
-                       const struct radar_height *height, struct radar_look *look,
-                       double *sigma_elevation_rad)
+bool radar_frame_elevation_from_height(const struct radar_frame *frame, double radar_z_m,
+                                       const struct radar_height *height, struct radar_look *look,
+                                       double *sigma_elevation_rad)
 {
     struct local_frame_plot plot = {
         .range_m = look->range_m, .azimuth_rad = look->azimuth_rad, .alt_m = height->alt_m};
     double own_m[3];
 
     if (!frame) {
-        return raise_flat(radar_z_m, height, look, sigma_elevation_rad);
+        return elevation_on_flat_earth(radar_z_m, height, look, sigma_elevation_rad);
     }
     plot.azimuth_rad -= frame->has_own_north ? 0.0 : frame->turn_rad;
-    if (!local_frame_from_radar(frame->own, &plot, own_m)) {
+    if (!local_frame_from_range_and_height(frame->own, &plot, own_m)) {
         return false;
     }
-    look_at(frame, own_m, look);
+    look_at_place(frame, own_m, look);
     *sigma_elevation_rad = sigma_up_over_range(
-        height, sine_at_target(frame->alt_m, height->alt_m, look->range_m), look->range_m);
+        height, elevation_sine_at_target(frame->alt_m, height->alt_m, look->range_m),
+        look->range_m);
     return true;
 }

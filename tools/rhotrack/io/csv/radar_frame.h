@@ -43,7 +43,8 @@ struct radar_look {
  * From the radar's own frame to the common one, in place. Without elevation the azimuth is turned,
  * and that is all.
  */
-void radar_frame_turn(const struct radar_frame *frame, bool has_elevation, struct radar_look *look);
+void radar_frame_turn_look(const struct radar_frame *frame, bool has_elevation,
+                           struct radar_look *look);
 
 /* A height that goes with a range. */
 struct radar_height {
@@ -58,8 +59,8 @@ struct radar_height {
  * radar_z_m; else exact on the ellipsoid. False where there is no such place: the height differs
  * from the radar's by more than the range.
  */
-bool radar_frame_raise(const struct radar_frame *frame, double radar_z_m,
-                       const struct radar_height *height, struct radar_look *look,
-                       double *sigma_elevation_rad);
+bool radar_frame_elevation_from_height(const struct radar_frame *frame, double radar_z_m,
+                                       const struct radar_height *height, struct radar_look *look,
+                                       double *sigma_elevation_rad);
 
 #endif

@@ -14,119 +14,122 @@ struct checking {
 
 /* ---- Columns ---- */
 
-bool record_is_of_bearings(const struct table *table)
+bool record_table_has_bearings(const struct table *table)
 {
-    return table_find(table, "bearing_rad") >= 0 && table_find(table, "x_m") < 0 &&
-           table_find(table, "range_m") < 0;
+    return table_find_column(table, "bearing_rad") >= 0 && table_find_column(table, "x_m") < 0 &&
+           table_find_column(table, "range_m") < 0;
 }
 
 /* Other kinds of files have other columns: say so rather than that x_m is missing. */
-static void check_plots(const struct table *table)
+static void check_plot_columns(const struct table *table)
 {
-    if (table_find(table, "x_m") < 0 && table_find(table, "range_m") < 0 &&
-        table_find(table, "bearing_rad") >= 0) {
-        table_fail(table, TABLE_HEADER,
-                   "bearings, which are not read from a pipe (column 'bearing_rad'): Cartesian and "
-                   "polar plots are read here, columns 'x_m' and 'y_m' are missing");
+    if (table_find_column(table, "x_m") < 0 && table_find_column(table, "range_m") < 0 &&
+        table_find_column(table, "bearing_rad") >= 0) {
+        table_fail_at_row(
+            table, TABLE_HEADER,
+            "bearings, which are not read from a pipe (column 'bearing_rad'): Cartesian and "
+            "polar plots are read here, columns 'x_m' and 'y_m' are missing");
     }
 }
 
-static void check_not_both(const struct table *table, int first, int second)
+static void check_not_both_columns(const struct table *table, int first, int second)
 {
     if (first >= 0 && second >= 0) {
-        table_fail(table, TABLE_HEADER, "both '%s' and '%s' are there", table->names[first],
-                   table->names[second]);
+        table_fail_at_row(table, TABLE_HEADER, "both '%s' and '%s' are there", table->names[first],
+                          table->names[second]);
     }
 }
 
 /* Other kinds of files have other columns: say so rather than that bearing_rad is missing. */
-static void check_bearings(const struct table *table)
+static void check_bearing_columns(const struct table *table)
 {
     static const char *const others[][2] = {{"x_m", "plots, which are no bearings"},
                                             {"range_m", "polar plots, which are no bearings"}};
 
-    if (table_find(table, "bearing_rad") >= 0) {
+    if (table_find_column(table, "bearing_rad") >= 0) {
         return;
     }
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        if (table_find(table, others[i][0]) >= 0) {
-            table_fail(table, TABLE_HEADER, "%s (column '%s'): column 'bearing_rad' is missing",
-                       others[i][1], others[i][0]);
+        if (table_find_column(table, others[i][0]) >= 0) {
+            table_fail_at_row(table, TABLE_HEADER,
+                              "%s (column '%s'): column 'bearing_rad' is missing", others[i][1],
+                              others[i][0]);
         }
     }
 }
 
-static struct record_columns find_bearings(const struct table *table)
+static struct record_columns find_bearing_columns(const struct table *table)
 {
-    check_bearings(table);
-    row_need_both(table, "sector_from_rad", "sector_to_rad");
+    check_bearing_columns(table);
+    row_need_both_columns(table, "sector_from_rad", "sector_to_rad");
     return (struct record_columns){
         .is_bearings = true,
-        .t_s = table_need(table, "t_s"),
+        .t_s = table_need_column(table, "t_s"),
         .received_s = -1,
-        .sensor_id = table_need(table, "sensor_id"),
-        .sensor_x_m = table_need(table, "sensor_x_m"),
-        .sensor_y_m = table_need(table, "sensor_y_m"),
-        .bearing_rad = table_need(table, "bearing_rad"),
-        .sigma_rad = table_find(table, "sigma_rad"),
-        .sector_from_rad = table_find(table, "sector_from_rad"),
-        .sector_to_rad = table_find(table, "sector_to_rad"),
-        .snr_db = table_find(table, "snr_db"),
-        .scan = table_find(table, "scan"),
-        .epoch = table_find(table, "epoch"),
+        .sensor_id = table_need_column(table, "sensor_id"),
+        .sensor_x_m = table_need_column(table, "sensor_x_m"),
+        .sensor_y_m = table_need_column(table, "sensor_y_m"),
+        .bearing_rad = table_need_column(table, "bearing_rad"),
+        .sigma_rad = table_find_column(table, "sigma_rad"),
+        .sector_from_rad = table_find_column(table, "sector_from_rad"),
+        .sector_to_rad = table_find_column(table, "sector_to_rad"),
+        .snr_db = table_find_column(table, "snr_db"),
+        .scan = table_find_column(table, "scan"),
+        .epoch = table_find_column(table, "epoch"),
     };
 }
 
-static struct record_columns find_plots(const struct table *table,
-                                        const struct parameters *parameters, bool needs_sensor)
+static struct record_columns
+find_plot_columns(const struct table *table, const struct parameters *parameters, bool needs_sensor)
 {
     struct record_columns columns;
     bool is_polar, has_no_xy;
 
-    check_plots(table);
-    is_polar = table_find(table, "range_m") >= 0;
-    has_no_xy = is_polar || table_find(table, "lat_deg") >= 0;
+    check_plot_columns(table);
+    is_polar = table_find_column(table, "range_m") >= 0;
+    has_no_xy = is_polar || table_find_column(table, "lat_deg") >= 0;
     columns = (struct record_columns){
-        .t_s = table_need(table, "t_s"),
-        .received_s = table_find(table, "received_s"),
-        .sensor_id = needs_sensor && parameters->num_sensors > 0 ? table_need(table, "sensor_id")
-                                                                 : table_find(table, "sensor_id"),
-        .x_m = has_no_xy ? table_find(table, "x_m") : table_need(table, "x_m"),
-        .y_m = has_no_xy ? -1 : table_need(table, "y_m"),
-        .z_m = is_polar ? -1 : table_find(table, "z_m"),
-        .vx_mps = is_polar ? -1 : table_find(table, "vx_mps"),
-        .vy_mps = is_polar ? -1 : table_find(table, "vy_mps"),
-        .vz_mps = is_polar ? -1 : table_find(table, "vz_mps"),
-        .sigma_m = table_find(table, "sigma_m"),
-        .sigma_mps = table_find(table, "sigma_mps"),
-        .range_m = table_find(table, "range_m"),
-        .azimuth_rad = table_find(table, "azimuth_rad"),
-        .azimuth_deg = table_find(table, "azimuth_deg"),
-        .elevation_rad = table_find(table, "elevation_rad"),
-        .elevation_deg = table_find(table, "elevation_deg"),
-        .range_rate_mps = table_find(table, "range_rate_mps"),
-        .sigma_range_m = table_find(table, "sigma_range_m"),
-        .sigma_azimuth_rad = table_find(table, "sigma_azimuth_rad"),
-        .sigma_elevation_rad = table_find(table, "sigma_elevation_rad"),
-        .sigma_range_rate_mps = table_find(table, "sigma_range_rate_mps"),
-        .sensor_x_m = table_find(table, "sensor_x_m"),
-        .sensor_y_m = table_find(table, "sensor_y_m"),
-        .sensor_z_m = table_find(table, "sensor_z_m"),
-        .sector_from_rad = table_find(table, "sector_from_rad"),
-        .sector_to_rad = table_find(table, "sector_to_rad"),
-        .snr_db = table_find(table, "snr_db"),
-        .scan = table_find(table, "scan"),
-        .epoch = table_find(table, "epoch"),
+        .t_s = table_need_column(table, "t_s"),
+        .received_s = table_find_column(table, "received_s"),
+        .sensor_id = needs_sensor && parameters->num_sensors > 0
+                         ? table_need_column(table, "sensor_id")
+                         : table_find_column(table, "sensor_id"),
+        .x_m = has_no_xy ? table_find_column(table, "x_m") : table_need_column(table, "x_m"),
+        .y_m = has_no_xy ? -1 : table_need_column(table, "y_m"),
+        .z_m = is_polar ? -1 : table_find_column(table, "z_m"),
+        .vx_mps = is_polar ? -1 : table_find_column(table, "vx_mps"),
+        .vy_mps = is_polar ? -1 : table_find_column(table, "vy_mps"),
+        .vz_mps = is_polar ? -1 : table_find_column(table, "vz_mps"),
+        .sigma_m = table_find_column(table, "sigma_m"),
+        .sigma_mps = table_find_column(table, "sigma_mps"),
+        .range_m = table_find_column(table, "range_m"),
+        .azimuth_rad = table_find_column(table, "azimuth_rad"),
+        .azimuth_deg = table_find_column(table, "azimuth_deg"),
+        .elevation_rad = table_find_column(table, "elevation_rad"),
+        .elevation_deg = table_find_column(table, "elevation_deg"),
+        .range_rate_mps = table_find_column(table, "range_rate_mps"),
+        .sigma_range_m = table_find_column(table, "sigma_range_m"),
+        .sigma_azimuth_rad = table_find_column(table, "sigma_azimuth_rad"),
+        .sigma_elevation_rad = table_find_column(table, "sigma_elevation_rad"),
+        .sigma_range_rate_mps = table_find_column(table, "sigma_range_rate_mps"),
+        .sensor_x_m = table_find_column(table, "sensor_x_m"),
+        .sensor_y_m = table_find_column(table, "sensor_y_m"),
+        .sensor_z_m = table_find_column(table, "sensor_z_m"),
+        .sector_from_rad = table_find_column(table, "sector_from_rad"),
+        .sector_to_rad = table_find_column(table, "sector_to_rad"),
+        .snr_db = table_find_column(table, "snr_db"),
+        .scan = table_find_column(table, "scan"),
+        .epoch = table_find_column(table, "epoch"),
     };
-    check_not_both(table, columns.range_m, columns.x_m);
-    check_not_both(table, columns.azimuth_rad, columns.azimuth_deg);
-    check_not_both(table, columns.elevation_rad, columns.elevation_deg);
+    check_not_both_columns(table, columns.range_m, columns.x_m);
+    check_not_both_columns(table, columns.azimuth_rad, columns.azimuth_deg);
+    check_not_both_columns(table, columns.elevation_rad, columns.elevation_deg);
     if (is_polar && columns.azimuth_deg < 0) {
-        (void)table_need(table, "azimuth_rad");
+        (void)table_need_column(table, "azimuth_rad");
     }
-    row_need_both(table, "sensor_x_m", "sensor_y_m");
-    row_need_both(table, "vx_mps", "vy_mps");
-    row_need_both(table, "sector_from_rad", "sector_to_rad");
+    row_need_both_columns(table, "sensor_x_m", "sensor_y_m");
+    row_need_both_columns(table, "vx_mps", "vy_mps");
+    row_need_both_columns(table, "sector_from_rad", "sector_to_rad");
     columns.geodetic = geodetic_open(table, parameters);
     return columns;
 }
@@ -135,8 +138,8 @@ struct record_columns record_columns_find(const struct table *table,
                                           const struct parameters *parameters,
                                           enum record_kind kind, bool needs_sensor)
 {
-    return kind == RECORD_BEARINGS ? find_bearings(table)
-                                   : find_plots(table, parameters, needs_sensor);
+    return kind == RECORD_BEARINGS ? find_bearing_columns(table)
+                                   : find_plot_columns(table, parameters, needs_sensor);
 }
 
 void record_columns_free(struct record_columns *columns)
@@ -149,7 +152,8 @@ void record_columns_free(struct record_columns *columns)
 
 static bool read_speed(const struct checking *checking, int column, float *value)
 {
-    return row_float(&checking->cells, column, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS, value);
+    return row_read_float(&checking->cells, column, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS,
+                          value);
 }
 
 /* ---- Rows ---- */
@@ -157,9 +161,9 @@ static bool read_speed(const struct checking *checking, int column, float *value
 static bool read_velocity(const struct checking *checking, struct record *row)
 {
     const struct record_columns *columns = checking->columns;
-    bool has_vx = row_has(&checking->cells, columns->vx_mps),
-         has_vy = row_has(&checking->cells, columns->vy_mps);
-    bool has_vz = row_has(&checking->cells, columns->vz_mps);
+    bool has_vx = row_has_cell(&checking->cells, columns->vx_mps),
+         has_vy = row_has_cell(&checking->cells, columns->vy_mps);
+    bool has_vz = row_has_cell(&checking->cells, columns->vz_mps);
 
     if (!has_vx && !has_vy && !has_vz) {
         return true;
@@ -180,8 +184,9 @@ static bool read_velocity(const struct checking *checking, struct record *row)
 /* A sigma: the row's own, else the sensor's, else the one for all. */
 static bool read_sigma(const struct checking *checking, int column, double otherwise, float *value)
 {
-    if (row_has(&checking->cells, column)) {
-        return row_float(&checking->cells, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX, value);
+    if (row_has_cell(&checking->cells, column)) {
+        return row_read_float(&checking->cells, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX,
+                              value);
     }
     *value = (float)otherwise;
     return true;
@@ -192,10 +197,11 @@ static bool read_range_rate(const struct checking *checking, const struct parame
                             int32_t sensor_id, uint32_t *measures, float *rate_mps,
                             float *sigma_mps)
 {
-    double otherwise = parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_RATE_MPS,
-                                            parameters->value[PARAMETER_SIGMA_RANGE_RATE_MPS]);
+    double otherwise =
+        parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_RATE_MPS,
+                                   parameters->value[PARAMETER_SIGMA_RANGE_RATE_MPS]);
 
-    if (!row_has(&checking->cells, checking->columns->range_rate_mps)) {
+    if (!row_has_cell(&checking->cells, checking->columns->range_rate_mps)) {
         return true;
     }
     *measures |= RHO_MEASURES_RANGE_RATE;
@@ -206,10 +212,10 @@ static bool read_range_rate(const struct checking *checking, const struct parame
 static bool read_sigmas(const struct checking *checking, const struct parameters *parameters,
                         struct record *row)
 {
-    double sigma_m = parameters_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_M,
-                                          parameters->value[PARAMETER_SIGMA_M]);
-    double sigma_mps = parameters_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_MPS,
-                                            parameters->value[PARAMETER_SIGMA_MPS]);
+    double sigma_m = parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_M,
+                                                parameters->value[PARAMETER_SIGMA_M]);
+    double sigma_mps = parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_MPS,
+                                                  parameters->value[PARAMETER_SIGMA_MPS]);
     struct rho_plot *plot = &row->plot;
 
     if (!read_sigma(checking, checking->columns->sigma_m, sigma_m, &plot->sigma_range_m) ||
@@ -224,7 +230,7 @@ static bool read_geodetic(const struct checking *checking, struct rho_plot *plot
 {
     double place_m[3];
 
-    if (!geodetic_place(checking->columns->geodetic, &checking->cells, place_m, has_z)) {
+    if (!geodetic_read_place(checking->columns->geodetic, &checking->cells, place_m, has_z)) {
         return false;
     }
     plot->x_m = (float)place_m[0];
@@ -237,17 +243,17 @@ static bool read_place(const struct checking *checking, struct rho_plot *plot, b
 {
     const struct record_columns *columns = checking->columns;
 
-    if (geodetic_has_places(columns->geodetic)) {
+    if (geodetic_has_place_columns(columns->geodetic)) {
         return read_geodetic(checking, plot, has_z);
     }
-    *has_z = row_has(&checking->cells, columns->z_m);
-    return row_position(&checking->cells, columns->x_m, &plot->x_m) &&
-           row_position(&checking->cells, columns->y_m, &plot->y_m) &&
-           (!*has_z || row_position(&checking->cells, columns->z_m, &plot->z_m));
+    *has_z = row_has_cell(&checking->cells, columns->z_m);
+    return row_read_position(&checking->cells, columns->x_m, &plot->x_m) &&
+           row_read_position(&checking->cells, columns->y_m, &plot->y_m) &&
+           (!*has_z || row_read_position(&checking->cells, columns->z_m, &plot->z_m));
 }
 
-static bool read_plot(const struct checking *checking, const struct parameters *parameters,
-                      struct record *row)
+static bool read_cartesian_plot(const struct checking *checking,
+                                const struct parameters *parameters, struct record *row)
 {
     bool has_z = false;
 
@@ -259,7 +265,7 @@ static bool read_plot(const struct checking *checking, const struct parameters *
     return read_velocity(checking, row) && read_sigmas(checking, parameters, row) &&
            read_range_rate(checking, parameters, row->sensor_id, &row->measures,
                            &row->plot.range_rate_mps, &row->plot.sigma_range_rate_mps) &&
-           row_snr(&checking->cells, checking->columns->snr_db, &row->plot.snr_db);
+           row_read_snr(&checking->cells, checking->columns->snr_db, &row->plot.snr_db);
 }
 
 /* ---- Polar rows ---- */
@@ -271,15 +277,15 @@ static bool read_range(const struct checking *checking, float *range_m)
 {
     int column = checking->columns->range_m;
 
-    if (!row_float(&checking->cells, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
-                   range_m)) {
+    if (!row_read_float(&checking->cells, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
+                        range_m)) {
         return false;
     }
     return *range_m > 0.0f || row_refuse_cell(&checking->cells, column, "is not above 0");
 }
 
 /* Clockwise from north, in degrees, as counter-clockwise from east in radians. */
-static float from_compass(float azimuth_deg)
+static float radians_from_compass_deg(float azimuth_deg)
 {
     double azimuth_rad = PI / 2 - (double)azimuth_deg * DEG_RAD;
 
@@ -292,13 +298,13 @@ static bool read_azimuth(const struct checking *checking, float *azimuth_rad)
     float azimuth_deg = 0.0f;
 
     if (columns->azimuth_deg < 0) {
-        return row_angle(&checking->cells, columns->azimuth_rad, azimuth_rad);
+        return row_read_angle(&checking->cells, columns->azimuth_rad, azimuth_rad);
     }
-    if (!row_float(&checking->cells, columns->azimuth_deg, -(float)ROW_ANGLE_MAX,
-                   (float)ROW_ANGLE_MAX, &azimuth_deg)) {
+    if (!row_read_float(&checking->cells, columns->azimuth_deg, -(float)ROW_ANGLE_MAX,
+                        (float)ROW_ANGLE_MAX, &azimuth_deg)) {
         return false;
     }
-    *azimuth_rad = from_compass(azimuth_deg);
+    *azimuth_rad = radians_from_compass_deg(azimuth_deg);
     return true;
 }
 
@@ -307,14 +313,15 @@ static bool read_elevation(const struct checking *checking, uint32_t *measures,
 {
     const struct record_columns *columns = checking->columns;
 
-    if (row_has(&checking->cells, columns->elevation_rad)) {
+    if (row_has_cell(&checking->cells, columns->elevation_rad)) {
         *measures |= RHO_MEASURES_Z;
-        return row_float(&checking->cells, columns->elevation_rad, -(float)(PI / 2),
-                         (float)(PI / 2), elevation_rad);
+        return row_read_float(&checking->cells, columns->elevation_rad, -(float)(PI / 2),
+                              (float)(PI / 2), elevation_rad);
     }
-    if (row_has(&checking->cells, columns->elevation_deg)) {
+    if (row_has_cell(&checking->cells, columns->elevation_deg)) {
         *measures |= RHO_MEASURES_Z;
-        if (!row_float(&checking->cells, columns->elevation_deg, -90.0f, 90.0f, elevation_rad)) {
+        if (!row_read_float(&checking->cells, columns->elevation_deg, -90.0f, 90.0f,
+                            elevation_rad)) {
             return false;
         }
         *elevation_rad = (float)((double)*elevation_rad * DEG_RAD);
@@ -329,25 +336,27 @@ static bool read_polar_sigmas(const struct checking *checking, const struct para
     const double *value = parameters->value;
 
     return read_sigma(checking, columns->sigma_range_m,
-                      parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
-                                           value[PARAMETER_SIGMA_RANGE_M]),
+                      parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
+                                                 value[PARAMETER_SIGMA_RANGE_M]),
                       &polar->sigma_range_m) &&
-           row_sigma_rad(&checking->cells, columns->sigma_azimuth_rad,
-                         parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_AZIMUTH_RAD,
-                                              value[PARAMETER_SIGMA_AZIMUTH_RAD]),
-                         &polar->sigma_azimuth_rad) &&
-           row_sigma_rad(&checking->cells, columns->sigma_elevation_rad,
-                         parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_ELEVATION_RAD,
-                                              value[PARAMETER_SIGMA_ELEVATION_RAD]),
-                         &polar->sigma_elevation_rad);
+           row_read_sigma_rad(&checking->cells, columns->sigma_azimuth_rad,
+                              parameters_value_of_sensor(parameters, sensor_id,
+                                                         SENSOR_SIGMA_AZIMUTH_RAD,
+                                                         value[PARAMETER_SIGMA_AZIMUTH_RAD]),
+                              &polar->sigma_azimuth_rad) &&
+           row_read_sigma_rad(&checking->cells, columns->sigma_elevation_rad,
+                              parameters_value_of_sensor(parameters, sensor_id,
+                                                         SENSOR_SIGMA_ELEVATION_RAD,
+                                                         value[PARAMETER_SIGMA_ELEVATION_RAD]),
+                              &polar->sigma_elevation_rad);
 }
 
 /*
  * Turns the radar's angles from its own level frame into the local frame; a height that is known
  * otherwise gives the elevation.
  */
-static bool to_local(const struct checking *checking, const struct record *row, uint32_t *measures,
-                     struct rho_polar_plot *polar)
+static bool turn_to_local_frame(const struct checking *checking, const struct record *row,
+                                uint32_t *measures, struct rho_polar_plot *polar)
 {
     struct geodetic_polar seen = {
         .sensor_id = row->sensor_id,
@@ -358,7 +367,7 @@ static bool to_local(const struct checking *checking, const struct record *row, 
         .sigma_range_m = (double)polar->sigma_range_m,
         .sigma_elevation_rad = (double)polar->sigma_elevation_rad};
 
-    if (!geodetic_polar(checking->columns->geodetic, &checking->cells, &seen)) {
+    if (!geodetic_convert_polar(checking->columns->geodetic, &checking->cells, &seen)) {
         return false;
     }
     polar->azimuth_rad = (float)seen.look.azimuth_rad;
@@ -368,8 +377,8 @@ static bool to_local(const struct checking *checking, const struct record *row, 
     return true;
 }
 
-static bool read_polar(const struct checking *checking, const struct parameters *parameters,
-                       struct record *row)
+static bool read_polar_plot(const struct checking *checking, const struct parameters *parameters,
+                            struct record *row)
 {
     struct rho_polar_plot polar = {0};
     struct rho_sensor seen_from = row->sensor;
@@ -380,10 +389,10 @@ static bool read_polar(const struct checking *checking, const struct parameters 
     if (!read_range(checking, &polar.range_m) || !read_azimuth(checking, &polar.azimuth_rad) ||
         !read_elevation(checking, &row->measures, &polar.elevation_rad) ||
         !read_polar_sigmas(checking, parameters, row->sensor_id, &polar) ||
-        !to_local(checking, row, &row->measures, &polar) ||
+        !turn_to_local_frame(checking, row, &row->measures, &polar) ||
         !read_range_rate(checking, parameters, row->sensor_id, &row->measures,
                          &polar.range_rate_mps, &polar.sigma_range_rate_mps) ||
-        !row_snr(&checking->cells, checking->columns->snr_db, &polar.snr_db)) {
+        !row_read_snr(&checking->cells, checking->columns->snr_db, &polar.snr_db)) {
         return false;
     }
     if (rho_measurement_from_polar(&polar, row->measures, &seen_from, &row->plot) != RHO_OK) {
@@ -398,7 +407,7 @@ static bool read_polar(const struct checking *checking, const struct parameters 
 /* ---- Sensors ---- */
 
 /* Sectors, too, are counted from the radar's own east; the parameters' have been turned already. */
-static void put_on_earth(struct record *row)
+static void take_place_on_earth(struct record *row)
 {
     const double *place_m = radar_frame_place_m(row->frame);
     float turn_rad = (float)radar_frame_turn_rad(row->frame);
@@ -421,34 +430,36 @@ static bool read_sensor(const struct checking *checking, const struct parameters
                         struct record *row)
 {
     const struct record_columns *columns = checking->columns;
-    bool has_place = row_has(&checking->cells, columns->sensor_x_m) ||
-                     row_has(&checking->cells, columns->sensor_y_m);
-    bool has_height = row_has(&checking->cells, columns->sensor_z_m);
+    bool has_place = row_has_cell(&checking->cells, columns->sensor_x_m) ||
+                     row_has_cell(&checking->cells, columns->sensor_y_m);
+    bool has_height = row_has_cell(&checking->cells, columns->sensor_z_m);
 
     row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor) ||
                       columns->sensor_x_m >= 0 || columns->sensor_z_m >= 0;
     parameters_to_any_sensor(parameters, row->sensor_id, &row->sensor);
     row->bias_us = rho_measurement_time_bias_us(&row->sensor);
-    if (!geodetic_radar(columns->geodetic, &checking->cells, row->sensor_id, &row->frame)) {
+    if (!geodetic_find_radar_frame(columns->geodetic, &checking->cells, row->sensor_id,
+                                   &row->frame)) {
         return false;
     }
     if (row->frame) {
-        put_on_earth(row);
+        take_place_on_earth(row);
         return true;
     }
     return (!has_place ||
-            (row_position(&checking->cells, columns->sensor_x_m, &row->sensor.x_m) &&
-             row_position(&checking->cells, columns->sensor_y_m, &row->sensor.y_m))) &&
-           (!has_height || row_position(&checking->cells, columns->sensor_z_m, &row->sensor.z_m));
+            (row_read_position(&checking->cells, columns->sensor_x_m, &row->sensor.x_m) &&
+             row_read_position(&checking->cells, columns->sensor_y_m, &row->sensor.y_m))) &&
+           (!has_height ||
+            row_read_position(&checking->cells, columns->sensor_z_m, &row->sensor.z_m));
 }
 
 /* ---- Bearings ---- */
 
 /* Takes the sensor's azimuth bias off; the time bias comes off the scan's time. */
-static void take_off_bias(const struct parameters *parameters, struct record *row)
+static void take_off_azimuth_bias(const struct parameters *parameters, struct record *row)
 {
     double bias_rad =
-        parameters_of_sensor(parameters, row->sensor_id, SENSOR_AZIMUTH_BIAS_RAD, 0.0);
+        parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_AZIMUTH_BIAS_RAD, 0.0);
 
     if (bias_rad < 0.0 || bias_rad > 0.0) {
         row->bearing.bearing_rad = rho_angle_difference(row->bearing.bearing_rad, (float)bias_rad);
@@ -460,16 +471,16 @@ static bool read_bearing(const struct checking *checking, const struct parameter
 {
     const struct row_check *check = &checking->cells;
     const struct record_columns *columns = checking->columns;
-    double sigma_rad = parameters_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_RAD,
-                                            parameters->value[PARAMETER_SIGMA_RAD]);
+    double sigma_rad = parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_RAD,
+                                                  parameters->value[PARAMETER_SIGMA_RAD]);
 
     row->has_measurement = true;
-    if (!row_angle(check, columns->bearing_rad, &row->bearing.bearing_rad)) {
+    if (!row_read_angle(check, columns->bearing_rad, &row->bearing.bearing_rad)) {
         return false;
     }
-    take_off_bias(parameters, row);
-    return row_sigma_rad(check, columns->sigma_rad, sigma_rad, &row->bearing.sigma_rad) &&
-           row_snr(check, columns->snr_db, &row->bearing.snr_db);
+    take_off_azimuth_bias(parameters, row);
+    return row_read_sigma_rad(check, columns->sigma_rad, sigma_rad, &row->bearing.sigma_rad) &&
+           row_read_snr(check, columns->snr_db, &row->bearing.snr_db);
 }
 
 static bool read_bearings_row(const struct checking *checking, const struct parameters *parameters,
@@ -478,15 +489,15 @@ static bool read_bearings_row(const struct checking *checking, const struct para
     const struct row_check *check = &checking->cells;
     const struct record_columns *columns = checking->columns;
 
-    if (!row_position(check, columns->sensor_x_m, &row->sensor.x_m) ||
-        !row_position(check, columns->sensor_y_m, &row->sensor.y_m) ||
-        !row_sector(check, columns->sector_from_rad, columns->sector_to_rad, &row->sector_from_rad,
-                    &row->sector_to_rad)) {
+    if (!row_read_position(check, columns->sensor_x_m, &row->sensor.x_m) ||
+        !row_read_position(check, columns->sensor_y_m, &row->sensor.y_m) ||
+        !row_read_sector(check, columns->sector_from_rad, columns->sector_to_rad,
+                         &row->sector_from_rad, &row->sector_to_rad)) {
         return false;
     }
     row->bias_us = parameters_time_bias_us(parameters, row->sensor_id);
-    return row_right_time(check, row->time_us, row->bias_us) &&
-           (!row_has(check, columns->bearing_rad) || read_bearing(checking, parameters, row));
+    return row_check_unbiased_time(check, row->time_us, row->bias_us) &&
+           (!row_has_cell(check, columns->bearing_rad) || read_bearing(checking, parameters, row));
 }
 
 /* ---- All ---- */
@@ -499,10 +510,10 @@ static bool has_plot(const struct checking *checking)
         columns->vx_mps,        columns->vy_mps,        columns->vz_mps,
         columns->range_m,       columns->azimuth_rad,   columns->azimuth_deg,
         columns->elevation_rad, columns->elevation_deg, columns->range_rate_mps};
-    bool has_any = geodetic_is_said(columns->geodetic, &checking->cells);
+    bool has_any = geodetic_row_has_place(columns->geodetic, &checking->cells);
 
     for (size_t i = 0; i < sizeof measured / sizeof *measured; i++) {
-        has_any |= row_has(&checking->cells, measured[i]);
+        has_any |= row_has_cell(&checking->cells, measured[i]);
     }
     return has_any;
 }
@@ -513,17 +524,17 @@ static bool read_plots_row(const struct checking *checking, const struct paramet
     const struct row_check *check = &checking->cells;
     const struct record_columns *columns = checking->columns;
 
-    if (!row_sector(check, columns->sector_from_rad, columns->sector_to_rad, &row->sector_from_rad,
-                    &row->sector_to_rad) ||
+    if (!row_read_sector(check, columns->sector_from_rad, columns->sector_to_rad,
+                         &row->sector_from_rad, &row->sector_to_rad) ||
         !read_sensor(checking, parameters, row) ||
-        !row_right_time(check, row->time_us, row->bias_us)) {
+        !row_check_unbiased_time(check, row->time_us, row->bias_us)) {
         return false;
     }
     if (!has_plot(checking)) {
         return true;
     }
-    return columns->range_m >= 0 ? read_polar(checking, parameters, row)
-                                 : read_plot(checking, parameters, row);
+    return columns->range_m >= 0 ? read_polar_plot(checking, parameters, row)
+                                 : read_cartesian_plot(checking, parameters, row);
 }
 
 bool record_read(const struct table *table, const struct record_columns *columns, size_t row,
@@ -534,10 +545,10 @@ bool record_read(const struct table *table, const struct record_columns *columns
 
     checking.cells.reason = reason;
     *record = (struct record){.line = table->lines[row]};
-    return row_key(&checking.cells, columns->t_s, columns->sensor_id, &record->time_us,
-                   &record->sensor_id) &&
-           row_received(&checking.cells, columns->received_s, &record->received_us) &&
-           row_number(&checking.cells, columns->scan, columns->epoch, &record->number) &&
+    return row_read_time_and_sensor(&checking.cells, columns->t_s, columns->sensor_id,
+                                    &record->time_us, &record->sensor_id) &&
+           row_read_received(&checking.cells, columns->received_s, &record->received_us) &&
+           row_read_number(&checking.cells, columns->scan, columns->epoch, &record->number) &&
            (columns->is_bearings ? read_bearings_row(&checking, parameters, record)
                                  : read_plots_row(&checking, parameters, record));
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * record: one row of plots or bearings, checked, as the library takes it: its time, its sensor, and
- * what was measured, if anything was. Scans are gathered from records (gather.h).
+ * what was measured, if anything was. Scans are gathered from records (scan_gather.h).
  */
 #ifndef RHOTRACK_TOOL_RECORD_H
 #define RHOTRACK_TOOL_RECORD_H
@@ -54,7 +54,7 @@ struct record_columns {
 };
 
 /* The file holds bearings, and neither places nor ranges. */
-bool record_is_of_bearings(const struct table *table);
+bool record_table_has_bearings(const struct table *table);
 
 /*
  * Finds the columns; exit 2 where one is missing that is needed, or the file holds the other kind.

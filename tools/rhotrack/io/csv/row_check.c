@@ -24,102 +24,105 @@ bool row_refuse_cell(const struct row_check *check, int column, const char *why)
     const char *name = check->table->names[column];
     char buffer[TABLE_TEXT_BYTES];
 
-    if (table_is_empty(check->table, check->row, column)) {
+    if (table_is_cell_empty(check->table, check->row, column)) {
         return row_refuse(check, "%s is empty", name);
     }
     return row_refuse(check, "%s '%.40s' %s", name,
-                      table_text(check->table, check->row, column, buffer), why);
+                      table_cell_text(check->table, check->row, column, buffer), why);
 }
 
-bool row_has(const struct row_check *check, int column)
+bool row_has_cell(const struct row_check *check, int column)
 {
-    return column >= 0 && !table_is_empty(check->table, check->row, column);
+    return column >= 0 && !table_is_cell_empty(check->table, check->row, column);
 }
 
-bool row_double(const struct row_check *check, int column, double min, double max, double *value)
+bool row_read_double(const struct row_check *check, int column, double min, double max,
+                     double *value)
 {
     char buffer[TABLE_TEXT_BYTES];
     double number;
-    const char *why = table_number(check->table, check->row, column, &number);
+    const char *why = table_read_number(check->table, check->row, column, &number);
 
     if (why) {
         return row_refuse_cell(check, column, why);
     }
     if (number < min || number > max) {
         return row_refuse(check, "%s %.40s is outside %.9g .. %.9g", check->table->names[column],
-                          table_text(check->table, check->row, column, buffer), min, max);
+                          table_cell_text(check->table, check->row, column, buffer), min, max);
     }
     *value = number;
     return true;
 }
 
-bool row_float(const struct row_check *check, int column, float min, float max, float *value)
+bool row_read_float(const struct row_check *check, int column, float min, float max, float *value)
 {
     double number = 0.0;
 
-    if (!row_double(check, column, (double)min, (double)max, &number)) {
+    if (!row_read_double(check, column, (double)min, (double)max, &number)) {
         return false;
     }
     *value = (float)number;
     return true;
 }
 
-bool row_angle(const struct row_check *check, int column, float *angle_rad)
+bool row_read_angle(const struct row_check *check, int column, float *angle_rad)
 {
     static const double half_turn = 3.1415927410125732; /* the nearest float, as files have it */
     double number = 0.0;
 
-    if (!row_double(check, column, -ROW_ANGLE_MAX, ROW_ANGLE_MAX, &number)) {
+    if (!row_read_double(check, column, -ROW_ANGLE_MAX, ROW_ANGLE_MAX, &number)) {
         return false;
     }
     *angle_rad = (float)(fabs(number) > half_turn ? remainder(number, TURN) : number);
     return true;
 }
 
-bool row_position(const struct row_check *check, int column, float *value)
+bool row_read_position(const struct row_check *check, int column, float *value)
 {
-    return row_float(check, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M, value);
+    return row_read_float(check, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M, value);
 }
 
-bool row_sigma_rad(const struct row_check *check, int column, double otherwise, float *value)
+bool row_read_sigma_rad(const struct row_check *check, int column, double otherwise, float *value)
 {
-    if (row_has(check, column)) {
-        return row_float(check, column, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX, value);
+    if (row_has_cell(check, column)) {
+        return row_read_float(check, column, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX,
+                              value);
     }
     *value = (float)otherwise;
     return true;
 }
 
-bool row_sector(const struct row_check *check, int from, int to, float *from_rad, float *to_rad)
+bool row_read_sector(const struct row_check *check, int from, int to, float *from_rad,
+                     float *to_rad)
 {
     static const float turn = 6.2831855f;
 
-    if (!row_has(check, from) && !row_has(check, to)) {
+    if (!row_has_cell(check, from) && !row_has_cell(check, to)) {
         return true;
     }
-    return row_float(check, from, -turn, turn, from_rad) &&
-           row_float(check, to, -turn, turn, to_rad);
+    return row_read_float(check, from, -turn, turn, from_rad) &&
+           row_read_float(check, to, -turn, turn, to_rad);
 }
 
-bool row_snr(const struct row_check *check, int column, float *snr_db)
+bool row_read_snr(const struct row_check *check, int column, float *snr_db)
 {
-    return !row_has(check, column) || row_float(check, column, -1000.0f, 1000.0f, snr_db);
+    return !row_has_cell(check, column) || row_read_float(check, column, -1000.0f, 1000.0f, snr_db);
 }
 
-bool row_key(const struct row_check *check, int t_s, int sensor_id, int64_t *time_us,
-             int32_t *sensor)
+bool row_read_time_and_sensor(const struct row_check *check, int t_s, int sensor_id,
+                              int64_t *time_us, int32_t *sensor)
 {
-    const char *why = table_time_us(check->table, check->row, t_s, time_us);
+    const char *why = table_read_time_us(check->table, check->row, t_s, time_us);
 
     if (why) {
         return row_refuse_cell(check, t_s, why);
     }
     *sensor = 0;
-    why = sensor_id < 0 ? NULL : table_int32(check->table, check->row, sensor_id, sensor);
+    why = sensor_id < 0 ? NULL : table_read_int32(check->table, check->row, sensor_id, sensor);
     return why ? row_refuse_cell(check, sensor_id, why) : true;
 }
 
-bool row_right_time(const struct row_check *check, int64_t time_us, int32_t bias_us)
+bool row_check_unbiased_time(const struct row_check *check, int64_t time_us, int32_t bias_us)
 {
     int64_t right_us = time_us - bias_us;
 
@@ -127,16 +130,16 @@ bool row_right_time(const struct row_check *check, int64_t time_us, int32_t bias
            row_refuse(check, "t_s is beyond 4e12 s without the sensor's time_bias_s");
 }
 
-bool row_received(const struct row_check *check, int column, int64_t *received_us)
+bool row_read_received(const struct row_check *check, int column, int64_t *received_us)
 {
     const char *why =
-        column < 0 ? NULL : table_time_us(check->table, check->row, column, received_us);
+        column < 0 ? NULL : table_read_time_us(check->table, check->row, column, received_us);
 
     return why ? row_refuse_cell(check, column, why) : true;
 }
 
-bool row_received_with(const struct row_check *check, int64_t received_us, int64_t scan_us,
-                       bool has_number, int64_t interval_us)
+bool row_check_received_together(const struct row_check *check, int64_t received_us,
+                                 int64_t scan_us, bool has_number, int64_t interval_us)
 {
     return has_number || interval_us > 0 || received_us == scan_us ||
            row_refuse(check,
@@ -145,25 +148,26 @@ bool row_received_with(const struct row_check *check, int64_t received_us, int64
                       (double)received_us * 1e-6, (double)scan_us * 1e-6);
 }
 
-bool row_number(const struct row_check *check, int scan, int epoch, struct row_number *number)
+bool row_read_number(const struct row_check *check, int scan, int epoch, struct row_number *number)
 {
     const char *why;
 
-    *number = (struct row_number){.is_given = row_has(check, scan)};
+    *number = (struct row_number){.is_given = row_has_cell(check, scan)};
     if (!number->is_given) {
         return true;
     }
-    why = table_int32(check->table, check->row, scan, &number->scan);
+    why = table_read_int32(check->table, check->row, scan, &number->scan);
     if (why) {
         return row_refuse_cell(check, scan, why);
     }
-    why =
-        row_has(check, epoch) ? table_int32(check->table, check->row, epoch, &number->epoch) : NULL;
+    why = row_has_cell(check, epoch)
+              ? table_read_int32(check->table, check->row, epoch, &number->epoch)
+              : NULL;
     return why ? row_refuse_cell(check, epoch, why) : true;
 }
 
-bool row_joins(const struct row_number *number, int64_t time_us, const struct row_number *scan,
-               int64_t start_us, int64_t interval_us)
+bool row_joins_scan(const struct row_number *number, int64_t time_us, const struct row_number *scan,
+                    int64_t start_us, int64_t interval_us)
 {
     int64_t offset_us = time_us - start_us;
 
@@ -174,12 +178,13 @@ bool row_joins(const struct row_number *number, int64_t time_us, const struct ro
     return offset_us == 0 || (offset_us > 0 && offset_us < interval_us);
 }
 
-void row_need_both(const struct table *table, const char *first, const char *second)
+void row_need_both_columns(const struct table *table, const char *first, const char *second)
 {
-    bool has_first = table_find(table, first) >= 0, has_second = table_find(table, second) >= 0;
+    bool has_first = table_find_column(table, first) >= 0,
+         has_second = table_find_column(table, second) >= 0;
 
     if (has_first != has_second) {
-        table_fail(table, TABLE_HEADER, "no column '%s' beside '%s'", has_first ? second : first,
-                   has_first ? first : second);
+        table_fail_at_row(table, TABLE_HEADER, "no column '%s' beside '%s'",
+                          has_first ? second : first, has_first ? first : second);
     }
 }

@@ -10,12 +10,12 @@
 
 #include "base/common.h"
 #include "base/number_text.h"
-#include "io/csv/table_form.h"
+#include "io/csv/table_dialect.h"
 
 void table_need_rows(const struct table *table)
 {
     if (!table->num_rows) {
-        table_fail(table, TABLE_HEADER, "no rows after the header");
+        table_fail_at_row(table, TABLE_HEADER, "no rows after the header");
     }
 }
 
@@ -39,46 +39,46 @@ void table_free(struct table *table)
 
 /* ---- Columns and cells ---- */
 
-int table_need(const struct table *table, const char *name)
+int table_need_column(const struct table *table, const char *name)
 {
-    int column = table_find(table, name);
+    int column = table_find_column(table, name);
     char names[160], hint[200], found[240];
 
     if (column >= 0) {
         return column;
     }
-    table_form_names_of(name, names, sizeof names);
-    table_form_list(table, found, sizeof found);
-    table_form_hint(table, name, hint, sizeof hint);
-    table_fail(table, TABLE_HEADER, "no column '%s'%s%s%s; the file has: %s; %s", name,
-               *names ? " (or " : "", names, *names ? ")" : "", found, hint);
+    table_dialect_other_names(name, names, sizeof names);
+    table_dialect_list_names(table, found, sizeof found);
+    table_dialect_hint_column(table, name, hint, sizeof hint);
+    table_fail_at_row(table, TABLE_HEADER, "no column '%s'%s%s%s; the file has: %s; %s", name,
+                      *names ? " (or " : "", names, *names ? ")" : "", found, hint);
 }
 
 /* The row's cell as text; of a table of numbers NULL. */
-static const char *text_of(const struct table *table, size_t row, int column)
+static const char *cell_text(const struct table *table, size_t row, int column)
 {
     return table->cells ? table->cells[row * table->num_columns + (size_t)column] : NULL;
 }
 
-static double number_of(const struct table *table, size_t row, int column)
+static double cell_number(const struct table *table, size_t row, int column)
 {
     return table->numbers[row * table->num_columns + (size_t)column];
 }
 
 /* The cell's number is in another unit than its column. */
-static bool has_factor(const struct table *table, int column)
+static bool column_has_factor(const struct table *table, int column)
 {
     return table->factors && (table->factors[column] < 0 || table->factors[column] > 0);
 }
 
-bool table_is_empty(const struct table *table, size_t row, int column)
+bool table_is_cell_empty(const struct table *table, size_t row, int column)
 {
-    const char *text = text_of(table, row, column);
+    const char *text = cell_text(table, row, column);
 
-    return text ? !*text : column != 0 && isnan(number_of(table, row, column));
+    return text ? !*text : column != 0 && isnan(cell_number(table, row, column));
 }
 
-static void put_time(char *buffer, int64_t time_us)
+static void write_time_text(char *buffer, int64_t time_us)
 {
     uint64_t magnitude = time_us < 0 ? 0 - (uint64_t)time_us : (uint64_t)time_us;
 
@@ -86,10 +86,10 @@ static void put_time(char *buffer, int64_t time_us)
              magnitude / 1000000, magnitude % 1000000);
 }
 
-const char *table_text(const struct table *table, size_t row, int column,
-                       char buffer[TABLE_TEXT_BYTES])
+const char *table_cell_text(const struct table *table, size_t row, int column,
+                            char buffer[TABLE_TEXT_BYTES])
 {
-    const char *text = text_of(table, row, column);
+    const char *text = cell_text(table, row, column);
     const struct table_column *described;
     double number;
 
@@ -97,10 +97,10 @@ const char *table_text(const struct table *table, size_t row, int column,
         return text;
     }
     described = &table->columns[column];
-    number = number_of(table, row, column);
+    number = cell_number(table, row, column);
     *buffer = '\0';
     if (column == 0) {
-        put_time(buffer, table->times_us[row]);
+        write_time_text(buffer, table->times_us[row]);
     } else if (!isnan(number) && described->word) {
         return described->word((int)number);
     } else if (!isnan(number) && described->decimals == TABLE_SHORTEST) {
@@ -115,42 +115,44 @@ bool table_is_word(const struct table *table, size_t row, int column, const char
 {
     char buffer[TABLE_TEXT_BYTES];
 
-    return !strcmp(table_text(table, row, column, buffer), word);
+    return !strcmp(table_cell_text(table, row, column, buffer), word);
 }
 
-const char *table_number(const struct table *table, size_t row, int column, double *value)
+const char *table_read_number(const struct table *table, size_t row, int column, double *value)
 {
-    const char *text = text_of(table, row, column);
+    const char *text = cell_text(table, row, column);
 
     if (text) {
         const char *why = text_to_number(text, value);
 
-        if (!why && has_factor(table, column)) {
+        if (!why && column_has_factor(table, column)) {
             *value = *value * table->factors[column] + table->offsets[column];
         }
         return why;
     }
-    *value = column == 0 ? (double)table->times_us[row] * 1e-6 : number_of(table, row, column);
+    *value = column == 0 ? (double)table->times_us[row] * 1e-6 : cell_number(table, row, column);
     return isnan(*value) ? "is empty" : NULL;
 }
 
-const char *table_float(const struct table *table, size_t row, int column, float *value)
+const char *table_read_float(const struct table *table, size_t row, int column, float *value)
 {
-    const char *text = text_of(table, row, column);
+    const char *text = cell_text(table, row, column);
     double number = 0.0;
-    const char *why = table_number(table, row, column, &number);
+    const char *why = table_read_number(table, row, column, &number);
 
-    *value = why ? 0.0f : text && !has_factor(table, column) ? strtof(text, NULL) : (float)number;
+    *value = why                                         ? 0.0f
+             : text && !column_has_factor(table, column) ? strtof(text, NULL)
+                                                         : (float)number;
     return why;
 }
 
-static const char *text_time_us(const char *text, double factor, int64_t *time_us)
+static const char *time_us_of_text(const char *text, double factor, int64_t *time_us)
 {
     double seconds;
     const char *why = text_to_time_us(text, time_us);
 
     if (why) {
-        return text_to_iso_us(text, time_us) ? NULL : why;
+        return iso_time_to_us(text, time_us) ? NULL : why;
     }
     if (!(factor > 0)) {
         return NULL;
@@ -160,27 +162,28 @@ static const char *text_time_us(const char *text, double factor, int64_t *time_u
     return why;
 }
 
-const char *table_time_us(const struct table *table, size_t row, int column, int64_t *time_us)
+const char *table_read_time_us(const struct table *table, size_t row, int column, int64_t *time_us)
 {
-    const char *text = text_of(table, row, column);
+    const char *text = cell_text(table, row, column);
 
     if (text) {
-        return text_time_us(text, has_factor(table, column) ? table->factors[column] : 0, time_us);
+        return time_us_of_text(text, column_has_factor(table, column) ? table->factors[column] : 0,
+                               time_us);
     }
     *time_us = table->times_us[row]; /* no table of numbers has another column of times */
     return NULL;
 }
 
-const char *table_int32(const struct table *table, size_t row, int column, int32_t *value)
+const char *table_read_int32(const struct table *table, size_t row, int column, int32_t *value)
 {
-    const char *text = text_of(table, row, column);
+    const char *text = cell_text(table, row, column);
     const char *why;
     double number = 0.0;
 
     if (text) {
         return text_to_int32(text, value);
     }
-    why = table_number(table, row, column, &number);
+    why = table_read_number(table, row, column, &number);
     if (!why && (number < INT32_MIN || number > INT32_MAX)) {
         why = "is out of range";
     }
@@ -195,7 +198,7 @@ struct table *table_of_numbers(const char *path, const struct table_column *colu
 {
     struct table *table = must_calloc(1, sizeof *table);
 
-    table->path = must_copy(path);
+    table->path = must_copy_text(path);
     table->num_columns = num_columns;
     table->names = must_alloc(num_columns * sizeof *table->names);
     table->columns = must_alloc(num_columns * sizeof *table->columns);
@@ -207,7 +210,7 @@ struct table *table_of_numbers(const char *path, const struct table_column *colu
     return table;
 }
 
-double *table_add_numbers(struct table *table, int64_t time_us, uint32_t line)
+double *table_add_row_of_numbers(struct table *table, int64_t time_us, uint32_t line)
 {
     double *numbers;
 
@@ -240,14 +243,14 @@ void table_write_row(FILE *file, const struct table *table, size_t row)
     char buffer[TABLE_TEXT_BYTES];
 
     for (size_t i = 0; i < table->num_columns; i++) {
-        fprintf(file, "%s%s", i > 0 ? "," : "", table_text(table, row, (int)i, buffer));
+        fprintf(file, "%s%s", i > 0 ? "," : "", table_cell_text(table, row, (int)i, buffer));
     }
     fputc('\n', file);
 }
 
 /* ---- Errors ---- */
 
-void table_fail(const struct table *table, size_t row, const char *format, ...)
+void table_fail_at_row(const struct table *table, size_t row, const char *format, ...)
 {
     uint32_t line = row == TABLE_HEADER ? table->header_line : table->lines[row];
     char message[512];
@@ -262,18 +265,19 @@ void table_fail(const struct table *table, size_t row, const char *format, ...)
 double table_number_at(const struct table *table, size_t row, int column)
 {
     double value = 0.0;
-    const char *reason = table_number(table, row, column, &value);
+    const char *reason = table_read_number(table, row, column, &value);
     char buffer[TABLE_TEXT_BYTES];
 
     if (reason) {
-        table_fail(table, row, "%s '%s' %s", table->names[column],
-                   table_text(table, row, column, buffer), reason);
+        table_fail_at_row(table, row, "%s '%s' %s", table->names[column],
+                          table_cell_text(table, row, column, buffer), reason);
     }
     return value;
 }
 
 double table_number_or(const struct table *table, size_t row, int column, double otherwise)
 {
-    return column < 0 || table_is_empty(table, row, column) ? otherwise
-                                                            : table_number_at(table, row, column);
+    return column < 0 || table_is_cell_empty(table, row, column)
+               ? otherwise
+               : table_number_at(table, row, column);
 }

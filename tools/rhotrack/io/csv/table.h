@@ -21,7 +21,8 @@
 struct table_column {
     const char *name;
     int decimals;
-    const char *(*word)(int number); /* the word that a number stands for; NULL: they are numbers */
+    /* The word for a number, never NULL. No function: the column is plain numbers. */
+    const char *(*word)(int number);
 };
 
 struct table {
@@ -33,7 +34,7 @@ struct table {
     double *numbers;              /* num_rows x num_columns; NaN where a cell is empty */
     struct table_column *columns; /* num_columns */
     double *factors, *offsets;    /* of the columns, factor 0: none; NULL: none has one
-                                   * (table_form.h): number * factor + offset */
+                                   * (table_dialect.h): number * factor + offset */
     size_t capacity;              /* of its rows */
     uint32_t *lines;              /* num_rows: the first line of the row in the file */
     uint32_t header_line;
@@ -41,7 +42,7 @@ struct table {
     char *text; /* what names and cells point into */
 };
 
-#define TABLE_HEADER SIZE_MAX /* the header as a row for table_fail */
+#define TABLE_HEADER SIZE_MAX /* the header as a row for table_fail_at_row */
 
 /*
  * Reads a whole file; lines end with LF, CR LF or CR, a byte order mark is skipped. Refused: no
@@ -52,7 +53,8 @@ struct table *table_read(const char *path, bool keep_going);
 
 /* The same; of the parameters counts what asterix_records.h has of recordings. */
 struct parameters;
-struct table *table_read_as(const char *path, const struct parameters *parameters, bool keep_going);
+struct table *table_read_with_parameters(const char *path, const struct parameters *parameters,
+                                         bool keep_going);
 
 /* The columns alone, without rows. */
 struct table *table_read_header(const char *path);
@@ -62,9 +64,10 @@ void table_free(struct table *table);
 void table_need_rows(const struct table *table);
 
 /*
- * Index of a column, or -1; table_need exits with 2 where it is missing, and names what is there.
+ * Index of a column, or -1; table_need_column exits with 2 where it is missing, and names what is
+ * there.
  */
-static inline int table_find(const struct table *table, const char *name)
+static inline int table_find_column(const struct table *table, const char *name)
 {
     for (size_t i = 0; i < table->num_columns; i++) {
         if (!strcmp(table->names[i], name)) {
@@ -74,23 +77,23 @@ static inline int table_find(const struct table *table, const char *name)
     return -1;
 }
 
-int table_need(const struct table *table, const char *name);
+int table_need_column(const struct table *table, const char *name);
 
 /*
  * Cells. The functions that return a text return NULL and set the value, or return the reason as a
- * constant text (number_text.h). table_float: of all numbers that a text may mean the nearest
+ * constant text (number_text.h). table_read_float: of all numbers that a text may mean the nearest
  * float32, as the program that wrote it had it.
  */
-bool table_is_empty(const struct table *table, size_t row, int column);
-const char *table_number(const struct table *table, size_t row, int column, double *value);
-const char *table_float(const struct table *table, size_t row, int column, float *value);
-const char *table_time_us(const struct table *table, size_t row, int column, int64_t *time_us);
-const char *table_int32(const struct table *table, size_t row, int column, int32_t *value);
+bool table_is_cell_empty(const struct table *table, size_t row, int column);
+const char *table_read_number(const struct table *table, size_t row, int column, double *value);
+const char *table_read_float(const struct table *table, size_t row, int column, float *value);
+const char *table_read_time_us(const struct table *table, size_t row, int column, int64_t *time_us);
+const char *table_read_int32(const struct table *table, size_t row, int column, int32_t *value);
 
 /* The cell as a CSV file has it, or would have it: then in the buffer. */
 #define TABLE_TEXT_BYTES 340
-const char *table_text(const struct table *table, size_t row, int column,
-                       char buffer[TABLE_TEXT_BYTES]);
+const char *table_cell_text(const struct table *table, size_t row, int column,
+                            char buffer[TABLE_TEXT_BYTES]);
 
 /* The cell holds this word. */
 bool table_is_word(const struct table *table, size_t row, int column, const char *word);
@@ -107,14 +110,14 @@ double table_number_or(const struct table *table, size_t row, int column, double
  */
 struct table *table_of_numbers(const char *path, const struct table_column *columns,
                                size_t num_columns);
-double *table_add_numbers(struct table *table, int64_t time_us, uint32_t line);
+double *table_add_row_of_numbers(struct table *table, int64_t time_us, uint32_t line);
 
 /* As lines of a CSV file. */
 void table_write_header(FILE *file, const struct table *table);
 void table_write_row(FILE *file, const struct table *table, size_t row);
 
 /* `rhotrack: FILE:LINE: ` and the message; exit 2. */
-_Noreturn void table_fail(const struct table *table, size_t row, const char *format, ...)
+_Noreturn void table_fail_at_row(const struct table *table, size_t row, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -17,7 +17,7 @@
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_records.h"
 #include "io/asterix/asterix_track_table.h"
-#include "io/csv/table_form.h"
+#include "io/csv/table_dialect.h"
 
 #define FIRST_CAPACITY (1u << 16)
 #define FIRST_TEXT 1024u
@@ -59,7 +59,7 @@ _Noreturn static void parse_fail(const struct table_stream *stream, uint32_t lin
 /* ---- The file ---- */
 
 /* Drops the bytes of rows that were parsed. */
-static void drop_parsed(struct table_stream *stream)
+static void drop_parsed_bytes(struct table_stream *stream)
 {
     size_t keep = stream->row_is_open ? stream->row_next : stream->position;
 
@@ -74,7 +74,7 @@ static void drop_parsed(struct table_stream *stream)
 }
 
 /* With follow a pipe is not waited for. */
-static bool is_silent(const struct table_stream *stream)
+static bool is_pipe_silent(const struct table_stream *stream)
 {
     struct pollfd ready = {.fd = stream->file, .events = POLLIN};
 
@@ -90,14 +90,14 @@ static void need_room(struct table_stream *stream, size_t bytes)
     }
 }
 
-static bool fill(struct table_stream *stream)
+static bool read_more(struct table_stream *stream)
 {
     ssize_t got;
 
-    if (is_silent(stream)) {
+    if (is_pipe_silent(stream)) {
         return false;
     }
-    drop_parsed(stream);
+    drop_parsed_bytes(stream);
     need_room(stream, 1);
     do {
         got = read(stream->file, stream->content + stream->bytes, stream->capacity - stream->bytes);
@@ -133,7 +133,7 @@ static size_t line_length(const struct table_stream *stream)
     return (size_t)(c - start);
 }
 
-static void check_binary(const struct table_stream *stream, size_t length)
+static void refuse_nul_bytes(const struct table_stream *stream, size_t length)
 {
     if (memchr(stream->content + stream->position, '\0', length)) {
         parse_fail(stream, stream->line, "not a text file: it has a NUL byte");
@@ -141,7 +141,7 @@ static void check_binary(const struct table_stream *stream, size_t length)
 }
 
 /* True where a line outside a row says nothing: blank, or a comment. */
-static bool is_idle(const char *line, size_t length)
+static bool is_blank_or_comment(const char *line, size_t length)
 {
     size_t i = 0;
 
@@ -153,8 +153,8 @@ static bool is_idle(const char *line, size_t length)
 
 /* ---- Rows ---- */
 
-/* A name that the file has; others are constants (table_form.h). */
-static bool is_in_text(const struct table_stream *stream, const char *name)
+/* A name that the file has; others are constants (table_dialect.h). */
+static bool is_name_from_file(const struct table_stream *stream, const char *name)
 {
     const char *text = stream->table->text;
 
@@ -163,7 +163,7 @@ static bool is_in_text(const struct table_stream *stream, const char *name)
 }
 
 /* Room for a cell. Names and cells that are there keep their places in the text. */
-static void grow_text(struct table_stream *stream, size_t bytes)
+static void grow_cell_text(struct table_stream *stream, size_t bytes)
 {
     struct table *table = stream->table;
     char *text;
@@ -175,7 +175,7 @@ static void grow_text(struct table_stream *stream, size_t bytes)
     text = must_alloc(stream->text_capacity);
     memcpy(text, table->text, stream->text_used);
     for (size_t i = 0; table->names && i < table->num_columns; i++) {
-        if (is_in_text(stream, table->names[i])) {
+        if (is_name_from_file(stream, table->names[i])) {
             table->names[i] = text + (table->names[i] - table->text);
         }
     }
@@ -195,12 +195,12 @@ static void on_cell(void *cell, size_t bytes, void *user)
         stream->row_capacity = 2 * stream->row_capacity + 16;
         stream->row = must_realloc(stream->row, stream->row_capacity * sizeof *stream->row);
     }
-    grow_text(stream, bytes);
+    grow_cell_text(stream, bytes);
     text = stream->table->text + stream->text_used;
     memcpy(text, cell, bytes);
     text[bytes] = '\0';
     if (stream->delimiter != ',') {
-        table_form_point(text);
+        table_dialect_point_for_comma(text);
     }
     stream->text_used += bytes + 1;
     stream->row[stream->row_cells++] = text;
@@ -255,7 +255,7 @@ static void refuse_row(struct table_stream *stream, const char *what)
     start_parser(stream);
 }
 
-static void keep_header(struct table_stream *stream)
+static void take_header(struct table_stream *stream)
 {
     struct table *table = stream->table;
     double number;
@@ -266,19 +266,20 @@ static void keep_header(struct table_stream *stream)
     memcpy(table->names, stream->row, stream->row_cells * sizeof *table->names);
     stream->text_header = stream->text_used;
     if (!text_to_number(table->names[0], &number)) {
-        table_fail(table, TABLE_HEADER, "no header row: the first row begins with a number");
+        table_fail_at_row(table, TABLE_HEADER, "no header row: the first row begins with a number");
     }
     for (size_t i = 0; i < table->num_columns; i++) {
         for (size_t j = 0; j < i && *table->names[i]; j++) {
             if (!strcmp(table->names[i], table->names[j])) {
-                table_fail(table, TABLE_HEADER, "column '%.60s' is there twice", table->names[i]);
+                table_fail_at_row(table, TABLE_HEADER, "column '%.60s' is there twice",
+                                  table->names[i]);
             }
         }
     }
-    table_form_name_columns(table);
+    table_dialect_name_columns(table);
 }
 
-static void keep_row(struct table_stream *stream)
+static void add_row_to_table(struct table_stream *stream)
 {
     struct table *table = stream->table;
 
@@ -302,11 +303,11 @@ static void end_row(struct table_stream *stream)
 
     stream->row_is_open = stream->row_is_complete = false;
     if (!stream->table->names) {
-        keep_header(stream);
+        take_header(stream);
         return;
     }
     if (stream->row_cells == expected) {
-        keep_row(stream);
+        add_row_to_table(stream);
         return;
     }
     snprintf(what, sizeof what, "%s row: %zu cells, the header has %zu",
@@ -317,7 +318,7 @@ static void end_row(struct table_stream *stream)
 /* The header line tells what separates the cells. */
 static void find_delimiter(struct table_stream *stream, const char *line, size_t length)
 {
-    stream->delimiter = table_form_delimiter(line, length);
+    stream->delimiter = table_dialect_find_delimiter(line, length);
     csv_free(&stream->parser);
     start_parser(stream);
 }
@@ -328,7 +329,7 @@ static const char *join_blanks(struct table_stream *stream, const char *line, si
         stream->joined_capacity = 2 * *length;
         stream->joined = must_realloc(stream->joined, stream->joined_capacity);
     }
-    *length = table_form_join_blanks(line, *length, stream->joined);
+    *length = table_dialect_join_blanks(line, *length, stream->joined);
     return stream->joined;
 }
 
@@ -369,10 +370,10 @@ static void parse_line(struct table_stream *stream, size_t length)
 /* ---- Lines to rows ---- */
 
 /*
- * Recordings and logs that come as plain files are read by others; block lengths have no text's
- * bytes.
+ * What a file is that begins with such bytes, where it is no text; NULL: it may be text. Recordings
+ * and logs that are plain files are read elsewhere.
  */
-static const char *name_binary(const uint8_t *start, size_t bytes, bool is_file)
+static const char *what_binary_format(const uint8_t *start, size_t bytes, bool is_file)
 {
     static const uint8_t log_sync[] = {0xED, 0xA1, 0xDA, 0x01};
 
@@ -390,14 +391,14 @@ static const char *name_binary(const uint8_t *start, size_t bytes, bool is_file)
                      "as a file";
 }
 
-/* A file of another format says what it is in place of what it is not. */
-static void refuse_foreign(const struct table_stream *stream)
+/* Exit 2 with the name of the format where the file is no text. */
+static void refuse_foreign_format(const struct table_stream *stream)
 {
     const char *start = stream->content + stream->position, *what = NULL;
 
     if (stream->offset + stream->position == 0) {
-        what = name_binary((const uint8_t *)start, stream->bytes - stream->position,
-                           stream->own && stream->is_plain);
+        what = what_binary_format((const uint8_t *)start, stream->bytes - stream->position,
+                                  stream->own && stream->is_plain);
     }
     if (*start == '{') {
         what = "JSON, and CSV is needed; GeoJSON is written and not read: give the tracks' CSV "
@@ -411,16 +412,16 @@ static void refuse_foreign(const struct table_stream *stream)
 static void check_line(const struct table_stream *stream, size_t length)
 {
     if (length > 0 && !stream->table->names && !stream->row_is_open) {
-        refuse_foreign(stream);
+        refuse_foreign_format(stream);
     }
-    check_binary(stream, length);
+    refuse_nul_bytes(stream, length);
     if (!stream->is_whole && length > TABLE_STREAM_ROW_BYTES) {
         parse_fail(stream, stream->line, "a line of more than 1 MiB");
     }
 }
 
 /* The bytes that were read ahead have no line end: the row may be too long. */
-static void check_length(struct table_stream *stream)
+static void check_row_length(struct table_stream *stream)
 {
     size_t from = stream->row_is_open ? stream->row_next : stream->position;
 
@@ -450,8 +451,8 @@ static enum table_stream_found find_line(struct table_stream *stream, size_t *le
         if (stream->is_end) {
             return TABLE_STREAM_END;
         }
-        check_length(stream);
-        if (line_length(stream) == 0 && !fill(stream)) {
+        check_row_length(stream);
+        if (line_length(stream) == 0 && !read_more(stream)) {
             return TABLE_STREAM_WAITS;
         }
     }
@@ -463,7 +464,7 @@ static enum table_stream_found find_line(struct table_stream *stream, size_t *le
  * The last row may have no line end, or no end of its quotes. Returns false where nothing more was
  * found.
  */
-static bool finish_rows(struct table_stream *stream)
+static bool finish_last_row(struct table_stream *stream)
 {
     if (csv_fini(&stream->parser, on_cell, on_row_end, stream)) {
         refuse_row(stream, "a quoted cell has no end");
@@ -479,7 +480,7 @@ static bool finish_rows(struct table_stream *stream)
 static void take_line(struct table_stream *stream, size_t length)
 {
     check_line(stream, length);
-    if (stream->row_is_open || !is_idle(stream->content + stream->position, length)) {
+    if (stream->row_is_open || !is_blank_or_comment(stream->content + stream->position, length)) {
         parse_line(stream, length);
     } else {
         stream->position += length;
@@ -488,7 +489,7 @@ static void take_line(struct table_stream *stream, size_t length)
 }
 
 /* Of a recording the header is there from the start. */
-static enum table_stream_found next_record(struct table_stream *stream, bool to_header)
+static enum table_stream_found next_asterix_row(struct table_stream *stream, bool to_header)
 {
     if (to_header) {
         return TABLE_STREAM_ROW;
@@ -496,15 +497,15 @@ static enum table_stream_found next_record(struct table_stream *stream, bool to_
     if (!stream->is_whole) {
         stream->table->num_rows = 0;
     }
-    stream->is_end = !asterix_records_next(stream->asterix, stream->table);
+    stream->is_end = !asterix_records_next_row(stream->asterix, stream->table);
     return stream->is_end ? TABLE_STREAM_END : TABLE_STREAM_ROW;
 }
 
 /* Goes on up to the next row, or to the header. */
-static enum table_stream_found parse(struct table_stream *stream, bool to_header)
+static enum table_stream_found parse_to_row(struct table_stream *stream, bool to_header)
 {
     if (stream->asterix) {
-        return next_record(stream, to_header);
+        return next_asterix_row(stream, to_header);
     }
     stream->has_row = false;
     while (!stream->has_row && !(to_header && stream->table->names)) {
@@ -516,7 +517,7 @@ static enum table_stream_found parse(struct table_stream *stream, bool to_header
         }
         if (found == TABLE_STREAM_ROW) {
             take_line(stream, length);
-        } else if (!finish_rows(stream)) {
+        } else if (!finish_last_row(stream)) {
             return found;
         }
     }
@@ -536,7 +537,7 @@ static void check_header(const struct table_stream *stream)
     parse_fail(stream, stream->line - 1, "no header row");
 }
 
-static void check_content(const struct table_stream *stream)
+static void check_any_good_row(const struct table_stream *stream)
 {
     const struct table *table = stream->table;
 
@@ -556,7 +557,7 @@ static void open_asterix(struct table_stream *stream, const char *path,
     }
     stream->asterix = asterix_records_open(path, parameters, stream->keep_going);
     table_free(stream->table);
-    stream->table = asterix_records_table(path, asterix_records_columns(stream->asterix));
+    stream->table = asterix_records_empty_table(path, asterix_records_columns(stream->asterix));
 }
 
 static struct table_stream *open_stream(const char *path, const struct parameters *parameters,
@@ -567,7 +568,7 @@ static struct table_stream *open_stream(const char *path, const struct parameter
     struct stat status;
 
     stream->table = must_calloc(1, sizeof *stream->table);
-    stream->table->path = must_copy(is_standard ? "standard input" : path);
+    stream->table->path = must_copy_text(is_standard ? "standard input" : path);
     stream->own = is_standard ? NULL : stream->table->path;
     stream->keep_going = keep_going;
     stream->line = 1;
@@ -609,30 +610,31 @@ static struct table *parse_whole(struct table_stream *stream)
 
     stream->text_capacity = stream->bytes + 2; /* a cell is not longer than its text in the file */
     table->text = must_alloc(stream->text_capacity);
-    while (parse(stream, false) == TABLE_STREAM_ROW) {
+    while (parse_to_row(stream, false) == TABLE_STREAM_ROW) {
     }
-    check_content(stream);
+    check_any_good_row(stream);
     free_stream(stream);
     return table;
 }
 
 struct table *table_read(const char *path, bool keep_going)
 {
-    return table_read_as(path, NULL, keep_going);
+    return table_read_with_parameters(path, NULL, keep_going);
 }
 
-struct table *table_read_as(const char *path, const struct parameters *parameters, bool keep_going)
+struct table *table_read_with_parameters(const char *path, const struct parameters *parameters,
+                                         bool keep_going)
 {
     struct table_stream *stream;
 
-    if (strcmp(path, "-") != 0 && asterix_tracks_are_in(path)) {
+    if (strcmp(path, "-") != 0 && asterix_file_has_only_tracks(path)) {
         return asterix_track_table_read(path, parameters, keep_going);
     }
     stream = open_stream(path, parameters, keep_going, false);
 
     stream->is_whole = true;
     while (!stream->asterix && !stream->is_end) {
-        fill(stream);
+        read_more(stream);
     }
     return parse_whole(stream);
 }
@@ -646,7 +648,7 @@ struct table_stream *table_stream_open(const char *path, const struct parameters
 
     stream->text_capacity = FIRST_TEXT;
     stream->table->text = must_alloc(stream->text_capacity);
-    if (parse(stream, true) == TABLE_STREAM_END) {
+    if (parse_to_row(stream, true) == TABLE_STREAM_END) {
         check_header(stream);
     }
     return stream;
@@ -654,7 +656,7 @@ struct table_stream *table_stream_open(const char *path, const struct parameters
 
 enum table_stream_found table_stream_next(struct table_stream *stream)
 {
-    enum table_stream_found found = parse(stream, false);
+    enum table_stream_found found = parse_to_row(stream, false);
 
     if (found == TABLE_STREAM_END) {
         check_header(stream);
@@ -662,10 +664,10 @@ enum table_stream_found table_stream_next(struct table_stream *stream)
     return found;
 }
 
-void table_stream_hush(struct table_stream *stream)
+void table_stream_report_nothing(struct table_stream *stream)
 {
     if (stream->asterix) {
-        asterix_records_hush(stream->asterix);
+        asterix_records_report_nothing(stream->asterix);
     }
 }
 
@@ -674,7 +676,7 @@ const struct table *table_stream_table(const struct table_stream *stream)
     return stream->table;
 }
 
-const char *table_stream_why_over(const struct table_stream *stream)
+const char *table_stream_why_ended(const struct table_stream *stream)
 {
     struct stat now, own;
 

@@ -34,13 +34,13 @@ struct table_stream *table_stream_open(const char *path, const struct parameters
 enum table_stream_found table_stream_next(struct table_stream *stream);
 
 /* Nothing is said at the end of what was skipped: of a stream that only looks. */
-void table_stream_hush(struct table_stream *stream);
+void table_stream_report_nothing(struct table_stream *stream);
 
 /* The stream's own: names, once there is a header, and the newest row. */
 const struct table *table_stream_table(const struct table_stream *stream);
 
 /* Why nothing more can come of a file that is followed ("has become shorter"), or NULL. */
-const char *table_stream_why_over(const struct table_stream *stream);
+const char *table_stream_why_ended(const struct table_stream *stream);
 
 /* The end of what is there is in the middle of a row. */
 bool table_stream_is_mid_row(const struct table_stream *stream);

@@ -42,7 +42,7 @@ void tracks_write_header(FILE *file, struct tracks_columns columns)
     fputc('\n', file);
 }
 
-static void write_body(FILE *file, const struct rho_tracker *tracker, unsigned place)
+static void write_body_cells(FILE *file, const struct rho_tracker *tracker, unsigned place)
 {
     struct rho_body body;
 
@@ -79,7 +79,7 @@ void tracks_write_row(FILE *file, int64_t time_us, const struct rho_track_report
         write_float(file, track->covariance[i]);
     }
     if (columns.bodies) {
-        write_body(file, columns.bodies, place);
+        write_body_cells(file, columns.bodies, place);
     }
     fputc('\n', file);
 }

@@ -22,7 +22,7 @@ static const uint8_t sync_word[SYNC_BYTES] = {0xED, 0xA1, 0xDA, 0x01};
 
 /* ---- Bytes ---- */
 
-static uint64_t load(const uint8_t *data, int bytes)
+static uint64_t load_big_endian(const uint8_t *data, int bytes)
 {
     uint64_t value = 0;
 
@@ -34,12 +34,12 @@ static uint64_t load(const uint8_t *data, int bytes)
 
 static int64_t load_int64(const uint8_t *data)
 {
-    uint64_t value = load(data, 8);
+    uint64_t value = load_big_endian(data, 8);
 
     return value <= INT64_MAX ? (int64_t)value : -(int64_t)~value - 1;
 }
 
-static void store(uint8_t *data, uint64_t value, int bytes)
+static void store_big_endian(uint8_t *data, uint64_t value, int bytes)
 {
     for (int i = bytes; i-- > 0; value >>= 8) {
         data[i] = (uint8_t)value;
@@ -47,7 +47,7 @@ static void store(uint8_t *data, uint64_t value, int bytes)
 }
 
 /* Begins as a sync word does, as far as there are bytes. */
-static bool may_be_sync(const uint8_t *data, size_t size)
+static bool may_begin_sync_word(const uint8_t *data, size_t size)
 {
     return memcmp(data, sync_word, size < SYNC_BYTES ? size : SYNC_BYTES) == 0;
 }
@@ -62,14 +62,14 @@ static size_t event_bytes(const uint8_t *data, size_t size)
     uint64_t channel, content;
     size_t there;
 
-    if (!may_be_sync(data, size)) {
+    if (!may_begin_sync_word(data, size)) {
         return 0;
     }
     if (size < LCM_LOG_HEADER_BYTES) {
         return LCM_LOG_HEADER_BYTES;
     }
-    channel = load(data + 20, 4); /* negative ones are too large */
-    content = load(data + 24, 4);
+    channel = load_big_endian(data + 20, 4); /* negative ones are too large */
+    content = load_big_endian(data + 24, 4);
     if (channel < 1 || channel > LCM_LOG_MAX_CHANNEL || content > LCM_LOG_MAX_DATA) {
         return 0;
     }
@@ -84,7 +84,7 @@ static size_t event_bytes(const uint8_t *data, size_t size)
  * Where the next bytes are that may be a sync word, or the beginning of one at the end; size where
  * there are none.
  */
-static size_t find_sync(const uint8_t *data, size_t from, size_t size)
+static size_t find_sync_word(const uint8_t *data, size_t from, size_t size)
 {
     while (from < size) {
         const uint8_t *first = memchr(data + from, sync_word[0], size - from);
@@ -93,7 +93,7 @@ static size_t find_sync(const uint8_t *data, size_t from, size_t size)
             return size;
         }
         from = (size_t)(first - data);
-        if (may_be_sync(first, size - from)) {
+        if (may_begin_sync_word(first, size - from)) {
             return from;
         }
         from++;
@@ -105,25 +105,25 @@ static size_t find_sync(const uint8_t *data, size_t from, size_t size)
  * A whole header, its channel too, that begins inside an event of so many bytes; bytes where there
  * is none.
  */
-static size_t find_header(const uint8_t *data, size_t bytes, size_t size)
+static size_t find_event_header(const uint8_t *data, size_t bytes, size_t size)
 {
-    size_t at = find_sync(data, 1, size);
+    size_t at = find_sync_word(data, 1, size);
 
     while (at < bytes) {
         size_t left = size - at;
 
         if (left > LCM_LOG_HEADER_BYTES && event_bytes(data + at, left) > 0 &&
-            left - LCM_LOG_HEADER_BYTES >= load(data + at + 20, 4)) {
+            left - LCM_LOG_HEADER_BYTES >= load_big_endian(data + at + 20, 4)) {
             return at;
         }
-        at = find_sync(data, at + 1, size);
+        at = find_sync_word(data, at + 1, size);
     }
     return bytes;
 }
 
-static void take_event(const uint8_t *data, size_t bytes, struct lcm_log_event *event)
+static void fill_event(const uint8_t *data, size_t bytes, struct lcm_log_event *event)
 {
-    size_t channel = (size_t)load(data + 20, 4);
+    size_t channel = (size_t)load_big_endian(data + 20, 4);
 
     event->number = load_int64(data + 4);
     event->utime = load_int64(data + 12);
@@ -133,13 +133,13 @@ static void take_event(const uint8_t *data, size_t bytes, struct lcm_log_event *
     event->size = bytes - LCM_LOG_HEADER_BYTES - channel;
 }
 
-static enum lcm_log_found skip_to(size_t bytes, size_t *count)
+static enum lcm_log_found skip_found(size_t bytes, size_t *count)
 {
     *count = bytes;
     return LCM_LOG_SKIP;
 }
 
-static enum lcm_log_found ask_for(size_t bytes, size_t *count)
+static enum lcm_log_found more_needed(size_t bytes, size_t *count)
 {
     *count = bytes;
     return LCM_LOG_MORE;
@@ -151,24 +151,24 @@ enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
     size_t bytes = event_bytes(data, size), inside;
 
     if (bytes == 0) {
-        return skip_to(find_sync(data, size > 0, size), count);
+        return skip_found(find_sync_word(data, size > 0, size), count);
     }
     if (size < bytes && is_end) {
-        return skip_to(find_sync(data, 1, size), count);
+        return skip_found(find_sync_word(data, 1, size), count);
     }
     if (size < bytes + SYNC_BYTES && !is_end) {
-        return ask_for(bytes + SYNC_BYTES, count);
+        return more_needed(bytes + SYNC_BYTES, count);
     }
-    if (size > bytes && !may_be_sync(data + bytes, size - bytes)) {
+    if (size > bytes && !may_begin_sync_word(data + bytes, size - bytes)) {
         if (size < bytes + HEADER_MAX_BYTES && !is_end) {
-            return ask_for(bytes + HEADER_MAX_BYTES, count);
+            return more_needed(bytes + HEADER_MAX_BYTES, count);
         }
-        inside = find_header(data, bytes, size);
+        inside = find_event_header(data, bytes, size);
         if (inside < bytes) {
-            return skip_to(inside, count);
+            return skip_found(inside, count);
         }
     }
-    take_event(data, bytes, event);
+    fill_event(data, bytes, event);
     *count = bytes;
     return LCM_LOG_EVENT;
 }
@@ -204,7 +204,8 @@ bool lcm_log_is_log(const char *path)
     if (stat(path, &status) || !S_ISREG(status.st_mode) || !(file = fopen(path, "rb"))) {
         return false; /* a pipe could not be read again */
     }
-    is_log = fread(start, 1, SYNC_BYTES, file) == SYNC_BYTES && may_be_sync(start, SYNC_BYTES);
+    is_log =
+        fread(start, 1, SYNC_BYTES, file) == SYNC_BYTES && may_begin_sync_word(start, SYNC_BYTES);
     fclose(file);
     return is_log;
 }
@@ -222,7 +223,7 @@ struct lcm_log_reader *lcm_log_open(const char *path)
     if (reader->file < 0) {
         fail_to_read(path);
     }
-    reader->path = must_copy(path);
+    reader->path = must_copy_text(path);
     reader->capacity = FIRST_CAPACITY;
     reader->buffer = must_alloc(reader->capacity);
     return reader;
@@ -250,7 +251,7 @@ static void make_room(struct lcm_log_reader *reader)
 }
 
 /* Reads until so many bytes are there, or the file ends: memory grows with what it really has. */
-static void need(struct lcm_log_reader *reader, size_t bytes)
+static void read_until(struct lcm_log_reader *reader, size_t bytes)
 {
     while (!reader->is_end && reader->end - reader->first < bytes) {
         ssize_t got;
@@ -276,7 +277,8 @@ static void count_skipped(struct lcm_log_reader *reader, const uint8_t *data, si
         counts->places_skipped++;
         *last = (struct place){reader->offset, 0};
     }
-    reader->last_has_sync = may_be_sync(data, bytes); /* a whole one: they do not end before */
+    reader->last_has_sync =
+        may_begin_sync_word(data, bytes); /* a whole one: they do not end before */
     last->bytes += bytes;
     counts->bytes_skipped += bytes;
     if (counts->places_skipped <= PLACES_SHOWN) {
@@ -284,7 +286,7 @@ static void count_skipped(struct lcm_log_reader *reader, const uint8_t *data, si
     }
 }
 
-static void pass(struct lcm_log_reader *reader, size_t bytes)
+static void pass_bytes(struct lcm_log_reader *reader, size_t bytes)
 {
     reader->first += bytes;
     reader->offset += bytes;
@@ -298,7 +300,7 @@ bool lcm_log_next(struct lcm_log_reader *reader, struct lcm_log_event *event)
         const uint8_t *data;
         enum lcm_log_found found;
 
-        need(reader, wanted);
+        read_until(reader, wanted);
         data = reader->buffer + reader->first;
         if (reader->first == reader->end) {
             return false;
@@ -307,12 +309,12 @@ bool lcm_log_next(struct lcm_log_reader *reader, struct lcm_log_event *event)
         if (found == LCM_LOG_EVENT) {
             event->offset = reader->offset;
             reader->counts.events++;
-            pass(reader, wanted);
+            pass_bytes(reader, wanted);
             return true;
         }
         if (found == LCM_LOG_SKIP) {
             count_skipped(reader, data, wanted);
-            pass(reader, wanted);
+            pass_bytes(reader, wanted);
             wanted = LCM_LOG_HEADER_BYTES;
         }
     }
@@ -329,13 +331,13 @@ uint64_t lcm_log_position(const struct lcm_log_reader *reader)
 }
 
 /* The last skipped bytes begin as an event does and reach the end: it was cut off. */
-static bool is_cut_off(const struct lcm_log_reader *reader)
+static bool is_last_event_cut_off(const struct lcm_log_reader *reader)
 {
     return reader->is_end && reader->first == reader->end && reader->last_has_sync &&
            reader->last.offset + reader->last.bytes == reader->offset;
 }
 
-void lcm_log_report(const struct lcm_log_reader *reader)
+void lcm_log_report_skipped(const struct lcm_log_reader *reader)
 {
     uint64_t places = reader->counts.places_skipped;
 
@@ -347,7 +349,7 @@ void lcm_log_report(const struct lcm_log_reader *reader)
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " bytes skipped in %" PRIu64 " places in all\n",
                 reader->path, reader->counts.bytes_skipped, places);
     }
-    if (is_cut_off(reader)) {
+    if (is_last_event_cut_off(reader)) {
         fprintf(stderr, "rhotrack: %s: the last event is cut off\n", reader->path);
     }
 }
@@ -365,17 +367,17 @@ void lcm_log_close(struct lcm_log_reader *reader)
 
 /* ---- Writing ---- */
 
-void lcm_log_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
-                    size_t channel, size_t data)
+void lcm_log_put_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
+                        size_t channel, size_t data)
 {
     memcpy(header, sync_word, SYNC_BYTES);
-    store(header + 4, (uint64_t)number, 8);
-    store(header + 12, (uint64_t)utime, 8);
-    store(header + LCM_LOG_CHANNEL_AT, channel, 4);
-    store(header + LCM_LOG_DATA_AT, data, 4);
+    store_big_endian(header + 4, (uint64_t)number, 8);
+    store_big_endian(header + 12, (uint64_t)utime, 8);
+    store_big_endian(header + LCM_LOG_CHANNEL_AT, channel, 4);
+    store_big_endian(header + LCM_LOG_DATA_AT, data, 4);
 }
 
-uint64_t lcm_log_bytes(uint64_t channel, uint64_t data)
+uint64_t lcm_log_event_bytes(uint64_t channel, uint64_t data)
 {
     return LCM_LOG_HEADER_BYTES + channel + data;
 }
@@ -390,7 +392,7 @@ bool lcm_log_write(struct lcm_log_writer *writer, int64_t utime, const char *cha
         errno = EINVAL;
         return false;
     }
-    lcm_log_header(header, writer->number, utime, length, size);
+    lcm_log_put_header(header, writer->number, utime, length, size);
     if (fwrite(header, sizeof header, 1, writer->file) != 1 ||
         fwrite(channel, length, 1, writer->file) != 1 ||
         (size > 0 && fwrite(data, size, 1, writer->file) != 1)) {

@@ -80,17 +80,17 @@ struct lcm_log_counts lcm_log_counts(const struct lcm_log_reader *reader);
 uint64_t lcm_log_position(const struct lcm_log_reader *reader);
 
 /* Tells on standard error what was skipped: the first few places, then a sum. */
-void lcm_log_report(const struct lcm_log_reader *reader);
+void lcm_log_report_skipped(const struct lcm_log_reader *reader);
 void lcm_log_close(struct lcm_log_reader *reader);
 
 /* ---- Writing ---- */
 
 /* An event's header; channel and data: their bytes, which follow it. */
-void lcm_log_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
-                    size_t channel, size_t data);
+void lcm_log_put_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
+                        size_t channel, size_t data);
 
 /* An event's bytes, with its header. */
-uint64_t lcm_log_bytes(uint64_t channel, uint64_t data);
+uint64_t lcm_log_event_bytes(uint64_t channel, uint64_t data);
 
 /* The file is the caller's: to be opened, flushed, and closed. Numbers go up from 0. */
 struct lcm_log_writer {

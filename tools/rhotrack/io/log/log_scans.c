@@ -9,7 +9,7 @@
 
 #include "base/common.h"
 #include "io/log/lcm_log.h"
-#include "io/scans/sequence_counts.h"
+#include "io/scans/out_of_sequence_counts.h"
 #include "rhotrack/message.h"
 
 /* of rho_scan_assembler_config */
@@ -48,7 +48,7 @@ struct log_scans {
     const struct parameters *parameters;
     bool is_held; /* by the caller */
     struct rho_scan_assembler *assembler;
-    struct sequence_counts order;
+    struct out_of_sequence_counts order;
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
     int64_t clock_us;   /* the latest event's */
@@ -76,7 +76,7 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
  * The caller holds the scans, with all the room there is: the assembler, which has less and would
  * drop out-of-sequence scans, holds none, and takes none for out of sequence too early.
  */
-static void wait_long(struct parameters *parameters, bool is_held)
+static void lengthen_waits(struct parameters *parameters, bool is_held)
 {
     double hold_ms = (double)log_scans_hold_us(parameters) * 1e-3;
     double clocks_ms = hold_ms - parameters->value[PARAMETER_HOLD_MS];
@@ -87,14 +87,14 @@ static void wait_long(struct parameters *parameters, bool is_held)
 }
 
 /* The assembler as it was before the first event. */
-static void start(struct log_scans *scans)
+static void start_assembler(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
-    wait_long(&parameters, scans->is_held);
+    lengthen_waits(&parameters, scans->is_held);
     parameters_to_assembler(&parameters, scans->assembler);
     scans->assembler->config.is_record = 1;
-    scans->order = (struct sequence_counts){0};
+    scans->order = (struct out_of_sequence_counts){0};
     scans->reader = lcm_log_open(scans->path);
     scans->has_event = scans->is_over = false;
     scans->clock_us = INT64_MIN;
@@ -102,13 +102,13 @@ static void start(struct log_scans *scans)
 }
 
 /* Offers the event to the assembler, which may have no room before something is taken from it. */
-static void offer(struct log_scans *scans)
+static void offer_event(struct log_scans *scans)
 {
     const struct lcm_log_event *event = &scans->event;
 
-    scans->has_event =
-        sequence_counts_take(&scans->order, scans->assembler, event->channel, event->data,
-                             event->size, event->utime) == RHO_ERROR_CAPACITY;
+    scans->has_event = out_of_sequence_counts_take_message(&scans->order, scans->assembler,
+                                                           event->channel, event->data, event->size,
+                                                           event->utime) == RHO_ERROR_CAPACITY;
 }
 
 static void next_event(struct log_scans *scans)
@@ -117,7 +117,7 @@ static void next_event(struct log_scans *scans)
     if (!scans->is_over) {
         scans->clock_us =
             scans->event.utime > scans->clock_us ? scans->event.utime : scans->clock_us;
-        offer(scans);
+        offer_event(scans);
     }
 }
 
@@ -127,11 +127,11 @@ static int64_t now_us(const struct log_scans *scans)
 }
 
 /* The next scan of all. An event that waits is offered again after each call for the next scan. */
-static bool take_next(struct log_scans *scans, struct rho_scan_assembler_item *item)
+static bool take_next_scan(struct log_scans *scans, struct rho_scan_assembler_item *item)
 {
     for (;;) {
         if (scans->has_event) {
-            offer(scans);
+            offer_event(scans);
         }
         if (rho_scan_assembler_next(scans->assembler, now_us(scans), item)) {
             scans->num_given++;
@@ -147,16 +147,16 @@ static bool take_next(struct log_scans *scans, struct rho_scan_assembler_item *i
     }
 }
 
-static int64_t time_of(const struct rho_scan_assembler_item *item)
+static int64_t item_time_us(const struct rho_scan_assembler_item *item)
 {
     return item->kind == RHO_SCAN_ASSEMBLER_BEARINGS ? item->bearings.time_us : item->scan.time_us;
 }
 
 /* The clock was set back: two recordings in one file cannot be stepped as one. */
-static void start_anew(struct log_scans *scans, const struct rho_scan_assembler_item *item,
-                       bool keep_going)
+static void leave_out_scans_before(struct log_scans *scans,
+                                   const struct rho_scan_assembler_item *item, bool keep_going)
 {
-    double time_s = 1e-6 * (double)time_of(item);
+    double time_s = 1e-6 * (double)item_time_us(item);
     uint64_t before = scans->num_given - 1;
 
     if (!keep_going) {
@@ -173,17 +173,17 @@ static void start_anew(struct log_scans *scans, const struct rho_scan_assembler_
 }
 
 /* Goes through the whole log. */
-static void look_through(struct log_scans *scans, uint64_t bytes, bool keep_going)
+static void look_through_log(struct log_scans *scans, uint64_t bytes, bool keep_going)
 {
     struct rho_scan_assembler_item item;
     int64_t last_us = INT64_MIN;
     struct progress progress = progress_start("scans looked through", 0);
 
-    while (take_next(scans, &item)) {
-        if (item.is_restart && time_of(&item) < last_us) {
-            start_anew(scans, &item, keep_going);
+    while (take_next_scan(scans, &item)) {
+        if (item.is_restart && item_time_us(&item) < last_us) {
+            leave_out_scans_before(scans, &item, keep_going);
         }
-        last_us = time_of(&item);
+        last_us = item_time_us(&item);
         progress_show_bytes(&progress, scans->num_given, lcm_log_position(scans->reader), bytes);
     }
     progress_end(&progress);
@@ -191,8 +191,9 @@ static void look_through(struct log_scans *scans, uint64_t bytes, bool keep_goin
 
 /* ---- What was wrong ---- */
 
-static void say_counters(const char *path, const struct rho_scan_assembler_counters *counters,
-                         const struct scan_losses *losses)
+static void report_assembler_faults(const char *path,
+                                    const struct rho_scan_assembler_counters *counters,
+                                    const struct scan_losses *losses)
 {
     const struct {
         uint32_t count;
@@ -239,14 +240,14 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     scans->parameters = parameters;
     scans->is_held = is_held;
     scans->assembler = must_alloc(sizeof *scans->assembler);
-    start(scans);
-    look_through(scans, file_bytes(path), keep_going);
+    start_assembler(scans);
+    look_through_log(scans, plain_file_size(path), keep_going);
     if (is_reported) {
         const struct scan_losses losses =
-            sequence_counts_losses(&scans->order, &scans->assembler->counters);
+            out_of_sequence_counts_losses(&scans->order, &scans->assembler->counters);
 
-        lcm_log_report(scans->reader);
-        say_counters(path, &scans->assembler->counters, &losses);
+        lcm_log_report_skipped(scans->reader);
+        report_assembler_faults(path, &scans->assembler->counters, &losses);
     }
     if (scans->num_given == 0) {
         fail(EXIT_USAGE, "%s: not one scan of a sensor (channels %s<n>, %s<n>, %s<n>)", path,
@@ -259,7 +260,7 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
 
 bool log_scans_next(struct log_scans *scans, struct rho_scan_assembler_item *item)
 {
-    while (take_next(scans, item)) {
+    while (take_next_scan(scans, item)) {
         if (scans->num_given > scans->first) {
             return true;
         }
@@ -270,7 +271,7 @@ bool log_scans_next(struct log_scans *scans, struct rho_scan_assembler_item *ite
 void log_scans_rewind(struct log_scans *scans)
 {
     lcm_log_close(scans->reader);
-    start(scans);
+    start_assembler(scans);
 }
 
 int64_t log_scans_clock_us(const struct log_scans *scans)

@@ -8,18 +8,18 @@
 #include "io/asterix/asterix_file.h"
 #include "io/asterix/asterix_track_table.h"
 #include "io/log/lcm_log.h"
-#include "io/rows/rows_collect.h"
+#include "io/rows/rows_from_messages.h"
 #include "io/rows/rows_write.h"
 
-static void collect(struct lcm_log_reader *log, const char *path,
-                    struct rows_collection *collection, bool keep_going)
+static void collect_log_rows(struct lcm_log_reader *log, const char *path,
+                             struct rows_collection *collection, bool keep_going)
 {
     struct lcm_log_event event;
 
     while (lcm_log_next(log, &event)) {
-        rows_collect_event(collection, path, &event, keep_going);
+        rows_from_messages_add_event(collection, path, &event, keep_going);
     }
-    rows_collect_finish(collection);
+    rows_from_messages_finish(collection);
 }
 
 struct table *log_table_read(const char *path, const struct rows_kind *kind, bool keep_going,
@@ -29,10 +29,10 @@ struct table *log_table_read(const char *path, const struct rows_kind *kind, boo
     struct lcm_log_reader *log = lcm_log_open(path);
     struct table *table = NULL;
 
-    rows_collect_start(&collection, kind);
-    collect(log, path, &collection, keep_going);
+    rows_from_messages_start(&collection, kind);
+    collect_log_rows(log, path, &collection, keep_going);
     if (is_reported) {
-        lcm_log_report(log);
+        lcm_log_report_skipped(log);
     }
     if (collection.messages_bad > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " bad messages skipped\n", path,
@@ -41,7 +41,7 @@ struct table *log_table_read(const char *path, const struct rows_kind *kind, boo
     if (collection.rows.count > 0) {
         table = rows_to_table(path, &collection.rows);
     }
-    rows_collect_free(&collection);
+    rows_from_messages_free(&collection);
     lcm_log_close(log);
     return table;
 }

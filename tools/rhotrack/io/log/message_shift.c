@@ -6,7 +6,7 @@
 /* Where the members stand, and how many bytes they are. */
 enum { UTIME_AT = 8, SCAN_AT = 16, EPOCH_AT = 20, TIME_BYTES = 8, NUMBER_BYTES = 4 };
 
-static uint64_t get(const uint8_t *data, int bytes)
+static uint64_t get_big_endian(const uint8_t *data, int bytes)
 {
     uint64_t value = 0;
 
@@ -16,7 +16,7 @@ static uint64_t get(const uint8_t *data, int bytes)
     return value;
 }
 
-static void put(uint8_t *data, int bytes, uint64_t value)
+static void put_big_endian(uint8_t *data, int bytes, uint64_t value)
 {
     for (int i = bytes - 1; i >= 0; i--) {
         data[i] = (uint8_t)value;
@@ -24,7 +24,7 @@ static void put(uint8_t *data, int bytes, uint64_t value)
     }
 }
 
-static bool has_scan(const uint8_t *data, size_t size)
+static bool has_scan_number(const uint8_t *data, size_t size)
 {
     switch (rho_message_type_of(data, size)) {
     case RHO_MESSAGE_TYPE_PLOT_SCAN:
@@ -52,33 +52,35 @@ static bool has_epoch(const uint8_t *data, size_t size)
 {
     enum rho_message_type type = rho_message_type_of(data, size);
 
-    return has_scan(data, size) && type != RHO_MESSAGE_TYPE_PEAK_LIST &&
+    return has_scan_number(data, size) && type != RHO_MESSAGE_TYPE_PEAK_LIST &&
            type != RHO_MESSAGE_TYPE_TRUTH_LIST && size >= EPOCH_AT + NUMBER_BYTES;
 }
 
-bool message_scan(const uint8_t *data, size_t size, int32_t *scan)
+bool message_scan_number(const uint8_t *data, size_t size, int32_t *scan)
 {
-    if (!has_scan(data, size)) {
+    if (!has_scan_number(data, size)) {
         return false;
     }
-    *scan = (int32_t)get(data + SCAN_AT, NUMBER_BYTES);
+    *scan = (int32_t)get_big_endian(data + SCAN_AT, NUMBER_BYTES);
     return true;
 }
 
-void message_shift(uint8_t *data, size_t size, int64_t time_us, uint32_t scans)
+void message_shift_in_time(uint8_t *data, size_t size, int64_t time_us, uint32_t scans)
 {
     int64_t utime;
 
-    if (has_scan(data, size) &&
-        !__builtin_add_overflow((int64_t)get(data + UTIME_AT, TIME_BYTES), time_us, &utime)) {
-        put(data + UTIME_AT, TIME_BYTES, (uint64_t)utime);
-        put(data + SCAN_AT, NUMBER_BYTES, get(data + SCAN_AT, NUMBER_BYTES) + scans);
+    if (has_scan_number(data, size) &&
+        !__builtin_add_overflow((int64_t)get_big_endian(data + UTIME_AT, TIME_BYTES), time_us,
+                                &utime)) {
+        put_big_endian(data + UTIME_AT, TIME_BYTES, (uint64_t)utime);
+        put_big_endian(data + SCAN_AT, NUMBER_BYTES,
+                       get_big_endian(data + SCAN_AT, NUMBER_BYTES) + scans);
     }
 }
 
 void message_set_epoch(uint8_t *data, size_t size, int32_t from, int32_t to)
 {
-    if (has_epoch(data, size) && (int32_t)get(data + EPOCH_AT, NUMBER_BYTES) == from) {
-        put(data + EPOCH_AT, NUMBER_BYTES, (uint64_t)to);
+    if (has_epoch(data, size) && (int32_t)get_big_endian(data + EPOCH_AT, NUMBER_BYTES) == from) {
+        put_big_endian(data + EPOCH_AT, NUMBER_BYTES, (uint64_t)to);
     }
 }

@@ -12,13 +12,13 @@
 #include <stdint.h>
 
 /* The number of a message's scan. False: none of rhotrack's messages that have one. */
-bool message_scan(const uint8_t *data, size_t size, int32_t *scan);
+bool message_scan_number(const uint8_t *data, size_t size, int32_t *scan);
 
 /*
  * Later by time_us, scan higher by scans (it wraps). Leaves other messages, and times that would go
  * beyond int64, alone.
  */
-void message_shift(uint8_t *data, size_t size, int64_t time_us, uint32_t scans);
+void message_shift_in_time(uint8_t *data, size_t size, int64_t time_us, uint32_t scans);
 
 /* Another epoch where it is `from`. */
 void message_set_epoch(uint8_t *data, size_t size, int32_t from, int32_t to);

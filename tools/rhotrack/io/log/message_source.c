@@ -29,7 +29,7 @@ struct message_source {
     struct input *taken; /* whose event was handed out: it goes on at the next call */
 };
 
-static void next_of_log(struct input *input)
+static void next_log_event(struct input *input)
 {
     input->has_event = lcm_log_next(input->log, &input->log_event);
     input->event = (struct message_event){.utime = input->log_event.utime,
@@ -38,21 +38,21 @@ static void next_of_log(struct input *input)
                                           .size = input->log_event.size};
 }
 
-static void next_of_rows(struct input *input)
+static void next_rows_message(struct input *input)
 {
-    input->has_event = rows_scans_next(&input->scans, &input->at, &input->output);
+    input->has_event = rows_scans_next_message(&input->scans, &input->at, &input->output);
     input->event = (struct message_event){.utime = input->output.utime,
                                           .channel = input->output.channel,
                                           .data = input->output.data,
                                           .size = input->output.size};
 }
 
-static void go_on(struct input *input)
+static void advance_input(struct input *input)
 {
     if (input->log) {
-        next_of_log(input);
+        next_log_event(input);
     } else {
-        next_of_rows(input);
+        next_rows_message(input);
     }
 }
 
@@ -63,12 +63,12 @@ static void open_input(struct input *input, const char *path, const struct param
     if (lcm_log_is_log(path)) {
         input->log = lcm_log_open(path);
     } else {
-        rows_read(&input->file, path, parameters, keep_going);
+        rows_read_csv(&input->file, path, parameters, keep_going);
         rows_turns_find(&input->file, parameters);
         rows_scans_make(&input->scans, &input->file,
                         llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     }
-    go_on(input);
+    advance_input(input);
     if (!input->has_event) {
         fail(EXIT_USAGE, "%s: not one %s in it", path,
              input->log ? "event of an LCM log" : "good scan");
@@ -91,7 +91,7 @@ struct message_source *message_source_open(char *const *paths, int num_paths,
 bool message_source_next(struct message_source *source, struct message_event *event)
 {
     if (source->taken) {
-        go_on(source->taken);
+        advance_input(source->taken);
     }
     source->taken = NULL;
     for (int i = 0; i < source->num_inputs; i++) {
@@ -115,7 +115,7 @@ void message_source_report(const struct message_source *source)
 
     for (int i = 0; i < source->num_inputs; i++) {
         if (source->inputs[i].log) {
-            lcm_log_report(source->inputs[i].log);
+            lcm_log_report_skipped(source->inputs[i].log);
         }
         rows_skipped += source->inputs[i].file.rows_skipped;
     }

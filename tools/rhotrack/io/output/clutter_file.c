@@ -50,13 +50,14 @@ struct clutter_row {
 };
 
 /* Plots and tracks have places and sensors, too; a map would be written over them. */
-static void refuse_others(const struct table *table)
+static void refuse_other_tables(const struct table *table)
 {
     static const char *const others[] = {"t_s", "range_m", "bearing_rad"};
 
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        if (table_find(table, others[i]) >= 0) {
-            table_fail(table, TABLE_HEADER, "column '%s': this is no clutter map", others[i]);
+        if (table_find_column(table, others[i]) >= 0) {
+            table_fail_at_row(table, TABLE_HEADER, "column '%s': this is no clutter map",
+                              others[i]);
         }
     }
 }
@@ -64,27 +65,27 @@ static void refuse_others(const struct table *table)
 static struct columns find_columns(const struct table *table, const struct parameters *parameters)
 {
     struct columns columns = {
-        .sensor_id = table_need(table, "sensor_id"),
-        .sigma_m = table_find(table, "sigma_m"),
-        .sigma_range_m = table_find(table, "sigma_range_m"),
-        .sigma_cross_m = table_find(table, "sigma_cross_m"),
-        .hits = table_find(table, "hits"),
-        .region = table_find(table, "region"),
-        .unseen = table_find(table, "unseen"),
-        .looks = table_find(table, "looks"),
-        .returns = table_find(table, "returns"),
+        .sensor_id = table_need_column(table, "sensor_id"),
+        .sigma_m = table_find_column(table, "sigma_m"),
+        .sigma_range_m = table_find_column(table, "sigma_range_m"),
+        .sigma_cross_m = table_find_column(table, "sigma_cross_m"),
+        .hits = table_find_column(table, "hits"),
+        .region = table_find_column(table, "region"),
+        .unseen = table_find_column(table, "unseen"),
+        .looks = table_find_column(table, "looks"),
+        .returns = table_find_column(table, "returns"),
     };
 
-    refuse_others(table);
-    if (table_find(table, "lat_deg") >= 0) {
+    refuse_other_tables(table);
+    if (table_find_column(table, "lat_deg") >= 0) {
         columns.geodetic = geodetic_open(table, parameters);
     }
-    columns.x_m = table_need(table, columns.geodetic ? "lat_deg" : "x_m");
-    columns.y_m = table_need(table, columns.geodetic ? "lon_deg" : "y_m");
+    columns.x_m = table_need_column(table, columns.geodetic ? "lat_deg" : "x_m");
+    columns.y_m = table_need_column(table, columns.geodetic ? "lon_deg" : "y_m");
     if (columns.looks >= 0) {
-        table_need(table, "hits");
-        table_need(table, "unseen");
-        table_need(table, "returns");
+        table_need_column(table, "hits");
+        table_need_column(table, "unseen");
+        table_need_column(table, "returns");
     }
     return columns;
 }
@@ -92,7 +93,7 @@ static struct columns find_columns(const struct table *table, const struct param
 static bool read_count(const struct row_check *check, int column, int32_t min, int32_t max,
                        int32_t *value)
 {
-    const char *why = table_int32(check->table, check->row, column, value);
+    const char *why = table_read_int32(check->table, check->row, column, value);
 
     if (why) {
         return row_refuse_cell(check, column, why);
@@ -109,10 +110,10 @@ static bool read_place(const struct row_check *check, const struct columns *colu
     bool has_alt;
 
     if (!columns->geodetic) {
-        return row_position(check, columns->x_m, &echo->x_m) &&
-               row_position(check, columns->y_m, &echo->y_m);
+        return row_read_position(check, columns->x_m, &echo->x_m) &&
+               row_read_position(check, columns->y_m, &echo->y_m);
     }
-    if (!geodetic_place(columns->geodetic, check, place_m, &has_alt)) {
+    if (!geodetic_read_place(columns->geodetic, check, place_m, &has_alt)) {
         return false;
     }
     echo->x_m = (float)place_m[0];
@@ -121,11 +122,11 @@ static bool read_place(const struct row_check *check, const struct columns *colu
 }
 
 /* Set by somebody, for this sensor or for all. */
-static bool is_said(const struct parameters *parameters, int32_t sensor_id,
-                    enum sensor_parameter_id own, enum parameter_id of_all)
+static bool is_sigma_said(const struct parameters *parameters, int32_t sensor_id,
+                          enum sensor_parameter_id own, enum parameter_id of_all)
 {
     return parameters->source[of_all] >= SOURCE_CONFIG ||
-           !isnan(parameters_of_sensor(parameters, sensor_id, own, NAN));
+           !isnan(parameters_value_of_sensor(parameters, sensor_id, own, NAN));
 }
 
 /* The noise of its sensor's plots there. */
@@ -134,20 +135,20 @@ static void default_sigmas(const struct parameters *parameters, struct clutter_e
     double range_m = SIGMA_BY_HAND_M, cross_m = SIGMA_BY_HAND_M;
     const int32_t id = echo->sensor_id;
 
-    if (is_said(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD, PARAMETER_SIGMA_AZIMUTH_RAD) ||
-        is_said(parameters, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)) {
+    if (is_sigma_said(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD, PARAMETER_SIGMA_AZIMUTH_RAD) ||
+        is_sigma_said(parameters, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)) {
         struct rho_sensor sensor;
 
         parameters_to_any_sensor(parameters, id, &sensor);
-        range_m = parameters_of_sensor(parameters, id, SENSOR_SIGMA_RANGE_M,
-                                       parameters->value[PARAMETER_SIGMA_RANGE_M]);
+        range_m = parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_RANGE_M,
+                                             parameters->value[PARAMETER_SIGMA_RANGE_M]);
         cross_m =
-            parameters_of_sensor(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD,
-                                 parameters->value[PARAMETER_SIGMA_AZIMUTH_RAD]) *
+            parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD,
+                                       parameters->value[PARAMETER_SIGMA_AZIMUTH_RAD]) *
             hypot((double)echo->x_m - (double)sensor.x_m, (double)echo->y_m - (double)sensor.y_m);
-    } else if (is_said(parameters, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M)) {
-        range_m = cross_m = parameters_of_sensor(parameters, id, SENSOR_SIGMA_M,
-                                                 parameters->value[PARAMETER_SIGMA_M]);
+    } else if (is_sigma_said(parameters, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M)) {
+        range_m = cross_m = parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_M,
+                                                       parameters->value[PARAMETER_SIGMA_M]);
     }
     echo->sigma_range_m = (float)fmax(range_m, (double)RHO_LIMIT_SIGMA_MIN);
     echo->sigma_cross_m = (float)fmax(cross_m, (double)RHO_LIMIT_SIGMA_MIN);
@@ -155,8 +156,8 @@ static void default_sigmas(const struct parameters *parameters, struct clutter_e
 
 static bool read_sigma(const struct row_check *check, int column, float *value)
 {
-    return !row_has(check, column) ||
-           row_float(check, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX, value);
+    return !row_has_cell(check, column) ||
+           row_read_float(check, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX, value);
 }
 
 static bool read_echo(const struct row_check *check, const struct columns *columns,
@@ -173,7 +174,7 @@ static bool read_echo(const struct row_check *check, const struct columns *colum
         !read_sigma(check, columns->sigma_m, &echo->sigma_cross_m) ||
         !read_sigma(check, columns->sigma_range_m, &echo->sigma_range_m) ||
         !read_sigma(check, columns->sigma_cross_m, &echo->sigma_cross_m) ||
-        (row_has(check, columns->hits) &&
+        (row_has_cell(check, columns->hits) &&
          !read_count(check, columns->hits, 1, UINT16_MAX, &hits))) {
         return false;
     }
@@ -186,15 +187,15 @@ static bool read_learned(const struct row_check *check, const struct columns *co
 {
     int32_t hits, unseen, region = ALL_REGIONS;
 
-    if (row_has(check, columns->sensor_id)) {
+    if (row_has_cell(check, columns->sensor_id)) {
         return row_refuse(check, "a row is an echo of a sensor, or has looks, not both");
     }
     if (!read_count(check, columns->hits, 1, UINT16_MAX, &hits) ||
         !read_count(check, columns->unseen, 1, UINT8_MAX, &unseen) ||
-        (row_has(check, columns->region) &&
+        (row_has_cell(check, columns->region) &&
          !read_count(check, columns->region, 0, REGION_MAX, &region)) ||
-        !row_float(check, columns->looks, 0.0f, 1e9f, &learned->looks) ||
-        !row_float(check, columns->returns, 0.0f, learned->looks, &learned->returns)) {
+        !row_read_float(check, columns->looks, 0.0f, 1e9f, &learned->looks) ||
+        !row_read_float(check, columns->returns, 0.0f, learned->looks, &learned->returns)) {
         return false;
     }
     learned->hits = (uint16_t)hits;
@@ -215,10 +216,10 @@ static struct clutter_row *read_rows(const char *path, const struct parameters *
     for (size_t row = 0; row < table->num_rows; row++) {
         const struct row_check check = {.table = table, .row = row, .reason = reason};
 
-        rows[row].is_echo = !row_has(&check, columns.looks);
+        rows[row].is_echo = !row_has_cell(&check, columns.looks);
         if (!(rows[row].is_echo ? read_echo(&check, &columns, parameters, &rows[row].echo)
                                 : read_learned(&check, &columns, &rows[row].learned))) {
-            table_fail(table, row, "%s", reason);
+            table_fail_at_row(table, row, "%s", reason);
         }
     }
     *count = table->num_rows;
@@ -227,8 +228,8 @@ static struct clutter_row *read_rows(const char *path, const struct parameters *
     return rows;
 }
 
-struct clutter_echo *clutter_file_echoes(const char *path, const struct parameters *parameters,
-                                         size_t *count)
+struct clutter_echo *clutter_file_read_echoes(const char *path, const struct parameters *parameters,
+                                              size_t *count)
 {
     size_t num_rows;
     struct clutter_row *rows = read_rows(path, parameters, &num_rows);
@@ -258,7 +259,8 @@ static void teach_learned(struct rho_clutter_map *map, const struct learned *lea
                  "clutter map");
 }
 
-static void load(const char *path, const struct parameters *parameters, struct rho_clutter_map *map)
+static void teach_file_to_map(const char *path, const struct parameters *parameters,
+                              struct rho_clutter_map *map)
 {
     size_t count, echoes = 0;
     struct clutter_row *rows = read_rows(path, parameters, &count);
@@ -327,7 +329,7 @@ static bool next_learned(const struct rho_clutter_map *map, unsigned *at, struct
     return false;
 }
 
-void clutter_file_carry(struct rho_clutter_map *to, const struct rho_clutter_map *from)
+void clutter_file_copy_echoes(struct rho_clutter_map *to, const struct rho_clutter_map *from)
 {
     struct clutter_echo echo;
     struct learned learned;
@@ -401,7 +403,7 @@ static FILE *open_beside(const char *path, char **temporary)
 }
 
 /* map NULL: nothing but whether it could be written. */
-static bool replace(const char *path, const struct rho_clutter_map *map)
+static bool replace_file(const char *path, const struct rho_clutter_map *map)
 {
     char *real = realpath(path, NULL), *temporary; /* a link stays one */
     const char *target = real ? real : path;
@@ -428,7 +430,7 @@ static bool replace(const char *path, const struct rho_clutter_map *map)
 
 /* ---- all of it ---- */
 
-void clutter_file_refuse(const char *path, const char *other, const char *what)
+void clutter_file_refuse_same_file(const char *path, const char *other, const char *what)
 {
     if (path && other && (strcmp(path, other) == 0 || is_same_file(path, other))) {
         fail(EXIT_USAGE, "%s: the %s cannot be the clutter map", path, what);
@@ -454,9 +456,9 @@ struct clutter_file clutter_file_open(const char *path, const struct parameters 
     } else if (!S_ISREG(status.st_mode)) {
         fail(EXIT_USAGE, "%s: is no file that a clutter map could be written to", path);
     } else if (map) {
-        load(path, parameters, map);
+        teach_file_to_map(path, parameters, map);
     }
-    if (!replace(path, NULL)) {
+    if (!replace_file(path, NULL)) {
         fail(EXIT_RUNTIME, "%s: cannot be written: %s", path, strerror(errno));
     }
     return file;
@@ -468,7 +470,7 @@ bool clutter_file_save(struct clutter_file *file, const struct rho_clutter_map *
         return true;
     }
     file->saved_us = clock_us();
-    if (!replace(file->path, map)) {
+    if (!replace_file(file->path, map)) {
         fprintf(stderr, "rhotrack: %s: cannot be written: %s\n", file->path, strerror(errno));
         return false;
     }
@@ -480,7 +482,7 @@ bool clutter_file_is_due(const struct clutter_file *file)
     return file->path && clock_us() >= file->saved_us + SAVE_US;
 }
 
-bool clutter_file_keep(struct clutter_file *file, const struct rho_clutter_map *map)
+bool clutter_file_save_if_due(struct clutter_file *file, const struct rho_clutter_map *map)
 {
     return !clutter_file_is_due(file) || clutter_file_save(file, map);
 }

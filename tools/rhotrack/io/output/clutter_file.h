@@ -37,14 +37,14 @@ struct clutter_echo {
  * The echoes of a file, in its order; errors as `rhotrack: FILE:LINE: what is wrong`, exit 2. To be
  * freed.
  */
-struct clutter_echo *clutter_file_echoes(const char *path, const struct parameters *parameters,
-                                         size_t *count);
+struct clutter_echo *clutter_file_read_echoes(const char *path, const struct parameters *parameters,
+                                              size_t *count);
 
 /*
  * Exit 2 where the map would be written over another file, which is an "input", say. NULL: there is
  * none.
  */
-void clutter_file_refuse(const char *path, const char *other, const char *what);
+void clutter_file_refuse_same_file(const char *path, const char *other, const char *what);
 
 /*
  * Teaches the map what is in the file; where there is none yet that is said on standard error. Bad
@@ -61,9 +61,9 @@ bool clutter_file_save(struct clutter_file *file, const struct rho_clutter_map *
 bool clutter_file_is_due(const struct clutter_file *file);
 
 /* Saves it where it is due. */
-bool clutter_file_keep(struct clutter_file *file, const struct rho_clutter_map *map);
+bool clutter_file_save_if_due(struct clutter_file *file, const struct rho_clutter_map *map);
 
 /* Copies the known echoes of a map into an empty one, as a file would. */
-void clutter_file_carry(struct rho_clutter_map *to, const struct rho_clutter_map *from);
+void clutter_file_copy_echoes(struct rho_clutter_map *to, const struct rho_clutter_map *from);
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "base/identities.h"
+#include "base/identity_numbers.h"
 #include "io/csv/local_frame.h"
 
 struct point {
@@ -28,7 +28,7 @@ struct geojson {
     FILE *file;
     struct local_frame *frame;
     double origin_alt_m;
-    struct identities ids;
+    struct identity_numbers ids;
     struct track **tracks;  /* by number; NULL: written */
     size_t capacity, first; /* those before `first` are written */
     uint64_t times;
@@ -36,7 +36,7 @@ struct geojson {
     bool has_features;
 };
 
-bool geojson_is_wanted(const char *path)
+bool geojson_path_is_geojson(const char *path)
 {
     return path && path_ends_with(path, ".geojson");
 }
@@ -64,8 +64,8 @@ static double rounded(double value, double steps)
     return round(value * steps) / steps;
 }
 
-static void to_earth(const struct geojson *geojson, const struct track *track,
-                     const float place_m[3], double on_earth[3])
+static void place_on_earth(const struct geojson *geojson, const struct track *track,
+                           const float place_m[3], double on_earth[3])
 {
     const double local_m[3] = {(double)place_m[0], (double)place_m[1], (double)place_m[2]};
 
@@ -100,16 +100,17 @@ static cJSON *time_json(double time_us)
  * Where it heads at its place, where north and up are others than in the origin: from the places a
  * second apart.
  */
-static void add_motion(const struct geojson *geojson, const struct track *track, cJSON *properties)
+static void add_motion_properties(const struct geojson *geojson, const struct track *track,
+                                  cJSON *properties)
 {
     const float *state = track->last.state;
     double here[3], there[3], motion_mps[3];
     struct local_frame *own;
 
-    to_earth(geojson, track, state, here);
-    to_earth(geojson, track,
-             (const float[3]){state[0] + state[3], state[1] + state[4], state[2] + state[5]},
-             there);
+    place_on_earth(geojson, track, state, here);
+    place_on_earth(geojson, track,
+                   (const float[3]){state[0] + state[3], state[1] + state[4], state[2] + state[5]},
+                   there);
     own = local_frame_open(here[0], here[1], here[2]);
     local_frame_to_local(own, there, motion_mps);
     local_frame_close(own);
@@ -135,7 +136,7 @@ static cJSON *properties_json(const struct geojson *geojson, const struct track 
     cJSON_AddStringToObject(properties, "kind", kind);
     cJSON_AddStringToObject(properties, "status", track->last.status);
     cJSON_AddBoolToObject(properties, "is_over", track->is_over);
-    add_motion(geojson, track, properties);
+    add_motion_properties(geojson, track, properties);
     cJSON_AddNumberToObject(properties, "sigma_m", rounded((double)track->last.sigma_m, 100));
     cJSON_AddNumberToObject(properties, "hits", track->last.hits);
     cJSON_AddNumberToObject(properties, "misses", track->last.misses);
@@ -194,7 +195,7 @@ static void begin_piece(struct line *line)
 }
 
 /* At longitude 180 the piece ends, and the next one begins on the other side (RFC 7946, 3.1.9). */
-static void cut(struct line *line, const double on_earth[3], double time_us, bool has_height)
+static void cut_at_180(struct line *line, const double on_earth[3], double time_us, bool has_height)
 {
     double side = line->on_earth[1] > 0 ? 180 : -180;
     double step_deg = on_earth[1] + 2 * side - line->on_earth[1];
@@ -209,7 +210,7 @@ static void cut(struct line *line, const double on_earth[3], double time_us, boo
     add_position(line, at, at_us, has_height);
 }
 
-static void write_line(struct geojson *geojson, const struct track *track)
+static void write_track_line(struct geojson *geojson, const struct track *track)
 {
     struct line line = {.pieces = cJSON_CreateArray(), .times = cJSON_CreateArray()};
     cJSON *properties = properties_json(geojson, track, "track");
@@ -219,9 +220,9 @@ static void write_line(struct geojson *geojson, const struct track *track)
     for (size_t i = 0; i < track->count; i++) {
         double on_earth[3], time_us = (double)track->points[i].time_us;
 
-        to_earth(geojson, track, track->points[i].place_m, on_earth);
+        place_on_earth(geojson, track, track->points[i].place_m, on_earth);
         if (line.has_any && fabs(on_earth[1] - line.on_earth[1]) > 180) {
-            cut(&line, on_earth, time_us, track->has_height);
+            cut_at_180(&line, on_earth, time_us, track->has_height);
         }
         add_position(&line, on_earth, time_us, track->has_height);
         memcpy(line.on_earth, on_earth, sizeof line.on_earth);
@@ -239,13 +240,13 @@ static void write_line(struct geojson *geojson, const struct track *track)
     }
 }
 
-static void write_place(struct geojson *geojson, const struct track *track)
+static void write_last_place(struct geojson *geojson, const struct track *track)
 {
     cJSON *properties = properties_json(geojson, track, "place");
     double on_earth[3];
 
     cJSON_AddItemToObject(properties, "t_s", time_json((double)track->last.time_us));
-    to_earth(geojson, track, track->last.state, on_earth);
+    place_on_earth(geojson, track, track->last.state, on_earth);
     write_feature(geojson, geometry_json("Point", position_json(on_earth, track->has_height)),
                   properties);
 }
@@ -254,10 +255,10 @@ static void write_place(struct geojson *geojson, const struct track *track)
 static void write_track(struct geojson *geojson, struct track *track)
 {
     if (track->was_confirmed && track->count > 1) {
-        write_line(geojson, track);
+        write_track_line(geojson, track);
     }
     if (track->was_confirmed) {
-        write_place(geojson, track);
+        write_last_place(geojson, track);
     }
     free(track->points);
     free(track);
@@ -265,10 +266,10 @@ static void write_track(struct geojson *geojson, struct track *track)
 
 /* ---- Tracks ---- */
 
-static struct track *have_track(struct geojson *geojson, int32_t track_id)
+static struct track *find_or_add_track(struct geojson *geojson, int32_t track_id)
 {
     size_t known = geojson->ids.count;
-    size_t number = identities_number(&geojson->ids, track_id);
+    size_t number = identity_numbers_find_or_add(&geojson->ids, track_id);
 
     if (number == known) {
         geojson->tracks =
@@ -282,9 +283,9 @@ static struct track *have_track(struct geojson *geojson, int32_t track_id)
     return geojson->tracks[number];
 }
 
-void geojson_add(struct geojson *geojson, const struct geojson_row *row)
+void geojson_add_row(struct geojson *geojson, const struct geojson_row *row)
 {
-    struct track *track = have_track(geojson, row->track_id);
+    struct track *track = find_or_add_track(geojson, row->track_id);
 
     geojson->newest_us = row->time_us > geojson->newest_us ? row->time_us : geojson->newest_us;
     if (strcmp(row->status, "deleted") == 0) {
@@ -329,7 +330,7 @@ void geojson_close(struct geojson *geojson)
     }
     fputs(geojson->has_features ? "\n]}\n" : "{\"type\":\"FeatureCollection\",\"features\":[]}\n",
           geojson->file);
-    identities_free(&geojson->ids);
+    identity_numbers_free(&geojson->ids);
     free(geojson->tracks);
     local_frame_close(geojson->frame);
     free(geojson);

@@ -39,7 +39,7 @@ struct geojson_row {
 struct geojson *geojson_open(FILE *file, const struct parameters *parameters);
 
 /* A track's rows come in the order of time; those of other tracks may stand between them. */
-void geojson_add(struct geojson *geojson, const struct geojson_row *row);
+void geojson_add_row(struct geojson *geojson, const struct geojson_row *row);
 
 /* All tracks of a time have been added: those that go on. The others are over, and are written. */
 void geojson_end_time(struct geojson *geojson);
@@ -48,6 +48,6 @@ void geojson_end_time(struct geojson *geojson);
 void geojson_close(struct geojson *geojson);
 
 /* Whether an output of this name is GeoJSON: NAME.geojson. */
-bool geojson_is_wanted(const char *path);
+bool geojson_path_is_geojson(const char *path);
 
 #endif

@@ -10,13 +10,13 @@ static int by_time(const void *a, const void *b)
     const struct row *one = a, *other = b;
 
     return one->time_us != other->time_us
-               ? rows_compare(one->time_us, other->time_us)
+               ? rows_compare_numbers(one->time_us, other->time_us)
                : (one->order > other->order) - (one->order < other->order);
 }
 
-static int int_of(double cell)
+static int int_of_cell(double cell)
 {
-    return rows_is_empty(cell) ? 0 : (int)cell;
+    return rows_is_cell_empty(cell) ? 0 : (int)cell;
 }
 
 static void add_row(struct geojson *geojson, const struct rows *rows, const struct row *row)
@@ -27,14 +27,14 @@ static void add_row(struct geojson *geojson, const struct rows *rows, const stru
         .time_us = row->time_us,
         .track_id = (int32_t)cells[rows_find_column(rows->kind, "track_id")],
         .status = rows_status_name((int)cells[rows_find_column(rows->kind, "status")]),
-        .sigma_m = rows_float(cells[rows_find_column(rows->kind, "sigma_m")]),
-        .hits = int_of(cells[rows_find_column(rows->kind, "hits")]),
-        .misses = int_of(cells[rows_find_column(rows->kind, "misses")])};
+        .sigma_m = rows_float_or_zero(cells[rows_find_column(rows->kind, "sigma_m")]),
+        .hits = int_of_cell(cells[rows_find_column(rows->kind, "hits")]),
+        .misses = int_of_cell(cells[rows_find_column(rows->kind, "misses")])};
 
     for (int i = 0; i < 6; i++) {
-        track.state[i] = rows_float(cells[rows_find_column(rows->kind, state[i])]);
+        track.state[i] = rows_float_or_zero(cells[rows_find_column(rows->kind, state[i])]);
     }
-    geojson_add(geojson, &track);
+    geojson_add_row(geojson, &track);
 }
 
 void geojson_write_rows(FILE *file, struct rows *rows, const struct parameters *parameters)

@@ -24,16 +24,16 @@ struct initiated_output *initiated_output_open(const char *path)
 {
     struct initiated_output *found = must_calloc(1, sizeof *found);
 
-    if (geojson_is_wanted(path)) {
+    if (geojson_path_is_geojson(path)) {
         fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; GeoJSON is made of tracks",
              path);
     }
-    if (asterix_tracks_is_asterix(path)) {
+    if (asterix_tracks_path_is_asterix(path)) {
         fail(EXIT_USAGE, "%s: initiate writes CSV files and LCM logs; CAT062 is made of tracks",
              path);
     }
     found->path = path;
-    found->is_log = tracks_output_is_log(path);
+    found->is_log = tracks_output_path_is_log(path);
     found->output = output_open(path);
     found->log = (struct lcm_log_writer){.file = found->output.file};
     found->list.scan = 1;
@@ -43,7 +43,7 @@ struct initiated_output *initiated_output_open(const char *path)
     return found;
 }
 
-static void write_list(struct initiated_output *found)
+static void write_peak_list(struct initiated_output *found)
 {
     uint8_t buffer[RHO_MESSAGE_PEAK_LIST_MAX_SIZE];
     size_t size;
@@ -54,14 +54,14 @@ static void write_list(struct initiated_output *found)
     found->list.num_peaks = 0;
 }
 
-void initiated_output_row(struct initiated_output *found, const struct initiated *row)
+void initiated_output_add_row(struct initiated_output *found, const struct initiated *row)
 {
     if (!found->is_log) {
         initiated_write_row(found->output.file, row);
         return;
     }
     if (found->list.num_peaks == RHO_MESSAGE_PEAK_LIST_MAX_PEAKS) {
-        write_list(found);
+        write_peak_list(found);
     }
     found->list.utime = row->time_us;
     found->list.peaks[found->list.num_peaks++] = (struct rho_message_peak){
@@ -76,7 +76,7 @@ void initiated_output_row(struct initiated_output *found, const struct initiated
 void initiated_output_close(struct initiated_output *found)
 {
     if (found->is_log) {
-        write_list(found); /* an empty list, too, says that nothing was found */
+        write_peak_list(found); /* an empty list, too, says that nothing was found */
     }
     output_close(&found->output);
     free(found);

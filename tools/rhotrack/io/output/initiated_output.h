@@ -12,7 +12,7 @@ struct initiated_output;
 
 /* path NULL: CSV to standard output. Errors: exit 1. */
 struct initiated_output *initiated_output_open(const char *path);
-void initiated_output_row(struct initiated_output *found, const struct initiated *row);
+void initiated_output_add_row(struct initiated_output *found, const struct initiated *row);
 
 /* The file appears under its name. */
 void initiated_output_close(struct initiated_output *found);

@@ -26,7 +26,7 @@ struct tracks_output {
     struct geojson *map;       /* or NULL */
 };
 
-bool tracks_output_is_log(const char *path)
+bool tracks_output_path_is_log(const char *path)
 {
     return path && path_ends_with(path, ".lcm");
 }
@@ -37,11 +37,11 @@ static struct tracks_output *open_output(const char *path, struct output output,
     struct tracks_output *tracks = must_calloc(1, sizeof *tracks);
 
     tracks->path = path;
-    tracks->is_log = tracks_output_is_log(path);
+    tracks->is_log = tracks_output_path_is_log(path);
     tracks->columns.covariance = with_covariance;
     tracks->output = output;
     tracks->log = (struct lcm_log_writer){.file = tracks->output.file};
-    if (asterix_tracks_is_asterix(path)) {
+    if (asterix_tracks_path_is_asterix(path)) {
         tracks->asterix = asterix_tracks_open(output.file, parameters);
     }
     return tracks;
@@ -52,12 +52,13 @@ struct tracks_output *tracks_output_open(const char *path, const struct paramete
 {
     struct tracks_output *tracks;
 
-    if (geojson_is_wanted(path) && with_covariance) {
+    if (geojson_path_is_geojson(path) && with_covariance) {
         fail(EXIT_USAGE, "%s: --covariance has no place in GeoJSON", path);
     }
     asterix_tracks_refuse_covariance(path, with_covariance);
     tracks = open_output(path, output_open(path), parameters, with_covariance);
-    tracks->map = geojson_is_wanted(path) ? geojson_open(tracks->output.file, parameters) : NULL;
+    tracks->map =
+        geojson_path_is_geojson(path) ? geojson_open(tracks->output.file, parameters) : NULL;
     return tracks;
 }
 
@@ -65,7 +66,7 @@ struct tracks_output *tracks_output_open_in_place(const char *path,
                                                   const struct parameters *parameters,
                                                   bool with_covariance)
 {
-    if (geojson_is_wanted(path)) {
+    if (geojson_path_is_geojson(path)) {
         fail(EXIT_USAGE,
              "%s: GeoJSON is complete at the end alone, and cannot be written in place; `convert` "
              "makes it of a CSV file",
@@ -84,7 +85,7 @@ void tracks_output_add_bodies(struct tracks_output *tracks, const struct rho_tra
  * Not before there is something to write: what is refused on the way leaves no header on standard
  * output.
  */
-static void need_header(struct tracks_output *tracks)
+static void write_header_once(struct tracks_output *tracks)
 {
     if (!tracks->is_log && !tracks->map && !tracks->asterix && !tracks->has_header) {
         tracks->has_header = true;
@@ -94,7 +95,7 @@ static void need_header(struct tracks_output *tracks)
 
 void tracks_output_flush(struct tracks_output *tracks)
 {
-    need_header(tracks);
+    write_header_once(tracks);
     output_flush(&tracks->output);
 }
 
@@ -112,7 +113,7 @@ static void write_message(struct tracks_output *tracks, int64_t time_us, const u
     }
 }
 
-static void write_list(struct tracks_output *tracks, const struct rho_report *report)
+static void write_track_list(struct tracks_output *tracks, const struct rho_report *report)
 {
     uint8_t buffer[RHO_MESSAGE_TRACK_LIST_MAX_SIZE];
     size_t size;
@@ -142,7 +143,8 @@ static void write_bodies(struct tracks_output *tracks, const struct rho_report *
     }
 }
 
-static void add_to_map(struct geojson *map, int64_t time_us, const struct rho_track_report *track)
+static void add_track_to_geojson(struct geojson *map, int64_t time_us,
+                                 const struct rho_track_report *track)
 {
     struct geojson_row row = {.time_us = time_us,
                               .track_id = (int32_t)track->track_id,
@@ -152,34 +154,34 @@ static void add_to_map(struct geojson *map, int64_t time_us, const struct rho_tr
                               .misses = track->misses};
 
     memcpy(row.state, track->state, sizeof row.state);
-    geojson_add(map, &row);
+    geojson_add_row(map, &row);
 }
 
 /* Every report names all tracks that go on. */
-static void add_report_to_map(struct geojson *map, const struct rho_report *report)
+static void add_report_to_geojson(struct geojson *map, const struct rho_report *report)
 {
     for (int i = 0; i < report->num_tracks; i++) {
-        add_to_map(map, report->time_us, &report->tracks[i]);
+        add_track_to_geojson(map, report->time_us, &report->tracks[i]);
     }
     geojson_end_time(map);
 }
 
-void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report)
+void tracks_output_write_report(struct tracks_output *tracks, const struct rho_report *report)
 {
     if (tracks->map) {
-        add_report_to_map(tracks->map, report);
+        add_report_to_geojson(tracks->map, report);
     } else if (tracks->is_log || tracks->asterix) {
-        write_list(tracks, report);
+        write_track_list(tracks, report);
         if (tracks->is_log) {
             write_bodies(tracks, report);
         }
     } else {
-        need_header(tracks);
+        write_header_once(tracks);
         tracks_write_report(tracks->output.file, report, tracks->columns);
     }
 }
 
-int32_t tracks_output_step(const struct tracks_output *tracks)
+int32_t tracks_output_step_number(const struct tracks_output *tracks)
 {
     return tracks->step;
 }
@@ -189,21 +191,21 @@ int32_t tracks_output_epoch(void)
     return EPOCH;
 }
 
-void tracks_output_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
-                           const uint8_t *data, size_t size)
+void tracks_output_write_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
+                                 const uint8_t *data, size_t size)
 {
     lcm_log_must_write(&tracks->log, tracks->path, time_us, channel, data, size);
 }
 
-void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
-                         const struct rho_track_report *track)
+void tracks_output_write_track(struct tracks_output *tracks, int64_t time_us,
+                               const struct rho_track_report *track)
 {
     if (tracks->map) {
-        add_to_map(tracks->map, time_us, track);
+        add_track_to_geojson(tracks->map, time_us, track);
         return;
     }
     if (!tracks->is_log && !tracks->asterix) {
-        need_header(tracks);
+        write_header_once(tracks);
         tracks_write_row(tracks->output.file, time_us, track, 0, tracks->columns);
         return;
     }
@@ -213,13 +215,13 @@ void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
     tracks->single->time_us = time_us;
     tracks->single->num_tracks = 1;
     tracks->single->tracks[0] = *track;
-    write_list(tracks, tracks->single);
+    write_track_list(tracks, tracks->single);
 }
 
 void tracks_output_close(struct tracks_output *tracks)
 {
     if (tracks) {
-        need_header(tracks);
+        write_header_once(tracks);
         if (tracks->map) {
             geojson_close(tracks->map);
         }

@@ -35,22 +35,22 @@ void tracks_output_flush(struct tracks_output *tracks);
 void tracks_output_add_bodies(struct tracks_output *tracks, const struct rho_tracker *tracker);
 
 /* All tracks of a step. */
-void tracks_output_report(struct tracks_output *tracks, const struct rho_report *report);
+void tracks_output_write_report(struct tracks_output *tracks, const struct rho_report *report);
 
 /* The number and epoch of the last step in a log; a message more in it, at the step's time. */
-int32_t tracks_output_step(const struct tracks_output *tracks);
+int32_t tracks_output_step_number(const struct tracks_output *tracks);
 int32_t tracks_output_epoch(void);
-void tracks_output_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
-                           const uint8_t *data, size_t size);
+void tracks_output_write_message(struct tracks_output *tracks, int64_t time_us, const char *channel,
+                                 const uint8_t *data, size_t size);
 
 /* A step that has one track. */
-void tracks_output_track(struct tracks_output *tracks, int64_t time_us,
-                         const struct rho_track_report *track);
+void tracks_output_write_track(struct tracks_output *tracks, int64_t time_us,
+                               const struct rho_track_report *track);
 
 /* The file appears under its name. */
 void tracks_output_close(struct tracks_output *tracks);
 
 /* Whether an output of this name is a log. */
-bool tracks_output_is_log(const char *path);
+bool tracks_output_path_is_log(const char *path);
 
 #endif

@@ -14,7 +14,7 @@ struct zones_output zones_output_open(const char *path)
     return output;
 }
 
-void zones_output_write(const struct zones_output *output, const struct rho_zones *zones)
+void zones_output_write_events(const struct zones_output *output, const struct rho_zones *zones)
 {
     for (unsigned i = 0; output->output.file && i < zones->num_events; i++) {
         const struct rho_zone_event *event = &zones->events[i];
@@ -35,7 +35,7 @@ void zones_output_close(struct zones_output *output)
     }
 }
 
-void zones_print(const struct rho_zones *zones)
+void zones_print_counts(const struct rho_zones *zones)
 {
     for (unsigned i = 0; i < zones->num_zones; i++) {
         const struct rho_zone_counts *counts = &zones->counts[i];
@@ -56,7 +56,7 @@ void zones_print(const struct rho_zones *zones)
     }
 }
 
-cJSON *zones_json(const struct rho_zones *zones)
+cJSON *zones_counts_json(const struct rho_zones *zones)
 {
     cJSON *list = cJSON_CreateArray();
 

@@ -16,13 +16,13 @@ struct zones_output {
 struct zones_output zones_output_open(const char *path);
 
 /* The events of the zones' last step. */
-void zones_output_write(const struct zones_output *output, const struct rho_zones *zones);
+void zones_output_write_events(const struct zones_output *output, const struct rho_zones *zones);
 void zones_output_close(struct zones_output *output);
 
 /* A line a zone on standard error. */
-void zones_print(const struct rho_zones *zones);
+void zones_print_counts(const struct rho_zones *zones);
 
 /* An array with an object a zone. */
-cJSON *zones_json(const struct rho_zones *zones);
+cJSON *zones_counts_json(const struct rho_zones *zones);
 
 #endif

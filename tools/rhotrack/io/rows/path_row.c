@@ -8,23 +8,24 @@
 struct path_columns path_columns_find(const struct table *table,
                                       const struct parameters *parameters)
 {
-    const bool is_tracks = table_find(table, "track_id") >= 0;
+    const bool is_tracks = table_find_column(table, "track_id") >= 0;
     struct geodetic *geodetic = is_tracks ? NULL : geodetic_open(table, parameters);
-    const bool has_places = geodetic_has_places(geodetic);
+    const bool has_places = geodetic_has_place_columns(geodetic);
     return (struct path_columns){
         .table = table,
-        .time = table_need(table, "t_s"),
-        .id = table_need(table, is_tracks ? "track_id" : "target_id"),
-        .status = table_find(table, "status"),
-        .x = has_places ? table_find(table, "lat_deg") : table_need(table, "x_m"),
-        .y = has_places ? table_find(table, "lon_deg") : table_need(table, "y_m"),
-        .z = table_find(table, has_places ? "alt_m" : "z_m"),
-        .vx = table_find(table, "vx_mps"),
-        .vy = table_find(table, "vy_mps"),
-        .vz = table_find(table, "vz_mps"),
-        .covariance = {table_find(table, "cov_x_x"), table_find(table, "cov_y_x"),
-                       table_find(table, "cov_y_y"), table_find(table, "cov_vx_vx"),
-                       table_find(table, "cov_vy_vx"), table_find(table, "cov_vy_vy")},
+        .time = table_need_column(table, "t_s"),
+        .id = table_need_column(table, is_tracks ? "track_id" : "target_id"),
+        .status = table_find_column(table, "status"),
+        .x = has_places ? table_find_column(table, "lat_deg") : table_need_column(table, "x_m"),
+        .y = has_places ? table_find_column(table, "lon_deg") : table_need_column(table, "y_m"),
+        .z = table_find_column(table, has_places ? "alt_m" : "z_m"),
+        .vx = table_find_column(table, "vx_mps"),
+        .vy = table_find_column(table, "vy_mps"),
+        .vz = table_find_column(table, "vz_mps"),
+        .covariance = {table_find_column(table, "cov_x_x"), table_find_column(table, "cov_y_x"),
+                       table_find_column(table, "cov_y_y"), table_find_column(table, "cov_vx_vx"),
+                       table_find_column(table, "cov_vy_vx"),
+                       table_find_column(table, "cov_vy_vy")},
         .geodetic = geodetic,
     };
 }
@@ -37,7 +38,7 @@ void path_columns_end(struct path_columns *columns)
 
 bool path_row_has_place(const struct path_columns *columns, size_t row)
 {
-    return !table_is_empty(columns->table, row, columns->x);
+    return !table_is_cell_empty(columns->table, row, columns->x);
 }
 
 static void read_place(const struct path_columns *columns, size_t row, struct path_row *path)
@@ -47,14 +48,14 @@ static void read_place(const struct path_columns *columns, size_t row, struct pa
     const struct row_check check = {.table = table, .row = row, .reason = reason};
     double place_m[3];
     bool has_alt;
-    if (!geodetic_has_places(columns->geodetic)) {
+    if (!geodetic_has_place_columns(columns->geodetic)) {
         path->x_m = table_number_at(table, row, columns->x);
         path->y_m = table_number_at(table, row, columns->y);
         path->z_m = table_number_or(table, row, columns->z, 0.0);
         return;
     }
-    if (!geodetic_place(columns->geodetic, &check, place_m, &has_alt)) {
-        table_fail(table, row, "%s", reason);
+    if (!geodetic_read_place(columns->geodetic, &check, place_m, &has_alt)) {
+        table_fail_at_row(table, row, "%s", reason);
     }
     path->x_m = place_m[0];
     path->y_m = place_m[1];
@@ -67,8 +68,8 @@ static void check_cell(const struct path_columns *columns, size_t row, int colum
 {
     char buffer[TABLE_TEXT_BYTES];
     if (reason) {
-        table_fail(columns->table, row, "%s: '%s' %s", columns->table->names[column],
-                   table_text(columns->table, row, column, buffer), reason);
+        table_fail_at_row(columns->table, row, "%s: '%s' %s", columns->table->names[column],
+                          table_cell_text(columns->table, row, column, buffer), reason);
     }
 }
 
@@ -92,8 +93,8 @@ struct path_row path_row_read(const struct path_columns *columns, size_t row)
     const struct table *table = columns->table;
     struct path_row path;
     check_cell(columns, row, columns->time,
-               table_time_us(table, row, columns->time, &path.time_us));
-    check_cell(columns, row, columns->id, table_int32(table, row, columns->id, &path.id));
+               table_read_time_us(table, row, columns->time, &path.time_us));
+    check_cell(columns, row, columns->id, table_read_int32(table, row, columns->id, &path.id));
     read_place(columns, row, &path);
     path.vx_mps = table_number_or(table, row, columns->vx, NAN);
     path.vy_mps = table_number_or(table, row, columns->vy, NAN);

@@ -29,7 +29,7 @@ int rows_find_column(const struct rows_kind *kind, const char *name)
     return i;
 }
 
-int rows_compare(int64_t one, int64_t other)
+int rows_compare_numbers(int64_t one, int64_t other)
 {
     return (one > other) - (one < other);
 }
@@ -80,7 +80,7 @@ bool rows_saw_something(const struct rows *rows, const struct row *row)
     const double *cells = rows_cells(rows, row);
 
     for (int i = 0; i < rows->kind->num_columns; i++) {
-        if ((rows->kind->columns[i].flags & COLUMN_MEASURED) && !rows_is_empty(cells[i])) {
+        if ((rows->kind->columns[i].flags & COLUMN_MEASURED) && !rows_is_cell_empty(cells[i])) {
             return true;
         }
     }
@@ -89,27 +89,27 @@ bool rows_saw_something(const struct rows *rows, const struct row *row)
 
 /* ---- For the kinds ---- */
 
-bool rows_is_empty(double cell)
+bool rows_is_cell_empty(double cell)
 {
     return isnan(cell);
 }
 
-float rows_float(double cell)
+float rows_float_or_zero(double cell)
 {
-    return rows_is_empty(cell) ? 0.0f : (float)cell;
+    return rows_is_cell_empty(cell) ? 0.0f : (float)cell;
 }
 
-bool rows_is_zero(float value)
+bool rows_is_plus_zero(float value)
 {
     return fpclassify(value) == FP_ZERO && !signbit(value);
 }
 
-double rows_said(float value)
+double rows_cell_unless_zero(float value)
 {
-    return rows_is_zero(value) ? (double)NAN : (double)value;
+    return rows_is_plus_zero(value) ? (double)NAN : (double)value;
 }
 
-double *rows_add_of(struct rows *rows, const struct rows_message *message, int32_t dt_us)
+double *rows_add_message_row(struct rows *rows, const struct rows_message *message, int32_t dt_us)
 {
     struct row row = message->key;
 
@@ -117,7 +117,7 @@ double *rows_add_of(struct rows *rows, const struct rows_message *message, int32
     return rows_add(rows, &row);
 }
 
-int32_t rows_dt_us(const struct rows_part *part, size_t index)
+int32_t rows_plot_offset_us(const struct rows_part *part, size_t index)
 {
     return (int32_t)(part->rows->list[part->first + index].time_us - part->scan->utime);
 }
@@ -127,7 +127,7 @@ const double *rows_part_cells(const struct rows_part *part, size_t index)
     return rows_cells(part->rows, &part->rows->list[part->first + index]);
 }
 
-const double *rows_head_cells(const struct rows_part *part)
+const double *rows_first_row_cells(const struct rows_part *part)
 {
     return rows_cells(part->rows, &part->scan->head);
 }

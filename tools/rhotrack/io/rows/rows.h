@@ -3,7 +3,7 @@
  * rows: the rows of a CSV file, or of LCM messages, of one kind: plots, polar plots, bearings,
  * truth or tracks.
  *
- * Rows come from a file (rows_read.h) or from messages (rows_collect.h), and go to a file
+ * Rows come from a file (rows_read.h) or from messages (rows_from_messages.h), and go to a file
  * (rows_write.h) or, scan by scan, to messages (rows_scans.h). Cells are doubles, which hold
  * float32 and int32 as they are; a cell that is empty is NaN. What is 0 in a message because it was
  * not said is empty here.
@@ -138,7 +138,7 @@ const char *rows_status_name(int status);
 int rows_find_column(const struct rows_kind *kind, const char *name);
 
 /* How two numbers are ordered, for qsort. */
-int rows_compare(int64_t one, int64_t other);
+int rows_compare_numbers(int64_t one, int64_t other);
 
 void rows_start(struct rows *rows, const struct rows_kind *kind);
 void rows_free(struct rows *rows);
@@ -153,21 +153,21 @@ bool rows_saw_something(const struct rows *rows, const struct row *row);
 /* ---- For the kinds ---- */
 
 /* Nothing is said by an empty cell, and by a 0 that means so. */
-bool rows_is_empty(double cell);
-float rows_float(double cell);  /* 0 where empty */
-double rows_said(float value);  /* empty where +0 */
-bool rows_is_zero(float value); /* +0, no other */
+bool rows_is_cell_empty(double cell);
+float rows_float_or_zero(double cell);     /* 0 where empty */
+double rows_cell_unless_zero(float value); /* empty where +0 */
+bool rows_is_plus_zero(float value);       /* +0, no other */
 
 /* Adds the row of an element, at its own time, or of the message itself. */
-double *rows_add_of(struct rows *rows, const struct rows_message *message, int32_t dt_us);
+double *rows_add_message_row(struct rows *rows, const struct rows_message *message, int32_t dt_us);
 
-/* A plot's own time after its scan's. */
-int32_t rows_dt_us(const struct rows_part *part, size_t index);
+/* By how much a plot's own time is after its scan's. */
+int32_t rows_plot_offset_us(const struct rows_part *part, size_t index);
 
 /* The cells of the part's row by its place in the part. */
 const double *rows_part_cells(const struct rows_part *part, size_t index);
 
 /* The cells that stand for the scan: those of its first row. */
-const double *rows_head_cells(const struct rows_part *part);
+const double *rows_first_row_cells(const struct rows_part *part);
 
 #endif

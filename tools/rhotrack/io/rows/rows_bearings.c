@@ -25,14 +25,14 @@ static const struct rows_column columns[NUM_COLUMNS] = {
     [SNR_DB] = {"snr_db", COLUMN_NO_ROOM, 0, NULL, NULL},
 };
 
-static size_t fit(const struct rows_part *rest)
+static size_t rows_in_one_message(const struct rows_part *rest)
 {
     return rest->count;
 }
 
-static size_t encode(const struct rows_part *part, uint8_t *buffer, const char **field)
+static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
-    const double *head = rows_head_cells(part);
+    const double *head = rows_first_row_cells(part);
     const double *first = part->count ? rows_part_cells(part, 0) : head;
     struct rho_message_place place;
     size_t size;
@@ -41,14 +41,14 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
         .scan = part->scan->head.scan,
         .epoch = part->scan->head.epoch,
         .sensor_id = (int16_t)part->scan->head.sensor_id,
-        .sensor_x_m = rows_float(head[SENSOR_X_M]),
-        .sensor_y_m = rows_float(head[SENSOR_Y_M]),
-        .sigma_rad = rows_float(first[SIGMA_RAD]),
+        .sensor_x_m = rows_float_or_zero(head[SENSOR_X_M]),
+        .sensor_y_m = rows_float_or_zero(head[SENSOR_Y_M]),
+        .sigma_rad = rows_float_or_zero(first[SIGMA_RAD]),
         .num_bearings = (int16_t)part->count,
     };
 
     for (size_t i = 0; i < part->count; i++) {
-        message.bearing_rad[i] = rows_float(rows_part_cells(part, i)[BEARING_RAD]);
+        message.bearing_rad[i] = rows_float_or_zero(rows_part_cells(part, i)[BEARING_RAD]);
     }
     if (rho_message_bearing_scan_validate(&message, &place) != RHO_OK) {
         *field = rho_message_bearing_scan_field(&place);
@@ -59,16 +59,16 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
                : 0;
 }
 
-static double *put_scan(double *cells, const struct rho_message_bearing_scan *message)
+static double *put_scan_cells(double *cells, const struct rho_message_bearing_scan *message)
 {
     cells[SENSOR_X_M] = (double)message->sensor_x_m;
     cells[SENSOR_Y_M] = (double)message->sensor_y_m;
-    cells[SIGMA_RAD] = rows_said(message->sigma_rad);
+    cells[SIGMA_RAD] = rows_cell_unless_zero(message->sigma_rad);
     return cells;
 }
 
-static enum rho_status decode(const uint8_t *data, size_t size, struct rows *rows,
-                              struct rows_message *out, const char **field)
+static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
+                                      struct rows_message *out, const char **field)
 {
     struct rho_message_bearing_scan message;
     struct rho_message_place place;
@@ -88,11 +88,12 @@ static enum rho_status decode(const uint8_t *data, size_t size, struct rows *row
                             .scan = message.scan};
     out->part = 0;
     out->num_parts = 1;
-    put_scan(rows_add_of(rows, out, 0), &message);
+    put_scan_cells(rows_add_message_row(rows, out, 0), &message);
     out->first = rows->count;
     out->count = (size_t)message.num_bearings;
     for (int i = 0; i < message.num_bearings; i++) {
-        put_scan(rows_add_of(rows, out, 0), &message)[BEARING_RAD] = (double)message.bearing_rad[i];
+        put_scan_cells(rows_add_message_row(rows, out, 0), &message)[BEARING_RAD] =
+            (double)message.bearing_rad[i];
     }
     return RHO_OK;
 }
@@ -107,7 +108,7 @@ const struct rows_kind rows_kind_bearings = {
     .rows_max = RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .fit = fit,
-    .encode = encode,
-    .decode = decode,
+    .fit = rows_in_one_message,
+    .encode = encode_part,
+    .decode = decode_message,
 };

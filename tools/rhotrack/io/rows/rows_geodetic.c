@@ -25,7 +25,7 @@ void rows_geodetic_close(struct rows_geodetic *geodetic)
 bool rows_geodetic_stands_for(const struct rows_geodetic *geodetic,
                               const struct rows_column *column)
 {
-    return geodetic_has_places(geodetic->geodetic) &&
+    return geodetic_has_place_columns(geodetic->geodetic) &&
            (strcmp(column->name, "x_m") == 0 || strcmp(column->name, "y_m") == 0);
 }
 
@@ -34,34 +34,35 @@ static double *cell_of(const struct rows_geodetic *geodetic, double *cells, cons
     return &cells[rows_find_column(geodetic->kind, name)];
 }
 
-static void put(const struct rows_geodetic *geodetic, double *cells, const char *name, double value)
+static void put_cell(const struct rows_geodetic *geodetic, double *cells, const char *name,
+                     double value)
 {
     *cell_of(geodetic, cells, name) = (double)(float)value;
 }
 
 static double number_or(double cell, double otherwise)
 {
-    return rows_is_empty(cell) ? otherwise : cell;
+    return rows_is_cell_empty(cell) ? otherwise : cell;
 }
 
 /* ---- Places ---- */
 
-static bool fill_place(const struct rows_geodetic *geodetic, const struct row_check *check,
-                       double *cells)
+static bool fill_place_cells(const struct rows_geodetic *geodetic, const struct row_check *check,
+                             double *cells)
 {
     double place_m[3];
     bool has_alt;
 
-    if (geodetic->kind->has_sensor && !geodetic_is_said(geodetic->geodetic, check)) {
+    if (geodetic->kind->has_sensor && !geodetic_row_has_place(geodetic->geodetic, check)) {
         return true; /* a scan that saw nothing */
     }
-    if (!geodetic_place(geodetic->geodetic, check, place_m, &has_alt)) {
+    if (!geodetic_read_place(geodetic->geodetic, check, place_m, &has_alt)) {
         return false;
     }
-    put(geodetic, cells, "x_m", place_m[0]);
-    put(geodetic, cells, "y_m", place_m[1]);
+    put_cell(geodetic, cells, "x_m", place_m[0]);
+    put_cell(geodetic, cells, "y_m", place_m[1]);
     if (has_alt) {
-        put(geodetic, cells, "z_m", place_m[2]);
+        put_cell(geodetic, cells, "z_m", place_m[2]);
     }
     return true;
 }
@@ -70,32 +71,32 @@ static bool fill_place(const struct rows_geodetic *geodetic, const struct row_ch
 
 static void turn_cell(double *cell, double turn_rad)
 {
-    if (!rows_is_empty(*cell)) {
+    if (!rows_is_cell_empty(*cell)) {
         *cell = (double)(float)remainder(*cell + turn_rad, TURN);
     }
 }
 
 /* Sectors are counted from the radar's own east, as azimuths are. */
-static void put_radar(const struct rows_geodetic *geodetic, const struct radar_frame *frame,
-                      double *cells)
+static void put_radar_place(const struct rows_geodetic *geodetic, const struct radar_frame *frame,
+                            double *cells)
 {
     const double *place_m = radar_frame_place_m(frame);
 
     turn_cell(cell_of(geodetic, cells, "sector_from_rad"), radar_frame_turn_rad(frame));
     turn_cell(cell_of(geodetic, cells, "sector_to_rad"), radar_frame_turn_rad(frame));
     if (geodetic->kind == &rows_kind_polar) {
-        put(geodetic, cells, "sensor_x_m", place_m[0]);
-        put(geodetic, cells, "sensor_y_m", place_m[1]);
-        put(geodetic, cells, "sensor_z_m", place_m[2]);
+        put_cell(geodetic, cells, "sensor_x_m", place_m[0]);
+        put_cell(geodetic, cells, "sensor_y_m", place_m[1]);
+        put_cell(geodetic, cells, "sensor_z_m", place_m[2]);
     }
 }
 
-static struct geodetic_polar polar_of(const struct rows_geodetic *geodetic, int32_t sensor_id,
-                                      double *cells)
+static struct geodetic_polar polar_plot_of_cells(const struct rows_geodetic *geodetic,
+                                                 int32_t sensor_id, double *cells)
 {
     const struct parameters *parameters = geodetic->parameters;
-    double sigma_range_m = parameters_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
-                                                parameters->value[PARAMETER_SIGMA_RANGE_M]);
+    double sigma_range_m = parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
+                                                      parameters->value[PARAMETER_SIGMA_RANGE_M]);
     double elevation_rad = *cell_of(geodetic, cells, "elevation_rad");
 
     return (struct geodetic_polar){
@@ -105,7 +106,7 @@ static struct geodetic_polar polar_of(const struct rows_geodetic *geodetic, int3
                     number_or(*cell_of(geodetic, cells, "sensor_z_m"), 0)},
         .look = {*cell_of(geodetic, cells, "range_m"), *cell_of(geodetic, cells, "azimuth_rad"),
                  number_or(elevation_rad, 0)},
-        .has_elevation = !rows_is_empty(elevation_rad),
+        .has_elevation = !rows_is_cell_empty(elevation_rad),
         .sigma_range_m = number_or(*cell_of(geodetic, cells, "sigma_range_m"), sigma_range_m)};
 }
 
@@ -113,7 +114,7 @@ static struct geodetic_polar polar_of(const struct rows_geodetic *geodetic, int3
  * The look can be turned into the local frame. Empty cells, and cells outside their range, are
  * refused afterwards, as in any file.
  */
-static bool can_turn(const struct geodetic_polar *polar)
+static bool can_turn_look(const struct geodetic_polar *polar)
 {
     const double half_turn = (double)3.1415927f; /* the nearest float, as files may say it */
 
@@ -121,25 +122,25 @@ static bool can_turn(const struct geodetic_polar *polar)
            fabs(polar->look.elevation_rad) <= half_turn / 2;
 }
 
-static bool fill_polar(const struct rows_geodetic *geodetic, const struct row_check *check,
-                       const struct radar_frame *frame, int32_t sensor_id, double *cells)
+static bool fill_polar_cells(const struct rows_geodetic *geodetic, const struct row_check *check,
+                             const struct radar_frame *frame, int32_t sensor_id, double *cells)
 {
-    struct geodetic_polar polar = polar_of(geodetic, sensor_id, cells);
+    struct geodetic_polar polar = polar_plot_of_cells(geodetic, sensor_id, cells);
     bool had_elevation = polar.has_elevation;
 
     polar.frame = frame;
-    if (!can_turn(&polar)) {
+    if (!can_turn_look(&polar)) {
         return true;
     }
-    if (!geodetic_polar(geodetic->geodetic, check, &polar)) {
+    if (!geodetic_convert_polar(geodetic->geodetic, check, &polar)) {
         return false;
     }
-    put(geodetic, cells, "azimuth_rad", polar.look.azimuth_rad);
+    put_cell(geodetic, cells, "azimuth_rad", polar.look.azimuth_rad);
     if (polar.has_elevation) {
-        put(geodetic, cells, "elevation_rad", polar.look.elevation_rad);
+        put_cell(geodetic, cells, "elevation_rad", polar.look.elevation_rad);
     }
     if (polar.has_elevation && !had_elevation) {
-        put(geodetic, cells, "sigma_elevation_rad", polar.sigma_elevation_rad);
+        put_cell(geodetic, cells, "sigma_elevation_rad", polar.sigma_elevation_rad);
     }
     return true;
 }
@@ -153,13 +154,14 @@ bool rows_geodetic_fill(const struct rows_geodetic *geodetic, const struct row_c
         return true;
     }
     if (geodetic->kind->has_sensor &&
-        !geodetic_radar(geodetic->geodetic, check, sensor_id, &frame)) {
+        !geodetic_find_radar_frame(geodetic->geodetic, check, sensor_id, &frame)) {
         return false;
     }
     if (frame) {
-        put_radar(geodetic, frame, cells);
+        put_radar_place(geodetic, frame, cells);
     }
     return geodetic->kind == &rows_kind_polar
-               ? fill_polar(geodetic, check, frame, sensor_id, cells)
-               : !geodetic_has_places(geodetic->geodetic) || fill_place(geodetic, check, cells);
+               ? fill_polar_cells(geodetic, check, frame, sensor_id, cells)
+               : !geodetic_has_place_columns(geodetic->geodetic) ||
+                     fill_place_cells(geodetic, check, cells);
 }

@@ -14,7 +14,7 @@ const struct rows_kind *const rows_kinds[NUM_ROWS_KINDS] = {
 };
 
 /* A sensor's number as the channel has it: no zeros before it, no plus. */
-static bool is_number(const char *text)
+static bool is_sensor_number(const char *text)
 {
     char again[16];
     long number;
@@ -35,7 +35,7 @@ const struct rows_kind *rows_kind_of_channel(const char *channel)
         size_t length = strlen(kind->channel);
 
         if (strncmp(channel, kind->channel, length) == 0 &&
-            (kind->has_sensor ? is_number(channel + length) : channel[length] == '\0')) {
+            (kind->has_sensor ? is_sensor_number(channel + length) : channel[length] == '\0')) {
             return kind;
         }
     }

@@ -36,63 +36,63 @@ static const struct rows_column columns[NUM_COLUMNS] = {
 };
 
 /* A plot with a velocity and a height has a vertical velocity, too. */
-static const char *why_not(const double *cells)
+static const char *why_row_invalid(const double *cells)
 {
-    if (rows_is_empty(cells[X_M]) || rows_is_empty(cells[Y_M])) {
-        return rows_is_empty(cells[X_M]) ? "x_m is empty" : "y_m is empty";
+    if (rows_is_cell_empty(cells[X_M]) || rows_is_cell_empty(cells[Y_M])) {
+        return rows_is_cell_empty(cells[X_M]) ? "x_m is empty" : "y_m is empty";
     }
-    if (rows_is_empty(cells[VX_MPS]) != rows_is_empty(cells[VY_MPS])) {
-        return rows_is_empty(cells[VX_MPS]) ? "vx_mps is missing beside vy_mps"
-                                            : "vy_mps is missing beside vx_mps";
+    if (rows_is_cell_empty(cells[VX_MPS]) != rows_is_cell_empty(cells[VY_MPS])) {
+        return rows_is_cell_empty(cells[VX_MPS]) ? "vx_mps is missing beside vy_mps"
+                                                 : "vy_mps is missing beside vx_mps";
     }
-    if (rows_is_empty(cells[VX_MPS]) && !rows_is_empty(cells[VZ_MPS])) {
+    if (rows_is_cell_empty(cells[VX_MPS]) && !rows_is_cell_empty(cells[VZ_MPS])) {
         return "vx_mps and vy_mps are missing beside vz_mps";
     }
-    if (!rows_is_empty(cells[VX_MPS]) && rows_is_empty(cells[VZ_MPS]) &&
-        !rows_is_empty(cells[Z_M])) {
+    if (!rows_is_cell_empty(cells[VX_MPS]) && rows_is_cell_empty(cells[VZ_MPS]) &&
+        !rows_is_cell_empty(cells[Z_M])) {
         return "vz_mps is missing beside z_m and vx_mps";
     }
     return NULL;
 }
 
-static int kind_of(const double *cells)
+static int measured_kind(const double *cells)
 {
-    bool has_height = !rows_is_empty(cells[Z_M]);
+    bool has_height = !rows_is_cell_empty(cells[Z_M]);
 
-    if (rows_is_empty(cells[VX_MPS])) {
+    if (rows_is_cell_empty(cells[VX_MPS])) {
         return has_height ? RHO_MESSAGE_PLOT_SCAN_POSITION_3D : RHO_MESSAGE_PLOT_SCAN_POSITION_2D;
     }
     return has_height ? RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D
                       : RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_2D;
 }
 
-static size_t fit(const struct rows_part *rest)
+static size_t rows_in_one_message(const struct rows_part *rest)
 {
     return rest->count < RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS ? rest->count
                                                          : RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS;
 }
 
-static struct rho_message_plot plot_of(const struct rows_part *part, size_t index)
+static struct rho_message_plot message_plot_of(const struct rows_part *part, size_t index)
 {
     const double *cells = rows_part_cells(part, index);
 
     return (struct rho_message_plot){
-        .dt_us = rows_dt_us(part, index),
-        .x_m = rows_float(cells[X_M]),
-        .y_m = rows_float(cells[Y_M]),
-        .z_m = rows_float(cells[Z_M]),
-        .vx_mps = rows_float(cells[VX_MPS]),
-        .vy_mps = rows_float(cells[VY_MPS]),
-        .vz_mps = rows_float(cells[VZ_MPS]),
-        .sigma_m = rows_float(cells[SIGMA_M]),
-        .sigma_mps = rows_float(cells[SIGMA_MPS]),
-        .snr_db = rows_float(cells[SNR_DB]),
+        .dt_us = rows_plot_offset_us(part, index),
+        .x_m = rows_float_or_zero(cells[X_M]),
+        .y_m = rows_float_or_zero(cells[Y_M]),
+        .z_m = rows_float_or_zero(cells[Z_M]),
+        .vx_mps = rows_float_or_zero(cells[VX_MPS]),
+        .vy_mps = rows_float_or_zero(cells[VY_MPS]),
+        .vz_mps = rows_float_or_zero(cells[VZ_MPS]),
+        .sigma_m = rows_float_or_zero(cells[SIGMA_M]),
+        .sigma_mps = rows_float_or_zero(cells[SIGMA_MPS]),
+        .snr_db = rows_float_or_zero(cells[SNR_DB]),
     };
 }
 
-static size_t encode(const struct rows_part *part, uint8_t *buffer, const char **field)
+static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
-    const double *head = rows_head_cells(part);
+    const double *head = rows_first_row_cells(part);
     struct rho_message_place place;
     size_t size;
     struct rho_message_plot_scan message = {
@@ -100,16 +100,16 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
         .scan = part->scan->head.scan,
         .epoch = part->scan->head.epoch,
         .sensor_id = (int16_t)part->scan->head.sensor_id,
-        .kind = (int8_t)kind_of(part->count ? rows_part_cells(part, 0) : head),
+        .kind = (int8_t)measured_kind(part->count ? rows_part_cells(part, 0) : head),
         .part = part->part,
         .num_parts = part->scan->num_parts,
-        .sector_from_rad = rows_float(head[SECTOR_FROM_RAD]),
-        .sector_to_rad = rows_float(head[SECTOR_TO_RAD]),
+        .sector_from_rad = rows_float_or_zero(head[SECTOR_FROM_RAD]),
+        .sector_to_rad = rows_float_or_zero(head[SECTOR_TO_RAD]),
         .num_plots = (int16_t)part->count,
     };
 
     for (size_t i = 0; i < part->count; i++) {
-        message.plots[i] = plot_of(part, i);
+        message.plots[i] = message_plot_of(part, i);
     }
     if (rho_message_plot_scan_validate(&message, &place) != RHO_OK) {
         *field = rho_message_plot_scan_field(&place);
@@ -120,15 +120,16 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
                : 0;
 }
 
-static void put_sector(double *cells, const struct rho_message_plot_scan *message)
+static void put_sector_cells(double *cells, const struct rho_message_plot_scan *message)
 {
-    if (!rows_is_zero(message->sector_from_rad) || !rows_is_zero(message->sector_to_rad)) {
+    if (!rows_is_plus_zero(message->sector_from_rad) ||
+        !rows_is_plus_zero(message->sector_to_rad)) {
         cells[SECTOR_FROM_RAD] = (double)message->sector_from_rad;
         cells[SECTOR_TO_RAD] = (double)message->sector_to_rad;
     }
 }
 
-static void put_plot(double *cells, const struct rho_message_plot *plot, int kind)
+static void put_plot_cells(double *cells, const struct rho_message_plot *plot, int kind)
 {
     cells[X_M] = (double)plot->x_m;
     cells[Y_M] = (double)plot->y_m;
@@ -142,15 +143,15 @@ static void put_plot(double *cells, const struct rho_message_plot *plot, int kin
         cells[VY_MPS] = (double)plot->vy_mps;
         cells[VZ_MPS] = kind == RHO_MESSAGE_PLOT_SCAN_POSITION_VELOCITY_3D
                             ? (double)plot->vz_mps
-                            : rows_said(plot->vz_mps);
+                            : rows_cell_unless_zero(plot->vz_mps);
     }
-    cells[SIGMA_M] = rows_said(plot->sigma_m);
-    cells[SIGMA_MPS] = rows_said(plot->sigma_mps);
-    cells[SNR_DB] = rows_said(plot->snr_db);
+    cells[SIGMA_M] = rows_cell_unless_zero(plot->sigma_m);
+    cells[SIGMA_MPS] = rows_cell_unless_zero(plot->sigma_mps);
+    cells[SNR_DB] = rows_cell_unless_zero(plot->snr_db);
 }
 
-static enum rho_status decode(const uint8_t *data, size_t size, struct rows *rows,
-                              struct rows_message *out, const char **field)
+static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
+                                      struct rows_message *out, const char **field)
 {
     struct rho_message_plot_scan message;
     struct rho_message_place place;
@@ -170,14 +171,14 @@ static enum rho_status decode(const uint8_t *data, size_t size, struct rows *row
                             .scan = message.scan};
     out->part = message.part;
     out->num_parts = message.num_parts;
-    put_sector(rows_add_of(rows, out, 0), &message);
+    put_sector_cells(rows_add_message_row(rows, out, 0), &message);
     out->first = rows->count;
     out->count = (size_t)message.num_plots;
     for (int i = 0; i < message.num_plots; i++) {
-        double *cells = rows_add_of(rows, out, message.plots[i].dt_us);
+        double *cells = rows_add_message_row(rows, out, message.plots[i].dt_us);
 
-        put_sector(cells, &message);
-        put_plot(cells, &message.plots[i], message.kind);
+        put_sector_cells(cells, &message);
+        put_plot_cells(cells, &message.plots[i], message.kind);
     }
     return RHO_OK;
 }
@@ -191,9 +192,9 @@ const struct rows_kind rows_kind_plots = {
     .has_received = true,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .why_not = why_not,
-    .pattern = kind_of,
-    .fit = fit,
-    .encode = encode,
-    .decode = decode,
+    .why_not = why_row_invalid,
+    .pattern = measured_kind,
+    .fit = rows_in_one_message,
+    .encode = encode_part,
+    .decode = decode_message,
 };

@@ -31,12 +31,12 @@ enum column {
 enum group { NO_GROUP, SECTOR, PLACE };
 
 /* Clockwise from north, in degrees, as counter-clockwise from east in radians. */
-static double from_compass(double azimuth_deg)
+static double radians_from_compass_deg(double azimuth_deg)
 {
     return remainder(PI / 2 - azimuth_deg * DEG_RAD, 2 * PI);
 }
 
-static double from_degrees(double value)
+static double radians_from_deg(double value)
 {
     return value * DEG_RAD;
 }
@@ -44,8 +44,9 @@ static double from_degrees(double value)
 static const struct rows_column columns[NUM_COLUMNS] = {
     [RANGE_M] = {"range_m", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS, NO_GROUP, NULL, NULL},
     [AZIMUTH_RAD] = {"azimuth_rad", COLUMN_NEEDED | COLUMN_MEASURED | COLUMN_ALWAYS | COLUMN_ANGLE,
-                     NO_GROUP, "azimuth_deg", from_compass},
-    [ELEVATION_RAD] = {"elevation_rad", COLUMN_MEASURED, NO_GROUP, "elevation_deg", from_degrees},
+                     NO_GROUP, "azimuth_deg", radians_from_compass_deg},
+    [ELEVATION_RAD] = {"elevation_rad", COLUMN_MEASURED, NO_GROUP, "elevation_deg",
+                       radians_from_deg},
     [RANGE_RATE_MPS] = {"range_rate_mps", COLUMN_MEASURED, NO_GROUP, NULL, NULL},
     [SNR_DB] = {"snr_db", 0, NO_GROUP, NULL, NULL},
     [SENSOR_X_M] = {"sensor_x_m", COLUMN_OF_SCAN | COLUMN_NOT_ZERO, PLACE, NULL, NULL},
@@ -59,30 +60,31 @@ static const struct rows_column columns[NUM_COLUMNS] = {
     [SECTOR_TO_RAD] = {"sector_to_rad", COLUMN_OF_SCAN, SECTOR, NULL, NULL},
 };
 
-static const char *why_not(const double *cells)
+static const char *why_row_invalid(const double *cells)
 {
-    if (rows_is_empty(cells[RANGE_M])) {
+    if (rows_is_cell_empty(cells[RANGE_M])) {
         return "range_m is empty";
     }
-    return rows_is_empty(cells[AZIMUTH_RAD]) ? "the azimuth is empty" : NULL;
+    return rows_is_cell_empty(cells[AZIMUTH_RAD]) ? "the azimuth is empty" : NULL;
 }
 
-static int pattern(const double *cells)
+static int measured_quantities(const double *cells)
 {
-    return !rows_is_empty(cells[ELEVATION_RAD]) + 2 * !rows_is_empty(cells[RANGE_RATE_MPS]);
+    return !rows_is_cell_empty(cells[ELEVATION_RAD]) +
+           2 * !rows_is_cell_empty(cells[RANGE_RATE_MPS]);
 }
 
 static bool has_same_sigmas(const double *cells, const double *others)
 {
     for (int i = SIGMA_RANGE_M; i <= SIGMA_RANGE_RATE_MPS; i++) {
-        if (rows_float(cells[i]) != rows_float(others[i])) {
+        if (rows_float_or_zero(cells[i]) != rows_float_or_zero(others[i])) {
             return false;
         }
     }
     return true;
 }
 
-static size_t fit(const struct rows_part *rest)
+static size_t rows_in_one_message(const struct rows_part *rest)
 {
     size_t count = rest->count < 1 ? 0 : 1;
 
@@ -93,23 +95,23 @@ static size_t fit(const struct rows_part *rest)
     return count;
 }
 
-static struct rho_message_polar_plot plot_of(const struct rows_part *part, size_t index)
+static struct rho_message_polar_plot message_plot_of(const struct rows_part *part, size_t index)
 {
     const double *cells = rows_part_cells(part, index);
 
     return (struct rho_message_polar_plot){
-        .dt_us = rows_dt_us(part, index),
-        .range_m = rows_float(cells[RANGE_M]),
-        .azimuth_rad = rows_float(cells[AZIMUTH_RAD]),
-        .elevation_rad = rows_float(cells[ELEVATION_RAD]),
-        .range_rate_mps = rows_float(cells[RANGE_RATE_MPS]),
-        .snr_db = rows_float(cells[SNR_DB]),
+        .dt_us = rows_plot_offset_us(part, index),
+        .range_m = rows_float_or_zero(cells[RANGE_M]),
+        .azimuth_rad = rows_float_or_zero(cells[AZIMUTH_RAD]),
+        .elevation_rad = rows_float_or_zero(cells[ELEVATION_RAD]),
+        .range_rate_mps = rows_float_or_zero(cells[RANGE_RATE_MPS]),
+        .snr_db = rows_float_or_zero(cells[SNR_DB]),
     };
 }
 
-static struct rho_message_polar_scan scan_of(const struct rows_part *part)
+static struct rho_message_polar_scan message_scan_of(const struct rows_part *part)
 {
-    const double *head = rows_head_cells(part);
+    const double *head = rows_first_row_cells(part);
     const double *first = part->count ? rows_part_cells(part, 0) : head;
 
     return (struct rho_message_polar_scan){
@@ -117,31 +119,31 @@ static struct rho_message_polar_scan scan_of(const struct rows_part *part)
         .scan = part->scan->head.scan,
         .epoch = part->scan->head.epoch,
         .sensor_id = (int16_t)part->scan->head.sensor_id,
-        .has_elevation = !rows_is_empty(first[ELEVATION_RAD]),
-        .has_range_rate = !rows_is_empty(first[RANGE_RATE_MPS]),
+        .has_elevation = !rows_is_cell_empty(first[ELEVATION_RAD]),
+        .has_range_rate = !rows_is_cell_empty(first[RANGE_RATE_MPS]),
         .part = part->part,
         .num_parts = part->scan->num_parts,
-        .sensor_x_m = rows_float(head[SENSOR_X_M]),
-        .sensor_y_m = rows_float(head[SENSOR_Y_M]),
-        .sensor_z_m = rows_float(head[SENSOR_Z_M]),
-        .sigma_range_m = rows_float(first[SIGMA_RANGE_M]),
-        .sigma_azimuth_rad = rows_float(first[SIGMA_AZIMUTH_RAD]),
-        .sigma_elevation_rad = rows_float(first[SIGMA_ELEVATION_RAD]),
-        .sigma_range_rate_mps = rows_float(first[SIGMA_RANGE_RATE_MPS]),
-        .sector_from_rad = rows_float(head[SECTOR_FROM_RAD]),
-        .sector_to_rad = rows_float(head[SECTOR_TO_RAD]),
+        .sensor_x_m = rows_float_or_zero(head[SENSOR_X_M]),
+        .sensor_y_m = rows_float_or_zero(head[SENSOR_Y_M]),
+        .sensor_z_m = rows_float_or_zero(head[SENSOR_Z_M]),
+        .sigma_range_m = rows_float_or_zero(first[SIGMA_RANGE_M]),
+        .sigma_azimuth_rad = rows_float_or_zero(first[SIGMA_AZIMUTH_RAD]),
+        .sigma_elevation_rad = rows_float_or_zero(first[SIGMA_ELEVATION_RAD]),
+        .sigma_range_rate_mps = rows_float_or_zero(first[SIGMA_RANGE_RATE_MPS]),
+        .sector_from_rad = rows_float_or_zero(head[SECTOR_FROM_RAD]),
+        .sector_to_rad = rows_float_or_zero(head[SECTOR_TO_RAD]),
         .num_polar_plots = (int16_t)part->count,
     };
 }
 
-static size_t encode(const struct rows_part *part, uint8_t *buffer, const char **field)
+static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
-    struct rho_message_polar_scan message = scan_of(part);
+    struct rho_message_polar_scan message = message_scan_of(part);
     struct rho_message_place place;
     size_t size;
 
     for (size_t i = 0; i < part->count; i++) {
-        message.polar_plots[i] = plot_of(part, i);
+        message.polar_plots[i] = message_plot_of(part, i);
     }
     if (rho_message_polar_scan_validate(&message, &place) != RHO_OK) {
         *field = rho_message_polar_scan_field(&place);
@@ -156,22 +158,23 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
  * Fills the cells that all rows of the message share. A place is always written: an empty one would
  * mean another place than the origin.
  */
-static void put_scan(double *cells, const struct rho_message_polar_scan *message)
+static void put_scan_cells(double *cells, const struct rho_message_polar_scan *message)
 {
     cells[SENSOR_X_M] = (double)message->sensor_x_m;
     cells[SENSOR_Y_M] = (double)message->sensor_y_m;
     cells[SENSOR_Z_M] = (double)message->sensor_z_m;
-    cells[SIGMA_RANGE_M] = rows_said(message->sigma_range_m);
-    cells[SIGMA_AZIMUTH_RAD] = rows_said(message->sigma_azimuth_rad);
-    cells[SIGMA_ELEVATION_RAD] = rows_said(message->sigma_elevation_rad);
-    cells[SIGMA_RANGE_RATE_MPS] = rows_said(message->sigma_range_rate_mps);
-    if (!rows_is_zero(message->sector_from_rad) || !rows_is_zero(message->sector_to_rad)) {
+    cells[SIGMA_RANGE_M] = rows_cell_unless_zero(message->sigma_range_m);
+    cells[SIGMA_AZIMUTH_RAD] = rows_cell_unless_zero(message->sigma_azimuth_rad);
+    cells[SIGMA_ELEVATION_RAD] = rows_cell_unless_zero(message->sigma_elevation_rad);
+    cells[SIGMA_RANGE_RATE_MPS] = rows_cell_unless_zero(message->sigma_range_rate_mps);
+    if (!rows_is_plus_zero(message->sector_from_rad) ||
+        !rows_is_plus_zero(message->sector_to_rad)) {
         cells[SECTOR_FROM_RAD] = (double)message->sector_from_rad;
         cells[SECTOR_TO_RAD] = (double)message->sector_to_rad;
     }
 }
 
-static void put_plot(double *cells, const struct rho_message_polar_scan *message, int index)
+static void put_plot_cells(double *cells, const struct rho_message_polar_scan *message, int index)
 {
     const struct rho_message_polar_plot *plot = &message->polar_plots[index];
 
@@ -183,11 +186,11 @@ static void put_plot(double *cells, const struct rho_message_polar_scan *message
     if (message->has_range_rate) {
         cells[RANGE_RATE_MPS] = (double)plot->range_rate_mps;
     }
-    cells[SNR_DB] = rows_said(plot->snr_db);
+    cells[SNR_DB] = rows_cell_unless_zero(plot->snr_db);
 }
 
-static enum rho_status decode(const uint8_t *data, size_t size, struct rows *rows,
-                              struct rows_message *out, const char **field)
+static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
+                                      struct rows_message *out, const char **field)
 {
     struct rho_message_polar_scan message;
     struct rho_message_place place;
@@ -207,14 +210,14 @@ static enum rho_status decode(const uint8_t *data, size_t size, struct rows *row
                             .scan = message.scan};
     out->part = message.part;
     out->num_parts = message.num_parts;
-    put_scan(rows_add_of(rows, out, 0), &message);
+    put_scan_cells(rows_add_message_row(rows, out, 0), &message);
     out->first = rows->count;
     out->count = (size_t)message.num_polar_plots;
     for (int i = 0; i < message.num_polar_plots; i++) {
-        double *cells = rows_add_of(rows, out, message.polar_plots[i].dt_us);
+        double *cells = rows_add_message_row(rows, out, message.polar_plots[i].dt_us);
 
-        put_scan(cells, &message);
-        put_plot(cells, &message, i);
+        put_scan_cells(cells, &message);
+        put_plot_cells(cells, &message, i);
     }
     return RHO_OK;
 }
@@ -228,9 +231,9 @@ const struct rows_kind rows_kind_polar = {
     .has_received = true,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .why_not = why_not,
-    .pattern = pattern,
-    .fit = fit,
-    .encode = encode,
-    .decode = decode,
+    .why_not = why_row_invalid,
+    .pattern = measured_quantities,
+    .fit = rows_in_one_message,
+    .encode = encode_part,
+    .decode = decode_message,
 };

@@ -30,7 +30,7 @@ struct reading {
 
 /* ---- Columns ---- */
 
-static const struct rows_kind *kind_of(const struct table *table)
+static const struct rows_kind *kind_of_table(const struct table *table)
 {
     static const struct {
         const char *name;
@@ -39,34 +39,35 @@ static const struct rows_kind *kind_of(const struct table *table)
                  {"range_m", ROWS_POLAR},   {"x_m", ROWS_PLOTS},
                  {"lat_deg", ROWS_PLOTS},   {"bearing_rad", ROWS_BEARINGS}};
 
-    bool has_sensor = table_find(table, "sensor_id") >= 0;
+    bool has_sensor = table_find_column(table, "sensor_id") >= 0;
 
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
         /* plots of a scene say whose they are */
-        if (table_find(table, marks[i].name) >= 0 && !(marks[i].kind == ROWS_TRUTH && has_sensor)) {
+        if (table_find_column(table, marks[i].name) >= 0 &&
+            !(marks[i].kind == ROWS_TRUTH && has_sensor)) {
             return rows_kinds[marks[i].kind];
         }
     }
-    table_fail(table, TABLE_HEADER,
-               "neither plots, polar plots, bearings, truth nor tracks: no column 'x_m', "
-               "'lat_deg', 'range_m', 'bearing_rad', 'target_id' or 'track_id'");
+    table_fail_at_row(table, TABLE_HEADER,
+                      "neither plots, polar plots, bearings, truth nor tracks: no column 'x_m', "
+                      "'lat_deg', 'range_m', 'bearing_rad', 'target_id' or 'track_id'");
 }
 
 static int find_column(const struct reading *reading, const struct rows_column *column,
                        bool *is_degrees)
 {
     const struct table *table = reading->table;
-    int plain = table_find(table, column->name);
-    int degrees = column->degrees ? table_find(table, column->degrees) : -1;
+    int plain = table_find_column(table, column->name);
+    int degrees = column->degrees ? table_find_column(table, column->degrees) : -1;
 
     if (plain >= 0 && degrees >= 0) {
-        table_fail(table, TABLE_HEADER, "both '%s' and '%s' are there", column->name,
-                   column->degrees);
+        table_fail_at_row(table, TABLE_HEADER, "both '%s' and '%s' are there", column->name,
+                          column->degrees);
     }
     *is_degrees = degrees >= 0;
     if (degrees < 0 && (column->flags & COLUMN_NEEDED) &&
         !rows_geodetic_stands_for(&reading->geodetic, column)) {
-        return table_need(table, column->name);
+        return table_need_column(table, column->name);
     }
     return degrees >= 0 ? degrees : plain;
 }
@@ -76,17 +77,18 @@ static void find_columns(struct reading *reading)
     const struct table *table = reading->table;
     const struct rows_kind *kind = reading->file->rows.kind;
 
-    reading->t_s = table_need(table, "t_s");
+    reading->t_s = table_need_column(table, "t_s");
     reading->sensor_id = -1;
     if (kind->has_sensor) {
         bool is_needed = kind == &rows_kind_bearings || reading->parameters->num_sensors > 0;
 
-        reading->sensor_id = (is_needed ? table_need : table_find)(table, "sensor_id");
+        reading->sensor_id =
+            (is_needed ? table_need_column : table_find_column)(table, "sensor_id");
     }
-    reading->received_s = kind->has_received ? table_find(table, "received_s") : -1;
+    reading->received_s = kind->has_received ? table_find_column(table, "received_s") : -1;
     reading->file->rows.has_received = reading->received_s >= 0;
-    reading->scan = table_find(table, "scan");
-    reading->epoch = kind->has_epoch ? table_find(table, "epoch") : -1;
+    reading->scan = table_find_column(table, "scan");
+    reading->epoch = kind->has_epoch ? table_find_column(table, "epoch") : -1;
     reading->file->has_scan = reading->scan >= 0;
     reading->file->has_epoch = reading->epoch >= 0;
     reading->place = -1;
@@ -97,11 +99,11 @@ static void find_columns(struct reading *reading)
             reading->place = i;
         }
     }
-    if (kind == &rows_kind_polar && table_find(table, "x_m") >= 0) {
-        table_fail(table, TABLE_HEADER, "both 'range_m' and 'x_m' are there");
+    if (kind == &rows_kind_polar && table_find_column(table, "x_m") >= 0) {
+        table_fail_at_row(table, TABLE_HEADER, "both 'range_m' and 'x_m' are there");
     }
-    row_need_both(table, "sensor_x_m", "sensor_y_m");
-    row_need_both(table, "sector_from_rad", "sector_to_rad");
+    row_need_both_columns(table, "sensor_x_m", "sensor_y_m");
+    row_need_both_columns(table, "sector_from_rad", "sector_to_rad");
 }
 
 /* ---- Cells ---- */
@@ -119,7 +121,7 @@ static bool read_status(const struct row_check *check, int column, double *value
 
 static bool read_int32(const struct row_check *check, int column, int32_t *value)
 {
-    const char *why = table_int32(check->table, check->row, column, value);
+    const char *why = table_read_int32(check->table, check->row, column, value);
 
     return !why || row_refuse_cell(check, column, why);
 }
@@ -136,7 +138,7 @@ static bool read_int16(const struct row_check *check, int column, int32_t *value
 static bool read_float(const struct row_check *check, int column, double *value)
 {
     float number;
-    const char *why = table_float(check->table, check->row, column, &number);
+    const char *why = table_read_float(check->table, check->row, column, &number);
 
     *value = (double)number;
     return !why || row_refuse_cell(check, column, why);
@@ -146,7 +148,7 @@ static bool read_degrees(const struct row_check *check, int column,
                          const struct rows_column *described, double *value)
 {
     double degrees = 0.0;
-    const char *why = table_number(check->table, check->row, column, &degrees);
+    const char *why = table_read_number(check->table, check->row, column, &degrees);
 
     if (why) {
         return row_refuse_cell(check, column, why);
@@ -167,7 +169,7 @@ static bool read_cell(const struct reading *reading, const struct row_check *che
     float angle_rad = 0;
 
     if (described->flags & COLUMN_ANGLE && !reading->is_degrees[index]) {
-        bool is_good = row_angle(check, column, &angle_rad);
+        bool is_good = row_read_angle(check, column, &angle_rad);
 
         *value = (double)angle_rad;
         return is_good;
@@ -188,7 +190,7 @@ static bool read_cell(const struct reading *reading, const struct row_check *che
     if (!read_float(check, column, value)) {
         return false;
     }
-    return !(described->flags & COLUMN_NO_ROOM) || rows_is_zero((float)*value) ||
+    return !(described->flags & COLUMN_NO_ROOM) || rows_is_plus_zero((float)*value) ||
            row_refuse(check, "%s has no place in a %s", described->name,
                       rho_message_type_name(reading->file->rows.kind->type));
 }
@@ -198,7 +200,7 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
     const struct rows_kind *kind = reading->file->rows.kind;
 
     for (int i = 0; i < kind->num_columns; i++) {
-        if (row_has(check, reading->columns[i])) {
+        if (row_has_cell(check, reading->columns[i])) {
             if (!read_cell(reading, check, i, &cells[i])) {
                 return false;
             }
@@ -211,7 +213,7 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
 }
 
 /* Where a radar stands, if its row does not say. */
-static void fill_place(const struct reading *reading, int32_t sensor_id, double *cells)
+static void fill_radar_place(const struct reading *reading, int32_t sensor_id, double *cells)
 {
     static const enum sensor_parameter_id ids[] = {SENSOR_X_M, SENSOR_Y_M, SENSOR_Z_M};
 
@@ -219,31 +221,32 @@ static void fill_place(const struct reading *reading, int32_t sensor_id, double 
         return;
     }
     for (int i = 0; i < 3; i++) {
-        if (rows_is_empty(cells[reading->place + i])) {
-            cells[reading->place + i] =
-                (double)(float)parameters_of_sensor(reading->parameters, sensor_id, ids[i], 0.0);
+        if (rows_is_cell_empty(cells[reading->place + i])) {
+            cells[reading->place + i] = (double)(float)parameters_value_of_sensor(
+                reading->parameters, sensor_id, ids[i], 0.0);
         }
     }
 }
 
 /* ---- Rows ---- */
 
-static bool read_key(const struct reading *reading, const struct row_check *check, struct row *row)
+static bool read_time_and_numbers(const struct reading *reading, const struct row_check *check,
+                                  struct row *row)
 {
-    const char *why = table_time_us(check->table, check->row, reading->t_s, &row->time_us);
+    const char *why = table_read_time_us(check->table, check->row, reading->t_s, &row->time_us);
 
     if (why) {
         return row_refuse_cell(check, reading->t_s, why);
     }
     row->epoch = 1;
-    return row_received(check, reading->received_s, &row->received_us) &&
+    return row_read_received(check, reading->received_s, &row->received_us) &&
            (reading->sensor_id < 0 || read_int16(check, reading->sensor_id, &row->sensor_id)) &&
            (reading->scan < 0 || read_int32(check, reading->scan, &row->scan)) &&
            (reading->epoch < 0 || read_int32(check, reading->epoch, &row->epoch));
 }
 
-/* The newest row as a message of its own: what does that refuse? */
-static bool check_ranges(const struct reading *reading, const struct row_check *check)
+/* Encodes the newest row as a message of its own: what no message can hold is refused. */
+static bool check_by_encoding(const struct reading *reading, const struct row_check *check)
 {
     const struct rows *rows = &reading->file->rows;
     const struct row *row = &rows->list[rows->count - 1];
@@ -258,30 +261,30 @@ static bool check_ranges(const struct reading *reading, const struct row_check *
     if (rows->kind->encode(&part, message, &field) > 0) {
         return true;
     }
-    column = table_find(check->table, field);
+    column = table_find_column(check->table, field);
     return row_refuse(check, "%s%s%.40s is outside the range of a %s", field, column < 0 ? "" : " ",
-                      column < 0 ? "" : table_text(check->table, check->row, column, buffer),
+                      column < 0 ? "" : table_cell_text(check->table, check->row, column, buffer),
                       rho_message_type_name(rows->kind->type));
 }
 
-static struct row_number number_of(const struct reading *reading, const struct row *row)
+static struct row_number scan_number_of_row(const struct reading *reading, const struct row *row)
 {
     return (struct row_number){
         .is_given = reading->file->has_scan, .scan = row->scan, .epoch = row->epoch};
 }
 
 /* The row belongs to a scan that has begun, by its number. */
-static bool is_within(const struct reading *reading, const struct row *row)
+static bool is_in_begun_scan(const struct reading *reading, const struct row *row)
 {
-    const struct row_number number = number_of(reading, row);
-    size_t first = scan_numbers_find(&reading->numbers, row->sensor_id, &number);
+    const struct row_number number = scan_number_of_row(reading, row);
+    size_t first = scan_numbers_find_scan(&reading->numbers, row->sensor_id, &number);
 
-    return first != SCAN_NUMBERS_NONE &&
-           row_joins(&number, row->time_us, &number, reading->file->rows.list[first].time_us, 0);
+    return first != SCAN_NUMBERS_NONE && row_joins_scan(&number, row->time_us, &number,
+                                                        reading->file->rows.list[first].time_us, 0);
 }
 
 /* The time that must not go back: of reception where the file has it, else of the scan. */
-static int64_t clock_of(const struct reading *reading, const struct row *row)
+static int64_t row_clock_us(const struct reading *reading, const struct row *row)
 {
     return reading->received_s >= 0 ? row->received_us : row->time_us;
 }
@@ -290,28 +293,29 @@ static int64_t clock_of(const struct reading *reading, const struct row *row)
  * Rows come as they were received, or scans in the order of time, in which numbered ones go back;
  * lists are put in order.
  */
-static bool check_order(const struct reading *reading, const struct row_check *check,
-                        const struct row *row)
+static bool check_time_order(const struct reading *reading, const struct row_check *check,
+                             const struct row *row)
 {
     if (!reading->file->rows.kind->has_sensor || !reading->has_last ||
-        clock_of(reading, row) >= reading->last_us ||
-        (reading->received_s < 0 && is_within(reading, row))) {
+        row_clock_us(reading, row) >= reading->last_us ||
+        (reading->received_s < 0 && is_in_begun_scan(reading, row))) {
         return true;
     }
     return row_refuse(check, "%s goes back from %.6f s to %.6f s",
                       reading->received_s >= 0 ? "received_s" : "time",
-                      (double)reading->last_us * 1e-6, (double)clock_of(reading, row) * 1e-6);
+                      (double)reading->last_us * 1e-6, (double)row_clock_us(reading, row) * 1e-6);
 }
 
-static void pass_row(struct reading *reading, const struct row *row)
+static void note_good_row(struct reading *reading, const struct row *row)
 {
-    const struct row_number number = number_of(reading, row);
+    const struct row_number number = scan_number_of_row(reading, row);
 
-    if (reading->file->rows.kind->has_sensor && !is_within(reading, row)) {
-        scan_numbers_set(&reading->numbers, row->sensor_id, &number, reading->file->rows.count - 1);
+    if (reading->file->rows.kind->has_sensor && !is_in_begun_scan(reading, row)) {
+        scan_numbers_set_scan(&reading->numbers, row->sensor_id, &number,
+                              reading->file->rows.count - 1);
     }
-    if (!reading->has_last || clock_of(reading, row) > reading->last_us) {
-        reading->last_us = clock_of(reading, row);
+    if (!reading->has_last || row_clock_us(reading, row) > reading->last_us) {
+        reading->last_us = row_clock_us(reading, row);
     }
     reading->has_last = true;
 }
@@ -322,17 +326,17 @@ static bool check_row(const struct reading *reading, const struct row_check *che
     const struct rows *rows = &reading->file->rows;
     const char *why = NULL;
 
-    if (!check_order(reading, check, row) || !read_cells(reading, check, cells)) {
+    if (!check_time_order(reading, check, row) || !read_cells(reading, check, cells)) {
         return false;
     }
-    fill_place(reading, row->sensor_id, cells);
+    fill_radar_place(reading, row->sensor_id, cells);
     if (!rows_geodetic_fill(&reading->geodetic, check, row->sensor_id, cells)) {
         return false;
     }
     if (rows->kind->why_not && rows_saw_something(rows, &rows->list[rows->count - 1])) {
         why = rows->kind->why_not(cells);
     }
-    return why ? row_refuse(check, "%s", why) : check_ranges(reading, check);
+    return why ? row_refuse(check, "%s", why) : check_by_encoding(reading, check);
 }
 
 static bool read_row(struct reading *reading, const struct row_check *check)
@@ -340,14 +344,14 @@ static bool read_row(struct reading *reading, const struct row_check *check)
     struct rows *rows = &reading->file->rows;
     struct row row = {.line = check->table->lines[check->row], .order = check->row};
 
-    if (!read_key(reading, check, &row)) {
+    if (!read_time_and_numbers(reading, check, &row)) {
         return false;
     }
     if (!check_row(reading, check, &row, rows_add(rows, &row))) {
         rows->num_cells = rows->list[--rows->count].cells;
         return false;
     }
-    pass_row(reading, &row);
+    note_good_row(reading, &row);
     return true;
 }
 
@@ -359,8 +363,8 @@ static void read_rows(struct reading *reading)
         const struct row_check check = {.table = reading->table, .row = i, .reason = reason};
 
         if (!read_row(reading, &check)) {
-            rows_refuse(reading->file, &(struct row){.line = reading->table->lines[i]}, "%s",
-                        reason);
+            rows_refuse_row(reading->file, &(struct row){.line = reading->table->lines[i]}, "%s",
+                            reason);
         }
     }
 }
@@ -370,9 +374,10 @@ bool rows_read_table(struct rows_file *file, const char *path, const struct tabl
 {
     struct reading reading = {.file = file, .table = table, .parameters = parameters};
 
-    *file = (struct rows_file){
-        .path = must_copy(path), .keep_going = keep_going, .rows_skipped = table->rows_skipped};
-    rows_start(&file->rows, kind_of(table));
+    *file = (struct rows_file){.path = must_copy_text(path),
+                               .keep_going = keep_going,
+                               .rows_skipped = table->rows_skipped};
+    rows_start(&file->rows, kind_of_table(table));
     find_columns(&reading);
     read_rows(&reading);
     rows_geodetic_close(&reading.geodetic);
@@ -380,19 +385,19 @@ bool rows_read_table(struct rows_file *file, const char *path, const struct tabl
     return reading.has_last;
 }
 
-void rows_read(struct rows_file *file, const char *path, const struct parameters *parameters,
-               bool keep_going)
+void rows_read_csv(struct rows_file *file, const char *path, const struct parameters *parameters,
+                   bool keep_going)
 {
-    struct table *table = table_read_as(path, parameters, keep_going);
+    struct table *table = table_read_with_parameters(path, parameters, keep_going);
 
     table_need_rows(table);
     if (!rows_read_table(file, path, table, parameters, keep_going)) {
-        table_fail(table, TABLE_HEADER, "not one good row after the header");
+        table_fail_at_row(table, TABLE_HEADER, "not one good row after the header");
     }
     table_free(table);
 }
 
-void rows_refuse(struct rows_file *file, const struct row *row, const char *format, ...)
+void rows_refuse_row(struct rows_file *file, const struct row *row, const char *format, ...)
 {
     char message[ROW_REASON_BYTES];
     va_list arguments;

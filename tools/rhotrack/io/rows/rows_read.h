@@ -27,8 +27,8 @@ struct rows_file {
  * Reads a file. Errors: exit 2, with file and line; with keep_going bad rows are skipped and
  * counted instead. Places of radars that the file does not say come from the parameters.
  */
-void rows_read(struct rows_file *file, const char *path, const struct parameters *parameters,
-               bool keep_going);
+void rows_read_csv(struct rows_file *file, const char *path, const struct parameters *parameters,
+                   bool keep_going);
 
 /*
  * The same from a table, which stays the caller's; path is for messages. False: there is not one
@@ -39,7 +39,7 @@ bool rows_read_table(struct rows_file *file, const char *path, const struct tabl
                      const struct parameters *parameters, bool keep_going);
 
 /* A row that turned out bad: exit 2 with its line, or counted. */
-void rows_refuse(struct rows_file *file, const struct row *row, const char *format, ...)
+void rows_refuse_row(struct rows_file *file, const struct row *row, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void rows_read_end(struct rows_file *file);
 

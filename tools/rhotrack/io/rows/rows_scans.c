@@ -23,25 +23,25 @@ struct making {
 
 /* ---- Rows that belong together ---- */
 
-static int by_key(const void *a, const void *b)
+static int by_scan_and_order(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = rows_compare(one->sensor_id, other->sensor_id);
+    int order = rows_compare_numbers(one->sensor_id, other->sensor_id);
 
-    order = order ? order : rows_compare(one->epoch, other->epoch);
-    order = order ? order : rows_compare(one->scan, other->scan);
-    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+    order = order ? order : rows_compare_numbers(one->epoch, other->epoch);
+    order = order ? order : rows_compare_numbers(one->scan, other->scan);
+    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
 }
 
 /* Of lists the time counts, too: their rows may be in any order. */
-static int by_list(const void *a, const void *b)
+static int by_list_and_order(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
-    int order = rows_compare(one->epoch, other->epoch);
+    int order = rows_compare_numbers(one->epoch, other->epoch);
 
-    order = order ? order : rows_compare(one->scan, other->scan);
-    order = order ? order : rows_compare(one->time_us, other->time_us);
-    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+    order = order ? order : rows_compare_numbers(one->scan, other->scan);
+    order = order ? order : rows_compare_numbers(one->time_us, other->time_us);
+    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
 }
 
 struct named {
@@ -53,7 +53,7 @@ struct named {
 static int by_name(const void *a, const void *b)
 {
     const struct named *one = a, *other = b;
-    int order = rows_compare(one->time_us, other->time_us);
+    int order = rows_compare_numbers(one->time_us, other->time_us);
 
     order = order ? order : (one->name > other->name) - (one->name < other->name);
     return order ? order : (one->row > other->row) - (one->row < other->row);
@@ -63,7 +63,7 @@ static int by_name(const void *a, const void *b)
  * For each row the one before that names the same track or target at that time; SIZE_MAX where
  * there is none.
  */
-static void find_before(struct making *making)
+static void find_same_name_before(struct making *making)
 {
     size_t count = making->file->rows.count;
     struct named *named = must_alloc(count * sizeof *named);
@@ -83,17 +83,17 @@ static void find_before(struct making *making)
     free(named);
 }
 
-static bool is_same(double one, double other)
+static bool is_same_cell(double one, double other)
 {
-    return rows_is_empty(one) ? rows_is_empty(other) : one <= other && one >= other;
+    return rows_is_cell_empty(one) ? rows_is_cell_empty(other) : one <= other && one >= other;
 }
 
 /* The first column of that flag in which two rows differ, or NULL. */
-static const char *difference(const struct making *making, const double *cells,
-                              const double *others, unsigned flag)
+static const char *differing_column(const struct making *making, const double *cells,
+                                    const double *others, unsigned flag)
 {
     for (int i = 0; i < making->kind->num_columns; i++) {
-        if ((making->kind->columns[i].flags & flag) && !is_same(cells[i], others[i])) {
+        if ((making->kind->columns[i].flags & flag) && !is_same_cell(cells[i], others[i])) {
             return making->kind->columns[i].name;
         }
     }
@@ -112,16 +112,16 @@ static bool joins_turn(const struct making *making, size_t first, size_t index)
     others = rows_cells(&making->file->rows, other);
     return row->turn == making->rows[first].turn &&
            row->time_us - making->rows[first].time_us <= OWN_TIME_MAX_US &&
-           !difference(making, cells, others, COLUMN_OF_SCAN) &&
+           !differing_column(making, cells, others, COLUMN_OF_SCAN) &&
            (!rows_saw_something(&making->file->rows, row) ||
             !rows_saw_something(&making->file->rows, other) ||
-            (!difference(making, cells, others, COLUMN_OF_PLOTS) &&
+            (!differing_column(making, cells, others, COLUMN_OF_PLOTS) &&
              (!making->kind->pattern ||
               making->kind->pattern(cells) == making->kind->pattern(others))));
 }
 
 /* Does a row belong to the scan or list that begins with the row first? */
-static bool joins(const struct making *making, size_t first, size_t index)
+static bool joins_scan(const struct making *making, size_t first, size_t index)
 {
     const struct row *start = &making->rows[first], *row = &making->rows[index];
 
@@ -147,62 +147,65 @@ static bool joins(const struct making *making, size_t first, size_t index)
 /* ---- What rows of a scan have in common ---- */
 
 /* Why a row that saw something does not fit to the first of its scan that did. */
-static bool check_plot(struct making *making, const struct rows_scan *scan, const struct row *row)
+static bool check_plot_fits_scan(struct making *making, const struct rows_scan *scan,
+                                 const struct row *row)
 {
     const struct row *first = &making->rows[scan->first];
     const double *cells = rows_cells(&making->file->rows, row);
     const double *others = rows_cells(&making->file->rows, first);
-    const char *name = difference(making, cells, others, COLUMN_OF_PLOTS);
+    const char *name = differing_column(making, cells, others, COLUMN_OF_PLOTS);
 
     if (name) {
-        rows_refuse(making->file, row, "%s is not that of the scan's other rows: a message has one",
-                    name);
+        rows_refuse_row(making->file, row,
+                        "%s is not that of the scan's other rows: a message has one", name);
         return false;
     }
     if (making->kind->pattern && making->kind->pattern(cells) != making->kind->pattern(others)) {
-        rows_refuse(
+        rows_refuse_row(
             making->file, row,
             "height, velocity or range rate must be given in all rows of a scan or in none");
         return false;
     }
     if (making->kind->rows_max > 0 && scan->count >= making->kind->rows_max) {
-        rows_refuse(making->file, row, "more than %zu rows are one scan: no message holds them",
-                    making->kind->rows_max);
+        rows_refuse_row(making->file, row, "more than %zu rows are one scan: no message holds them",
+                        making->kind->rows_max);
         return false;
     }
     return true;
 }
 
-static bool check_received(struct making *making, const struct rows_scan *scan,
-                           const struct row *row)
+static bool check_received_fits_scan(struct making *making, const struct rows_scan *scan,
+                                     const struct row *row)
 {
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.reason = reason};
 
     if (making->file->rows.has_received &&
-        !row_received_with(&check, row->received_us, scan->head.received_us, making->file->has_scan,
-                           making->interval_us)) {
-        rows_refuse(making->file, row, "%s", reason);
+        !row_check_received_together(&check, row->received_us, scan->head.received_us,
+                                     making->file->has_scan, making->interval_us)) {
+        rows_refuse_row(making->file, row, "%s", reason);
         return false;
     }
     return true;
 }
 
-static bool check_row(struct making *making, const struct rows_scan *scan, const struct row *row)
+static bool check_row_fits_scan(struct making *making, const struct rows_scan *scan,
+                                const struct row *row)
 {
-    const char *name = difference(making, rows_cells(&making->file->rows, row),
-                                  rows_cells(&making->file->rows, &scan->head), COLUMN_OF_SCAN);
+    const char *name =
+        differing_column(making, rows_cells(&making->file->rows, row),
+                         rows_cells(&making->file->rows, &scan->head), COLUMN_OF_SCAN);
 
     if (name) {
-        rows_refuse(making->file, row, "%s is not that of the scan's first row", name);
+        rows_refuse_row(making->file, row, "%s is not that of the scan's first row", name);
         return false;
     }
-    if (!check_received(making, scan, row)) {
+    if (!check_received_fits_scan(making, scan, row)) {
         return false;
     }
     if (making->kind->has_one_time && row->time_us != scan->utime) {
-        rows_refuse(making->file, row,
-                    "t_s is not that of the scan's first row: a scan of bearings has one time");
+        rows_refuse_row(making->file, row,
+                        "t_s is not that of the scan's first row: a scan of bearings has one time");
         return false;
     }
     return true;
@@ -211,7 +214,7 @@ static bool check_row(struct making *making, const struct rows_scan *scan, const
 /* ---- Scans ---- */
 
 /* The time that opens the scan: with numbers a row that saw nothing may stand anywhere. */
-static int64_t time_of(const struct making *making, size_t first, size_t end)
+static int64_t scan_time_of_rows(const struct making *making, size_t first, size_t end)
 {
     for (size_t i = first; making->file->has_scan && i < end; i++) {
         if (!rows_saw_something(&making->file->rows, &making->rows[i])) {
@@ -241,7 +244,7 @@ static size_t count_parts(const struct making *making, const struct rows_scan *s
 static void add_scan(struct making *making, size_t first, size_t end)
 {
     struct rows_scans *scans = making->scans;
-    struct rows_scan scan = {.utime = time_of(making, first, end),
+    struct rows_scan scan = {.utime = scan_time_of_rows(making, first, end),
                              .head = making->rows[first],
                              .first = first,
                              .order = making->rows[first].order};
@@ -252,8 +255,8 @@ static void add_scan(struct making *making, size_t first, size_t end)
         struct row row = making->rows[i];
         bool is_plot = rows_saw_something(&making->file->rows, &row);
 
-        if (!check_row(making, &scan, &row) ||
-            (is_plot && scan.count > 0 && !check_plot(making, &scan, &row))) {
+        if (!check_row_fits_scan(making, &scan, &row) ||
+            (is_plot && scan.count > 0 && !check_plot_fits_scan(making, &scan, &row))) {
             continue;
         }
         if (is_plot) {
@@ -262,7 +265,8 @@ static void add_scan(struct making *making, size_t first, size_t end)
     }
     parts = count_parts(making, &scan);
     if (parts > INT16_MAX) {
-        rows_refuse(making->file, &scan.head, "a scan of %zu parts; messages number 32767", parts);
+        rows_refuse_row(making->file, &scan.head, "a scan of %zu parts; messages number 32767",
+                        parts);
         return;
     }
     scan.num_parts = (int16_t)parts;
@@ -273,11 +277,11 @@ static void add_scan(struct making *making, size_t first, size_t end)
 static int by_sensor(const void *a, const void *b)
 {
     const struct rows_scan *one = a, *other = b;
-    int order = rows_compare(one->head.sensor_id, other->head.sensor_id);
+    int order = rows_compare_numbers(one->head.sensor_id, other->head.sensor_id);
 
-    order = order ? order : rows_compare(one->head.epoch, other->head.epoch);
-    order = order ? order : rows_compare(one->utime, other->utime);
-    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+    order = order ? order : rows_compare_numbers(one->head.epoch, other->head.epoch);
+    order = order ? order : rows_compare_numbers(one->utime, other->utime);
+    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
 }
 
 /* Of each sensor in the order of time, also those that were received in another one. */
@@ -301,9 +305,9 @@ static void number_scans(const struct making *making)
 static int by_time(const void *a, const void *b)
 {
     const struct rows_scan *one = a, *other = b;
-    int order = rows_compare(one->due_us, other->due_us);
+    int order = rows_compare_numbers(one->due_us, other->due_us);
 
-    return order ? order : rows_compare((int64_t)one->order, (int64_t)other->order);
+    return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
 }
 
 void rows_scans_make(struct rows_scans *scans, struct rows_file *file, int64_t interval_us)
@@ -316,12 +320,12 @@ void rows_scans_make(struct rows_scans *scans, struct rows_file *file, int64_t i
 
     *scans = (struct rows_scans){.file = file};
     qsort(file->rows.list, file->rows.count, sizeof *file->rows.list,
-          making.kind->has_sensor ? by_key : by_list);
+          making.kind->has_sensor ? by_scan_and_order : by_list_and_order);
     if (!making.kind->has_sensor && !file->has_scan) {
-        find_before(&making);
+        find_same_name_before(&making);
     }
     for (size_t first = 0, end; first < file->rows.count; first = end) {
-        for (end = first + 1; end < file->rows.count && joins(&making, first, end); end++) {
+        for (end = first + 1; end < file->rows.count && joins_scan(&making, first, end); end++) {
         }
         add_scan(&making, first, end);
     }
@@ -341,7 +345,7 @@ void rows_scans_free(struct rows_scans *scans)
 
 /* ---- Messages ---- */
 
-static void put_channel(const struct rows_kind *kind, int32_t sensor_id, char *channel)
+static void write_channel_name(const struct rows_kind *kind, int32_t sensor_id, char *channel)
 {
     if (kind->has_sensor) {
         snprintf(channel, ROWS_CHANNEL_BYTES, "%s%" PRId32, kind->channel, sensor_id);
@@ -350,7 +354,8 @@ static void put_channel(const struct rows_kind *kind, int32_t sensor_id, char *c
     }
 }
 
-bool rows_scans_next(const struct rows_scans *scans, struct rows_at *at, struct rows_output *output)
+bool rows_scans_next_message(const struct rows_scans *scans, struct rows_at *at,
+                             struct rows_output *output)
 {
     const struct rows_kind *kind = scans->file->rows.kind;
     struct rows_part part = {.rows = &scans->file->rows, .part = at->part};
@@ -364,7 +369,7 @@ bool rows_scans_next(const struct rows_scans *scans, struct rows_at *at, struct 
     part.count = part.scan->count - at->row;
     part.count = part.count > 0 ? kind->fit(&part) : 0;
     output->utime = part.scan->due_us;
-    put_channel(kind, part.scan->head.sensor_id, output->channel);
+    write_channel_name(kind, part.scan->head.sensor_id, output->channel);
     output->size = kind->encode(&part, output->data, &field);
     if (output->size == 0) { /* each row was good alone */
         fail(EXIT_USAGE, "%s:%u: %s is outside the range of a %s", scans->file->path,

@@ -21,7 +21,7 @@ struct rows_scans {
 };
 
 /*
- * Sorts the file's rows. What cannot be one scan is refused as rows_read does: other heights,
+ * Sorts the file's rows. What cannot be one scan is refused as rows_read_csv does: other heights,
  * sectors, places, sigmas.
  */
 void rows_scans_make(struct rows_scans *scans, struct rows_file *file, int64_t interval_us);
@@ -44,7 +44,7 @@ struct rows_output {
 };
 
 /* The next message. Returns false after the last. */
-bool rows_scans_next(const struct rows_scans *scans, struct rows_at *at,
-                     struct rows_output *output);
+bool rows_scans_next_message(const struct rows_scans *scans, struct rows_at *at,
+                             struct rows_output *output);
 
 #endif

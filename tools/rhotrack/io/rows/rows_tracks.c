@@ -81,7 +81,7 @@ static const struct rows_column columns[NUM_COLUMNS] = {
 };
 
 /* Of the covariance's lower triangle. */
-static int diagonal(int state)
+static int variance_index(int state)
 {
     return state * (state + 1) / 2 + state;
 }
@@ -95,7 +95,7 @@ static bool is_sigma(double cell)
     return !(cell < 0.0) && !(cell > 0.0 && cell < SIGMA_MIN) && !(cell > SIGMA_MAX);
 }
 
-static const char *why_not(const double *cells)
+static const char *why_row_invalid(const double *cells)
 {
     if (!is_sigma(cells[SIGMA_M]) || !is_sigma(cells[SIGMA_MPS])) {
         return is_sigma(cells[SIGMA_M]) ? "sigma_mps is neither 0 nor within 1e-18 .. 1e18"
@@ -104,7 +104,7 @@ static const char *why_not(const double *cells)
     return NULL;
 }
 
-static size_t fit(const struct rows_part *rest)
+static size_t rows_in_one_message(const struct rows_part *rest)
 {
     return rest->count < RHO_MESSAGE_TRACK_LIST_MAX_TRACKS ? rest->count
                                                            : RHO_MESSAGE_TRACK_LIST_MAX_TRACKS;
@@ -115,7 +115,7 @@ static size_t fit(const struct rows_part *rest)
 static bool has_covariance(const double *cells)
 {
     for (int i = 0; i < COVARIANCES; i++) {
-        if (!rows_is_empty(cells[COVARIANCE + i])) {
+        if (!rows_is_cell_empty(cells[COVARIANCE + i])) {
             return true;
         }
     }
@@ -123,51 +123,54 @@ static bool has_covariance(const double *cells)
 }
 
 /* Variances of the axes that are measured; heights where there is one, or a speed upwards. */
-static void spread_sigmas(const double *cells, float *covariance)
+static void covariance_from_sigmas(const double *cells, float *covariance)
 {
-    float sigma_m = rows_float(cells[SIGMA_M]), sigma_mps = rows_float(cells[SIGMA_MPS]);
-    bool has_height = rows_float(cells[STATE + 2]) != 0.0f || rows_float(cells[STATE + 5]) != 0.0f;
+    float sigma_m = rows_float_or_zero(cells[SIGMA_M]),
+          sigma_mps = rows_float_or_zero(cells[SIGMA_MPS]);
+    bool has_height = rows_float_or_zero(cells[STATE + 2]) != 0.0f ||
+                      rows_float_or_zero(cells[STATE + 5]) != 0.0f;
 
     for (int axis = 0; axis < (has_height ? AXES : AXES - 1); axis++) {
-        covariance[diagonal(axis)] = sigma_m * sigma_m;
-        covariance[diagonal(AXES + axis)] = sigma_mps * sigma_mps;
+        covariance[variance_index(axis)] = sigma_m * sigma_m;
+        covariance[variance_index(AXES + axis)] = sigma_mps * sigma_mps;
     }
 }
 
-static struct rho_message_track track_of(const double *cells)
+static struct rho_message_track message_track_of(const double *cells)
 {
     const double *state = cells + STATE, *acceleration = cells + ACCELERATION;
     struct rho_message_track track = {
         .track_id = (int32_t)cells[TRACK_ID],
         .status = (int8_t)cells[STATUS],
-        .hits = (int16_t)rows_float(cells[HITS]),
-        .misses = (int16_t)rows_float(cells[MISSES]),
-        .sensor_id = (int16_t)rows_float(cells[SENSOR_ID]),
-        .plot = rows_is_empty(cells[PLOT]) ? -1 : (int16_t)cells[PLOT],
-        .update_age_us = rows_is_empty(cells[UPDATE_AGE_US]) ? 0 : (int32_t)cells[UPDATE_AGE_US],
-        .x_m = rows_float(state[0]),
-        .y_m = rows_float(state[1]),
-        .z_m = rows_float(state[2]),
-        .vx_mps = rows_float(state[3]),
-        .vy_mps = rows_float(state[4]),
-        .vz_mps = rows_float(state[5]),
-        .ax_mps2 = rows_float(acceleration[0]),
-        .ay_mps2 = rows_float(acceleration[1]),
-        .az_mps2 = rows_float(acceleration[2]),
-        .score_nat = rows_float(cells[SCORE_NAT]),
-        .maneuver_probability = rows_float(cells[MANEUVER_PROBABILITY]),
+        .hits = (int16_t)rows_float_or_zero(cells[HITS]),
+        .misses = (int16_t)rows_float_or_zero(cells[MISSES]),
+        .sensor_id = (int16_t)rows_float_or_zero(cells[SENSOR_ID]),
+        .plot = rows_is_cell_empty(cells[PLOT]) ? -1 : (int16_t)cells[PLOT],
+        .update_age_us =
+            rows_is_cell_empty(cells[UPDATE_AGE_US]) ? 0 : (int32_t)cells[UPDATE_AGE_US],
+        .x_m = rows_float_or_zero(state[0]),
+        .y_m = rows_float_or_zero(state[1]),
+        .z_m = rows_float_or_zero(state[2]),
+        .vx_mps = rows_float_or_zero(state[3]),
+        .vy_mps = rows_float_or_zero(state[4]),
+        .vz_mps = rows_float_or_zero(state[5]),
+        .ax_mps2 = rows_float_or_zero(acceleration[0]),
+        .ay_mps2 = rows_float_or_zero(acceleration[1]),
+        .az_mps2 = rows_float_or_zero(acceleration[2]),
+        .score_nat = rows_float_or_zero(cells[SCORE_NAT]),
+        .maneuver_probability = rows_float_or_zero(cells[MANEUVER_PROBABILITY]),
     };
 
     for (int i = 0; i < COVARIANCES; i++) {
-        track.covariance[i] = rows_float(cells[COVARIANCE + i]);
+        track.covariance[i] = rows_float_or_zero(cells[COVARIANCE + i]);
     }
     if (!has_covariance(cells)) {
-        spread_sigmas(cells, track.covariance);
+        covariance_from_sigmas(cells, track.covariance);
     }
     return track;
 }
 
-static size_t encode(const struct rows_part *part, uint8_t *buffer, const char **field)
+static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
     struct rho_message_place place;
     size_t size;
@@ -182,7 +185,7 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
     };
 
     for (size_t i = 0; i < part->count; i++) {
-        message.tracks[i] = track_of(rows_part_cells(part, i));
+        message.tracks[i] = message_track_of(rows_part_cells(part, i));
     }
     if (rho_message_track_list_validate(&message, &place) != RHO_OK) {
         *field = rho_message_track_list_field(&place);
@@ -199,21 +202,22 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
  * Root mean variance over the measured axes, as the tracker's own: those whose place or speed has a
  * variance.
  */
-static double sigma_of(const float *covariance, int first)
+static double rms_sigma_of(const float *covariance, int first)
 {
     float sum = 0.0f;
     int axes = 0;
 
     for (int axis = 0; axis < AXES; axis++) {
-        if (covariance[diagonal(axis)] > 0.0f || covariance[diagonal(AXES + axis)] > 0.0f) {
-            sum += covariance[diagonal(first + axis)];
+        if (covariance[variance_index(axis)] > 0.0f ||
+            covariance[variance_index(AXES + axis)] > 0.0f) {
+            sum += covariance[variance_index(first + axis)];
             axes++;
         }
     }
     return axes > 0 && sum > 0.0f ? (double)sqrtf(sum / (float)axes) : 0.0;
 }
 
-static void put_track(double *cells, const struct rho_message_track *track)
+static void put_track_cells(double *cells, const struct rho_message_track *track)
 {
     const float states[] = {track->x_m,     track->y_m,     track->z_m,
                             track->vx_mps,  track->vy_mps,  track->vz_mps,
@@ -224,8 +228,8 @@ static void put_track(double *cells, const struct rho_message_track *track)
     for (int i = 0; i < STATES + AXES; i++) {
         cells[STATE + i] = (double)states[i];
     }
-    cells[SIGMA_M] = sigma_of(track->covariance, 0);
-    cells[SIGMA_MPS] = sigma_of(track->covariance, AXES);
+    cells[SIGMA_M] = rms_sigma_of(track->covariance, 0);
+    cells[SIGMA_MPS] = rms_sigma_of(track->covariance, AXES);
     cells[HITS] = track->hits;
     cells[MISSES] = track->misses;
     cells[SENSOR_ID] = track->sensor_id;
@@ -238,8 +242,8 @@ static void put_track(double *cells, const struct rho_message_track *track)
     cells[MANEUVER_PROBABILITY] = (double)track->maneuver_probability;
 }
 
-static enum rho_status decode(const uint8_t *data, size_t size, struct rows *rows,
-                              struct rows_message *out, const char **field)
+static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
+                                      struct rows_message *out, const char **field)
 {
     struct rho_message_track_list message;
     struct rho_message_place place;
@@ -256,11 +260,11 @@ static enum rho_status decode(const uint8_t *data, size_t size, struct rows *row
     out->key = (struct row){.time_us = message.utime, .epoch = message.epoch, .scan = message.scan};
     out->part = message.part;
     out->num_parts = message.num_parts;
-    rows_add_of(rows, out, 0);
+    rows_add_message_row(rows, out, 0);
     out->first = rows->count;
     out->count = (size_t)message.num_tracks;
     for (int i = 0; i < message.num_tracks; i++) {
-        put_track(rows_add_of(rows, out, 0), &message.tracks[i]);
+        put_track_cells(rows_add_message_row(rows, out, 0), &message.tracks[i]);
     }
     return RHO_OK;
 }
@@ -274,8 +278,8 @@ const struct rows_kind rows_kind_tracks = {
     .rows_max = INT16_MAX,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .why_not = why_not,
-    .fit = fit,
-    .encode = encode,
-    .decode = decode,
+    .why_not = why_row_invalid,
+    .fit = rows_in_one_message,
+    .encode = encode_part,
+    .decode = decode_message,
 };

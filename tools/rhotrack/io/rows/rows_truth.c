@@ -16,26 +16,26 @@ static const struct rows_column columns[NUM_COLUMNS] = {
     [VZ_MPS] = {"vz_mps", COLUMN_NOT_ZERO, 0, NULL, NULL},
 };
 
-static size_t fit(const struct rows_part *rest)
+static size_t rows_in_one_message(const struct rows_part *rest)
 {
     return rest->count < RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS ? rest->count
                                                             : RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS;
 }
 
-static struct rho_message_truth target_of(const double *cells)
+static struct rho_message_truth message_target_of(const double *cells)
 {
     return (struct rho_message_truth){
         .target_id = (int32_t)cells[TARGET_ID],
-        .x_m = rows_float(cells[X_M]),
-        .y_m = rows_float(cells[Y_M]),
-        .z_m = rows_float(cells[Z_M]),
-        .vx_mps = rows_float(cells[VX_MPS]),
-        .vy_mps = rows_float(cells[VY_MPS]),
-        .vz_mps = rows_float(cells[VZ_MPS]),
+        .x_m = rows_float_or_zero(cells[X_M]),
+        .y_m = rows_float_or_zero(cells[Y_M]),
+        .z_m = rows_float_or_zero(cells[Z_M]),
+        .vx_mps = rows_float_or_zero(cells[VX_MPS]),
+        .vy_mps = rows_float_or_zero(cells[VY_MPS]),
+        .vz_mps = rows_float_or_zero(cells[VZ_MPS]),
     };
 }
 
-static size_t encode(const struct rows_part *part, uint8_t *buffer, const char **field)
+static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const char **field)
 {
     struct rho_message_place place;
     size_t size;
@@ -48,7 +48,7 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
     };
 
     for (size_t i = 0; i < part->count; i++) {
-        message.targets[i] = target_of(rows_part_cells(part, i));
+        message.targets[i] = message_target_of(rows_part_cells(part, i));
     }
     if (rho_message_truth_list_validate(&message, &place) != RHO_OK) {
         *field = rho_message_truth_list_field(&place);
@@ -59,7 +59,7 @@ static size_t encode(const struct rows_part *part, uint8_t *buffer, const char *
                : 0;
 }
 
-static void put_target(double *cells, const struct rho_message_truth *target)
+static void put_target_cells(double *cells, const struct rho_message_truth *target)
 {
     cells[TARGET_ID] = target->target_id;
     cells[X_M] = (double)target->x_m;
@@ -70,8 +70,8 @@ static void put_target(double *cells, const struct rho_message_truth *target)
     cells[VZ_MPS] = (double)target->vz_mps;
 }
 
-static enum rho_status decode(const uint8_t *data, size_t size, struct rows *rows,
-                              struct rows_message *out, const char **field)
+static enum rho_status decode_message(const uint8_t *data, size_t size, struct rows *rows,
+                                      struct rows_message *out, const char **field)
 {
     struct rho_message_truth_list message;
     struct rho_message_place place;
@@ -88,11 +88,11 @@ static enum rho_status decode(const uint8_t *data, size_t size, struct rows *row
     out->key = (struct row){.time_us = message.utime, .scan = message.scan};
     out->part = message.part;
     out->num_parts = message.num_parts;
-    rows_add_of(rows, out, 0);
+    rows_add_message_row(rows, out, 0);
     out->first = rows->count;
     out->count = (size_t)message.num_targets;
     for (int i = 0; i < message.num_targets; i++) {
-        put_target(rows_add_of(rows, out, 0), &message.targets[i]);
+        put_target_cells(rows_add_message_row(rows, out, 0), &message.targets[i]);
     }
     return RHO_OK;
 }
@@ -104,7 +104,7 @@ const struct rows_kind rows_kind_truth = {
     .has_one_time = true,
     .columns = columns,
     .num_columns = NUM_COLUMNS,
-    .fit = fit,
-    .encode = encode,
-    .decode = decode,
+    .fit = rows_in_one_message,
+    .encode = encode_part,
+    .decode = decode_message,
 };

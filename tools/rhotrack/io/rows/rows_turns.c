@@ -6,8 +6,8 @@
 #include "io/turns/antenna_turns.h"
 
 /* The place of a row's plot as its sensor sees it. Returns false where it saw nothing. */
-static bool find_place(const struct rows_file *file, const struct row *row,
-                       const struct parameters *parameters, double place_m[2])
+static bool find_plot_place(const struct rows_file *file, const struct row *row,
+                            const struct parameters *parameters, double place_m[2])
 {
     const struct rows_kind *kind = file->rows.kind;
     const double *cells = rows_cells(&file->rows, row);
@@ -38,7 +38,7 @@ static bool may_have_turns(const struct rows_file *file, const struct parameters
     return (kind == &rows_kind_plots || kind == &rows_kind_polar) && !file->has_scan &&
            !file->rows.has_received && file->rows.count > 0 &&
            antenna_turns_are_wanted(parameters) &&
-           rows_is_empty(
+           rows_is_cell_empty(
                rows_cells(&file->rows, file->rows.list)[rows_find_column(kind, "sector_from_rad")]);
 }
 
@@ -55,16 +55,17 @@ void rows_turns_find(struct rows_file *file, const struct parameters *parameters
     for (size_t i = 0; i < file->rows.count && goes_on; i++) {
         const struct row *row = &file->rows.list[i];
 
-        goes_on = !find_place(file, row, parameters, place_m) ||
-                  antenna_turns_look(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
+        goes_on =
+            !find_plot_place(file, row, parameters, place_m) ||
+            antenna_turns_look_at_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
     }
-    if (antenna_turns_decide(turns, file->path, parameters->value[PARAMETER_V_MAX_MPS])) {
+    if (antenna_turns_find_rules(turns, file->path, parameters->value[PARAMETER_V_MAX_MPS])) {
         for (size_t i = 0; i < file->rows.count; i++) {
             struct row *row = &file->rows.list[i];
-            const bool has_place = find_place(file, row, parameters, place_m);
+            const bool has_place = find_plot_place(file, row, parameters, place_m);
 
-            row->turn = antenna_turns_number(turns, row->sensor_id, row->time_us,
-                                             has_place ? place_m : NULL);
+            row->turn = antenna_turns_number_row(turns, row->sensor_id, row->time_us,
+                                                 has_place ? place_m : NULL);
         }
     }
     antenna_turns_free(turns);

@@ -9,15 +9,15 @@
 
 /* ---- Which columns ---- */
 
-static bool is_set_in(const struct rows_column *column, double cell)
+static bool is_cell_worth_writing(const struct rows_column *column, double cell)
 {
-    if (rows_is_empty(cell)) {
+    if (rows_is_cell_empty(cell)) {
         return false;
     }
-    return !(column->flags & COLUMN_NOT_ZERO) || !rows_is_zero((float)cell);
+    return !(column->flags & COLUMN_NOT_ZERO) || !rows_is_plus_zero((float)cell);
 }
 
-static bool is_wanted(const struct rows *rows, int index, bool with_covariance)
+static bool is_column_wanted(const struct rows *rows, int index, bool with_covariance)
 {
     const struct rows_column *column = &rows->kind->columns[index];
 
@@ -25,7 +25,7 @@ static bool is_wanted(const struct rows *rows, int index, bool with_covariance)
         return (column->flags & COLUMN_ALWAYS) || with_covariance;
     }
     for (size_t i = 0; i < rows->count; i++) {
-        if (is_set_in(column, rows_cells(rows, &rows->list[i])[index])) {
+        if (is_cell_worth_writing(column, rows_cells(rows, &rows->list[i])[index])) {
             return true;
         }
     }
@@ -37,12 +37,12 @@ static void choose_columns(const struct rows *rows, bool with_covariance, bool *
     const struct rows_column *columns = rows->kind->columns;
 
     for (int i = 0; i < rows->kind->num_columns; i++) {
-        is_chosen[i] = is_wanted(rows, i, with_covariance);
+        is_chosen[i] = is_column_wanted(rows, i, with_covariance);
     }
     for (int i = 0; i < rows->kind->num_columns; i++) {
         for (int j = 0; j < rows->kind->num_columns && !is_chosen[i]; j++) {
             is_chosen[i] = columns[i].group != 0 && columns[j].group == columns[i].group &&
-                           is_wanted(rows, j, with_covariance);
+                           is_column_wanted(rows, j, with_covariance);
         }
     }
 }
@@ -54,14 +54,14 @@ static void write_cell(FILE *file, const struct rows_column *column, double cell
     char text[FLOAT_TEXT_BYTES];
 
     fputc(',', file);
-    if (rows_is_empty(cell)) {
+    if (rows_is_cell_empty(cell)) {
         return;
     }
     if (column->flags & COLUMN_STATUS) {
         fputs(rows_status_name((int)cell), file);
     } else if (column->flags & (COLUMN_INT16 | COLUMN_INT32)) {
         fprintf(file, "%" PRId32, (int32_t)cell);
-    } else if (!(cell < 0.0) && !(cell > 0.0) && !rows_is_zero((float)cell)) {
+    } else if (!(cell < 0.0) && !(cell > 0.0) && !rows_is_plus_zero((float)cell)) {
         fputs("-0", file); /* float_text has none */
     } else {
         fputs(float_text((float)cell, text), file);
@@ -108,7 +108,7 @@ static void write_row(FILE *file, const struct rows *rows, const struct row *row
     fputc('\n', file);
 }
 
-void rows_write(FILE *file, const struct rows *rows, bool with_covariance)
+void rows_write_csv(FILE *file, const struct rows *rows, bool with_covariance)
 {
     bool is_chosen[ROWS_MAX_COLUMNS];
 
@@ -122,7 +122,7 @@ void rows_write(FILE *file, const struct rows *rows, bool with_covariance)
 /* ---- As a table ---- */
 
 /* Of the numbers that a float32 stands for the one of the fewest digits: files say the same. */
-static double shortest(double cell)
+static double shortest_float(double cell)
 {
     char text[FLOAT_TEXT_BYTES];
 
@@ -159,12 +159,12 @@ static struct table *start_table(const char *path, const struct rows *rows, cons
     return table_of_numbers(path, list, count);
 }
 
-static void add_to_table(struct table *table, const struct rows *rows, const struct row *row,
-                         const bool *is_chosen)
+static void add_row_to_table(struct table *table, const struct rows *rows, const struct row *row,
+                             const bool *is_chosen)
 {
     const struct rows_kind *kind = rows->kind;
     const double *cells = rows_cells(rows, row);
-    double *numbers = table_add_numbers(table, row->time_us, (uint32_t)table->num_rows + 2);
+    double *numbers = table_add_row_of_numbers(table, row->time_us, (uint32_t)table->num_rows + 2);
     size_t at = 1;
 
     if (kind->has_sensor) {
@@ -172,7 +172,7 @@ static void add_to_table(struct table *table, const struct rows *rows, const str
     }
     for (int i = 0; i < kind->num_columns; i++) {
         if (is_chosen[i]) {
-            numbers[at++] = shortest(cells[i]);
+            numbers[at++] = shortest_float(cells[i]);
         }
     }
     numbers[at++] = row->scan;
@@ -189,7 +189,7 @@ struct table *rows_to_table(const char *path, const struct rows *rows)
     choose_columns(rows, true, is_chosen);
     table = start_table(path, rows, is_chosen);
     for (size_t i = 0; i < rows->count; i++) {
-        add_to_table(table, rows, &rows->list[i], is_chosen);
+        add_row_to_table(table, rows, &rows->list[i], is_chosen);
     }
     return table;
 }

@@ -11,7 +11,7 @@
 #include "io/csv/table.h"
 #include "io/rows/rows.h"
 
-void rows_write(FILE *file, const struct rows *rows, bool with_covariance);
+void rows_write_csv(FILE *file, const struct rows *rows, bool with_covariance);
 
 /*
  * The same as a table, covariances too, without the times of reception; a row's line is that of

@@ -42,7 +42,7 @@ struct frame_reader {
     struct frame_reader_counts total;
 };
 
-bool frame_reader_is_bearings(const char *path)
+bool frame_reader_file_has_bearings(const char *path)
 {
     struct stat status;
     struct table *table;
@@ -58,7 +58,7 @@ bool frame_reader_is_bearings(const char *path)
         return false; /* a pipe could not be read again */
     }
     table = table_read_header(path);
-    is_bearings = record_is_of_bearings(table);
+    is_bearings = record_table_has_bearings(table);
     table_free(table);
     return is_bearings;
 }
@@ -66,7 +66,8 @@ bool frame_reader_is_bearings(const char *path)
 /* ---- Scans in order ---- */
 
 /* Fails, or counts the scan and lets it go. */
-static void refuse_duplicate(struct frame_reader *reader, struct sensor_scan *scan, size_t earlier)
+static void refuse_duplicate_scan(struct frame_reader *reader, struct sensor_scan *scan,
+                                  size_t earlier)
 {
     if (!reader->keep_going) {
         fail(EXIT_USAGE, "%s:%u: sensor %d has another scan at %.6f s: line %u of %s", scan->path,
@@ -82,7 +83,7 @@ static void refuse_duplicate(struct frame_reader *reader, struct sensor_scan *sc
  * A sensor's scan at the time of another one of its own, of another file: which of them was before
  * cannot be told.
  */
-static bool is_duplicate(struct frame_reader *reader, struct sensor_scan *scan)
+static bool is_duplicate_scan(struct frame_reader *reader, struct sensor_scan *scan)
 {
     struct scans_of_time *before = &reader->before;
 
@@ -92,7 +93,7 @@ static bool is_duplicate(struct frame_reader *reader, struct sensor_scan *scan)
     }
     for (size_t i = 0; i < before->count; i++) {
         if (before->list[i].sensor_id == scan->bearings.sensor_id) {
-            refuse_duplicate(reader, scan, i);
+            refuse_duplicate_scan(reader, scan, i);
             return true;
         }
     }
@@ -108,7 +109,7 @@ static bool read_scan(struct frame_reader *reader, struct sensor_scan *scan)
         if (!scan_files_next(&reader->files, scan)) {
             return false;
         }
-    } while (is_duplicate(reader, scan));
+    } while (is_duplicate_scan(reader, scan));
     reader->counts.scans++;
     reader->counts.bearings += scan->bearings.num_bearings;
     return true;
@@ -117,7 +118,7 @@ static bool read_scan(struct frame_reader *reader, struct sensor_scan *scan)
 /* ---- Scans to frames ---- */
 
 /* True where the scan is a further one of the frame; it is not before it. */
-static bool belongs(const struct frame_reader *reader, const struct rho_bearing_scan *scan)
+static bool belongs_to_frame(const struct frame_reader *reader, const struct rho_bearing_scan *scan)
 {
     if (scan->time_us - reader->tolerance_us > reader->frame.time_us) {
         return false;
@@ -158,7 +159,7 @@ static bool make_frame(struct frame_reader *reader)
     do {
         reader->scans[frame->num_scans++] = reader->next.bearings;
         reader->has_next = read_scan(reader, &reader->next);
-    } while (reader->has_next && belongs(reader, &reader->next.bearings));
+    } while (reader->has_next && belongs_to_frame(reader, &reader->next.bearings));
     qsort(reader->scans, frame->num_scans, sizeof *reader->scans, compare_scans);
     reader->counts.frames++;
     return true;
@@ -204,7 +205,7 @@ static void rewind_files(struct frame_reader *reader)
 /*
  * Sensors and counts: how many frames had so many scans is known before how many sensors there are.
  */
-static void look_through(struct frame_reader *reader, uint64_t bytes)
+static void count_frames_and_sensors(struct frame_reader *reader, uint64_t bytes)
 {
     uint64_t frames_of[RHO_MAX_SENSORS + 1] = {0};
     struct progress progress = progress_start("frames looked through", 0);
@@ -237,14 +238,14 @@ struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
                                                                  .keep_going = keep_going,
                                                                  .known = &reader->known});
     for (int i = 0; i < num_paths; i++) {
-        bytes += file_bytes(paths[i]);
+        bytes += plain_file_size(paths[i]);
     }
-    look_through(reader, bytes);
+    count_frames_and_sensors(reader, bytes);
     rewind_files(reader);
     return reader;
 }
 
-void frame_reader_need_pair(const struct frame_reader *reader)
+void frame_reader_need_two_sensors(const struct frame_reader *reader)
 {
     if (reader->known.count < 2) {
         const struct known_sensor *only = &reader->known.list[0];
@@ -257,13 +258,13 @@ void frame_reader_need_pair(const struct frame_reader *reader)
 
 /* ---- What was read ---- */
 
-void frame_reader_skip(struct frame_reader *reader, uint64_t frames)
+void frame_reader_keep_last(struct frame_reader *reader, uint64_t frames)
 {
-    say_last_taken(frames, reader->total.frames, "frames");
+    say_only_last_taken(frames, reader->total.frames, "frames");
     reader->skip = reader->total.frames > frames ? reader->total.frames - frames : 0;
 }
 
-uint64_t frame_reader_total(const struct frame_reader *reader)
+uint64_t frame_reader_num_frames(const struct frame_reader *reader)
 {
     return reader->total.frames;
 }
@@ -284,7 +285,7 @@ struct frame_reader_counts frame_reader_counts(const struct frame_reader *reader
     return reader->total;
 }
 
-void frame_reader_report(const struct frame_reader *reader)
+void frame_reader_report_skipped(const struct frame_reader *reader)
 {
     say_rows_skipped(reader->total.rows_skipped);
     if (reader->total.frames_incomplete) {

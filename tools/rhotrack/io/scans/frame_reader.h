@@ -33,7 +33,7 @@ struct frame_reader_counts {
  * The file's header says that it holds bearings, or the log has those and no plots. False also
  * where it cannot be told: no such file, a pipe.
  */
-bool frame_reader_is_bearings(const char *path);
+bool frame_reader_file_has_bearings(const char *path);
 
 /*
  * Opens the files and reads them through once, since sensors are to be known from the start;
@@ -45,7 +45,7 @@ struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
                                        const struct parameters *parameters, bool keep_going);
 
 /* Fewer than two sensors: exit 2. Positions come from two or more. */
-void frame_reader_need_pair(const struct frame_reader *reader);
+void frame_reader_need_two_sensors(const struct frame_reader *reader);
 
 /*
  * The next frame, or NULL after the last; valid until the next call. Frames come in the order of
@@ -57,10 +57,10 @@ const struct rho_frame *frame_reader_next(struct frame_reader *reader);
  * Leaves out all but the last so many frames, and says so on standard error where that leaves any
  * out.
  */
-void frame_reader_skip(struct frame_reader *reader, uint64_t frames);
+void frame_reader_keep_last(struct frame_reader *reader, uint64_t frames);
 
 /* How many frames there are in all. */
-uint64_t frame_reader_total(const struct frame_reader *reader);
+uint64_t frame_reader_num_frames(const struct frame_reader *reader);
 
 /* Bytes that were taken of all files (for progress bars). */
 uint64_t frame_reader_position(const struct frame_reader *reader);
@@ -72,7 +72,7 @@ const struct frame_sensor *frame_reader_sensors(const struct frame_reader *reade
 struct frame_reader_counts frame_reader_counts(const struct frame_reader *reader);
 
 /* Bad rows that were skipped, and frames that miss a sensor, if any, on standard error. */
-void frame_reader_report(const struct frame_reader *reader);
+void frame_reader_report_skipped(const struct frame_reader *reader);
 void frame_reader_close(struct frame_reader *reader);
 
 #endif

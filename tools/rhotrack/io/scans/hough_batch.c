@@ -20,7 +20,7 @@ static void make_room(struct hough_batch *batch, uint32_t plots)
     batch->t_s = must_realloc(batch->t_s, batch->room * sizeof *batch->t_s);
 }
 
-static bool is_usable(const struct rho_plot *plot)
+static bool is_plot_usable(const struct rho_plot *plot)
 {
     return rho_is_coordinate(plot->x_m) && rho_is_coordinate(plot->y_m);
 }
@@ -36,7 +36,7 @@ static void add_scan(struct hough_batch *batch, const struct rho_scan *scan, int
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
 
-        if (!is_usable(plot)) {
+        if (!is_plot_usable(plot)) {
             batch->num_invalid++;
             continue;
         }
@@ -50,7 +50,7 @@ static void add_scan(struct hough_batch *batch, const struct rho_scan *scan, int
     batch->time_us = scan->time_us;
 }
 
-struct hough_batch hough_batch_of(const struct revolutions *revolutions)
+struct hough_batch hough_batch_from_revolutions(const struct revolutions *revolutions)
 {
     struct hough_batch batch = {.num_scans = 0};
     int64_t first_us = revolutions->count > 0 ? revolutions->list[0].scan.time_us : 0;
@@ -64,7 +64,7 @@ struct hough_batch hough_batch_of(const struct revolutions *revolutions)
     return batch;
 }
 
-void hough_batch_report(const struct hough_batch *batch)
+void hough_batch_report_left_out(const struct hough_batch *batch)
 {
     if (batch->num_invalid) {
         fprintf(stderr, "rhotrack: %" PRIu32 " plots beyond %.0f km are left out\n",

@@ -16,10 +16,10 @@ struct hough_batch {
 };
 
 /* At most RHO_MAX_SCANS scans. Exit 2 where they span too long a time. */
-struct hough_batch hough_batch_of(const struct revolutions *revolutions);
+struct hough_batch hough_batch_from_revolutions(const struct revolutions *revolutions);
 
 /* Says on standard error how many plots are left out, since they are no coordinates. */
-void hough_batch_report(const struct hough_batch *batch);
+void hough_batch_report_left_out(const struct hough_batch *batch);
 
 /* As the library takes them; the arrays stay the batch's. */
 struct rho_hough_points hough_batch_points(const struct hough_batch *batch);

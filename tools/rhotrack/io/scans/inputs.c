@@ -22,31 +22,31 @@ struct inputs {
 };
 
 /* The kinds of scans in a file: a table has one, a log may have both. */
-static unsigned kinds_of(const char *path)
+static unsigned kinds_in_file(const char *path)
 {
     unsigned kinds;
 
     if (!lcm_log_is_log(path)) {
-        return frame_reader_is_bearings(path) ? LOG_HAS_BEARINGS : LOG_HAS_PLOTS;
+        return frame_reader_file_has_bearings(path) ? LOG_HAS_BEARINGS : LOG_HAS_PLOTS;
     }
     kinds = log_scans_kinds(path);
     return kinds ? kinds : LOG_HAS_PLOTS; /* whose reader says what is missing */
 }
 
 /* The paths that hold a kind, in their order. Returns how many. */
-static int sort_paths(char *const *paths, int num_paths, unsigned kind, char **sorted)
+static int paths_of_kind(char *const *paths, int num_paths, unsigned kind, char **sorted)
 {
     int count = 0;
 
     for (int i = 0; i < num_paths; i++) {
-        if (kinds_of(paths[i]) & kind) {
+        if (kinds_in_file(paths[i]) & kind) {
             sorted[count++] = paths[i];
         }
     }
     return count;
 }
 
-static void next_scan(struct inputs *inputs)
+static void read_next_scan(struct inputs *inputs)
 {
     if (inputs->scan_reader && !inputs->has_scan) {
         inputs->scan = scan_reader_next(inputs->scan_reader);
@@ -55,7 +55,7 @@ static void next_scan(struct inputs *inputs)
     }
 }
 
-static void next_frame(struct inputs *inputs)
+static void read_next_frame(struct inputs *inputs)
 {
     if (inputs->frame_reader && !inputs->has_frame) {
         inputs->frame = frame_reader_next(inputs->frame_reader);
@@ -64,17 +64,17 @@ static void next_frame(struct inputs *inputs)
 }
 
 /* A log of both kinds is read twice, and counts so. */
-static uint64_t sum_bytes(char *const *paths, int num_paths)
+static uint64_t sum_file_sizes(char *const *paths, int num_paths)
 {
     uint64_t sum = 0;
 
     for (int i = 0; i < num_paths; i++) {
-        uint64_t bytes = file_bytes(paths[i]);
+        uint64_t bytes = plain_file_size(paths[i]);
 
         if (bytes == 0) {
             return 0;
         }
-        sum += kinds_of(paths[i]) == (LOG_HAS_PLOTS | LOG_HAS_BEARINGS) ? 2 * bytes : bytes;
+        sum += kinds_in_file(paths[i]) == (LOG_HAS_PLOTS | LOG_HAS_BEARINGS) ? 2 * bytes : bytes;
     }
     return sum;
 }
@@ -84,22 +84,22 @@ struct inputs *inputs_open(char *const *paths, int num_paths, const struct param
 {
     struct inputs *inputs = must_calloc(1, sizeof *inputs);
     char **sorted = must_calloc((size_t)num_paths + 1, sizeof *sorted);
-    int count = sort_paths(paths, num_paths, LOG_HAS_PLOTS, sorted);
+    int count = paths_of_kind(paths, num_paths, LOG_HAS_PLOTS, sorted);
 
     if (count > 0) {
         inputs->scan_reader = scan_reader_open(sorted, count, parameters, keep_going);
     }
-    count = sort_paths(paths, num_paths, LOG_HAS_BEARINGS, sorted);
+    count = paths_of_kind(paths, num_paths, LOG_HAS_BEARINGS, sorted);
     if (count > 0) {
         inputs->frame_reader = frame_reader_open(sorted, count, parameters, keep_going);
         if (!inputs->scan_reader) {
-            frame_reader_need_pair(inputs->frame_reader);
+            frame_reader_need_two_sensors(inputs->frame_reader);
         }
     }
     free(sorted);
-    inputs->bytes = sum_bytes(paths, num_paths);
-    next_scan(inputs);
-    next_frame(inputs);
+    inputs->bytes = sum_file_sizes(paths, num_paths);
+    read_next_scan(inputs);
+    read_next_frame(inputs);
     return inputs;
 }
 
@@ -128,8 +128,8 @@ bool inputs_have_bearings(const struct inputs *inputs)
 
 struct input inputs_next(struct inputs *inputs)
 {
-    next_scan(inputs);
-    next_frame(inputs);
+    read_next_scan(inputs);
+    read_next_frame(inputs);
     if (inputs->has_scan &&
         (!inputs->has_frame || inputs->scan->time_us <= inputs->frame->time_us)) {
         inputs->has_scan = false;
@@ -148,13 +148,13 @@ const struct frame_sensor *inputs_passive_sensors(const struct inputs *inputs, s
     return inputs->frame_reader ? frame_reader_sensors(inputs->frame_reader, count) : NULL;
 }
 
-uint64_t inputs_position(const struct inputs *inputs)
+uint64_t inputs_bytes_read(const struct inputs *inputs)
 {
     return (inputs->scan_reader ? scan_reader_position(inputs->scan_reader) : 0) +
            (inputs->frame_reader ? frame_reader_position(inputs->frame_reader) : 0);
 }
 
-uint64_t inputs_size(const struct inputs *inputs)
+uint64_t inputs_total_bytes(const struct inputs *inputs)
 {
     return inputs->bytes;
 }

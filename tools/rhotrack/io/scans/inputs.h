@@ -49,8 +49,8 @@ struct frame_sensor;
 const struct frame_sensor *inputs_passive_sensors(const struct inputs *inputs, size_t *count);
 
 /* Bytes of the files that were read, and that there are; the latter 0 where that is not known. */
-uint64_t inputs_position(const struct inputs *inputs);
-uint64_t inputs_size(const struct inputs *inputs);
+uint64_t inputs_bytes_read(const struct inputs *inputs);
+uint64_t inputs_total_bytes(const struct inputs *inputs);
 
 /* Of plots what was read so far, of bearings all. */
 struct inputs_counts inputs_counts(const struct inputs *inputs);

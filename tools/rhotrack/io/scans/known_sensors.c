@@ -18,7 +18,8 @@ static const struct known_sensor *find_sensor(const struct known_sensors *known,
 
 /* The line that first named a sensor; and its file, where that is not `path`. */
 #define WHERE_BYTES 120
-static const char *where(const struct known_sensor *known, const char *path, char text[WHERE_BYTES])
+static const char *first_named_at(const struct known_sensor *known, const char *path,
+                                  char text[WHERE_BYTES])
 {
     int length = snprintf(text, WHERE_BYTES, "%.9g, %.9g, line %u", (double)known->sensor.x_m,
                           (double)known->sensor.y_m, (unsigned)known->line);
@@ -29,8 +30,8 @@ static const char *where(const struct known_sensor *known, const char *path, cha
     return text;
 }
 
-static bool check_new(const struct known_sensors *known, const char *path, const struct record *row,
-                      const struct row_check *check)
+static bool check_new_sensor(const struct known_sensors *known, const char *path,
+                             const struct record *row, const struct row_check *check)
 {
     char text[WHERE_BYTES];
 
@@ -40,7 +41,7 @@ static bool check_new(const struct known_sensors *known, const char *path, const
         if (hypot((double)row->sensor.x_m - (double)other->x_m,
                   (double)row->sensor.y_m - (double)other->y_m) < SAME_PLACE_M) {
             return row_refuse(check, "sensor %d is where sensor %d is: %s", (int)row->sensor_id,
-                              (int)other->sensor_id, where(&known->list[i], path, text));
+                              (int)other->sensor_id, first_named_at(&known->list[i], path, text));
         }
     }
     if (known->is_closed) {
@@ -51,24 +52,24 @@ static bool check_new(const struct known_sensors *known, const char *path, const
                       RHO_MAX_SENSORS);
 }
 
-bool known_sensors_check(const struct known_sensors *sensors, const char *path,
-                         const struct record *row, const struct row_check *check)
+bool known_sensors_check_row(const struct known_sensors *sensors, const char *path,
+                             const struct record *row, const struct row_check *check)
 {
     const struct known_sensor *known = find_sensor(sensors, row->sensor_id);
     char text[WHERE_BYTES];
 
     if (!known) {
-        return check_new(sensors, path, row, check);
+        return check_new_sensor(sensors, path, row, check);
     }
     if (row->sensor.x_m < known->sensor.x_m || row->sensor.x_m > known->sensor.x_m ||
         row->sensor.y_m < known->sensor.y_m || row->sensor.y_m > known->sensor.y_m) {
         return row_refuse(check, "sensor %d has moved: it was at %s", (int)row->sensor_id,
-                          where(known, path, text));
+                          first_named_at(known, path, text));
     }
     return true;
 }
 
-void known_sensors_add(struct known_sensors *known, const char *path, const struct record *row)
+void known_sensors_add_row(struct known_sensors *known, const char *path, const struct record *row)
 {
     if (!find_sensor(known, row->sensor_id)) {
         known->list[known->count++] =

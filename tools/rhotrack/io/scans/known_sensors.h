@@ -31,8 +31,8 @@ struct known_sensors {
  * The row's sensor is where it was before, or a new one at a place of its own, of which there is
  * room for RHO_MAX_SENSORS. Returns false and sets the reason.
  */
-bool known_sensors_check(const struct known_sensors *sensors, const char *path,
-                         const struct record *row, const struct row_check *check);
-void known_sensors_add(struct known_sensors *known, const char *path, const struct record *row);
+bool known_sensors_check_row(const struct known_sensors *sensors, const char *path,
+                             const struct record *row, const struct row_check *check);
+void known_sensors_add_row(struct known_sensors *known, const char *path, const struct record *row);
 
 #endif

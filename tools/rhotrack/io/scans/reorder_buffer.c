@@ -27,7 +27,7 @@ void reorder_buffer_put(struct reorder_buffer *buffer, const struct sensor_scan 
     buffer->clock_us = clock_us;
 }
 
-static size_t first_heard(const struct reorder_buffer *buffer)
+static size_t first_received_scan(const struct reorder_buffer *buffer)
 {
     size_t first = 0;
 
@@ -49,7 +49,7 @@ bool reorder_buffer_take(struct reorder_buffer *buffer, bool all, struct sensor_
     if (buffer->count == 0) {
         return false;
     }
-    first = first_heard(buffer);
+    first = first_received_scan(buffer);
     due_us = buffer->scans[first].heard_us + buffer->hold_us;
     if (!all && buffer->clock_us < due_us) {
         return false;

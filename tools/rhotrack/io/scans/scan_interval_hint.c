@@ -29,7 +29,7 @@ struct look {
     int64_t time_us;
 };
 
-static bool read_look(const struct message_event *event, struct look *look)
+static bool read_scan_of_message(const struct message_event *event, struct look *look)
 {
     static struct rho_message_plot_scan plots;
     static struct rho_message_polar_scan polar;
@@ -52,7 +52,8 @@ static bool read_look(const struct message_event *event, struct look *look)
 }
 
 /* NULL: the sensor's first scan. */
-static struct lone_sensor *find(const struct scan_interval_hint *plots, int16_t sensor_id)
+static struct lone_sensor *find_lone_sensor(const struct scan_interval_hint *plots,
+                                            int16_t sensor_id)
 {
     for (size_t i = 0; i < plots->count; i++) {
         if (plots->sensors[i].sensor_id == sensor_id) {
@@ -62,16 +63,17 @@ static struct lone_sensor *find(const struct scan_interval_hint *plots, int16_t 
     return NULL;
 }
 
-void scan_interval_hint_add(struct scan_interval_hint *plots, const struct message_event *event)
+void scan_interval_hint_add_message(struct scan_interval_hint *plots,
+                                    const struct message_event *event)
 {
     struct lone_sensor *sensor;
     struct look look;
 
-    if (!read_look(event, &look)) {
+    if (!read_scan_of_message(event, &look)) {
         return;
     }
     plots->scans++;
-    sensor = find(plots, look.sensor_id);
+    sensor = find_lone_sensor(plots, look.sensor_id);
     if (sensor) {
         const int64_t since_us = look.time_us - sensor->last_us;
 
@@ -101,7 +103,7 @@ void scan_interval_hint_report(const struct scan_interval_hint *plots, const cha
     }
 }
 
-void scan_interval_hint_watch(struct scan_interval_hint *plots)
+void scan_interval_hint_report_live(struct scan_interval_hint *plots)
 {
     for (size_t i = 0; i < plots->count; i++) {
         struct lone_sensor *sensor = &plots->sensors[i];

@@ -20,7 +20,8 @@ struct scan_interval_hint {
 };
 
 /* A message of the file; others than scans of plots are left out. */
-void scan_interval_hint_add(struct scan_interval_hint *plots, const struct message_event *event);
+void scan_interval_hint_add_message(struct scan_interval_hint *plots,
+                                    const struct message_event *event);
 
 /* One line on standard error where most scans are such. */
 void scan_interval_hint_report(const struct scan_interval_hint *plots, const char *path);
@@ -29,7 +30,7 @@ void scan_interval_hint_report(const struct scan_interval_hint *plots, const cha
  * The same of sensors that are heard live: a line each, once, where their scans come irregularly
  * as well, as plots of a turn do.
  */
-void scan_interval_hint_watch(struct scan_interval_hint *plots);
+void scan_interval_hint_report_live(struct scan_interval_hint *plots);
 
 void scan_interval_hint_free(struct scan_interval_hint *plots);
 

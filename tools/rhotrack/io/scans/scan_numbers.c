@@ -16,7 +16,7 @@ struct scan_numbers_slot {
  * Of the key's bits each one counts in the lower ones of the result (the multiplier is 2^64 by the
  * golden ratio).
  */
-static size_t hash(int32_t sensor_id, const struct row_number *number)
+static size_t hash_number(int32_t sensor_id, const struct row_number *number)
 {
     const uint64_t multiplier = UINT64_C(0x9E3779B97F4A7C15);
     uint64_t mixed = (uint32_t)sensor_id * multiplier;
@@ -27,10 +27,10 @@ static size_t hash(int32_t sensor_id, const struct row_number *number)
 }
 
 /* The key's slot, or the free one where it would go; there is always a free one. */
-static struct scan_numbers_slot *slot_of(const struct scan_numbers *numbers, int32_t sensor_id,
-                                         const struct row_number *number)
+static struct scan_numbers_slot *number_slot(const struct scan_numbers *numbers, int32_t sensor_id,
+                                             const struct row_number *number)
 {
-    size_t at = hash(sensor_id, number);
+    size_t at = hash_number(sensor_id, number);
 
     for (;; at++) {
         struct scan_numbers_slot *slot = &numbers->slots[at & (numbers->capacity - 1)];
@@ -43,17 +43,17 @@ static struct scan_numbers_slot *slot_of(const struct scan_numbers *numbers, int
     }
 }
 
-static bool is_wanted(const struct scan_numbers *numbers, const struct scan_numbers_slot *slot)
+static bool is_slot_wanted(const struct scan_numbers *numbers, const struct scan_numbers_slot *slot)
 {
     return slot->number.is_given && slot->scan >= numbers->dropped;
 }
 
-static size_t count_wanted(const struct scan_numbers *numbers)
+static size_t count_wanted_slots(const struct scan_numbers *numbers)
 {
     size_t wanted = 0;
 
     for (size_t i = 0; i < numbers->capacity; i++) {
-        wanted += is_wanted(numbers, &numbers->slots[i]);
+        wanted += is_slot_wanted(numbers, &numbers->slots[i]);
     }
     return wanted;
 }
@@ -62,53 +62,53 @@ static size_t count_wanted(const struct scan_numbers *numbers)
  * At most half of the slots are taken; after a new table for those that are wanted, at most a
  * quarter.
  */
-static void grow(struct scan_numbers *numbers)
+static void grow_slots(struct scan_numbers *numbers)
 {
     const struct scan_numbers old = *numbers;
 
     if (2 * (old.count + 1) <= old.capacity) {
         return;
     }
-    numbers->count = count_wanted(&old);
+    numbers->count = count_wanted_slots(&old);
     for (numbers->capacity = 64; numbers->capacity < 4 * (numbers->count + 1);) {
         numbers->capacity *= 2;
     }
     numbers->slots = must_calloc(numbers->capacity, sizeof *numbers->slots);
     for (size_t i = 0; i < old.capacity; i++) {
-        if (is_wanted(&old, &old.slots[i])) {
-            *slot_of(numbers, old.slots[i].sensor_id, &old.slots[i].number) = old.slots[i];
+        if (is_slot_wanted(&old, &old.slots[i])) {
+            *number_slot(numbers, old.slots[i].sensor_id, &old.slots[i].number) = old.slots[i];
         }
     }
     free(old.slots);
 }
 
-size_t scan_numbers_find(const struct scan_numbers *numbers, int32_t sensor_id,
-                         const struct row_number *number)
+size_t scan_numbers_find_scan(const struct scan_numbers *numbers, int32_t sensor_id,
+                              const struct row_number *number)
 {
     const struct scan_numbers_slot *slot;
 
     if (!number->is_given || numbers->count == 0) {
         return SCAN_NUMBERS_NONE;
     }
-    slot = slot_of(numbers, sensor_id, number);
+    slot = number_slot(numbers, sensor_id, number);
     return slot->number.is_given ? slot->scan : SCAN_NUMBERS_NONE;
 }
 
-void scan_numbers_set(struct scan_numbers *numbers, int32_t sensor_id,
-                      const struct row_number *number, size_t scan)
+void scan_numbers_set_scan(struct scan_numbers *numbers, int32_t sensor_id,
+                           const struct row_number *number, size_t scan)
 {
     struct scan_numbers_slot *slot;
 
     if (!number->is_given) {
         return;
     }
-    grow(numbers);
-    slot = slot_of(numbers, sensor_id, number);
+    grow_slots(numbers);
+    slot = number_slot(numbers, sensor_id, number);
     numbers->count += !slot->number.is_given;
     *slot = (struct scan_numbers_slot){sensor_id, *number, scan};
 }
 
-void scan_numbers_drop(struct scan_numbers *numbers, size_t before)
+void scan_numbers_drop_before(struct scan_numbers *numbers, size_t before)
 {
     numbers->dropped = before;
 }

@@ -24,15 +24,15 @@ struct scan_numbers {
  * The newest scan of a sensor with that number, or SCAN_NUMBERS_NONE, also for a number that is not
  * given. Constant cost.
  */
-size_t scan_numbers_find(const struct scan_numbers *numbers, int32_t sensor_id,
-                         const struct row_number *number);
+size_t scan_numbers_find_scan(const struct scan_numbers *numbers, int32_t sensor_id,
+                              const struct row_number *number);
 
 /* From now on that scan; a number that is not given leaves all as it is. */
-void scan_numbers_set(struct scan_numbers *numbers, int32_t sensor_id,
-                      const struct row_number *number, size_t scan);
+void scan_numbers_set_scan(struct scan_numbers *numbers, int32_t sensor_id,
+                           const struct row_number *number, size_t scan);
 
 /* Scans before that one may be forgotten: memory is that for those from it on. */
-void scan_numbers_drop(struct scan_numbers *numbers, size_t before);
+void scan_numbers_drop_before(struct scan_numbers *numbers, size_t before);
 
 /* Forgets all, as before another file. */
 void scan_numbers_clear(struct scan_numbers *numbers);

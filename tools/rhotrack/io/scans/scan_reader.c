@@ -37,8 +37,8 @@ struct scan_reader *scan_reader_follow(char *path, const struct parameters *para
                       (struct scan_source_options){.keep_going = keep_going, .follow = true});
 }
 
-struct scan_reader *scan_reader_open_any(char *const *paths, int num_paths,
-                                         const struct parameters *parameters)
+struct scan_reader *scan_reader_open_without_sensors(char *const *paths, int num_paths,
+                                                     const struct parameters *parameters)
 {
     return open_files(paths, num_paths, parameters,
                       (struct scan_source_options){.may_lack_sensor = true});
@@ -56,34 +56,34 @@ const struct rho_scan *scan_reader_next(struct scan_reader *reader)
 }
 
 /* Of a file that is followed, which is the only one. */
-static struct scan_source *followed(const struct scan_reader *reader)
+static struct scan_source *followed_source(const struct scan_reader *reader)
 {
     return reader->files.list[0].source;
 }
 
-bool scan_reader_waits(const struct scan_reader *reader)
+bool scan_reader_waits_for_rows(const struct scan_reader *reader)
 {
-    return scan_source_waits(followed(reader));
+    return scan_source_waits_for_rows(followed_source(reader));
 }
 
 bool scan_reader_is_mid_row(const struct scan_reader *reader)
 {
-    return scan_source_is_mid_row(followed(reader));
+    return scan_source_is_mid_row(followed_source(reader));
 }
 
-void scan_reader_complete(struct scan_reader *reader)
+void scan_reader_complete_scans(struct scan_reader *reader)
 {
-    scan_source_complete(followed(reader));
+    scan_source_complete_scans(followed_source(reader));
 }
 
-void scan_reader_end(struct scan_reader *reader)
+void scan_reader_end_reading(struct scan_reader *reader)
 {
-    scan_source_end(followed(reader));
+    scan_source_end_reading(followed_source(reader));
 }
 
-const char *scan_reader_why_over(const struct scan_reader *reader)
+const char *scan_reader_why_ended(const struct scan_reader *reader)
 {
-    return scan_source_why_over(followed(reader));
+    return scan_source_why_ended(followed_source(reader));
 }
 
 const struct rho_sensor *scan_reader_sensor(const struct scan_reader *reader)
@@ -103,7 +103,7 @@ struct scan_reader_counts scan_reader_counts(const struct scan_reader *reader)
                                        .rows_skipped = scan_files_rows_skipped(&reader->files)};
 }
 
-void scan_reader_report(const struct scan_reader *reader)
+void scan_reader_report_skipped(const struct scan_reader *reader)
 {
     say_rows_skipped(scan_reader_counts(reader).rows_skipped);
 }

@@ -10,8 +10,8 @@
 #include "io/csv/table_stream.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
-#include "io/scans/gather.h"
 #include "io/scans/reorder_buffer.h"
+#include "io/scans/scan_gather.h"
 #include "io/turns/antenna_turns.h"
 
 #define FOLLOW_BEGUN_MAX 2 /* a numbered scan's last plots may come a minute later */
@@ -25,7 +25,7 @@ struct scan_source {
     bool has_columns, has_good, is_over, waits, is_complete;
     struct record_columns columns;
     struct antenna_turns *turns; /* NULL: rows are gathered by their times and numbers */
-    struct gather gather;
+    struct scan_gather gather;
     struct reorder_buffer reorder; /* of a file with times of reception, or of a log */
     uint32_t item;                 /* of a log: the newest scan of bearings, 1-based */
     uint64_t rows_skipped;         /* but those of the stream */
@@ -34,8 +34,8 @@ struct scan_source {
 /* ---- Rows to scans ---- */
 
 /* Checks the values that a row must have in common with the scan that it would join. */
-static bool check_scan(const struct scan_source *source, const struct gathered *scan,
-                       const struct record *row, const struct row_check *check)
+static bool check_row_fits_scan(const struct scan_source *source, const struct gathered_scan *scan,
+                                const struct record *row, const struct row_check *check)
 {
     if (!scan || source->turns) {
         return true; /* what all rows of a turn have counts */
@@ -55,52 +55,55 @@ static bool check_scan(const struct scan_source *source, const struct gathered *
 }
 
 /* Sensors of bearings are one list over all files. */
-static bool check_sensor(const struct scan_source *source, const struct record *row,
-                         const struct row_check *check)
+static bool check_known_sensor(const struct scan_source *source, const struct record *row,
+                               const struct row_check *check)
 {
     return source->options.kind == RECORD_PLOTS ||
-           known_sensors_check(source->options.known, source->path, row, check);
+           known_sensors_check_row(source->options.known, source->path, row, check);
 }
 
-static bool check_received(const struct gather *gather, const struct gathered *scan,
-                           const struct record *row, const struct row_check *check)
+static bool check_received_fits_scan(const struct scan_gather *gather,
+                                     const struct gathered_scan *scan, const struct record *row,
+                                     const struct row_check *check)
 {
     return !scan || !gather->has_clock ||
-           row_received_with(check, row->received_us, scan->heard_us,
-                             row->number.is_given && scan->number.is_given, gather->interval_us);
+           row_check_received_together(check, row->received_us, scan->heard_us,
+                                       row->number.is_given && scan->number.is_given,
+                                       gather->interval_us);
 }
 
-static struct gathered *begin_scan(struct scan_source *source, const struct record *row)
+static struct gathered_scan *begin_scan(struct scan_source *source, const struct record *row)
 {
-    const struct gathered scan = {.sensor_id = row->sensor_id,
-                                  .number = row->number,
-                                  .bias_us = row->bias_us,
-                                  .line = row->line,
-                                  .sector_from_rad = row->sector_from_rad,
-                                  .sector_to_rad = row->sector_to_rad,
-                                  .has_sensor = row->has_sensor,
-                                  .sensor = row->sensor};
+    const struct gathered_scan scan = {.sensor_id = row->sensor_id,
+                                       .number = row->number,
+                                       .bias_us = row->bias_us,
+                                       .line = row->line,
+                                       .sector_from_rad = row->sector_from_rad,
+                                       .sector_to_rad = row->sector_to_rad,
+                                       .has_sensor = row->has_sensor,
+                                       .sensor = row->sensor};
 
-    return gather_begin(&source->gather, &scan, row->time_us);
+    return scan_gather_begin_scan(&source->gather, &scan, row->time_us);
 }
 
-static void add_row(struct scan_source *source, struct gathered *scan, const struct record *row)
+static void add_row(struct scan_source *source, struct gathered_scan *scan,
+                    const struct record *row)
 {
     bool is_bearing = source->options.kind == RECORD_BEARINGS;
 
     if (is_bearing) {
-        known_sensors_add(source->options.known, source->path, row);
+        known_sensors_add_row(source->options.known, source->path, row);
     }
     scan = scan ? scan : begin_scan(source, row);
     if (!row->has_measurement) {
-        gather_add_nothing(&source->gather, scan, row->time_us);
+        scan_gather_add_empty_row(&source->gather, scan, row->time_us);
         return;
     }
     scan->measures =
         source->turns && scan->has_measures ? scan->measures & row->measures : row->measures;
     scan->has_measures = true;
-    gather_add(&source->gather, scan, row->time_us,
-               is_bearing ? (const void *)&row->bearing : &row->plot);
+    scan_gather_add_element(&source->gather, scan, row->time_us,
+                            is_bearing ? (const void *)&row->bearing : &row->plot);
 }
 
 static void find_columns(struct scan_source *source, const struct table *table)
@@ -108,8 +111,8 @@ static void find_columns(struct scan_source *source, const struct table *table)
     if (source->has_columns || !table->names) {
         return;
     }
-    if (source->options.follow && record_is_of_bearings(table)) {
-        table_fail(table, TABLE_HEADER, "--follow takes plots, and these are bearings");
+    if (source->options.follow && record_table_has_bearings(table)) {
+        table_fail_at_row(table, TABLE_HEADER, "--follow takes plots, and these are bearings");
     }
     source->columns = record_columns_find(table, source->parameters, source->options.kind,
                                           !source->options.may_lack_sensor);
@@ -120,14 +123,14 @@ static void find_columns(struct scan_source *source, const struct table *table)
 }
 
 /* Rows without numbers get those of the antenna's turns. */
-static void number_turn(const struct scan_source *source, struct record *row)
+static void number_by_turn(const struct scan_source *source, struct record *row)
 {
     const double place_m[2] = {(double)row->plot.x_m - (double)row->sensor.x_m,
                                (double)row->plot.y_m - (double)row->sensor.y_m};
-    const int32_t number = source->turns
-                               ? antenna_turns_number(source->turns, row->sensor_id, row->time_us,
-                                                      row->has_measurement ? place_m : NULL)
-                               : 0;
+    const int32_t number =
+        source->turns ? antenna_turns_number_row(source->turns, row->sensor_id, row->time_us,
+                                                 row->has_measurement ? place_m : NULL)
+                      : 0;
 
     if (number > 0) {
         row->number = (struct row_number){.is_given = true, .scan = number};
@@ -135,26 +138,27 @@ static void number_turn(const struct scan_source *source, struct record *row)
 }
 
 /* The row that the table has. */
-static void take_row(struct scan_source *source, const struct table *table)
+static void take_table_row(struct scan_source *source, const struct table *table)
 {
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.table = table, .row = 0, .reason = reason};
-    struct gathered *scan = NULL;
+    struct gathered_scan *scan = NULL;
     struct record row;
     bool is_good;
 
     find_columns(source, table);
     is_good = record_read(table, &source->columns, 0, source->parameters, &row, reason);
     if (is_good && source->columns.received_s >= 0) {
-        gather_set_clock(&source->gather, row.received_us);
+        scan_gather_set_reception(&source->gather, row.received_us);
     }
     if (is_good) {
-        number_turn(source, &row);
-        scan = gather_find(&source->gather, row.sensor_id, &row.number, row.time_us);
-        is_good =
-            gather_check_time(&source->gather, source->turns ? NULL : scan, row.time_us, &check) &&
-            check_received(&source->gather, scan, &row, &check) &&
-            check_scan(source, scan, &row, &check) && check_sensor(source, &row, &check);
+        number_by_turn(source, &row);
+        scan = scan_gather_find_scan(&source->gather, row.sensor_id, &row.number, row.time_us);
+        is_good = scan_gather_check_time(&source->gather, source->turns ? NULL : scan, row.time_us,
+                                         &check) &&
+                  check_received_fits_scan(&source->gather, scan, &row, &check) &&
+                  check_row_fits_scan(source, scan, &row, &check) &&
+                  check_known_sensor(source, &row, &check);
     }
     if (is_good) {
         source->has_good = true;
@@ -162,7 +166,7 @@ static void take_row(struct scan_source *source, const struct table *table)
         return;
     }
     if (!source->options.keep_going) {
-        table_fail(table, 0, "%s", reason);
+        table_fail_at_row(table, 0, "%s", reason);
     }
     source->rows_skipped++;
 }
@@ -170,7 +174,7 @@ static void take_row(struct scan_source *source, const struct table *table)
 /*
  * A file that ends without a good row; of one that is followed there may have been no time for any.
  */
-static void check_end(const struct scan_source *source, const struct table *table)
+static void check_any_good_row(const struct scan_source *source, const struct table *table)
 {
     if (source->has_good || source->options.follow) {
         return;
@@ -178,11 +182,11 @@ static void check_end(const struct scan_source *source, const struct table *tabl
     if (!scan_source_rows_skipped(source)) {
         table_need_rows(table);
     }
-    table_fail(table, TABLE_HEADER, "not one good row after the header");
+    table_fail_at_row(table, TABLE_HEADER, "not one good row after the header");
 }
 
 /* One row more, or the end, or nothing. */
-static void read_row(struct scan_source *source)
+static void read_next_row(struct scan_source *source)
 {
     enum table_stream_found found = table_stream_next(source->stream);
     const struct table *table = table_stream_table(source->stream);
@@ -190,23 +194,23 @@ static void read_row(struct scan_source *source)
     source->waits = found == TABLE_STREAM_WAITS;
     if (found == TABLE_STREAM_ROW) {
         source->is_complete = false;
-        take_row(source, table);
+        take_table_row(source, table);
     } else if (found == TABLE_STREAM_END) {
         source->is_over = true;
-        check_end(source, table);
+        check_any_good_row(source, table);
     }
 }
 
 /* ---- Scans ---- */
 
-static void fill_plots(struct sensor_scan *out, const struct gathered *scan)
+static void fill_plot_scan(struct sensor_scan *out, const struct gathered_scan *scan)
 {
     struct rho_plot *plots = scan->elements;
 
     for (size_t i = 0; i < scan->count; i++) {
         plots[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
     }
-    *out = (struct sensor_scan){.scan = {.time_us = gathered_time_us(scan),
+    *out = (struct sensor_scan){.scan = {.time_us = gathered_scan_time_us(scan),
                                          .sensor_id = scan->sensor_id,
                                          .sector_from_rad = scan->sector_from_rad,
                                          .sector_to_rad = scan->sector_to_rad,
@@ -217,7 +221,7 @@ static void fill_plots(struct sensor_scan *out, const struct gathered *scan)
                                 .sensor = scan->sensor};
 }
 
-static void fill_bearings(struct sensor_scan *out, const struct gathered *scan)
+static void fill_bearing_scan(struct sensor_scan *out, const struct gathered_scan *scan)
 {
     struct rho_bearing *bearings = scan->elements;
 
@@ -225,7 +229,7 @@ static void fill_bearings(struct sensor_scan *out, const struct gathered *scan)
         bearings[i].offset_us += (int32_t)(scan->times_us[i] - scan->time_us);
     }
     *out = (struct sensor_scan){.is_bearings = true,
-                                .bearings = {.time_us = gathered_time_us(scan),
+                                .bearings = {.time_us = gathered_scan_time_us(scan),
                                              .sensor_id = scan->sensor_id,
                                              .x_m = scan->sensor.x_m,
                                              .y_m = scan->sensor.y_m,
@@ -236,47 +240,49 @@ static void fill_bearings(struct sensor_scan *out, const struct gathered *scan)
                                 .line = scan->line};
 }
 
-static void fill_scan(const struct scan_source *source, struct sensor_scan *out,
-                      struct gathered *scan)
+static void fill_sensor_scan(const struct scan_source *source, struct sensor_scan *out,
+                             struct gathered_scan *scan)
 {
     if (source->options.kind == RECORD_BEARINGS) {
-        fill_bearings(out, scan);
+        fill_bearing_scan(out, scan);
     } else {
-        fill_plots(out, scan);
+        fill_plot_scan(out, scan);
     }
     out->path = source->path;
     scan->elements = NULL;
-    gathered_free(scan);
+    gathered_scan_free(scan);
 }
 
-/* The next one as its rows came. heard_us: its last one. */
-static bool next_gathered(struct scan_source *source, struct sensor_scan *scan, int64_t *heard_us)
+/* The next scan in the order of its rows. *heard_us: when its last row was received. */
+static bool next_gathered_scan(struct scan_source *source, struct sensor_scan *scan,
+                               int64_t *heard_us)
 {
-    struct gathered gathered;
+    struct gathered_scan gathered;
 
-    while (!gather_take(&source->gather, source->is_over || source->is_complete, &gathered)) {
+    while (!scan_gather_take_scan(&source->gather, source->is_over || source->is_complete,
+                                  &gathered)) {
         if (source->is_over) {
             return false;
         }
-        read_row(source);
+        read_next_row(source);
         if (source->waits) {
             return false;
         }
     }
     *heard_us = gathered.heard_us;
-    fill_scan(source, scan, &gathered);
+    fill_sensor_scan(source, scan, &gathered);
     return true;
 }
 
 /* Where rows say when they were received, scans wait hold_ms for earlier ones. */
-static bool next_of_table(struct scan_source *source, struct sensor_scan *scan)
+static bool next_table_scan(struct scan_source *source, struct sensor_scan *scan)
 {
     int64_t heard_us;
 
     while (!reorder_buffer_take(&source->reorder, false, scan)) {
         struct sensor_scan next;
 
-        if (!next_gathered(source, &next, &heard_us)) {
+        if (!next_gathered_scan(source, &next, &heard_us)) {
             return (source->is_over || source->is_complete) &&
                    reorder_buffer_take(&source->reorder, true, scan);
         }
@@ -289,8 +295,11 @@ static bool next_of_table(struct scan_source *source, struct sensor_scan *scan)
     return true;
 }
 
-/* The scan's heading as a row; its place in the log stands for a line. */
-static bool take_bearings(struct scan_source *source, const struct rho_bearing_scan *item)
+/*
+ * The sensor of a log's scan of bearings becomes known, or is refused; the scan's number stands for
+ * a line.
+ */
+static bool add_bearing_sensor(struct scan_source *source, const struct rho_bearing_scan *item)
 {
     const struct record row = {.sensor_id = item->sensor_id,
                                .line = ++source->item,
@@ -298,8 +307,8 @@ static bool take_bearings(struct scan_source *source, const struct rho_bearing_s
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.reason = reason};
 
-    if (known_sensors_check(source->options.known, source->path, &row, &check)) {
-        known_sensors_add(source->options.known, source->path, &row);
+    if (known_sensors_check_row(source->options.known, source->path, &row, &check)) {
+        known_sensors_add_row(source->options.known, source->path, &row);
         return true;
     }
     if (!source->options.keep_going) {
@@ -311,21 +320,21 @@ static bool take_bearings(struct scan_source *source, const struct rho_bearing_s
 }
 
 /* Items of the other kind are left out. */
-static bool is_wanted(struct scan_source *source, const struct rho_scan_assembler_item *item)
+static bool is_item_wanted(struct scan_source *source, const struct rho_scan_assembler_item *item)
 {
     bool is_bearings = item->kind == RHO_SCAN_ASSEMBLER_BEARINGS;
 
     return is_bearings == (source->options.kind == RECORD_BEARINGS) &&
-           (!is_bearings || take_bearings(source, &item->bearings));
+           (!is_bearings || add_bearing_sensor(source, &item->bearings));
 }
 
 /* In new memory; NULL where there is nothing. */
-static void *copy_of(const void *list, size_t count, size_t bytes)
+static void *copy_list(const void *list, size_t count, size_t bytes)
 {
     return count > 0 ? memcpy(must_calloc(count, bytes), list, count * bytes) : NULL;
 }
 
-static bool take_of_log(struct scan_source *source, struct sensor_scan *scan)
+static bool take_log_scan(struct scan_source *source, struct sensor_scan *scan)
 {
     struct rho_scan_assembler_item item;
 
@@ -333,17 +342,17 @@ static bool take_of_log(struct scan_source *source, struct sensor_scan *scan)
         if (!log_scans_next(source->log, &item)) {
             return false;
         }
-    } while (!is_wanted(source, &item));
+    } while (!is_item_wanted(source, &item));
     *scan = (struct sensor_scan){.is_bearings = item.kind == RHO_SCAN_ASSEMBLER_BEARINGS,
                                  .path = source->path,
                                  .line = source->item};
     if (scan->is_bearings) {
         scan->bearings = item.bearings;
-        scan->bearings.bearings =
-            copy_of(item.bearings.bearings, item.bearings.num_bearings, sizeof(struct rho_bearing));
+        scan->bearings.bearings = copy_list(item.bearings.bearings, item.bearings.num_bearings,
+                                            sizeof(struct rho_bearing));
     } else {
         scan->scan = item.scan;
-        scan->scan.plots = copy_of(item.scan.plots, item.scan.num_plots, sizeof(struct rho_plot));
+        scan->scan.plots = copy_list(item.scan.plots, item.scan.num_plots, sizeof(struct rho_plot));
         scan->has_sensor = item.has_sensor;
         scan->sensor = item.sensor;
     }
@@ -354,12 +363,12 @@ static bool take_of_log(struct scan_source *source, struct sensor_scan *scan)
  * An assembler has room for RHO_MAX_OPEN_SCANS, and does not wait for a sensor of which it has not
  * heard: scans that leave it too early are put in order here.
  */
-static bool next_of_log(struct scan_source *source, struct sensor_scan *scan)
+static bool next_log_scan(struct scan_source *source, struct sensor_scan *scan)
 {
     struct sensor_scan next;
 
     while (!reorder_buffer_take(&source->reorder, false, scan)) {
-        if (!take_of_log(source, &next)) {
+        if (!take_log_scan(source, &next)) {
             return reorder_buffer_take(&source->reorder, true, scan);
         }
         if (source->reorder.hold_us == 0) {
@@ -374,7 +383,7 @@ static bool next_of_log(struct scan_source *source, struct sensor_scan *scan)
 
 bool scan_source_next(struct scan_source *source, struct sensor_scan *scan)
 {
-    return source->log ? next_of_log(source, scan) : next_of_table(source, scan);
+    return source->log ? next_log_scan(source, scan) : next_table_scan(source, scan);
 }
 
 /* ---- Opening ---- */
@@ -417,21 +426,21 @@ static void find_turns(struct scan_source *source)
     char reason[ROW_REASON_BYTES];
     bool goes_on = true;
 
-    table_stream_hush(stream);
+    table_stream_report_nothing(stream);
     source->turns = antenna_turns_start();
     while (goes_on && table_stream_next(stream) == TABLE_STREAM_ROW) {
         if (record_read(table_stream_table(stream), &columns, 0, source->parameters, &row,
                         reason) &&
             row.has_measurement) {
-            goes_on = antenna_turns_look(source->turns, row.sensor_id, row.time_us,
-                                         (double)row.plot.x_m - (double)row.sensor.x_m,
-                                         (double)row.plot.y_m - (double)row.sensor.y_m);
+            goes_on = antenna_turns_look_at_row(source->turns, row.sensor_id, row.time_us,
+                                                (double)row.plot.x_m - (double)row.sensor.x_m,
+                                                (double)row.plot.y_m - (double)row.sensor.y_m);
         }
     }
     record_columns_free(&columns);
     table_stream_close(stream);
-    if (!antenna_turns_decide(source->turns, source->path,
-                              source->parameters->value[PARAMETER_V_MAX_MPS])) {
+    if (!antenna_turns_find_rules(source->turns, source->path,
+                                  source->parameters->value[PARAMETER_V_MAX_MPS])) {
         antenna_turns_free(source->turns);
         source->turns = NULL;
     }
@@ -441,10 +450,10 @@ static void open_table(struct scan_source *source)
 {
     int32_t least_us;
 
-    gather_start(&source->gather,
-                 source->options.kind == RECORD_BEARINGS ? sizeof(struct rho_bearing)
-                                                         : sizeof(struct rho_plot),
-                 llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
+    scan_gather_start(&source->gather,
+                      source->options.kind == RECORD_BEARINGS ? sizeof(struct rho_bearing)
+                                                              : sizeof(struct rho_plot),
+                      llround(source->parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     parameters_time_biases_us(source->parameters, &least_us, &source->gather.bias_max_us);
     source->gather.begun_max = source->options.follow ? FOLLOW_BEGUN_MAX : 0;
     source->reorder.hold_us = llround(source->parameters->value[PARAMETER_HOLD_MS] * 1e3);
@@ -491,7 +500,7 @@ struct scan_source *scan_source_open(const char *path, const struct parameters *
 
 static void close_table(struct scan_source *source)
 {
-    gather_free(&source->gather);
+    scan_gather_free(&source->gather);
     antenna_turns_free(source->turns);
     close_stream(source);
 }
@@ -509,14 +518,14 @@ void scan_source_rewind(struct scan_source *source)
     }
 }
 
-bool scan_source_waits(const struct scan_source *source)
+bool scan_source_waits_for_rows(const struct scan_source *source)
 {
     return source->waits;
 }
 
-const char *scan_source_why_over(const struct scan_source *source)
+const char *scan_source_why_ended(const struct scan_source *source)
 {
-    return source->stream ? table_stream_why_over(source->stream) : NULL;
+    return source->stream ? table_stream_why_ended(source->stream) : NULL;
 }
 
 bool scan_source_is_mid_row(const struct scan_source *source)
@@ -524,12 +533,12 @@ bool scan_source_is_mid_row(const struct scan_source *source)
     return source->stream && table_stream_is_mid_row(source->stream);
 }
 
-void scan_source_complete(struct scan_source *source)
+void scan_source_complete_scans(struct scan_source *source)
 {
     source->is_complete = true;
 }
 
-void scan_source_end(struct scan_source *source)
+void scan_source_end_reading(struct scan_source *source)
 {
     source->is_over = true;
 }

@@ -39,11 +39,13 @@ bool scan_source_next(struct scan_source *source, struct sensor_scan *scan);
 void scan_source_rewind(struct scan_source *source);
 
 /* Of a file that is followed. */
-bool scan_source_waits(const struct scan_source *source); /* false: there is an end, behind it */
-const char *scan_source_why_over(const struct scan_source *source); /* as table_stream.h has it */
+bool scan_source_waits_for_rows(
+    const struct scan_source *source); /* false: there is an end, behind it */
+const char *scan_source_why_ended(const struct scan_source *source); /* as table_stream.h has it */
 bool scan_source_is_mid_row(const struct scan_source *source);
-void scan_source_complete(struct scan_source *source); /* no scan gets more of the rows to come */
-void scan_source_end(struct scan_source *source);      /* no more rows are read */
+void scan_source_complete_scans(
+    struct scan_source *source); /* no scan gets more of the rows to come */
+void scan_source_end_reading(struct scan_source *source); /* no more rows are read */
 
 uint64_t scan_source_rows_skipped(const struct scan_source *source);
 

@@ -42,7 +42,7 @@ struct antenna_turns *antenna_turns_start(void)
     return must_calloc(1, sizeof(struct antenna_turns));
 }
 
-static struct antenna *find(const struct antenna_turns *turns, int32_t sensor_id)
+static struct antenna *find_antenna(const struct antenna_turns *turns, int32_t sensor_id)
 {
     for (size_t i = 0; i < turns->count; i++) {
         if (turns->list[i].sensor_id == sensor_id) {
@@ -52,10 +52,10 @@ static struct antenna *find(const struct antenna_turns *turns, int32_t sensor_id
     return NULL;
 }
 
-bool antenna_turns_look(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us, double x_m,
-                        double y_m)
+bool antenna_turns_look_at_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+                               double x_m, double y_m)
 {
-    struct antenna *antenna = find(turns, sensor_id);
+    struct antenna *antenna = find_antenna(turns, sensor_id);
 
     if (!antenna) {
         turns->list = must_grow(turns->list, turns->count, &turns->capacity, sizeof *turns->list);
@@ -71,7 +71,7 @@ bool antenna_turns_look(struct antenna_turns *turns, int32_t sensor_id, int64_t 
 }
 
 /* A file that is played again and again is named once, known by a sum over its path. */
-static bool is_said(const char *path)
+static bool was_file_reported(const char *path)
 {
     static uint64_t said[SAID_MAX];
     static size_t num_said;
@@ -91,7 +91,7 @@ static bool is_said(const char *path)
     return false;
 }
 
-static void say(const struct antenna *antenna, const char *path)
+static void report_rule(const struct antenna *antenna, const char *path)
 {
     const struct turn_rule *rule = &antenna->rule;
 
@@ -115,17 +115,17 @@ static void say(const struct antenna *antenna, const char *path)
                                     : "azimuth, counter-clockwise");
 }
 
-bool antenna_turns_decide(struct antenna_turns *turns, const char *path, double v_max_mps)
+bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, double v_max_mps)
 {
-    const bool was_said = is_said(path);
+    const bool was_said = was_file_reported(path);
     bool has_any = false;
 
     for (size_t i = 0; i < turns->count; i++) {
         struct antenna *antenna = &turns->list[i];
 
-        antenna->rule = turn_search(antenna->plots, antenna->count, v_max_mps);
+        antenna->rule = turn_search_find_rule(antenna->plots, antenna->count, v_max_mps);
         if (antenna->rule.kind != TURN_NONE && !was_said) {
-            say(antenna, path);
+            report_rule(antenna, path);
         }
         has_any |= antenna->rule.kind >= TURN_AZIMUTHS;
     }
@@ -135,7 +135,8 @@ bool antenna_turns_decide(struct antenna_turns *turns, const char *path, double 
 /*
  * How far the antenna has turned since its cut, if it looks there, within half a turn of a guess.
  */
-static double turned_near(const struct turn_rule *rule, const double place_m[2], double guess_rad)
+static double turned_angle_near(const struct turn_rule *rule, const double place_m[2],
+                                double guess_rad)
 {
     double since_cut = atan2(place_m[1], place_m[0]) - rule->cut_rad;
 
@@ -144,7 +145,7 @@ static double turned_near(const struct turn_rule *rule, const double place_m[2],
 }
 
 /* The turn of a row; a gap of some turns counts as one. */
-static void go_round(struct antenna *antenna, int64_t time_us, const double *place_m)
+static void advance_antenna(struct antenna *antenna, int64_t time_us, const double *place_m)
 {
     const struct turn_rule *rule = &antenna->rule;
     const double rest_s = (double)(time_us - antenna->last_us) * 1e-6;
@@ -153,12 +154,13 @@ static void go_round(struct antenna *antenna, int64_t time_us, const double *pla
     if (!antenna->is_running || rest_s > LOST_TURNS * rule->turn_s) {
         antenna->turned_rad = TURN_RAD * (antenna->number + 0.5);
         antenna->turned_rad =
-            place_m ? turned_near(rule, place_m, antenna->turned_rad) : antenna->turned_rad;
+            place_m ? turned_angle_near(rule, place_m, antenna->turned_rad) : antenna->turned_rad;
         here_rad = antenna->turned_rad;
         antenna->number++;
     } else {
         antenna->turned_rad += fabs(rule->rate_rad_s) * rest_s;
-        here_rad = place_m ? turned_near(rule, place_m, antenna->turned_rad) : antenna->turned_rad;
+        here_rad =
+            place_m ? turned_angle_near(rule, place_m, antenna->turned_rad) : antenna->turned_rad;
         here_rad =
             fabs(here_rad - antenna->turned_rad) > ASTRAY_RAD ? antenna->turned_rad : here_rad;
         antenna->turned_rad += GAIN * (here_rad - antenna->turned_rad);
@@ -166,16 +168,16 @@ static void go_round(struct antenna *antenna, int64_t time_us, const double *pla
     antenna->number = (int32_t)fmax(antenna->number, floor(here_rad / TURN_RAD) + 1);
 }
 
-int32_t antenna_turns_number(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
-                             const double place_m[2])
+int32_t antenna_turns_number_row(struct antenna_turns *turns, int32_t sensor_id, int64_t time_us,
+                                 const double place_m[2])
 {
-    struct antenna *antenna = find(turns, sensor_id);
+    struct antenna *antenna = find_antenna(turns, sensor_id);
 
     if (!antenna || antenna->rule.kind < TURN_AZIMUTHS) {
         return 0;
     }
     if (antenna->rule.kind == TURN_AZIMUTHS) {
-        go_round(antenna, time_us, place_m);
+        advance_antenna(antenna, time_us, place_m);
     } else {
         antenna->number +=
             !antenna->is_running || time_us - antenna->last_us > antenna->rule.gap_us;

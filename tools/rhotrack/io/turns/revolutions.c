@@ -43,7 +43,7 @@ static struct looker *find_looker(struct reading *reading, const struct rho_scan
     return looker;
 }
 
-static bool is_round(const struct rho_scan *scan)
+static bool is_whole_circle(const struct rho_scan *scan)
 {
     return scan->sector_from_rad <= scan->sector_to_rad &&
            scan->sector_from_rad >= scan->sector_to_rad;
@@ -53,15 +53,15 @@ static bool is_round(const struct rho_scan *scan)
  * Whether the scan is a further sector of the sensor's turn. The window sees the sectors, not their
  * plots.
  */
-static bool goes_on(struct looker *looker, const struct rho_scan *scan,
-                    const struct rho_sensor *sensor)
+static bool continues_turn(struct looker *looker, const struct rho_scan *scan,
+                           const struct rho_sensor *sensor)
 {
     struct rho_scan bare = *scan;
     uint32_t left_unused = 0;
     bool is_further;
 
     if (!looker->window) {
-        if (is_round(scan)) {
+        if (is_whole_circle(scan)) {
             return false;
         }
         looker->window = must_alloc(sizeof *looker->window);
@@ -80,7 +80,7 @@ static bool goes_on(struct looker *looker, const struct rho_scan *scan,
 
 /* ---- Turns ---- */
 
-static void add_plots(struct revolution *turn, const struct rho_scan *scan)
+static void add_plots_to_turn(struct revolution *turn, const struct rho_scan *scan)
 {
     size_t count = (size_t)turn->scan.num_plots + scan->num_plots;
     int32_t after_us = (int32_t)(scan->time_us - turn->scan.time_us); /* the window has its limit */
@@ -99,17 +99,18 @@ static void add_plots(struct revolution *turn, const struct rho_scan *scan)
     turn->scan.num_plots = (uint32_t)count;
 }
 
-static void add_sector(struct revolution *turn, struct looker *looker, const struct rho_scan *scan)
+static void add_sector_to_turn(struct revolution *turn, struct looker *looker,
+                               const struct rho_scan *scan)
 {
     const struct rho_window_scan *whole = rho_window_scan_at(looker->window, 0);
 
-    add_plots(turn, scan);
+    add_plots_to_turn(turn, scan);
     turn->scan.sector_from_rad = whole->sector_from_rad;
     turn->scan.sector_to_rad = whole->sector_to_rad;
 }
 
 /* The oldest one goes. */
-static void drop_first(struct reading *reading)
+static void drop_oldest_turn(struct reading *reading)
 {
     struct revolutions *revolutions = &reading->revolutions;
 
@@ -136,12 +137,12 @@ static void begin_turn(struct reading *reading, struct looker *looker, const str
         return; /* it is not among the last ones */
     }
     if (revolutions->count == revolutions->max) {
-        drop_first(reading);
+        drop_oldest_turn(reading);
     }
     turn.sensor = sensor ? *sensor : turn.sensor;
     turn.scan.plots = NULL;
     turn.scan.num_plots = 0;
-    add_plots(&turn, scan);
+    add_plots_to_turn(&turn, scan);
     for (at = revolutions->count++;
          at > 0 && revolutions->list[at - 1].scan.time_us > scan->time_us; at--) {
         revolutions->list[at] = revolutions->list[at - 1];
@@ -164,14 +165,14 @@ static void take_scan(struct reading *reading, const struct rho_scan *scan,
         return;
     }
     looker->last_us = scan->time_us;
-    if (!goes_on(looker, scan, sensor)) {
+    if (!continues_turn(looker, scan, sensor)) {
         begin_turn(reading, looker, scan, sensor);
     } else if (looker->is_open) { /* else its turn is not among the last ones */
-        add_sector(&reading->revolutions.list[looker->at], looker, scan);
+        add_sector_to_turn(&reading->revolutions.list[looker->at], looker, scan);
     }
 }
 
-struct revolutions revolutions_read(struct scan_reader *reader, size_t max)
+struct revolutions revolutions_read_last(struct scan_reader *reader, size_t max)
 {
     struct reading reading = {.revolutions.max = max};
     const struct rho_scan *scan;
@@ -184,7 +185,7 @@ struct revolutions revolutions_read(struct scan_reader *reader, size_t max)
         free(reading.lookers[i].window);
     }
     free(reading.lookers);
-    say_last_taken(max, reading.revolutions.total, "scans");
+    say_only_last_taken(max, reading.revolutions.total, "scans");
     if (reading.revolutions.late > 0) {
         fprintf(stderr, "rhotrack: %" PRIu64 " scans that came late are left out\n",
                 reading.revolutions.late);

@@ -36,7 +36,7 @@ struct revolutions {
  * looks by sectors.
  */
 struct scan_reader;
-struct revolutions revolutions_read(struct scan_reader *reader, size_t max);
+struct revolutions revolutions_read_last(struct scan_reader *reader, size_t max);
 void revolutions_free(struct revolutions *revolutions);
 
 #endif

@@ -29,12 +29,12 @@
 
 #define TURN_RAD (2 * M_PI)
 
-static double after_s(const struct turn_plot *plots, size_t from, size_t to)
+static double seconds_between(const struct turn_plot *plots, size_t from, size_t to)
 {
     return (double)(plots[to].time_us - plots[from].time_us) * 1e-6;
 }
 
-static double azimuth_of(const struct turn_plot *plot)
+static double plot_azimuth(const struct turn_plot *plot)
 {
     return atan2(plot->y_m, plot->x_m);
 }
@@ -48,7 +48,7 @@ struct fitted {
 };
 
 /* Length of the mean of unit vectors at the azimuths, turned back at the rate. */
-static double concentration(const struct fitted *fitted, double rate_rad_s)
+static double azimuth_concentration(const struct fitted *fitted, double rate_rad_s)
 {
     double x = 0, y = 0;
 
@@ -62,31 +62,32 @@ static double concentration(const struct fitted *fitted, double rate_rad_s)
 }
 
 /* The plots within the span, or some of them, evenly. Returns how many there are. */
-static size_t choose(const struct turn_plot *plots, size_t count, struct fitted *fitted)
+static size_t choose_fitted_plots(const struct turn_plot *plots, size_t count,
+                                  struct fitted *fitted)
 {
     size_t num = 0, stride;
 
-    while (num < count && (after_s(plots, 0, num) <= SPAN_S ||
-                           (num < SPARSE && after_s(plots, 0, num) <= SPAN_SPARSE_S))) {
+    while (num < count && (seconds_between(plots, 0, num) <= SPAN_S ||
+                           (num < SPARSE && seconds_between(plots, 0, num) <= SPAN_SPARSE_S))) {
         num++;
     }
     stride = (num + FITTED_MAX - 1) / FITTED_MAX;
     fitted->count = 0;
     for (size_t i = 0; i < num; i += stride) {
-        fitted->after_s[fitted->count] = after_s(plots, 0, i);
-        fitted->azimuth_rad[fitted->count++] = azimuth_of(&plots[i]);
+        fitted->after_s[fitted->count] = seconds_between(plots, 0, i);
+        fitted->azimuth_rad[fitted->count++] = plot_azimuth(&plots[i]);
     }
     return num;
 }
 
 /* The finest of rates within one step to either side. */
-static double refine(const struct fitted *fitted, double rate_rad_s, double step)
+static double refine_rate(const struct fitted *fitted, double rate_rad_s, double step)
 {
-    double best = rate_rad_s, highest = concentration(fitted, rate_rad_s);
+    double best = rate_rad_s, highest = azimuth_concentration(fitted, rate_rad_s);
 
     for (int i = -10; i <= 10; i++) {
         const double rate = rate_rad_s + 0.1 * i * step;
-        const double found = concentration(fitted, rate);
+        const double found = azimuth_concentration(fitted, rate);
 
         if (found > highest) {
             highest = found;
@@ -97,7 +98,7 @@ static double refine(const struct fitted *fitted, double rate_rad_s, double step
 }
 
 /* The slowest rate at which the azimuths go round together; 0: none. */
-static double find_rate(const struct fitted *fitted)
+static double find_turn_rate(const struct fitted *fitted)
 {
     const double span_s = fitted->after_s[fitted->count - 1];
     const double step = TURN_RAD / (STEPS_A_LOBE * span_s);
@@ -105,7 +106,7 @@ static double find_rate(const struct fitted *fitted)
     double *found = must_calloc(2 * num + 1, sizeof *found), highest = 0, rate = 0;
 
     for (size_t i = 0; i <= 2 * num; i++) {
-        found[i] = concentration(fitted, ((double)i - (double)num) * step);
+        found[i] = azimuth_concentration(fitted, ((double)i - (double)num) * step);
         highest = fmax(highest, found[i]);
     }
     for (size_t k = 0; k < num && rate >= 0 && rate <= 0; k++) {
@@ -123,10 +124,10 @@ static double find_rate(const struct fitted *fitted)
         }
     }
     free(found);
-    return rate > 0 || rate < 0 ? refine(fitted, rate, step) : 0;
+    return rate > 0 || rate < 0 ? refine_rate(fitted, rate, step) : 0;
 }
 
-static size_t end_of_time(const struct turn_plot *plots, size_t count, size_t first)
+static size_t end_of_plots_at_time(const struct turn_plot *plots, size_t count, size_t first)
 {
     size_t end = first + 1;
 
@@ -137,8 +138,8 @@ static size_t end_of_time(const struct turn_plot *plots, size_t count, size_t fi
 }
 
 /* From plots of one time to the nearest of the next, so far at most. */
-static bool is_within(const struct turn_plot *plots, size_t first, size_t next, size_t end,
-                      double way_m)
+static bool is_step_within(const struct turn_plot *plots, size_t first, size_t next, size_t end,
+                           double way_m)
 {
     for (size_t i = first; i < next; i++) {
         for (size_t j = next; j < end; j++) {
@@ -153,12 +154,13 @@ static bool is_within(const struct turn_plot *plots, size_t first, size_t next, 
 /* One target alone may have been at places of most times, one after another. */
 static bool may_be_target(const struct turn_plot *plots, size_t count, double v_max_mps)
 {
-    size_t slow = 0, steps = 0, first = 0, next = end_of_time(plots, count, 0);
+    size_t slow = 0, steps = 0, first = 0, next = end_of_plots_at_time(plots, count, 0);
 
     while (next < count) {
-        const size_t end = end_of_time(plots, count, next);
+        const size_t end = end_of_plots_at_time(plots, count, next);
 
-        slow += is_within(plots, first, next, end, v_max_mps * after_s(plots, first, next));
+        slow += is_step_within(plots, first, next, end,
+                               v_max_mps * seconds_between(plots, first, next));
         steps++;
         first = next;
         next = end;
@@ -167,12 +169,12 @@ static bool may_be_target(const struct turn_plot *plots, size_t count, double v_
 }
 
 /* The middle of the longest run of directions with the fewest plots. */
-static double find_cut(const struct turn_plot *plots, size_t count)
+static double find_cut_azimuth(const struct turn_plot *plots, size_t count)
 {
     size_t hits[BINS] = {0}, least = count, best = 0, longest = 0, run = 0;
 
     for (size_t i = 0; i < count; i++) {
-        const double share = azimuth_of(&plots[i]) / TURN_RAD;
+        const double share = plot_azimuth(&plots[i]) / TURN_RAD;
 
         hits[(size_t)((share - floor(share)) * BINS) % BINS]++;
     }
@@ -189,18 +191,18 @@ static double find_cut(const struct turn_plot *plots, size_t count)
     return remainder(((double)best + 1 - 0.5 * (double)longest) * TURN_RAD / BINS, TURN_RAD);
 }
 
-static bool find_azimuths(const struct turn_plot *plots, size_t count, double v_max_mps,
-                          struct turn_rule *rule)
+static bool find_rule_by_azimuths(const struct turn_plot *plots, size_t count, double v_max_mps,
+                                  struct turn_rule *rule)
 {
     struct fitted fitted;
-    const size_t num = choose(plots, count, &fitted);
+    const size_t num = choose_fitted_plots(plots, count, &fitted);
     double span_s, turn_s;
 
     span_s = fitted.after_s[fitted.count - 1];
     if (num < PLOTS_MIN || span_s < 2 * TURN_MIN_S) {
         return false;
     }
-    rule->rate_rad_s = find_rate(&fitted);
+    rule->rate_rad_s = find_turn_rate(&fitted);
     if (fabs(rule->rate_rad_s) < TURN_RAD / TURN_MAX_S) {
         return false;
     }
@@ -211,7 +213,7 @@ static bool find_azimuths(const struct turn_plot *plots, size_t count, double v_
     }
     rule->kind = TURN_AZIMUTHS;
     rule->turn_s = turn_s;
-    rule->cut_rad = find_cut(plots, count);
+    rule->cut_rad = find_cut_azimuth(plots, count);
     return true;
 }
 
@@ -237,7 +239,8 @@ static int64_t *sort_steps(const struct turn_plot *plots, size_t count)
 }
 
 /* Whether looks that such a gap ends begin at even times. */
-static bool is_even(const struct turn_plot *plots, size_t count, int64_t gap_us, double *turn_s)
+static bool are_looks_even(const struct turn_plot *plots, size_t count, int64_t gap_us,
+                           double *turn_s)
 {
     int64_t *starts = must_calloc(count, sizeof *starts);
     size_t num = 0, even = 0, last = 0;
@@ -262,8 +265,8 @@ static bool is_even(const struct turn_plot *plots, size_t count, int64_t gap_us,
     return num >= LOOKS_MIN && (double)even >= EVEN_SHARE * (double)num;
 }
 
-static bool find_gaps(const struct turn_plot *plots, size_t count, const int64_t *steps,
-                      struct turn_rule *rule)
+static bool find_rule_by_gaps(const struct turn_plot *plots, size_t count, const int64_t *steps,
+                              struct turn_rule *rule)
 {
     double widest = GAP_RATIO, turn_s;
 
@@ -276,7 +279,8 @@ static bool find_gaps(const struct turn_plot *plots, size_t count, const int64_t
             rule->gap_us = (int64_t)sqrt(within * between);
         }
     }
-    if (rule->gap_us == 0 || !is_even(plots, count, rule->gap_us, &turn_s) || turn_s > TURN_MAX_S) {
+    if (rule->gap_us == 0 || !are_looks_even(plots, count, rule->gap_us, &turn_s) ||
+        turn_s > TURN_MAX_S) {
         return false;
     }
     rule->kind = TURN_GAPS;
@@ -292,17 +296,17 @@ struct together {
     double concentration; /* mean length of the mean of unit vectors */
 };
 
-static struct together find_together(const struct turn_plot *plots, size_t count)
+static struct together find_simultaneous_plots(const struct turn_plot *plots, size_t count)
 {
     struct together together = {.count = 0};
 
     for (size_t first = 0, end; first < count; first = end) {
         double x = 0, y = 0;
 
-        end = end_of_time(plots, count, first);
+        end = end_of_plots_at_time(plots, count, first);
         for (size_t i = first; end - first > 1 && i < end; i++) {
-            x += cos(azimuth_of(&plots[i]));
-            y += sin(azimuth_of(&plots[i]));
+            x += cos(plot_azimuth(&plots[i]));
+            y += sin(plot_azimuth(&plots[i]));
         }
         together.count += end - first > 1 ? end - first : 0;
         together.concentration += hypot(x, y);
@@ -311,19 +315,20 @@ static struct together find_together(const struct turn_plot *plots, size_t count
     return together;
 }
 
-struct turn_rule turn_search(const struct turn_plot *plots, size_t count, double v_max_mps)
+struct turn_rule turn_search_find_rule(const struct turn_plot *plots, size_t count,
+                                       double v_max_mps)
 {
-    const struct together together = find_together(plots, count);
+    const struct together together = find_simultaneous_plots(plots, count);
     const bool are_scans = together.count > count / 2;
     struct turn_rule rule = {.kind = TURN_NONE};
     int64_t *steps;
 
     if (count < PLOTS_MIN || (are_scans && together.concentration < CONCENTRATION) ||
-        find_azimuths(plots, count, v_max_mps, &rule) || are_scans) {
+        find_rule_by_azimuths(plots, count, v_max_mps, &rule) || are_scans) {
         return rule;
     }
     steps = sort_steps(plots, count);
-    if (!find_gaps(plots, count, steps, &rule)) {
+    if (!find_rule_by_gaps(plots, count, steps, &rule)) {
         const size_t middle = count / 2;
 
         rule.turn_s = (double)steps[middle] * 1e-6;

@@ -35,6 +35,7 @@ struct turn_rule {
  * The rule of one radar's first plots, in the order of time. Looks of 0.5 to 50 s are found.
  * Rows that one target of v_max_mps may have made alone are no turns.
  */
-struct turn_rule turn_search(const struct turn_plot *plots, size_t count, double v_max_mps);
+struct turn_rule turn_search_find_rule(const struct turn_plot *plots, size_t count,
+                                       double v_max_mps);
 
 #endif

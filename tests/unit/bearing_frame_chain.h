@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A tracker with a passive initiation, the frames of a scene for as long as one likes, and a filter
+ * beside it.
+ */
+#ifndef BEARING_FRAME_CHAIN_H
+#define BEARING_FRAME_CHAIN_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "passive_scene.h"
+#include "rhotrack/tracker.h"
+
+#define BATCH 8u /* frames of the default configuration */
+
+static struct rho_tracker tracker;
+static struct rho_passive passive;
+static struct rho_report report;
+static struct scene scene;
+static struct full_frame full;
+
+/* ---- setting up ------------------------------------------------------------------------------ */
+
+static inline void start_chain(float accel_max_mps2)
+{
+    struct rho_tracker_config config;
+    rho_tracker_config_default(&config);
+    config.late_max_s = 0.0f;
+    config.v_max_mps = 450.0f;
+    config.accel_max_mps2 = accel_max_mps2;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+    assert_int_equal(start_passive(&passive), RHO_OK);
+}
+
+/* Another gate than the default's, and so another filter of new tracks. */
+static inline void use_gate(uint8_t gate)
+{
+    struct rho_tracker_config config = tracker.config;
+    config.gate = gate;
+    assert_int_equal(rho_tracker_init(&tracker, sizeof tracker, &config), RHO_OK);
+}
+
+/* Any number of frames: the scene holds the last ones. */
+static inline unsigned scene_slot_of(unsigned k)
+{
+    return k % SCENE_SCANS;
+}
+
+/* What all sensors see at time_s goes into `full`. */
+static inline void see_frame(unsigned k, double time_s)
+{
+    scene.time_s[scene_slot_of(k)] = time_s;
+    for (unsigned s = 0; s < scene.sensors; s++) {
+        see_look(&scene, scene_slot_of(k), s);
+    }
+    fill_frame(&scene, scene_slot_of(k), &full);
+}
+
+/* ---- steps ----------------------------------------------------------------------------------- */
+
+static inline uint32_t count_held(void)
+{
+    uint32_t count = 0;
+    for (unsigned k = 0; k < passive.batch.num_scans; k++) {
+        for (unsigned s = 0; s < passive.batch.num_sensors; s++) {
+            for (unsigned i = 0; i < passive.batch.num_bearings[k][s]; i++) {
+                count += passive.batch.bearings[k][s][i].sigma_rad > 0.0f;
+            }
+        }
+    }
+    return count;
+}
+
+/* Fates add up to the bearings of all scans. */
+static inline void check_fates(const struct rho_frame *frame)
+{
+    uint32_t sum = 0, counted = 0, bearings = 0;
+    for (unsigned i = 0; i < frame->num_scans; i++) {
+        bearings += frame->scans[i].num_bearings;
+    }
+    for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
+        uint32_t here = 0;
+        for (unsigned i = 0; i < bearings && i < RHO_MAX_PLOTS; i++) {
+            here += report.fates[i] == fate;
+        }
+        assert_true(report.fates_total[fate] >= here);
+        sum += report.fates_total[fate];
+        counted += tracker.counters.fates[fate];
+    }
+    assert_int_equal(sum, bearings);
+    assert_int_equal(report.num_plots, bearings);
+    assert_int_equal(counted, tracker.counters.plots_in);
+}
+
+static inline void check_report(void)
+{
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        const struct rho_track_report *track = &report.tracks[i];
+        assert_true(i == 0 || report.tracks[i - 1].track_id < track->track_id);
+        assert_true(isfinite(track->sigma_m) && isfinite(track->score_nat));
+        for (int k = 0; k < RHO_KALMAN_STATES; k++) {
+            assert_true(isfinite(track->state[k]));
+            assert_true(track->covariance[RHO_AT(k, k)] >= 0.0f);
+        }
+    }
+}
+
+/* One step with this frame; the report is filled whole, whatever it held before. */
+static inline void step_frame(const struct rho_frame *frame)
+{
+    memset(&report, 0xee, sizeof report);
+    assert_int_equal(rho_tracker_step_frame(&tracker, &passive, frame, &report), RHO_OK);
+    check_fates(frame);
+    check_report();
+}
+
+/* Frame k, interval_s after the one before. */
+static inline void fly_frame(unsigned k, double interval_s)
+{
+    see_frame(k, interval_s * k);
+    step_frame(&full.frame);
+}
+
+static inline void fly_frames(unsigned from, unsigned to, double interval_s)
+{
+    for (unsigned k = from; k < to; k++) {
+        fly_frame(k, interval_s);
+    }
+}
+
+/* ---- tracks and targets ---------------------------------------------------------------------- */
+
+static inline double track_error_m(const struct rho_track_report *track,
+                                   const struct target *target, double time_s)
+{
+    return hypot((double)track->state[0] - target_x_m(target, time_s),
+                 (double)track->state[1] - target_y_m(target, time_s));
+}
+
+/* The track that is nearest to a target now; NULL: none within 3 km. */
+static inline const struct rho_track_report *track_nearest_to(const struct target *target,
+                                                              double time_s)
+{
+    const struct rho_track_report *nearest = NULL;
+    double least_m = 3000.0;
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        double off_m = track_error_m(&report.tracks[i], target, time_s);
+        if (off_m < least_m) {
+            least_m = off_m;
+            nearest = &report.tracks[i];
+        }
+    }
+    return nearest;
+}
+
+static inline const struct rho_track_report *track_with_id(uint32_t track_id)
+{
+    for (unsigned i = 0; i < report.num_tracks; i++) {
+        if (report.tracks[i].track_id == track_id) {
+            return &report.tracks[i];
+        }
+    }
+    return NULL;
+}
+
+/* ---- a filter in double precision ------------------------------------------------------------ */
+
+/* Extended Kalman filter of textbooks, in x, y, vx, vy; bearings in radians. */
+struct ekf {
+    double x[4], p[4][4];
+};
+
+/*
+ * It begins at the truth, and knows next to nothing beside what a batch of bearings tells: 5 km and
+ * 100 m/s.
+ */
+static inline struct ekf ekf_at_target(const struct target *target)
+{
+    struct ekf ekf = {.x = {target->x_m, target->y_m, target->vx_mps, target->vy_mps}};
+    for (int i = 0; i < 4; i++) {
+        ekf.p[i][i] = i < 2 ? 25e6 : 1e4;
+    }
+    return ekf;
+}
+
+static inline void ekf_predict(struct ekf *ekf, double dt_s, double density)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        ekf->x[axis] += dt_s * ekf->x[axis + 2];
+        for (int j = 0; j < 4; j++) {
+            ekf->p[axis][j] += dt_s * ekf->p[axis + 2][j];
+        }
+        for (int j = 0; j < 4; j++) {
+            ekf->p[j][axis] += dt_s * ekf->p[j][axis + 2];
+        }
+        if (dt_s > 0.0) {
+            ekf->p[axis][axis] += density * dt_s * dt_s * dt_s / 3.0;
+            ekf->p[axis][axis + 2] += density * dt_s * dt_s / 2.0;
+            ekf->p[axis + 2][axis] += density * dt_s * dt_s / 2.0;
+            ekf->p[axis + 2][axis + 2] += density * dt_s;
+        }
+    }
+}
+
+/* A scalar: row of x and y, its measured minus predicted value, the noise's variance. */
+static inline void ekf_take_row(struct ekf *ekf, const double row[2], double off, double variance)
+{
+    double ph[4], s = variance;
+    for (int i = 0; i < 4; i++) {
+        ph[i] = ekf->p[i][0] * row[0] + ekf->p[i][1] * row[1];
+    }
+    s += row[0] * ph[0] + row[1] * ph[1];
+    for (int i = 0; i < 4; i++) {
+        ekf->x[i] += ph[i] / s * off;
+        for (int j = 0; j < 4; j++) {
+            ekf->p[i][j] -= ph[i] * ph[j] / s;
+        }
+    }
+}
+
+static inline void ekf_update(struct ekf *ekf, double x_m, double y_m,
+                              const struct rho_bearing *bearing)
+{
+    double dx_m = ekf->x[0] - x_m, dy_m = ekf->x[1] - y_m, range2 = dx_m * dx_m + dy_m * dy_m;
+    const double row[2] = {-dy_m / range2, dx_m / range2};
+    double off_rad = remainder((double)bearing->bearing_rad - atan2(dy_m, dx_m), 2.0 * PI);
+    ekf_take_row(ekf, row, off_rad, (double)bearing->sigma_rad * (double)bearing->sigma_rad);
+}
+
+/*
+ * A plot as seen from a place: its two axes along and across the line of sight, one after the
+ * other.
+ */
+static inline void ekf_take_plot(struct ekf *ekf, double x_m, double y_m,
+                                 const struct rho_plot *plot)
+{
+    double azimuth_rad = atan2((double)plot->y_m - y_m, (double)plot->x_m - x_m);
+    const double along[2] = {cos(azimuth_rad), sin(azimuth_rad)};
+    const double across[2] = {-along[1], along[0]};
+    for (int axis = 0; axis < 2; axis++) {
+        const double *row = axis ? across : along;
+        double sigma_m = (double)(axis ? plot->sigma_cross_m : plot->sigma_range_m);
+        double off_m =
+            row[0] * ((double)plot->x_m - ekf->x[0]) + row[1] * ((double)plot->y_m - ekf->x[1]);
+        ekf_take_row(ekf, row, off_m, sigma_m * sigma_m);
+    }
+}
+
+/* It goes on from a track. */
+static inline struct ekf ekf_from_track(const struct rho_track_report *track)
+{
+    static const int at[4] = {0, 1, 3, 4};
+    struct ekf ekf;
+    for (int i = 0; i < 4; i++) {
+        ekf.x[i] = (double)track->state[at[i]];
+        for (int j = 0; j <= i; j++) {
+            ekf.p[i][j] = ekf.p[j][i] = (double)track->covariance[RHO_AT(at[i], at[j])];
+        }
+    }
+    return ekf;
+}
+
+/*
+ * All bearings of a target that the frame in slot k has, in the order of sensors; own times from
+ * the scan's.
+ */
+static inline void ekf_take_frame(struct ekf *ekf, unsigned k, int target)
+{
+    for (unsigned s = 0; s < scene.sensors; s++) {
+        const struct look *look = &scene.look[scene_slot_of(k)][s];
+        for (unsigned i = 0; i < look->count && !look->is_absent; i++) {
+            if (look->target[i] == target) {
+                ekf_update(ekf, scene.sensor_x_m[s], scene.sensor_y_m[s], &look->bearings[i]);
+            }
+        }
+    }
+}
+
+static inline double ekf_error_m(const struct ekf *ekf, const struct target *target, double time_s)
+{
+    return hypot(ekf->x[0] - target_x_m(target, time_s), ekf->x[1] - target_y_m(target, time_s));
+}
+
+/* e^T P^-1 e of a report in x, y, vx, vy, by elimination. */
+static inline double nees_of(const struct rho_track_report *track, const double truth[4])
+{
+    static const int at[4] = {0, 1, 3, 4};
+    double a[4][5], sum = 0.0;
+    for (int i = 0; i < 4; i++) {
+        a[i][4] = (double)track->state[at[i]] - truth[i];
+        for (int j = 0; j < 4; j++) {
+            int row = at[i] > at[j] ? at[i] : at[j], column = at[i] > at[j] ? at[j] : at[i];
+            a[i][j] = (double)track->covariance[RHO_AT(row, column)];
+        }
+    }
+    for (int k = 0; k < 4; k++) {
+        sum += a[k][4] * a[k][4] / a[k][k];
+        for (int i = k + 1; i < 4; i++) {
+            double factor = a[i][k] / a[k][k];
+            for (int j = k; j < 5; j++) {
+                a[i][j] -= factor * a[k][j];
+            }
+        }
+    }
+    return sum;
+}
+
+#endif

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT */
+#include "node_settings.h"
+#include "rhotrack/paper_starts.h"
+#include "track_starts.h"
+
+static struct rho_paper_starts starts;
+static struct rho_passive_paper paper;
+
+/* The paper's cells where they reach, wider ones where the radar sees farther. */
+static void fit_cells(struct rho_hough_config *hough, float range_m)
+{
+    const float cell_m = 2.0f * range_m / (float)(RHO_MAX_RHO_CELLS - 2);
+    if (cell_m > hough->rho_cell_m) {
+        hough->eps_rho_m *= cell_m / hough->rho_cell_m;
+        hough->rho_cell_m = cell_m;
+    }
+    hough->rho_max_m = 0.5f * (float)(RHO_MAX_RHO_CELLS - 1) * hough->rho_cell_m;
+}
+
+static enum rho_status open_paper(void)
+{
+    struct rho_passive_paper_config search;
+    rho_passive_paper_config_default(&search);
+    return rho_passive_paper_init(&paper, sizeof paper, &search);
+}
+
+enum rho_status track_starts_open(const struct node_config *config)
+{
+    struct rho_paper_starts_config own;
+    enum rho_status status;
+    rho_paper_starts_config_default(&own, RHO_HOUGH_NHT_C);
+    own.hough.v_min_mps = config->initiator.v_min_mps;
+    own.hough.v_max_mps = config->initiator.v_max_mps;
+    fit_cells(&own.hough, NODE_RANGE_MAX_M);
+    status = rho_paper_starts_init(&starts, sizeof starts, &own);
+    return status == RHO_OK ? open_paper() : status;
+}
+
+void track_starts_of_bearings(struct rho_node_config *config)
+{
+    config->apart_max_m = paper.batch.apart_max_m;
+}
+
+/* Sensors that do not go with those of the batch begin another one. */
+static enum rho_status start_from_bearings(const struct rho_node_config *node)
+{
+    struct rho_frame_view view;
+    if (!rho_frames_closed(node->frames, &view) ||
+        rho_passive_paper_step(&paper, node->tracker, &view.frame, node->report) == RHO_OK) {
+        return RHO_OK;
+    }
+    return open_paper();
+}
+
+enum rho_status track_starts_step(struct rho_node *node)
+{
+    const struct rho_node_config *config = &node->config;
+    const int is_frame = node->due == RHO_NODE_FRAME;
+    const enum rho_status status = rho_node_step(node, NULL);
+    if (status != RHO_OK) {
+        return status;
+    }
+    return is_frame ? start_from_bearings(config)
+                    : rho_paper_starts_step(&starts, config->tracker, &node->scan, config->report);
+}
+
+const struct rho_initiator *track_starts_initiator(void)
+{
+    return NULL;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* text_table: a small table of texts, for the terminal and for pages. */
+#ifndef RHOTRACK_TOOL_TEXT_TABLE_H
+#define RHOTRACK_TOOL_TEXT_TABLE_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+struct text_table {
+    size_t num_columns, num_rows; /* row 0 is the head */
+    size_t left_columns;          /* so many are set flush left, the others flush right */
+    char **cells;                 /* num_rows x num_columns */
+};
+
+/* Head "name|name|..."; cells hold no bar. */
+struct text_table text_table_start(size_t left_columns, const char *head);
+
+/* One more row, printf of "cell|cell|..."; missing cells are empty, too many are dropped. */
+void text_table_add_row(struct text_table *table, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+const char *text_table_cell(const struct text_table *table, size_t row, size_t column);
+
+/* In columns, with a rule under the head. */
+void text_table_print(const struct text_table *table, FILE *out);
+
+/* A number for a cell, "-" where it is NAN. */
+#define TEXT_TABLE_NUMBER 48
+const char *text_table_number(char text[TEXT_TABLE_NUMBER], int digits, double value);
+
+void text_table_free(struct text_table *table);
+
+#endif
