@@ -16,9 +16,10 @@
  * the velocity): M. Feldmann, D. Franken, W. Koch, Tracking of Extended Objects and Group Targets
  * Using Random Matrices, IEEE Transactions on Signal Processing 59 (2011), 1409-1420.
  *
- * Two targets that are never farther apart than the longest body, from their first plots on, are
- * one, until that is surely wider than 0.3 of the longest (src/step/split_bodies.c). Plots of one
- * body in two sectors of a turn are two groups.
+ * Two targets that are near each other from their first plots on are one body, until it is surely
+ * wider than 0.3 of the longest, or longer than that, or its range rates say that its parts move
+ * apart (src/step/split_bodies.c, src/tracker/body_doubt.c). Of two tracks whose bodies stay on each
+ * other the younger ends. Plots of one body in two sectors of a turn are two groups.
  *
  * Stack: 128 bytes at most.
  */
@@ -41,9 +42,30 @@ struct rho_tracker;
 /* One axis of a body, as its plots tell it. */
 struct rho_body_side {
     float mean_m2;     /* of squares, less noise; it may be 0 or less */
-    float weight;      /* of what it comes from: plots without noise */
+    float weight;      /* evidence behind the mean, in plots: one without noise counts 1 */
     float variance_m4; /* of the mean */
     float prior_share; /* of the mean that is still the prior's */
+};
+
+/*
+ * What looks of several plots say of two targets that are taken for one body. All fades over some
+ * 80 of them.
+ */
+struct rho_body_doubt {
+    float looks, long_looks; /* ... that are longer than any body */
+    float steady_looks;      /* since the heading last turned; with range rates */
+    float time_s;            /* that they took */
+    float cos_heading, sin_heading;
+    float plots; /* beyond one a look */
+    /*
+     * about a look's mean: squares of places along the line of sight and across it, and their
+     * product; of range rates; and of these with both places; what noise is expected to add
+     */
+    float far_m2, side_m2, cross_m2, rates_m2ps2, far_m2ps, side_m2ps;
+    float side_noise_m2, rate_noise_m2ps2;
+    int64_t time_us;    /* of the last one */
+    float doubled;      /* scans in which its body lay on that of an older track */
+    int64_t doubled_us; /* the last one */
 };
 
 /* The extent of a track, within the tracker. */
@@ -58,6 +80,7 @@ struct rho_body_filter {
     float plots;         /* that all this comes from */
     uint16_t most_plots; /* of one scan */
     uint8_t has_heading;
+    struct rho_body_doubt doubt;
 };
 
 /* The body of a track: a rectangle, its length along the heading. */

@@ -277,7 +277,8 @@ struct rho_groups {
     uint16_t of[RHO_BODY_PLOTS];                          /* group of each plot */
     uint16_t owner[RHO_BODY_PLOTS];                       /* track of each plot */
     float misfit[RHO_BODY_PLOTS];                         /* with that */
-    struct rho_plot plots[RHO_BODY_PLOTS];                /* of each group */
+    uint16_t contender[RHO_BODY_PLOTS];    /* another track whose body explains it nearly as well */
+    struct rho_plot plots[RHO_BODY_PLOTS]; /* of each group */
 };
 
 /* Targets that are more than points. */

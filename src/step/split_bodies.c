@@ -19,7 +19,8 @@
 
 struct side {
     unsigned plots;
-    float x_m, y_m; /* sums, and then means, from the track's place */
+    float x_m, y_m;       /* sums, and then means, from the track's place */
+    float vx_mps, vy_mps; /* ... and from its velocity, along the line of sight */
 };
 
 static int is_too_wide(const struct step *step, unsigned row)
@@ -35,28 +36,58 @@ static int is_too_wide(const struct step *step, unsigned row)
     return shape.width_m - WIDER_SIGMAS * shape.sigma_width_m > widest_m;
 }
 
-/* The track's plots in the scan, left and right of its heading. 0: a side has none. */
-static int find_sides(const struct step *step, const struct rho_scan *scan, unsigned row,
-                      struct side sides[2])
+/* What tells the sides apart. */
+static float side_value(enum rho_body_split why, const struct body_plot *at)
 {
-    const struct rho_bodies *bodies = &step->tracker->bodies;
-    const struct rho_body_filter *body = &bodies->of[row];
-    const struct rho_track *track = &step->tracker->tracks[row];
-    const float *state = track->kalman.state;
-    for (unsigned i = bodies->groups.first[track->plot]; i != UINT16_MAX;
-         i = bodies->groups.next[i]) {
-        const struct rho_plot *plot = &scan->plots[i];
-        const float after_s = rho_seconds_between(track->time_us, step->time_us + plot->offset_us);
-        const float dx_m = plot->x_m - state[RHO_X] - after_s * state[RHO_VX],
-                    dy_m = plot->y_m - state[RHO_Y] - after_s * state[RHO_VY];
-        struct side *side = &sides[body->cos_heading * dy_m < body->sin_heading * dx_m];
+    return why == RHO_BODY_TOO_LONG   ? at->along_m
+           : why == RHO_BODY_TOO_WIDE ? at->across_m
+                                      : at->rate_mps;
+}
+
+/* The middle between the outermost plots. */
+static float middle_of(const struct step *step, const struct rho_scan *scan, unsigned row,
+                       enum rho_body_split why)
+{
+    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    float least = 1e30f, most = -1e30f;
+    struct body_plot at;
+    for (unsigned i = groups->first[step->tracker->tracks[row].plot]; i != RHO_NO_TRACK;
+         i = groups->next[i]) {
+        if (groups->contender[i] == RHO_NO_TRACK) {
+            rho_tracker_place_on_body(step, scan, row, i, &at);
+            least = rho_smaller(least, side_value(why, &at));
+            most = rho_larger(most, side_value(why, &at));
+        }
+    }
+    return 0.5f * (least + most);
+}
+
+/* The track's plots in the scan, on both sides. 0: a side has none. */
+static int find_sides(const struct step *step, const struct rho_scan *scan, unsigned row,
+                      enum rho_body_split why, struct side sides[2])
+{
+    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    const float middle = middle_of(step, scan, row, why);
+    struct body_plot at;
+    for (unsigned i = groups->first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
+         i = groups->next[i]) {
+        if (groups->contender[i] != UINT16_MAX) {
+            continue;
+        }
+        rho_tracker_place_on_body(step, scan, row, i, &at);
+        struct side *side = &sides[side_value(why, &at) < middle];
         side->plots++;
-        side->x_m += dx_m;
-        side->y_m += dy_m;
+        side->x_m += at.dx_m;
+        side->y_m += at.dy_m;
+        side->vx_mps += at.line[0] * at.rate_mps;
+        side->vy_mps += at.line[1] * at.rate_mps;
     }
     for (int i = 0; i < 2 && sides[i].plots > 0; i++) {
-        sides[i].x_m /= (float)sides[i].plots;
-        sides[i].y_m /= (float)sides[i].plots;
+        const float share = 1.0f / (float)sides[i].plots;
+        sides[i].x_m *= share;
+        sides[i].y_m *= share;
+        sides[i].vx_mps *= share;
+        sides[i].vy_mps *= share;
     }
     return sides[0].plots > 0 && sides[1].plots > 0;
 }
@@ -70,8 +101,12 @@ static enum rho_status start_track_of_side(const struct step *step, const struct
     struct rho_kalman there = track->kalman;
     there.state[RHO_X] += side->x_m;
     there.state[RHO_Y] += side->y_m;
+    there.state[RHO_VX] += side->vx_mps;
+    there.state[RHO_VY] += side->vy_mps;
     there.covariance[RHO_AT(RHO_X, RHO_X)] += mean_m2;
     there.covariance[RHO_AT(RHO_Y, RHO_Y)] += mean_m2;
+    there.covariance[RHO_AT(RHO_VX, RHO_VX)] += side->vx_mps * side->vx_mps;
+    there.covariance[RHO_AT(RHO_VY, RHO_VY)] += side->vy_mps * side->vy_mps;
     return rho_track_start_estimate(out, track_id, &there, track->time_us, track->sensor_id,
                                     track->hits, &step->model, track->score_mnat);
 }
@@ -120,8 +155,14 @@ void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan)
     for (unsigned row = 0; !step->is_late && row < tracker->bodies.count; row++) {
         const unsigned num_tracks = tracker->num_tracks;
         struct side sides[2] = {{0}, {0}};
-        if (tracker->tracks[row].plot >= 0 && is_too_wide(step, row) &&
-            find_sides(step, scan, row, sides) && split_track(step, row, sides)) {
+        if (tracker->tracks[row].plot < 0) {
+            continue;
+        }
+        rho_tracker_doubt_body(step, scan, row);
+        const enum rho_body_split why =
+            is_too_wide(step, row) ? RHO_BODY_TOO_WIDE : rho_tracker_why_two(step, row);
+        if (why != RHO_BODY_ONE && find_sides(step, scan, row, why, sides) &&
+            split_track(step, row, sides)) {
             start_body(step, row);
             if (tracker->num_tracks > num_tracks) {
                 rho_tracker_align_bodies(step);

@@ -60,30 +60,57 @@ void rho_tracker_align_bodies(struct step *step)
     bodies->count = tracker->num_tracks;
 }
 
-/* Sums squared distances from the track, and the plots' noise, in the body's axes. */
-static void sum_up_plots(const struct step *step, const struct rho_scan *scan,
-                         const struct rho_track *track, unsigned row, struct rho_body_look *look)
+int rho_tracker_rate_off(const struct step *step, const struct rho_scan *scan,
+                         const struct rho_track *track, const struct rho_plot *plot, float line[2],
+                         float *off_mps)
+{
+    float row[6], rate_mps;
+    const float *velocity = &track->kalman.state[RHO_VX];
+    const float state[6] = {plot->x_m, plot->y_m, plot->z_m, velocity[0], velocity[1], velocity[2]};
+    if (!(scan->measures & RHO_MEASURES_RANGE_RATE) ||
+        !rho_measurement_range_rate(state, step->sensor, (scan->measures & RHO_MEASURES_Z) != 0,
+                                    row, &rate_mps)) {
+        return 0;
+    }
+    line[0] = row[3];
+    line[1] = row[4];
+    *off_mps = rho_measurement_range_rate_error_mps(step->sensor, plot->range_rate_mps, rate_mps);
+    return 1;
+}
+
+void rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
+                               unsigned plot, struct body_plot *at)
+{
+    const struct rho_body_filter *body = &step->tracker->bodies.of[row];
+    const struct rho_track *track = &step->tracker->tracks[row];
+    const struct rho_plot *seen = &scan->plots[plot];
+    const float after_s = rho_seconds_between(track->time_us, step->time_us + seen->offset_us);
+    const float *state = track->kalman.state;
+    *at = (struct body_plot){.dx_m = seen->x_m - state[RHO_X] - after_s * state[RHO_VX],
+                             .dy_m = seen->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
+    at->along_m = body->cos_heading * at->dx_m + body->sin_heading * at->dy_m;
+    at->across_m = body->cos_heading * at->dy_m - body->sin_heading * at->dx_m;
+    (void)!rho_tracker_rate_off(step, scan, track, seen, at->line, &at->rate_mps);
+}
+
+/* The squares of distances, and the plots' noise, in the axes of the body. */
+static void sum_up_plots(const struct step *step, const struct rho_scan *scan, unsigned row,
+                         struct rho_body_look *look)
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
-    const struct rho_body_filter *body = &bodies->of[row];
-    const float *state = track->kalman.state;
     struct rho_measurement seen;
+    struct body_plot at;
     float noise[6], axes[3];
-    for (unsigned i = bodies->groups.first[track->plot]; i != UINT16_MAX;
+    for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
          i = bodies->groups.next[i]) {
-        const struct rho_plot *plot = &scan->plots[i];
-        const float after_s = rho_seconds_between(track->time_us, step->time_us + plot->offset_us);
-        const float dx_m = plot->x_m - state[0] - after_s * state[3],
-                    dy_m = plot->y_m - state[1] - after_s * state[4];
-        const float along_m = body->cos_heading * dx_m + body->sin_heading * dy_m,
-                    across_m = body->cos_heading * dy_m - body->sin_heading * dx_m;
-        rho_measurement_open(plot, 0, step->sensor, &seen);
+        rho_tracker_place_on_body(step, scan, row, i, &at);
+        rho_measurement_open(&scan->plots[i], 0, step->sensor, &seen);
         rho_measurement_covariance(&seen, noise);
-        rho_body_to_axes(body, noise, axes);
+        rho_body_to_axes(&bodies->of[row], noise, axes);
         look->num_plots++;
-        look->along_m2 += along_m * along_m;
-        look->across_m2 += across_m * across_m;
-        look->cross_m2 += along_m * across_m;
+        look->along_m2 += at.along_m * at.along_m;
+        look->across_m2 += at.across_m * at.across_m;
+        look->cross_m2 += at.along_m * at.across_m;
         look->noise_along_m2 += axes[0];
         look->noise_across_m2 += axes[2];
     }
@@ -112,7 +139,7 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
             continue;
         }
         rho_tracker_turn_body(tracker, row);
-        sum_up_plots(step, scan, track, row, &look);
+        sum_up_plots(step, scan, row, &look);
         rho_body_add(&tracker->bodies.of[row], &look);
     }
 }
@@ -137,6 +164,21 @@ static int is_sound_side(const struct rho_body_side *side)
            rho_is_within(side->prior_share, 0.0f, 1.0f);
 }
 
+static int is_sound_doubt(const struct rho_body_doubt *doubt)
+{
+    const float values[] = {doubt->looks,     doubt->long_looks,    doubt->steady_looks,
+                            doubt->time_s,    doubt->cos_heading,   doubt->sin_heading,
+                            doubt->plots,     doubt->far_m2,        doubt->side_m2,
+                            doubt->cross_m2,  doubt->rates_m2ps2,   doubt->far_m2ps,
+                            doubt->side_m2ps, doubt->side_noise_m2, doubt->rate_noise_m2ps2,
+                            doubt->doubled};
+    int is_sound = rho_is_stored_time(doubt->time_us) && rho_is_stored_time(doubt->doubled_us);
+    for (unsigned i = 0; i < sizeof values / sizeof *values; i++) {
+        is_sound &= rho_is_within(values[i], -1e15f, 1e15f);
+    }
+    return is_sound;
+}
+
 int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
 {
     const struct rho_bodies *bodies = &tracker->bodies;
@@ -154,7 +196,7 @@ int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker)
             !rho_is_within(body->cos_heading, -1.001f, 1.001f) ||
             !rho_is_within(body->sin_heading, -1.001f, 1.001f) ||
             !rho_is_within(body->heading_sigma_rad, 0.0f, 10.0f) ||
-            !rho_is_within(body->plots, 1.0f, 1e6f)) {
+            !rho_is_within(body->plots, 1.0f, 1e6f) || !is_sound_doubt(&body->doubt)) {
             return 0;
         }
     }

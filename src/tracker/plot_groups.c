@@ -17,14 +17,20 @@
 /* Range rates of one target differ by so many sigmas of both, and so much a metre as it turns. */
 #define RATE_SIGMAS 4.0f
 #define TURN_RADPS 0.3f
+#define TURN_USUAL_RADPS 0.1f
+#define TURN_MISFIT_RADPS 0.3f
+/* Two places anywhere on a body are so much of its length apart, root mean square. */
+#define APART_SHARE 0.41f
 /* Two plots of one target are farther apart than it is long by so many of their sigmas. */
 #define APART_SIGMAS 2.0f
+/* A plot is contested that another body explains so little worse. */
+#define CONTESTED_MISFIT 6.0f
 /* Work units: a plot compared with a body, or with another plot; passed over. */
 #define TEST_UNITS 6u
 #define PAIR_UNITS 2u
 #define PASS_UNITS 1u
 
-#define NONE UINT16_MAX
+#define NONE RHO_NO_TRACK
 
 static float longest_body_m(const struct step *step)
 {
@@ -33,22 +39,32 @@ static float longest_body_m(const struct step *step)
 
 /* ---- pairs of plots -------------------------------------------------------------------------- */
 
-/* Range rates that one target can have at both places: it is as fast as any, and may turn. */
+/*
+ * Range rates that one target has at both places. They differ across the line of sight alone: as it
+ * turns, and as its speed across is not known.
+ */
 static int have_one_rate(const struct step *step, const struct rho_plot *one,
-                         const struct rho_plot *other, float apart_m)
+                         const struct rho_plot *other)
 {
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 1;
     }
     const float x_m = one->x_m - (step->sensor ? step->sensor->x_m : 0.0f),
                 y_m = one->y_m - (step->sensor ? step->sensor->y_m : 0.0f);
-    const float range_m = rho_larger(rho_sqrt(x_m * x_m + y_m * y_m), apart_m);
+    const float dx_m = other->x_m - one->x_m, dy_m = other->y_m - one->y_m;
+    const float range_m = rho_sqrt(x_m * x_m + y_m * y_m) + 1e-3f;
+    const float side_m = (x_m * dy_m - y_m * dx_m) / range_m;
+    const float most_m =
+        rho_smaller((side_m < 0.0f ? -side_m : side_m) + one->sigma_cross_m + other->sigma_cross_m,
+                    APART_SHARE * longest_body_m(step));
+    const float across_radps = step->tracker->config.v_max_mps / (3.0f * range_m);
     const float off_mps = rho_measurement_range_rate_error_mps(step->sensor, one->range_rate_mps,
                                                                other->range_rate_mps);
-    const float slack_mps =
-        RATE_SIGMAS * (one->sigma_range_rate_mps + other->sigma_range_rate_mps) +
-        apart_m * (TURN_RADPS + step->tracker->config.v_max_mps / (range_m + 1e-3f));
-    return off_mps <= slack_mps && off_mps >= -slack_mps;
+    const float variance =
+        one->sigma_range_rate_mps * one->sigma_range_rate_mps +
+        other->sigma_range_rate_mps * other->sigma_range_rate_mps +
+        (TURN_USUAL_RADPS * TURN_USUAL_RADPS + across_radps * across_radps) * most_m * most_m;
+    return off_mps * off_mps <= RATE_SIGMAS * RATE_SIGMAS * variance;
 }
 
 /* One target can have given both plots. */
@@ -59,8 +75,7 @@ static int fit_together(struct step *step, uint32_t one, uint32_t other)
     const float most_m =
         longest_body_m(step) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
     rho_tracker_spend(step, PAIR_UNITS);
-    return dx_m * dx_m + dy_m * dy_m <= most_m * most_m &&
-           have_one_rate(step, a, b, rho_sqrt(dx_m * dx_m + dy_m * dy_m));
+    return dx_m * dx_m + dy_m * dy_m <= most_m * most_m && have_one_rate(step, a, b);
 }
 
 /* ---- a track's body -------------------------------------------------------------------------- */
@@ -108,26 +123,24 @@ static float half_box_m(const struct step *step, const struct outline *outline)
            moved_m(step, outline);
 }
 
-/* The plot's range rate agrees with the track's velocity, where both are known. */
+/*
+ * The range rate agrees with the track's velocity, where both are known. The misfit grows by what
+ * a body that hardly turns would not show.
+ */
 static int has_rate_of_track(const struct step *step, const struct outline *outline,
-                             const struct rho_plot *plot, float apart_m)
+                             const struct rho_plot *plot, float apart_m, float *misfit)
 {
-    float row[6], rate_mps;
-    const float state[6] = {plot->x_m,
-                            plot->y_m,
-                            plot->z_m,
-                            outline->track->kalman.state[3],
-                            outline->track->kalman.state[4],
-                            outline->track->kalman.state[5]};
-    if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE) ||
-        !rho_measurement_range_rate(state, step->sensor,
-                                    (step->scan->measures & RHO_MEASURES_Z) != 0, row, &rate_mps)) {
+    float off_mps, line[2];
+    if (!rho_tracker_rate_off(step, step->scan, outline->track, plot, line, &off_mps)) {
         return 1;
     }
-    const float off_mps =
-        rho_measurement_range_rate_error_mps(step->sensor, plot->range_rate_mps, rate_mps);
     const float slack_mps =
         RATE_SIGMAS * (outline->rate_sigma_mps + plot->sigma_range_rate_mps) + TURN_RADPS * apart_m;
+    const float turn_mps = TURN_MISFIT_RADPS * apart_m;
+    const float variance = outline->rate_sigma_mps * outline->rate_sigma_mps +
+                           plot->sigma_range_rate_mps * plot->sigma_range_rate_mps +
+                           turn_mps * turn_mps;
+    *misfit += off_mps * off_mps / variance + rho_log(variance);
     return off_mps <= slack_mps && off_mps >= -slack_mps;
 }
 
@@ -150,7 +163,7 @@ static int explains_plot(const struct step *step, const struct outline *outline,
     const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
     *misfit = far + wide + rho_log(along_m2) + rho_log(across_m2);
     return far <= GATE_SIGMAS * GATE_SIGMAS && wide <= GATE_SIGMAS * GATE_SIGMAS &&
-           has_rate_of_track(step, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m));
+           has_rate_of_track(step, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m), misfit);
 }
 
 /* The plots in a box about the track's place. */
@@ -162,105 +175,20 @@ static struct plots_near plots_about(const struct step *step, const struct outli
                                   state[1] + half_m);
 }
 
-/* The plots in the box that can hold all plots of the track's body. */
-static struct plots_near plots_of_body(const struct step *step, const struct outline *outline)
+/* The track has the plot if its body explains it better than that of the one that has it. */
+static void claim(struct rho_groups *groups, unsigned row, uint32_t plot, float misfit)
 {
-    return plots_about(step, outline, 2.0f * longest_body_m(step) + moved_m(step, outline));
-}
-
-static int fits_owned_plots(struct step *step, unsigned row, struct plots_near near, uint32_t plot)
-{
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
-    unsigned owned = 0;
-    for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i);) {
-        rho_tracker_spend(step, PASS_UNITS);
-        if (groups->owner[i] == row) {
-            if (!fit_together(step, i, plot)) {
-                return 0;
-            }
-            owned++;
+    const unsigned owner = groups->owner[plot];
+    const float better = groups->misfit[plot] - misfit;
+    if (owner != NONE && better <= 0.0f) {
+        if (-better < CONTESTED_MISFIT) {
+            groups->contender[plot] = (uint16_t)row;
         }
+        return;
     }
-    return owned > 0;
-}
-
-/* The body of a new track may be as long as any: it takes plots that fit all it has. */
-static void adopt_plots(struct step *step, unsigned row)
-{
-    struct rho_groups *groups = &step->tracker->bodies.groups;
-    const struct outline outline = outline_of(step, row);
-    const struct plots_near about = plots_of_body(step, &outline);
-    struct plots_near near = about;
-    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
-        rho_tracker_spend(step, PASS_UNITS);
-        if (step->report->fates[i] == RHO_FATE_HELD && groups->owner[i] == NONE &&
-            has_rate_of_track(step, &outline, &step->scan->plots[i], longest_body_m(step)) &&
-            fits_owned_plots(step, row, about, i)) {
-            groups->owner[i] = (uint16_t)row;
-        }
-    }
-}
-
-static int may_own_plots(const struct step *step, unsigned row)
-{
-    return row < RHO_BODY_TRACKS && step->tracker->tracks[row].status != RHO_TRACK_FREE &&
-           rho_tracker_is_in_view(step, row);
-}
-
-/* The plots of both tracks can be one target's. */
-static int are_one_target(struct step *step, unsigned row, unsigned other)
-{
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
-    const struct outline outline = outline_of(step, other);
-    struct plots_near near = plots_of_body(step, &outline);
-    const struct outline about = outline_of(step, row);
-    unsigned owned = 0;
-    for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
-        rho_tracker_spend(step, PASS_UNITS);
-        if (groups->owner[i] == other) {
-            if (!fits_owned_plots(step, row, plots_of_body(step, &about), i)) {
-                return 0;
-            }
-            owned++;
-        }
-    }
-    return owned > 0 && !rho_tracker_is_spent(step);
-}
-
-static int is_new_track(const struct step *step, unsigned row)
-{
-    return may_own_plots(step, row) && step->tracker->bodies.of[row].plots < RHO_BODY_NEW_PLOTS;
-}
-
-/* Velocities that may be one target's: those that only pass each other have others. */
-static int move_alike(const struct rho_track *one, const struct rho_track *other)
-{
-    const float vx_mps = one->kalman.state[3] - other->kalman.state[3],
-                vy_mps = one->kalman.state[4] - other->kalman.state[4];
-    const float most_mps = RATE_SIGMAS * (rho_track_sigma_mps(one) + rho_track_sigma_mps(other));
-    return vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
-}
-
-/* Of two new tracks whose plots are one body's the younger ends; the other one adopts its plots. */
-static void end_double_tracks(struct step *step, unsigned row)
-{
-    struct rho_groups *groups = &step->tracker->bodies.groups;
-    struct rho_track *tracks = step->tracker->tracks;
-    for (unsigned other = row + 1u;
-         other < step->tracker->num_tracks && !rho_tracker_is_spent(step); other++) {
-        rho_tracker_spend(step, PASS_UNITS);
-        if (!is_new_track(step, other) || !move_alike(&tracks[row], &tracks[other])) {
-            continue;
-        }
-        rho_tracker_spend(step, TEST_UNITS);
-        if (!are_one_target(step, row, other)) {
-            continue;
-        }
-        for (uint32_t i = 0; i < step->num_gated; i++) {
-            groups->owner[i] = groups->owner[i] == other ? (uint16_t)NONE : groups->owner[i];
-        }
-        rho_tracker_end_track(step, &tracks[other]);
-    }
+    groups->contender[plot] = owner != NONE && better < CONTESTED_MISFIT ? (uint16_t)owner : NONE;
+    groups->owner[plot] = (uint16_t)row;
+    groups->misfit[plot] = misfit;
 }
 
 /* Each plot belongs to the track whose body explains it best. */
@@ -269,7 +197,7 @@ static void find_owners(struct step *step)
     struct rho_groups *groups = &step->tracker->bodies.groups;
     float misfit;
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        if (!may_own_plots(step, row)) {
+        if (!rho_tracker_may_own_plots(step, row)) {
             continue;
         }
         const struct outline outline = outline_of(step, row);
@@ -285,19 +213,12 @@ static void find_owners(struct step *step)
                 continue;
             }
             rho_tracker_spend(step, TEST_UNITS);
-            if (explains_plot(step, &outline, plot, &misfit) &&
-                (groups->owner[i] == NONE || misfit < groups->misfit[i])) {
-                groups->owner[i] = (uint16_t)row;
-                groups->misfit[i] = misfit;
+            if (explains_plot(step, &outline, plot, &misfit)) {
+                claim(groups, row, i, misfit);
             }
         }
     }
-    for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        if (is_new_track(step, row)) {
-            end_double_tracks(step, row);
-            adopt_plots(step, row);
-        }
-    }
+    rho_tracker_end_doubled(step);
 }
 
 /* ---- groups ---------------------------------------------------------------------------------- */
@@ -503,6 +424,7 @@ static void open_groups(struct step *step)
         const float offset_s = (float)plot->offset_us * 1e-6f;
         const int is_valid = rho_measurement_is_valid(plot, step->scan->measures);
         groups->of[i] = groups->next[i] = groups->owner[i] = NONE;
+        groups->contender[i] = NONE;
         step->report->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (is_valid) {
             step->sigma_max_m = rho_larger(step->sigma_max_m, rho_plot_sigma_m(plot));

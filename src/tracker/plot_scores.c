@@ -119,15 +119,19 @@ static struct plots_near plots_near_track(const struct step *step, const struct 
                                   box->y_min_m - slack_m, box->y_max_m + slack_m);
 }
 
-/* Near the track, and not assigned to another one (before the assignment none is). */
+/*
+ * Near the track, and not assigned to another one (before the assignment none is). Most plots are
+ * outside of the limits for any noise: they need no box for their own.
+ */
 static int is_free_and_near(const struct step *step, struct plot_scores *scores, uint32_t i)
 {
     const struct rho_tracker *tracker = step->tracker;
+    const struct rho_plot *plot = &step->scan->plots[i];
     const int owner = tracker->assignment.column_row[i];
-    return step->report->fates[i] == RHO_FATE_HELD &&
+    return rho_tracker_is_within(&scores->near, plot) && step->report->fates[i] == RHO_FATE_HELD &&
            !(owner >= 0 && owner != (int)scores->track_row) &&
            rho_hypotheses_is_in_box(&tracker->hypotheses, tracker->tracks[scores->track_row].slot,
-                                    &scores->box, &step->scan->plots[i], step->scan->measures);
+                                    &scores->box, plot, step->scan->measures);
 }
 
 static void choose_plots(struct step *step, const struct rho_track *track,

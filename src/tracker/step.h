@@ -136,6 +136,13 @@ static inline int rho_tracker_next_plot_near(const struct step *step, struct plo
     return 1;
 }
 
+/* Between the limits, sides included. */
+static inline int rho_tracker_is_within(const struct plots_near *near, const struct rho_plot *plot)
+{
+    return plot->x_m >= near->within.x_min_m && plot->x_m <= near->within.x_max_m &&
+           plot->y_m >= near->within.y_min_m && plot->y_m <= near->within.y_max_m;
+}
+
 /* An upper bound of the number of those plots. */
 static inline uint32_t rho_tracker_max_plots_near(const struct step *step,
                                                   const struct plots_near *near)
@@ -320,6 +327,38 @@ void rho_tracker_align_bodies(struct step *step);
 /* The heading of a track's body is that of its velocity. */
 void rho_tracker_turn_body(struct rho_tracker *tracker, unsigned row);
 void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
+/*
+ * A plot's range rate less that of the track's velocity there, and the direction of the line of
+ * sight. 0: none was measured.
+ */
+int rho_tracker_rate_off(const struct step *step, const struct rho_scan *scan,
+                         const struct rho_track *track, const struct rho_plot *plot, float line[2],
+                         float *off_mps);
+/* A plot of a track: from its estimate, in x and y and on the body; and rho_tracker_rate_off. */
+struct body_plot {
+    float dx_m, dy_m, along_m, across_m, rate_mps, line[2];
+};
+void rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
+                               unsigned plot, struct body_plot *at);
+
+/* body_doubt.c: what the plots of a body say of two targets; and for which reason they are two */
+enum rho_body_split {
+    RHO_BODY_ONE,
+    RHO_BODY_TOO_WIDE,
+    RHO_BODY_TOO_LONG,
+    RHO_BODY_STRETCHED /* as range rates say, which grow along the line of sight */
+};
+void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan, unsigned row);
+enum rho_body_split rho_tracker_why_two(const struct step *step, unsigned row);
+/* Of a plot: the row of no track. */
+#define RHO_NO_TRACK UINT16_MAX
+static inline int rho_tracker_may_own_plots(const struct step *step, unsigned row)
+{
+    return RHO_BODIES && row < RHO_BODY_TRACKS &&
+           step->tracker->tracks[row].status != RHO_TRACK_FREE && rho_tracker_is_in_view(step, row);
+}
+/* doubled_bodies.c: of two tracks of one target the younger ends, and the other has its plots */
+void rho_tracker_end_doubled(struct step *step);
 /* Variance of a place on a body that nothing is known of, on each axis. */
 float rho_tracker_body_prior_m2(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker);

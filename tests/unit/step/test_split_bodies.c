@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two cars that were taken for one body become two tracks once it is surely wider than any; a truck
- * stays one.
+ * Two cars that were taken for one body become two tracks once it is surely wider or longer than
+ * any, or range rates say that its parts move apart; a truck stays one.
  */
 #include "rhotrack/body.h"
 #include "tracker_setup.h"
@@ -97,6 +97,152 @@ static void a_truck_stays_one(void **state)
     }
 }
 
+/* ---- range rates, and lengths ---------------------------------------------------------------- */
+
+#define RATE_SIGMA_MPS 0.1
+
+/* A body before the radar: its place, velocity and turn, and a scatterer in its axes. */
+struct body {
+    double x_m, y_m, speed_mps, course_rad, turn_radps;
+};
+
+/* Wheels: range rates of its parts spread so much more. */
+static void see_scatterer(const struct body *body, double along_m, double across_m,
+                          double wheels_mps)
+{
+    const double c = cos(body->course_rad), s = sin(body->course_rad);
+    const double off_x_m = c * along_m - s * across_m, off_y_m = s * along_m + c * across_m;
+    const double x_m = body->x_m + off_x_m, y_m = body->y_m + off_y_m;
+    const double range_m = hypot(x_m, y_m), cross_m = 0.01 * range_m;
+    const double rate_mps = ((body->speed_mps * c - body->turn_radps * off_y_m) * x_m +
+                             (body->speed_mps * s + body->turn_radps * off_x_m) * y_m) /
+                            range_m;
+    if (uniform(0.0, 1.0) > 0.6) {
+        return;
+    }
+    const double far_m = 0.2 * normal(), side_m = cross_m * normal();
+    const double off_mps = RATE_SIGMA_MPS * normal() + wheels_mps * uniform(-1.0, 1.0);
+    struct rho_plot *plot = add_plot(x_m + (far_m * x_m - side_m * y_m) / range_m,
+                                     y_m + (far_m * y_m + side_m * x_m) / range_m, 0.2);
+    plot->sigma_cross_m = (float)cross_m;
+    plot->range_rate_mps = (float)(rate_mps + off_mps);
+    plot->sigma_range_rate_mps = (float)RATE_SIGMA_MPS;
+}
+
+static void see_car(const struct body *body)
+{
+    for (int i = -1; i <= 1; i++) {
+        see_scatterer(body, 1.5 * i, 0.6 * i, 0.0);
+    }
+}
+
+static void see_truck(const struct body *body, double wheels_mps)
+{
+    for (int i = 0; i < 8; i++) {
+        see_scatterer(body, 1.6 * i - 5.6, i % 2 ? 1.25 : -1.25, wheels_mps);
+    }
+}
+
+static void drive(struct body *body)
+{
+    body->course_rad += STEP_S * body->turn_radps;
+    body->x_m += STEP_S * body->speed_mps * cos(body->course_rad);
+    body->y_m += STEP_S * body->speed_mps * sin(body->course_rad);
+}
+
+static void look_with_rates(int k)
+{
+    step_scan((struct rho_scan){.time_us = llround(STEP_S * 1e6 * k),
+                                .measures = RHO_MEASURES_RANGE_RATE});
+    assert_true(rho_tracker_is_sound(&tracker));
+}
+
+/* Runs of ten in which both cars have a track at the end; *had_been_one: one for a second. */
+static unsigned runs_of_two(struct body one, struct body other, int looks, unsigned *had_been_one)
+{
+    unsigned runs = 0;
+    *had_been_one = 0;
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+        struct body cars[2] = {one, other};
+        unsigned looks_of_one = 0, near = 0;
+        begin_road(seed);
+        for (int k = 0; k < looks; k++) {
+            for (int car = 0; car < 2; car++) {
+                see_car(&cars[car]);
+                drive(&cars[car]);
+            }
+            look_with_rates(k);
+            looks_of_one += report.num_tracks == 1;
+        }
+        *had_been_one += looks_of_one > 20;
+        for (unsigned i = 0; i < report.num_tracks; i++) {
+            for (int car = 0; car < 2; car++) {
+                near += fabs((double)report.tracks[i].state[RHO_X] - cars[car].x_m) < 2.0 &&
+                        fabs((double)report.tracks[i].state[RHO_Y] - cars[car].y_m) < 1.5;
+            }
+        }
+        runs += report.num_tracks == 2 && near == 2;
+    }
+    return runs;
+}
+
+/* Side by side and 1 m/s faster: they are 6 m apart at the end. */
+static void a_car_that_overtakes_is_told_by_its_range_rate(void **state)
+{
+    unsigned had_been_one;
+    (void)state;
+    const unsigned runs =
+        runs_of_two((struct body){150.0, 0.0, -6.0, 0.0, 0.0},
+                    (struct body){150.0, LANE_M, -7.0, 0.0, 0.0}, 120, &had_been_one);
+    print_message("two in %u, after one in %u of 10\n", runs, had_been_one);
+    assert_true(had_been_one >= 7 && runs >= 8);
+}
+
+static void two_cars_in_a_row_are_longer_than_any(void **state)
+{
+    unsigned had_been_one;
+    (void)state;
+    const unsigned runs =
+        runs_of_two((struct body){100.0, 5.0, -7.0, 0.0, 0.0},
+                    (struct body){113.0, 5.0, -7.0, 0.0, 0.0}, 200, &had_been_one);
+    print_message("two in %u, after one in %u of 10\n", runs, had_been_one);
+    assert_true(had_been_one >= 2);
+    assert_int_equal(runs, 10);
+}
+
+static unsigned runs_of_one_truck(double turn_radps, double wheels_mps)
+{
+    unsigned runs = 0;
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+        struct body truck = {120.0, -20.0, 6.0, 2.0, 0.0};
+        begin_road(seed);
+        for (int k = 0; k < 300; k++) {
+            truck.turn_radps = k > 100 ? turn_radps : 0.0;
+            see_truck(&truck, wheels_mps);
+            drive(&truck);
+            look_with_rates(k);
+        }
+        runs += report.num_tracks == 1;
+    }
+    return runs;
+}
+
+/* Its ends have other range rates, as its heading shows soon after. */
+static void a_truck_that_turns_stays_one(void **state)
+{
+    (void)state;
+    assert_int_equal(runs_of_one_truck(0.0, 0.0), 10);
+    assert_int_equal(runs_of_one_truck(0.1, 0.0), 10);
+    assert_true(runs_of_one_truck(0.25, 0.0) >= 9);
+}
+
+/* Range rates that differ, but not from place to place. */
+static void wheels_do_not_split_a_truck(void **state)
+{
+    (void)state;
+    assert_true(runs_of_one_truck(0.0, 0.3) >= 9);
+}
+
 /* ---- from when on ---------------------------------------------------------------------------- */
 
 /* A body of this width and sigma, known from so many plots, is split in the next scan. */
@@ -143,6 +289,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_cars_abreast_become_two),
         cmocka_unit_test(a_truck_stays_one),
+        cmocka_unit_test(a_car_that_overtakes_is_told_by_its_range_rate),
+        cmocka_unit_test(two_cars_in_a_row_are_longer_than_any),
+        cmocka_unit_test(a_truck_that_turns_stays_one),
+        cmocka_unit_test(wheels_do_not_split_a_truck),
         cmocka_unit_test(only_what_is_surely_too_wide_is_split),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

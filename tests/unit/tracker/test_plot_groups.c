@@ -7,6 +7,7 @@
 #include "tracker_setup.h"
 
 #define LONGEST_M 10.0f
+#define SECOND (RHO_BODIES ? 1 : 0) /* row of the other track; without bodies nothing runs */
 
 static const struct rho_sensor radar = {.sensor_id = 1, .pd = 0.9f, .range_max_m = 5e3f};
 static struct rho_scan scan;
@@ -67,7 +68,7 @@ static void group(void)
                        .sensor = &radar,
                        .num_inputs = num_plots,
                        .num_gated = num_plots,
-                       .in_view = {1}};
+                       .in_view = {3}};
     rho_tracker_group_plots(&at, &grouped);
 }
 
@@ -97,14 +98,19 @@ static void two_plots_of_one_target_are_as_far_apart_as_it_is_long(void **state)
     assert_int_equal(groups_of_two(0, -11.9, 0.0), 1);
 }
 
-/* Four sigmas of both, and 0.3 + 60 / 1000 m/s a metre: 8 + 5 * 0.36. */
+/*
+ * Four sigmas: root(1 + 1 + (0.1^2 + 0.02^2) d^2) m/s, d across the line of sight, 0.41 of the
+ * longest at most; or the noise of both places.
+ */
 static void two_range_rates_of_one_target_are_alike(void **state)
 {
     (void)state;
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, 9.7), 1);
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, 9.9), 2);
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, -9.7), 1);
-    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, -9.9), 2);
+    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, 5.85), 1);
+    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, 5.95), 2);
+    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, -5.85), 1);
+    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 5.0, -5.95), 2);
+    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 1.0, 5.69), 1);
+    assert_int_equal(groups_of_two(RHO_MEASURES_RANGE_RATE, 1.0, 5.74), 2);
     assert_int_equal(groups_of_two(0, 5.0, 99.0), 1);
 }
 
@@ -143,18 +149,32 @@ static void a_body_has_the_range_rate_of_its_track(void **state)
     }
 }
 
-/* Up to 30 plots a body may be as long as any: a plot outside its gate fits one inside. */
-static void a_new_body_may_be_as_long_as_any(void **state)
+/*
+ * Two tracks that differ by their velocity alone. A plot is the one's whose velocity says its range
+ * rate, by -2 ln of the likelihoods; the other one contends for it where that is less than 6.
+ */
+static void range_rates_tell_whose_plot_it_is(void **state)
 {
+    const struct rho_groups *groups = &tracker.bodies.groups;
     (void)state;
-    for (int is_known = 0; is_known < 2; is_known++) {
-        prepare(0);
-        have_track(is_known ? 30.1f : 29.9f);
-        see(0.0, 0.0, 0.0);
-        see(11.0, 0.0, 0.0);
-        group();
-        assert_int_equal(owner_of(0), 0);
-        assert_int_equal(owner_of(1), is_known ? -1 : 0);
+    prepare(RHO_MEASURES_RANGE_RATE);
+    have_track(100.0f);
+    tracker.tracks[SECOND] = tracker.tracks[0];
+    tracker.bodies.of[SECOND] = tracker.bodies.of[0];
+    tracker.tracks[SECOND].track_id = tracker.bodies.of[SECOND].track_id = 2;
+    tracker.tracks[SECOND].kalman.state[RHO_VX] = 14.0f;
+    tracker.num_tracks = tracker.bodies.count = 2;
+    see(0.0, 0.0, 10.0); /* 16 / 2 off the second one's */
+    see(0.0, 0.0, 11.5);
+    see(0.0, 0.0, 12.5);
+    see(0.0, 0.0, 14.0);
+    see(0.0, 0.0, 10.45); /* (3.55^2 - 0.45^2) / 2 = 6.2 */
+    see(0.0, 0.0, 10.55); /* (3.45^2 - 0.55^2) / 2 = 5.8 */
+    group();
+    for (uint32_t i = 0; i < 6; i++) {
+        const int is_second = i == 2 || i == 3, is_contested = i == 1 || i == 2 || i == 5;
+        assert_int_equal(owner_of(i), is_second);
+        assert_int_equal(groups->contender[i], is_contested ? !is_second : RHO_NO_TRACK);
     }
 }
 
@@ -212,7 +232,7 @@ int main(void)
         cmocka_unit_test(two_range_rates_of_one_target_are_alike),
         cmocka_unit_test(a_body_has_a_gate_along_and_across),
         cmocka_unit_test(a_body_has_the_range_rate_of_its_track),
-        cmocka_unit_test(a_new_body_may_be_as_long_as_any),
+        cmocka_unit_test(range_rates_tell_whose_plot_it_is),
         cmocka_unit_test(a_body_of_unknown_length_is_half_as_long_as_the_longest),
         cmocka_unit_test(work_is_counted),
         cmocka_unit_test(rows_are_those_of_the_plots_again),
