@@ -37,15 +37,14 @@ replay_sources := $(library_sources) $(firmware_node) $(firmware_folder)/replay.
 # --- images: build/firmware/CORE/IMAGE.elf ---------------------------------------------------
 
 # The configurations of nodes/, and whose processor is to take them.
-node_names_m4 := en_route marine smallest paper
+node_names_m4 := en_route marine smallest paper traffic
 node_names_m7 := traffic
 worst_names_m4 := full $(filter-out paper,$(node_names_m4))
-worst_names_m7 := $(node_names_m7)
 # Those that play records, too.
 replay_names := smallest paper
 replays := $(replay_names:%=$(firmware)/m4/nodes/%-replay.elf)
 node_images := $(foreach core,m4 m7,$(node_names_$(core):%=$(firmware)/$(core)/nodes/%.elf))
-worst_images := $(foreach core,m4 m7,$(worst_names_$(core):%=$(firmware)/$(core)/worst/%.elf))
+worst_images := $(worst_names_m4:%=$(firmware)/m4/worst/%.elf)
 firmware_images := $(foreach core,m4 m7,$(firmware)/$(core)/radar.elf $(firmware)/$(core)/replay.elf)
 
 ## Build the firmware example for Cortex-M4F and M7: a radar node, and the node on records (build/firmware)
@@ -104,7 +103,7 @@ $(firmware)/$(1)/worst/$(2)/%.o: %.c Makefile $(firmware_folder)/firmware.mk
 	$$(call firmware_compile,$$($(1)_flags) $(firmware_flags) -DCOUNT_ON_TARGET -DRHO_CONFIG_FILE='"nodes/$(2).h"' $(FIRMWARE_OPT))
 endef
 $(foreach core,m4 m7,$(foreach name,$(node_names_$(core)),$(eval $(call node_of,$(core),$(name)))))
-$(foreach core,m4 m7,$(foreach name,$(worst_names_$(core)),$(eval $(call worst_of,$(core),$(name)))))
+$(foreach name,$(worst_names_m4),$(eval $(call worst_of,m4,$(name))))
 
 define replay_of # name
 $(firmware)/m4/nodes/$(1)-replay.elf: $(patsubst %.c,$(firmware)/m4/nodes/$(1)/%.o,$(call sources_of,$(1),$(replay_sources))) $(firmware_scripts)

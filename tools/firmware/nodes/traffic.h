@@ -3,8 +3,8 @@
  * traffic: a 24 GHz radar above a road, 20 looks a second of 128 plots with range rates at most:
  * 64 vehicles of up to 90 m/s and 15 m, with their extents. No map of echoes: flash.
  */
-#define RHO_WORK_MAX 30000
-#define RHO_MAX_SCANS 5
+#define RHO_WORK_MAX 14000
+#define RHO_MAX_SCANS 4
 #define RHO_MAX_PLOTS 128
 #define RHO_MAX_TRACKS 64
 #define RHO_BODIES 1
