@@ -62,7 +62,7 @@ class Case:
     scene: str
     settle_s: float
     groups: group_tracker.Settings
-    clusters: dict  # by Stone Soup's method
+    clusters: dict  # by Stone Soup's method; empty: without, which takes hours
     sets: tuple
 
 
@@ -74,6 +74,8 @@ CASES = (
         "duration_s=30", "settings.body_max_m=15", "radars.0.notch_mps=0",
         *(f"targets.{i}.body={CAR}" for i in range(CARS_AT_A_LIGHT)))),
     Case("bodies-apart", "bodies-apart", 5.0, *ON_ROADS, ()),
+    Case("motorway", "motorway", 5.0, ROAD_GROUPS, {}, ()),
+    Case("dense traffic", "dense-traffic", 5.0, ROAD_GROUPS, {}, ()),
     Case("ships-250m", "ships-250m", 120.0, *AT_SEA, ()))
 
 
@@ -193,14 +195,15 @@ def main():
     options = lab.options_of(__doc__, RUNS, add_options)
     report = lab.Report("Targets that give several plots a scan, by other trackers", options)
     is_there = stonesoup_tracker.is_installed()
-    trackers = [OWN, GROUPS, *(STONE_SOUP if is_there else ())]
     chosen = [number for number, case in enumerate(CASES) if options.scene in (None, case.name)]
-    jobs = [(number, tracker, options.seed + k) for number in chosen for tracker in trackers
-            for k in range(options.runs)]
+    trackers = {number: [OWN, GROUPS, *(STONE_SOUP if is_there and CASES[number].clusters else ())]
+                for number in chosen}
+    jobs = [(number, tracker, options.seed + k) for number in chosen
+            for tracker in trackers[number] for k in range(options.runs)]
     done = report.map(run_one, jobs)
     figures = {}
     for number in chosen:
-        for tracker in trackers:
+        for tracker in trackers[number]:
             runs = [result for job, result in zip(jobs, done) if job[:2] == (number, tracker)]
             for length in runs[0]:
                 figures.setdefault((CASES[number].name, length), {})[tracker] = {
