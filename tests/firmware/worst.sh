@@ -25,17 +25,28 @@ keeps_under() { # name, sky
     [ "$instructions" -le "${worst[$1]:-0}" ] || worst[$1]=$instructions
 }
 
+# Flash and RAM of a node's image in bytes, stack included.
+memory_of() {
+    local image=$images/m4/nodes/$1.elf
+    [ "$1" != full ] || image=$images/m4/radar.elf
+    arm-none-eabi-size -A "$image" | awk '
+        $1 ~ /^\.(text|ARM\.exidx|data)$/ {flash += $2}
+        $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
+        END {print flash + 0, ram + 0}'
+}
+
 # The section `worst` of the page.
 section() {
-    local name
-    printf '\nMillions of instructions of the worst step in the skies that are kept, arm-none-eabi-gcc %s.\n\n' \
+    local name flash ram
+    printf '\nMillions of instructions of the worst step in the skies that are kept, and bytes of the image with its\nstack, Cortex-M4F, arm-none-eabi-gcc %s.\n\n' \
         "$(arm-none-eabi-gcc -dumpfullversion)"
-    printf '| node | worst found | promised | time for |\n|---|---|---|---|\n'
+    printf '| node | worst found | promised | time for | flash | RAM |\n|---|---|---|---|---|---|\n'
     for name in $shipped; do
+        read -r flash ram < <(memory_of "$name")
         [ -z "${worst[$name]-}" ] || awk -v name="$name" -v worst="${worst[$name]}" \
             -v promised="${promised[$name]}" \
-            -v most="${time_for[$name]}" \
-            'BEGIN { printf "| %s | %.3g | %.3g | %.3g |\n", name, worst / 1e6, promised / 1e6, most / 1e6 }'
+            -v most="${time_for[$name]}" -v flash="$flash" -v ram="$ram" \
+            'BEGIN { printf "| %s | %.3g | %.3g | %.3g | %d | %d |\n", name, worst / 1e6, promised / 1e6, most / 1e6, flash, ram }'
     done
     printf '\n'
 }
@@ -57,13 +68,9 @@ runs_on_a_record() {
         [ "$reports" -gt 0 ] && [ "$instructions" -le "$most" ]
 }
 
-# Flash and RAM in bytes, stack included.
 fits() {
     local flash ram
-    read -r flash ram < <(arm-none-eabi-size -A "$images/m4/nodes/smallest.elf" | awk '
-        $1 ~ /^\.(text|ARM\.exidx|data)$/ {flash += $2}
-        $1 ~ /^\.(stack|data|bss)$/ {ram += $2}
-        END {print flash + 0, ram + 0}')
+    read -r flash ram < <(memory_of smallest)
     echo "smallest: $flash bytes of flash, $ram of RAM"
     [ "$flash" -gt 0 ] && [ "$flash" -le "$smallest_flash" ] && [ "$ram" -le "$smallest_ram" ]
 }
