@@ -56,16 +56,18 @@ struct rho_body_doubt {
     float steady_looks;      /* since the heading last turned; with range rates */
     float time_s;            /* that they took */
     float cos_heading, sin_heading;
-    float plots; /* beyond one a look */
+    float plots_beyond_one; /* of each look */
     /*
      * about a look's mean: squares of places along the line of sight and across it, and their
      * product; of range rates; and of these with both places; what noise is expected to add
      */
     float far_m2, side_m2, cross_m2, rates_m2ps2, far_m2ps, side_m2ps;
     float side_noise_m2, rate_noise_m2ps2;
-    int64_t time_us;    /* of the last one */
-    float doubled;      /* scans in which its body lay on that of an older track */
-    int64_t doubled_us; /* the last one */
+    /* what an error of the velocity across the line of sight may add to range rates */
+    float unknown_m2ps2;
+    float doubled;      /* scans in which its body lay on that of an older track; fades, too */
+    int64_t time_us;    /* of the last look */
+    int64_t doubled_us; /* of the last such scan */
 };
 
 /* The extent of a track, within the tracker. */

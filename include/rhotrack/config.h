@@ -630,7 +630,7 @@
      (172 + 52 * RHO_SECTORS) * RHO_MAX_SENSORS + RHO_RAM_HYPOTHESES_BYTES +                       \
      RHO_RAM_STRIPS_BYTES + RHO_RAM_CLUTTER_MAP_BYTES + RHO_RAM_SECOND_PLOTS_BYTES +               \
      16 * (RHO_MAX_REFLECTORS + RHO_MAX_EXCLUDED_AREAS) + 78 * RHO_BODY_PLOTS +                    \
-     160 * RHO_BODY_TRACKS + 640)
+     168 * RHO_BODY_TRACKS + 640)
 #define RHO_RAM_SCAN_ASSEMBLER_BYTES                                                               \
     (RHO_MAX_OPEN_SCANS * (56 * RHO_MAX_PLOTS + 16 * RHO_MAX_BEARINGS + 2 * RHO_MAX_PARTS + 136) + \
      272 * RHO_MAX_SENSORS + 528)

@@ -12,7 +12,7 @@ struct span {
     float min, max, variance_max;
 };
 
-static inline void widen_span(struct span *span, float value, float variance)
+static inline void include_in_span(struct span *span, float value, float variance)
 {
     span->min = value < span->min ? value : span->min;
     span->max = value > span->max ? value : span->max;
@@ -26,9 +26,9 @@ static struct span span_of_element(const struct rho_hypotheses *pool, uint16_t s
     struct span span = {1e30f, -1e30f, 0.0f};
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        widen_span(&span, imm->state[element], imm->covariance[variance]);
+        include_in_span(&span, imm->state[element], imm->covariance[variance]);
         if (element < RHO_KALMAN_STATES) {
-            widen_span(&span, imm->steady.state[element], imm->steady.covariance[variance]);
+            include_in_span(&span, imm->steady.state[element], imm->steady.covariance[variance]);
         }
     }
     return span;

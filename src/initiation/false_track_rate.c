@@ -27,7 +27,7 @@
 
 /* ---- places ---------------------------------------------------------------------------------- */
 
-static float log_sigma(uint16_t code)
+static float log_of_sigma_code(uint16_t code)
 {
     return rho_log(rho_window_sigma(code));
 }
@@ -39,14 +39,14 @@ static struct place_class class_of(const struct false_tracks *model,
     const struct rho_window_plot *plot = &scan->plots[index];
     struct place_class place = {
         .log_density = rho_log(rho_initiator_mean_density(search->initiator, plot->x_m, plot->y_m)),
-        .log_range = log_sigma(plot->sigma_range),
-        .log_cross = log_sigma(plot->sigma_cross),
+        .log_range = log_of_sigma_code(plot->sigma_range),
+        .log_cross = log_of_sigma_code(plot->sigma_cross),
     };
     if (model->has_z) {
-        place.log_up = log_sigma(plot->sigma_up);
+        place.log_up = log_of_sigma_code(plot->sigma_up);
     }
     if (model->has_range_rate) {
-        place.log_range_rate = log_sigma(plot->sigma_range_rate);
+        place.log_range_rate = log_of_sigma_code(plot->sigma_range_rate);
     }
     /* the area that has one such plot */
     place.share = rho_exp(-place.log_density);

@@ -90,7 +90,7 @@ static float false_tracks_of_votes(const struct search *search, unsigned h)
     return rho_exp(log_subsets + log_false_tracks(search, h, largest_sigma_m(search), spread_s2));
 }
 
-static unsigned choose_min_scans(const struct search *search)
+static unsigned choose_min_votes(const struct search *search)
 {
     unsigned m = search->num_scans;
     float model = m > 3 ? false_tracks_of_votes(search, m) : 0.0f;
@@ -315,7 +315,7 @@ void rho_initiator_set_thresholds(struct search *search)
     if (search->keeps_rate && search->num_scans >= 3) {
         find_thresholds(search, &thresholds);
     } else if (thresholds.min_scans == 0) {
-        thresholds.min_scans = search->keeps_rate ? 3u : choose_min_scans(search);
+        thresholds.min_scans = search->keeps_rate ? 3u : choose_min_votes(search);
     }
     use_thresholds(search, &thresholds);
     initiator->min_scans = (uint16_t)search->min_scans;

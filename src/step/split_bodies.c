@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * split_bodies: two targets that were taken for one body, until it is surely wider than any.
+ * split_bodies: two targets that were taken for one body, until it is surely wider than any, or what
+ * it has shown says that it is two (src/tracker/body_doubt.c).
  *
  * Cars abreast of each other are one group from afar, and go on as one track. Nearer to the sensor
- * their body is known to be as wide as two lanes. Then the track goes on with the plots on one side
- * of it, and a new one with those on the other: each at the mean of its plots, with the velocity
- * that both had.
+ * their body is known to be as wide as two lanes; where one is faster, range rates tell them apart
+ * before. In the first look with plots that are so far apart the track goes on with those on one
+ * side, and a new one with those on the other: each at the mean of its plots, and with the velocity
+ * that both had and the mean of what its range rates add.
  */
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
@@ -44,37 +46,56 @@ static float side_value(enum rho_body_split why, const struct body_plot *at)
                                       : at->rate_mps;
 }
 
-/* The middle between the outermost plots. */
-static float middle_of(const struct step *step, const struct rho_scan *scan, unsigned row,
-                       enum rho_body_split why)
+/* Plots of two targets differ by so much in what tells the sides apart: shares of the longest body
+ * and of the widest, and sigmas of a range rate. */
+#define LONG_APART_SHARE 0.5f
+#define WIDE_APART_SHARE 0.15f
+#define RATE_APART_SIGMAS 5.0f
+
+static float least_apart(const struct step *step, enum rho_body_split why, float rate_sigma_mps)
 {
-    const struct rho_groups *groups = &step->tracker->bodies.groups;
-    float least = 1e30f, most = -1e30f;
-    struct body_plot at;
-    for (unsigned i = groups->first[step->tracker->tracks[row].plot]; i != RHO_NO_TRACK;
-         i = groups->next[i]) {
-        if (groups->contender[i] == RHO_NO_TRACK) {
-            rho_tracker_place_on_body(step, scan, row, i, &at);
-            least = rho_smaller(least, side_value(why, &at));
-            most = rho_larger(most, side_value(why, &at));
-        }
-    }
-    return 0.5f * (least + most);
+    const float longest_m = step->tracker->bodies.length_max_m;
+    return why == RHO_BODY_TOO_LONG   ? LONG_APART_SHARE * longest_m
+           : why == RHO_BODY_TOO_WIDE ? WIDE_APART_SHARE * longest_m
+                                      : RATE_APART_SIGMAS * rate_sigma_mps;
 }
 
-/* The track's plots in the scan, on both sides. 0: a side has none. */
+/* The middle between the outermost plots that are the track's alone. 0: they are near each other. */
+static int find_middle(const struct step *step, const struct rho_scan *scan, unsigned row,
+                       enum rho_body_split why, float *middle)
+{
+    const struct rho_groups *groups = &step->tracker->bodies.groups;
+    float least = 1e30f, most = -1e30f, rate_sigma_mps = 0.0f;
+    struct body_plot at;
+    for (unsigned i = groups->first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
+         i = groups->next[i]) {
+        if (groups->contender[i] == RHO_NO_TRACK) {
+            (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
+            least = rho_smaller(least, side_value(why, &at));
+            most = rho_larger(most, side_value(why, &at));
+            rate_sigma_mps = rho_larger(rate_sigma_mps, scan->plots[i].sigma_range_rate_mps);
+        }
+    }
+    *middle = 0.5f * (least + most);
+    return most - least > least_apart(step, why, rate_sigma_mps);
+}
+
+/* The track's plots in the scan, on both sides. 0: they do not show two. */
 static int find_sides(const struct step *step, const struct rho_scan *scan, unsigned row,
                       enum rho_body_split why, struct side sides[2])
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
-    const float middle = middle_of(step, scan, row, why);
+    float middle;
     struct body_plot at;
+    if (!find_middle(step, scan, row, why, &middle)) {
+        return 0;
+    }
     for (unsigned i = groups->first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
          i = groups->next[i]) {
         if (groups->contender[i] != UINT16_MAX) {
             continue;
         }
-        rho_tracker_place_on_body(step, scan, row, i, &at);
+        (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
         struct side *side = &sides[side_value(why, &at) < middle];
         side->plots++;
         side->x_m += at.dx_m;
@@ -92,7 +113,7 @@ static int find_sides(const struct step *step, const struct rho_scan *scan, unsi
     return sides[0].plots > 0 && sides[1].plots > 0;
 }
 
-/* Starts a track with that side's plots and the old track's velocity. */
+/* Starts a track at that side's mean place and velocity. */
 static enum rho_status start_track_of_side(const struct step *step, const struct rho_track *track,
                                            uint32_t track_id, const struct side *side,
                                            struct rho_track *out)
@@ -117,7 +138,6 @@ static void start_body(const struct step *step, unsigned row)
     struct rho_body_filter *body = &tracker->bodies.of[row];
     rho_body_start(body, tracker->tracks[row].track_id, rho_tracker_body_prior_m2(tracker));
     rho_tracker_turn_body(tracker, row);
-    body->plots = RHO_BODY_NEW_PLOTS; /* it adopts none of the other side's */
 }
 
 /* 0: there is no room for another track. */

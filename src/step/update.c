@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * update: tracks take the plots that they were assigned, and sensors are compared with the
- * predictions.
+ * update: whether the sensor agrees with the predictions, and its noise is learned; then tracks
+ * take the plots that they were assigned.
  */
 #include "phases.h"
 

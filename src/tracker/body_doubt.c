@@ -3,10 +3,10 @@
  * body_doubt: whether the plots of a body are those of two targets.
  *
  * Looks of several plots are compared with what one rigid body can show. It is no longer than the
- * longest. And it does not stretch: where it keeps its heading, the range rates of its parts do not
- * grow along the line of sight. Two cars in neighbouring lanes, one faster than the other, show
- * that within a second or two, long before they are seen apart; two of one lane that were never
- * farther apart than a lorry is long show their length.
+ * longest. And as long as it keeps its heading, its range rates are no plane over it that is steeper
+ * than a turn explains. Two cars in neighbouring lanes, one faster than the other, show that within
+ * a few seconds, long before they are seen apart; two of one lane that were never farther apart than
+ * a lorry is long show their length.
  */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
@@ -16,7 +16,8 @@
 
 /* Looks that count. */
 #define MEMORY_LOOKS 80.0f
-/* So many of them, and this share, are longer than the longest body by so many sigmas. */
+/* So many of them, and this share, are longer than the longest body by so many sigmas of a plot:
+ * more than stray plots are. */
 #define LONG_LOOKS 4.0f
 #define LONG_SHARE 0.1f
 #define LONG_SIGMAS 4.0f
@@ -29,7 +30,9 @@
 #define TURN_SHARE 2.0f
 /* ... and shows within so many looks that it turns. */
 #define STEADY_LOOKS 30.0f
-/* A chi-square of two dimensions. */
+/* The square of so many sigmas of a velocity across the line of sight, which turns range rates. */
+#define UNKNOWN_SHARE 4.0f
+/* A chi-square of two dimensions: looks are many, and their errors not independent. */
 #define STRETCHED_CHI2 40.0f
 /* Places across are known to this share of their noise; and those along after a turn was taken off
  * are some share of what they were. */
@@ -60,7 +63,8 @@ static void fade(struct rho_body_doubt *doubt, const struct rho_body_filter *bod
     doubt->long_looks *= share;
     const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
                                                   rho_atan2(body->sin_heading, body->cos_heading));
-    if (doubt->plots <= 0.0f || turned_rad > steady_rad(body) || turned_rad < -steady_rad(body)) {
+    if (doubt->plots_beyond_one <= 0.0f || turned_rad > steady_rad(body) ||
+        turned_rad < -steady_rad(body)) {
         forget_rates(doubt, body);
         return;
     }
@@ -68,7 +72,7 @@ static void fade(struct rho_body_doubt *doubt, const struct rho_body_filter *bod
     doubt->time_s = share * doubt->time_s + passed_s;
     doubt->cos_heading += (1.0f - share) * (body->cos_heading - doubt->cos_heading);
     doubt->sin_heading += (1.0f - share) * (body->sin_heading - doubt->sin_heading);
-    doubt->plots *= share;
+    doubt->plots_beyond_one *= share;
     doubt->far_m2 *= share;
     doubt->side_m2 *= share;
     doubt->cross_m2 *= share;
@@ -77,6 +81,7 @@ static void fade(struct rho_body_doubt *doubt, const struct rho_body_filter *bod
     doubt->far_m2ps *= share;
     doubt->side_m2ps *= share;
     doubt->rate_noise_m2ps2 *= share;
+    doubt->unknown_m2ps2 *= share;
 }
 
 /* Sums over a look's plots: places along the line of sight and across, and range rates. */
@@ -99,7 +104,10 @@ static struct sums sums_of(const struct step *step, const struct rho_scan *scan,
         if (bodies->groups.contender[i] != UINT16_MAX) {
             continue;
         }
-        rho_tracker_place_on_body(step, scan, row, i, &at);
+        if (!rho_tracker_place_on_body(step, scan, row, i, &at) &&
+            (scan->measures & RHO_MEASURES_RANGE_RATE)) {
+            continue; /* at the sensor */
+        }
         rho_measurement_open(plot, 0, step->sensor, &seen);
         rho_measurement_covariance(&seen, noise);
         rho_body_to_axes(&bodies->of[row], noise, axes);
@@ -124,6 +132,14 @@ static struct sums sums_of(const struct step *step, const struct rho_scan *scan,
     return sums;
 }
 
+/* An error of the velocity across the line of sight turns what range rates show. */
+static float seen_turn_radps(const struct step *step, const struct rho_track *track)
+{
+    const float x_m = track->kalman.state[RHO_X] - (step->sensor ? step->sensor->x_m : 0.0f),
+                y_m = track->kalman.state[RHO_Y] - (step->sensor ? step->sensor->y_m : 0.0f);
+    return rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
+}
+
 static int is_longer(const struct step *step, const struct sums *sums)
 {
     return sums->last_m - sums->first_m >
@@ -137,7 +153,6 @@ void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan
     const struct sums sums = sums_of(step, scan, row);
     const float passed_s =
         doubt->looks > 0.0f ? rho_seconds_between(doubt->time_us, step->time_us) : 0.0f;
-    doubt->doubled *= 1.0f - 1.0f / MEMORY_LOOKS;
     if (sums.n < 2.0f || !body->has_heading) {
         return;
     }
@@ -149,9 +164,12 @@ void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan
         return; /* a new track's velocity is not known well enough */
     }
     doubt->steady_looks += 1.0f;
-    doubt->plots += sums.n - 1.0f;
+    doubt->plots_beyond_one += sums.n - 1.0f;
     doubt->far_m2 += sums.far2 - mean * sums.far * sums.far;
-    doubt->side_m2 += sums.side2 - mean * sums.side * sums.side;
+    const float side_m2 = sums.side2 - mean * sums.side * sums.side;
+    const float turned_radps = seen_turn_radps(step, &step->tracker->tracks[row]);
+    doubt->side_m2 += side_m2;
+    doubt->unknown_m2ps2 += turned_radps * turned_radps * side_m2;
     doubt->side_noise_m2 += (1.0f - mean) * sums.side_noise_m2;
     doubt->cross_m2 += sums.cross - mean * sums.far * sums.side;
     doubt->rates_m2ps2 += sums.rate2 - mean * sums.rate * sums.rate;
@@ -180,8 +198,9 @@ static int has_stretched(const struct rho_body_filter *body)
     const float turn_radps = TURN_SHARE * steady_rad(body) / (doubt->time_s + 1e-6f);
     const float side_m2 =
         rho_larger(doubt->side_m2 - doubt->side_noise_m2, SIDE_SHARE * doubt->side_noise_m2);
-    return explained * doubt->plots > STRETCHED_CHI2 * noise &&
-           explained > doubt->rate_noise_m2ps2 && explained > turn_radps * turn_radps * side_m2;
+    return explained * doubt->plots_beyond_one > STRETCHED_CHI2 * noise &&
+           explained > doubt->rate_noise_m2ps2 &&
+           explained > turn_radps * turn_radps * side_m2 + UNKNOWN_SHARE * doubt->unknown_m2ps2;
 }
 
 enum rho_body_split rho_tracker_why_two(const struct step *step, unsigned row)

@@ -78,8 +78,8 @@ int rho_tracker_rate_off(const struct step *step, const struct rho_scan *scan,
     return 1;
 }
 
-void rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
-                               unsigned plot, struct body_plot *at)
+int rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
+                              unsigned plot, struct body_plot *at)
 {
     const struct rho_body_filter *body = &step->tracker->bodies.of[row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -90,7 +90,7 @@ void rho_tracker_place_on_body(const struct step *step, const struct rho_scan *s
                              .dy_m = seen->y_m - state[RHO_Y] - after_s * state[RHO_VY]};
     at->along_m = body->cos_heading * at->dx_m + body->sin_heading * at->dy_m;
     at->across_m = body->cos_heading * at->dy_m - body->sin_heading * at->dx_m;
-    (void)!rho_tracker_rate_off(step, scan, track, seen, at->line, &at->rate_mps);
+    return rho_tracker_rate_off(step, scan, track, seen, at->line, &at->rate_mps);
 }
 
 /* The squares of distances, and the plots' noise, in the axes of the body. */
@@ -103,7 +103,7 @@ static void sum_up_plots(const struct step *step, const struct rho_scan *scan, u
     float noise[6], axes[3];
     for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
          i = bodies->groups.next[i]) {
-        rho_tracker_place_on_body(step, scan, row, i, &at);
+        (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
         rho_measurement_open(&scan->plots[i], 0, step->sensor, &seen);
         rho_measurement_covariance(&seen, noise);
         rho_body_to_axes(&bodies->of[row], noise, axes);
@@ -166,15 +166,19 @@ static int is_sound_side(const struct rho_body_side *side)
 
 static int is_sound_doubt(const struct rho_body_doubt *doubt)
 {
-    const float values[] = {doubt->looks,     doubt->long_looks,    doubt->steady_looks,
-                            doubt->time_s,    doubt->cos_heading,   doubt->sin_heading,
-                            doubt->plots,     doubt->far_m2,        doubt->side_m2,
-                            doubt->cross_m2,  doubt->rates_m2ps2,   doubt->far_m2ps,
-                            doubt->side_m2ps, doubt->side_noise_m2, doubt->rate_noise_m2ps2,
-                            doubt->doubled};
-    int is_sound = rho_is_stored_time(doubt->time_us) && rho_is_stored_time(doubt->doubled_us);
-    for (unsigned i = 0; i < sizeof values / sizeof *values; i++) {
-        is_sound &= rho_is_within(values[i], -1e15f, 1e15f);
+    const float counts[] = {doubt->looks,  doubt->long_looks,       doubt->steady_looks,
+                            doubt->time_s, doubt->plots_beyond_one, doubt->doubled};
+    const float squares[] = {doubt->far_m2,        doubt->side_m2,          doubt->cross_m2,
+                             doubt->rates_m2ps2,   doubt->far_m2ps,         doubt->side_m2ps,
+                             doubt->side_noise_m2, doubt->rate_noise_m2ps2, doubt->unknown_m2ps2};
+    int is_sound = rho_is_stored_time(doubt->time_us) && rho_is_stored_time(doubt->doubled_us) &&
+                   rho_is_within(doubt->cos_heading, -1.001f, 1.001f) &&
+                   rho_is_within(doubt->sin_heading, -1.001f, 1.001f);
+    for (unsigned i = 0; i < sizeof counts / sizeof *counts; i++) {
+        is_sound &= rho_is_within(counts[i], 0.0f, 1e9f);
+    }
+    for (unsigned i = 0; i < sizeof squares / sizeof *squares; i++) {
+        is_sound &= rho_is_within(squares[i], -1e30f, 1e30f);
     }
     return is_sound;
 }

@@ -9,8 +9,9 @@
 #include "rhotrack/detail/approx.h"
 #include "step.h"
 
-/* Of so many scans, which fade, a track has lain on an older one when it ends. */
+/* A track has lain on an older one in so many scans when it ends, of those that are remembered. */
 #define DOUBLED_SCANS 30.0f
+#define MEMORY_SCANS 80.0f
 /* New tracks, up to so many hits, are one target's so near each other, in shares of the longest
  * body. */
 #define NEW_HITS 20u
@@ -48,14 +49,15 @@ static int move_alike(const struct rho_track *one, const struct rho_track *other
     return vx_mps * vx_mps + vy_mps * vy_mps <= most_mps * most_mps;
 }
 
-/* Half of each body lies on the other one. */
+/* On both axes half of each body lies on the other one, where headings say which axes. */
 static int lie_on_each_other(const struct step *step, unsigned row, unsigned other)
 {
     const struct rho_body_filter *one = &step->tracker->bodies.of[row],
                                  *two = &step->tracker->bodies.of[other];
     const struct offset offset = offset_of(step, row, other);
     /* a quarter of both lengths, each root(12 v) */
-    return offset.along_m <= 0.866f * (rho_sqrt(one->along_m2) + rho_sqrt(two->along_m2)) &&
+    return one->has_heading && two->has_heading &&
+           offset.along_m <= 0.866f * (rho_sqrt(one->along_m2) + rho_sqrt(two->along_m2)) &&
            offset.across_m <= 0.866f * (rho_sqrt(one->across_m2) + rho_sqrt(two->across_m2));
 }
 
@@ -64,12 +66,12 @@ static int is_new(const struct step *step, unsigned row)
     return rho_tracker_may_own_plots(step, row) && step->tracker->tracks[row].hits < NEW_HITS;
 }
 
-/* Nearer to each other than half the longest body, on both axes of the map: tested first. */
+/* Nearer to each other than new ones may be, on both axes of the map: tested first. */
 static int are_near(const struct step *step, unsigned row, unsigned other)
 {
     const float *one = step->tracker->tracks[row].kalman.state,
                 *two = step->tracker->tracks[other].kalman.state;
-    const float most_m = NEW_ALONG_SHARE * step->tracker->bodies.length_max_m,
+    const float most_m = (NEW_ALONG_SHARE + NEW_ACROSS_SHARE) * step->tracker->bodies.length_max_m,
                 dx_m = two[RHO_X] - one[RHO_X], dy_m = two[RHO_Y] - one[RHO_Y];
     return dx_m <= most_m && dx_m >= -most_m && dy_m <= most_m && dy_m >= -most_m;
 }
@@ -81,25 +83,36 @@ static int may_be_one_body(const struct step *step, unsigned row, unsigned other
     const struct offset offset = offset_of(step, row, other);
     const float turned_m = TURNED_SIGMAS * bodies->of[row].heading_sigma_rad * offset.along_m;
     return bodies->of[row].has_heading &&
+           offset.along_m <= NEW_ALONG_SHARE * bodies->length_max_m &&
            offset.across_m + rho_track_sigma_m(&tracks[row]) + rho_track_sigma_m(&tracks[other]) <=
                NEW_ACROSS_SHARE * bodies->length_max_m + turned_m;
 }
 
-static void end_younger(struct step *step, unsigned older, unsigned younger)
+/* Its plots are the other one's; nobody contends with one that ends, or with itself. */
+static void end_one(struct step *step, unsigned stays, unsigned ends)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (groups->owner[i] == younger) {
-            groups->owner[i] = (uint16_t)older;
+        if (groups->owner[i] == ends) {
+            groups->owner[i] = (uint16_t)stays;
+        }
+        if (groups->contender[i] == ends || groups->contender[i] == groups->owner[i]) {
+            groups->contender[i] = RHO_NO_TRACK;
         }
     }
-    rho_tracker_end_track(step, &step->tracker->tracks[younger]);
+    rho_tracker_spend(step, step->num_gated / RHO_WORK_PASSED_A_UNIT);
+    rho_tracker_end_track(step, &step->tracker->tracks[ends]);
 }
 
 static void end_those_on_others(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_groups *groups = &tracker->bodies.groups;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        if (rho_tracker_may_own_plots(step, row)) {
+            tracker->bodies.of[row].doubt.doubled *= 1.0f - 1.0f / MEMORY_SCANS;
+        }
+    }
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const unsigned one = groups->owner[i], other = groups->contender[i];
         if (one == RHO_NO_TRACK || other == RHO_NO_TRACK) {
@@ -115,21 +128,25 @@ static void end_those_on_others(struct step *step)
         doubt->doubled_us = step->time_us;
         doubt->doubled += 1.0f;
         if (doubt->doubled > DOUBLED_SCANS) {
-            end_younger(step, older, younger);
+            end_one(step, older, younger);
         }
     }
 }
 
+/* The one with fewer hits ends, of equals the younger. */
 static void end_new_ones(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
-    for (unsigned row = 0; row < tracker->num_tracks && !rho_tracker_is_spent(step); row++) {
-        for (unsigned other = row + 1u; is_new(step, row) && other < tracker->num_tracks; other++) {
+    const struct rho_track *tracks = tracker->tracks;
+    for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        for (unsigned other = row + 1u;
+             is_new(step, row) && other < tracker->num_tracks && !rho_tracker_is_spent(step);
+             other++) {
             rho_tracker_spend(step, PASS_UNITS);
             if (are_near(step, row, other) && is_new(step, other) &&
-                may_be_one_body(step, row, other) &&
-                move_alike(&tracker->tracks[row], &tracker->tracks[other])) {
-                end_younger(step, row, other);
+                may_be_one_body(step, row, other) && move_alike(&tracks[row], &tracks[other])) {
+                const int goes_on = tracks[row].hits >= tracks[other].hits;
+                end_one(step, goes_on ? row : other, goes_on ? other : row);
             }
         }
     }
@@ -137,6 +154,8 @@ static void end_new_ones(struct step *step)
 
 void rho_tracker_end_doubled(struct step *step)
 {
-    end_those_on_others(step);
+    if (!step->is_late) {
+        end_those_on_others(step);
+    }
     end_new_ones(step);
 }

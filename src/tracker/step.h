@@ -334,19 +334,22 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
 int rho_tracker_rate_off(const struct step *step, const struct rho_scan *scan,
                          const struct rho_track *track, const struct rho_plot *plot, float line[2],
                          float *off_mps);
-/* A plot of a track: from its estimate, in x and y and on the body; and rho_tracker_rate_off. */
+/*
+ * A plot of a track: from its estimate, in x and y and on the body; and rho_tracker_rate_off, whose
+ * outcome it returns.
+ */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m, rate_mps, line[2];
 };
-void rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
-                               unsigned plot, struct body_plot *at);
+int rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
+                              unsigned plot, struct body_plot *at);
 
 /* body_doubt.c: what the plots of a body say of two targets; and for which reason they are two */
 enum rho_body_split {
     RHO_BODY_ONE,
     RHO_BODY_TOO_WIDE,
     RHO_BODY_TOO_LONG,
-    RHO_BODY_STRETCHED /* as range rates say, which grow along the line of sight */
+    RHO_BODY_STRETCHED /* range rates differ from part to part by more than a turn explains */
 };
 void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan, unsigned row);
 enum rho_body_split rho_tracker_why_two(const struct step *step, unsigned row);

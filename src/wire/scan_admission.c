@@ -281,7 +281,7 @@ static uint64_t divide(uint64_t value, uint32_t by)
 static void note_interval(struct rho_scan_assembler_source *source, int64_t took_us, int32_t ahead,
                           int is_known)
 {
-    /* both are above 0 for a scan and the one before it */
+    /* from one scan to the next, took_us and ahead are above 0 */
     int64_t interval_us = (int64_t)divide((uint64_t)took_us, (uint32_t)ahead);
     int64_t mean_us = source->interval_us;
 

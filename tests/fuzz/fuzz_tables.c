@@ -10,7 +10,7 @@
 #include "base/common.h"
 #include "io/csv/local_frame.h"
 #include "io/csv/table.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "io/scans/scan_reader.h"
 #include "picture/plot_data.h"
 #include "refusal.h"
@@ -100,19 +100,20 @@ static void check_frame(const struct rho_frame *frame)
 
 static void read_frames(char *path, const struct parameters *parameters, bool keep_going)
 {
-    struct frame_reader *reader = frame_reader_open(&path, 1, parameters, keep_going);
+    struct bearing_frame_reader *reader =
+        bearing_frame_reader_open(&path, 1, parameters, keep_going);
     const struct rho_frame *frame;
     int64_t before_us = INT64_MIN;
     uint64_t num_frames = 0;
 
-    while ((frame = frame_reader_next(reader))) {
+    while ((frame = bearing_frame_reader_next(reader))) {
         must(frame->time_us >= before_us && frame->num_scans <= RHO_MAX_SENSORS);
         before_us = frame->time_us;
         num_frames++;
         check_frame(frame);
     }
-    must(num_frames == frame_reader_num_frames(reader));
-    frame_reader_close(reader);
+    must(num_frames == bearing_frame_reader_num_frames(reader));
+    bearing_frame_reader_close(reader);
 }
 
 static void read_drawing(char *path, const struct parameters *parameters)

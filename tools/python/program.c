@@ -16,7 +16,7 @@
 #include "io/log/lcm_log.h"
 #include "io/log/log_table.h"
 #include "io/rows/rows_read.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "io/scans/inputs.h"
 #include "live/node_core.h"
 #include "pipeline/maintainer.h"

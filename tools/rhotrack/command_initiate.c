@@ -8,7 +8,7 @@
 #include "base/common.h"
 #include "commands.h"
 #include "io/output/initiated_output.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "io/scans/scan_reader.h"
 #include "io/turns/revolutions.h"
 #include "pipeline/initiate_hough.h"
@@ -169,7 +169,7 @@ static void initiate_kernel(const struct command_line *line)
 /* The method asked for, or the default for the file's kind. */
 static enum method choose_method(const struct command_line *line)
 {
-    bool has_bearings = frame_reader_file_has_bearings(line->arguments[0]);
+    bool has_bearings = bearing_frame_reader_file_has_bearings(line->arguments[0]);
 
     if (!line->method) {
         return has_bearings ? METHOD_PASSIVE : METHOD_KERNEL;

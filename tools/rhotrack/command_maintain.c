@@ -8,7 +8,7 @@
 #include "base/common.h"
 #include "commands.h"
 #include "io/output/tracks_output.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "io/scans/scan_reader.h"
 #include "pipeline/maintainer.h"
 #include "rhotrack/detail/measurement.h"
@@ -168,7 +168,7 @@ static void print_json(const struct maintaining *maintaining, const struct comma
 
 static struct scan_reader *open_plot_reader(const struct command_line *line)
 {
-    if (frame_reader_file_has_bearings(line->arguments[0])) {
+    if (bearing_frame_reader_file_has_bearings(line->arguments[0])) {
         fail(EXIT_USAGE, "%s: maintain takes plots, and these are bearings", line->arguments[0]);
     }
     return scan_reader_open(line->arguments, 1, &line->parameters, line->keep_going);

@@ -245,7 +245,7 @@ static void tell_of_wall_changes(struct node *node)
     }
 }
 
-static void on_step(void *context, const struct rho_report *report)
+static void tell_of_step(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
@@ -699,8 +699,8 @@ int command_node(struct command_line *line)
 {
     struct node node = {
         .status_us = clock_us(), .end_us = INT64_MAX, .parameters = &line->parameters};
-    const struct node_core_events events = {&node, send_core_message, on_step, on_sensor_restart,
-                                            on_new_clock};
+    const struct node_core_events events = {&node, send_core_message, tell_of_step,
+                                            on_sensor_restart, on_new_clock};
     const bool is_live = transport_url_is_live(line->lcm);
     const struct node_log_limits limits = log_limits(&line->parameters);
     bool is_restored = false; /* the map of clutter, too */

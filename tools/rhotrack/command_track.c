@@ -15,7 +15,7 @@
 #include "io/output/clutter_file.h"
 #include "io/output/tracks_output.h"
 #include "io/output/zones_output.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "io/scans/inputs.h"
 #include "io/scans/scan_reader.h"
 #include "next_command.h"

@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "io/scans/inputs.h"
 
 #define PLOTS "t_s,sensor_id,x_m,y_m\n"

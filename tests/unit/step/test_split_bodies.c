@@ -164,7 +164,7 @@ static unsigned runs_of_two(struct body one, struct body other, int looks, unsig
     *had_been_one = 0;
     for (uint64_t seed = 1; seed <= 10; seed++) {
         struct body cars[2] = {one, other};
-        unsigned looks_of_one = 0, near = 0;
+        unsigned looks_of_one = 0, near[2] = {0, 0};
         begin_road(seed);
         for (int k = 0; k < looks; k++) {
             for (int car = 0; car < 2; car++) {
@@ -177,11 +177,11 @@ static unsigned runs_of_two(struct body one, struct body other, int looks, unsig
         *had_been_one += looks_of_one > 20;
         for (unsigned i = 0; i < report.num_tracks; i++) {
             for (int car = 0; car < 2; car++) {
-                near += fabs((double)report.tracks[i].state[RHO_X] - cars[car].x_m) < 2.0 &&
-                        fabs((double)report.tracks[i].state[RHO_Y] - cars[car].y_m) < 1.5;
+                near[car] += fabs((double)report.tracks[i].state[RHO_X] - cars[car].x_m) < 2.0 &&
+                             fabs((double)report.tracks[i].state[RHO_Y] - cars[car].y_m) < 1.5;
             }
         }
-        runs += report.num_tracks == 2 && near == 2;
+        runs += report.num_tracks == 2 && near[0] == 1 && near[1] == 1;
     }
     return runs;
 }

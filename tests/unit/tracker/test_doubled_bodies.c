@@ -70,14 +70,49 @@ static void the_younger_of_two_on_each_other_ends(void **state)
 {
     (void)state;
     have_two(0.0f, 0.0f, 1000);
-    assert_int_equal(scans_to_end(), 31);
+    assert_int_equal(scans_to_end(), 38);
     have_two(0.0f, 0.0f, 1000);
     tracker.bodies.groups.owner[0] = 1; /* whose plot it is does not matter */
     tracker.bodies.groups.contender[0] = 0;
-    assert_int_equal(scans_to_end(), 31);
+    assert_int_equal(scans_to_end(), 38);
     have_two(0.0f, 0.0f, 1000);
     tracker.bodies.groups.contender[0] = RHO_NO_TRACK; /* no plot says so */
     assert_int_equal(scans_to_end(), 0);
+    for (unsigned row = 0; row < 2; row++) { /* nor does a heading */
+        have_two(0.0f, 0.0f, 1000);
+        tracker.bodies.of[row].has_heading = 0;
+        assert_int_equal(scans_to_end(), 0);
+    }
+    have_two(0.0f, 0.0f, 1000);
+    at.is_late = 1;
+    assert_int_equal(scans_to_end(), 0);
+}
+
+/* Both contend for each other's plots; the older one, near its own end, goes on. */
+static void the_older_is_not_ended_by_itself(void **state)
+{
+    (void)state;
+    have_two(0.0f, 0.0f, 1000);
+    tracker.bodies.groups.contender[1] = 0;
+    tracker.bodies.of[0].doubt.doubled = 30.9f;
+    tracker.bodies.of[1].doubt.doubled = 30.9f;
+    assert_int_equal(scans_to_end(), 1);
+    assert_float_equal(tracker.bodies.of[0].doubt.doubled, 30.9 * (1.0 - 1.0 / 80.0), 1e-3);
+}
+
+/* Every other scan is enough: 80 are remembered. One of four is not. */
+static void what_lasts_counts(void **state)
+{
+    (void)state;
+    for (unsigned every = 2; every <= 4; every += 2) {
+        have_two(0.0f, 0.0f, 1000);
+        for (unsigned scan = 1; scan <= 400; scan++) {
+            at.time_us = 50000 * (int64_t)scan;
+            tracker.bodies.groups.contender[0] = scan % every ? RHO_NO_TRACK : 1;
+            rho_tracker_end_doubled(&at);
+        }
+        assert_int_equal(tracker.tracks[1].status == RHO_TRACK_FREE, every == 2);
+    }
 }
 
 /* A quarter of both lengths and widths: 2 m and 1 m. */
@@ -101,7 +136,7 @@ static void those_that_pass_each_other_stay(void **state)
     (void)state;
     have_two(0.0f, 0.0f, 1000);
     tracker.tracks[1].kalman.state[RHO_VX] = 10.75f;
-    assert_int_equal(scans_to_end(), 31);
+    assert_int_equal(scans_to_end(), 38);
     have_two(0.0f, 0.0f, 1000);
     tracker.tracks[1].kalman.state[RHO_VX] = 10.85f;
     assert_int_equal(scans_to_end(), 0);
@@ -120,6 +155,21 @@ static void of_new_tracks_nearer_to_each_other_than_a_body_one_ends(void **state
     for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
         have_two(cases[i].x_m, cases[i].y_m, cases[i].hits);
         assert_int_equal(scans_to_end() == 1, cases[i].ends);
+    }
+    have_two(4.0f, 0.0f, 10); /* the one with more hits goes on */
+    tracker.tracks[0].hits = 9;
+    rho_tracker_end_doubled(&at);
+    assert_int_equal(tracker.tracks[0].status, RHO_TRACK_FREE);
+    assert_int_equal(tracker.tracks[1].status, RHO_TRACK_CONFIRMED);
+    for (int is_near = 0; is_near < 2; is_near++) { /* north-east */
+        const float along_m = is_near ? 4.9f : 5.1f, c = 0.70710678f;
+        have_two(c * along_m, c * along_m, 10);
+        for (int row = 0; row < 2; row++) {
+            tracker.tracks[row].kalman.state[RHO_VX] = tracker.tracks[row].kalman.state[RHO_VY] =
+                7.0f;
+            tracker.bodies.of[row].cos_heading = tracker.bodies.of[row].sin_heading = c;
+        }
+        assert_int_equal(scans_to_end() == 1, is_near);
     }
     have_two(4.0f, 1.4f, 10); /* a heading that is off by 0.1 rad turns the line by 0.8 m */
     tracker.bodies.of[0].heading_sigma_rad = 0.1f;
@@ -156,6 +206,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_younger_of_two_on_each_other_ends),
+        cmocka_unit_test(the_older_is_not_ended_by_itself),
+        cmocka_unit_test(what_lasts_counts),
         cmocka_unit_test(half_of_each_lies_on_the_other),
         cmocka_unit_test(those_that_pass_each_other_stay),
         cmocka_unit_test(of_new_tracks_nearer_to_each_other_than_a_body_one_ends),

@@ -12,7 +12,7 @@
 #include "io/log/log_scans.h"
 #include "io/log/log_table.h"
 #include "io/rows/path_row.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/message.h"
 
 #define LATE_US 1000000000 /* a first time from here on is a clock's */
@@ -161,9 +161,9 @@ static void add_file(struct plot_data *data, const char *path, const struct para
 
 /* ---- bearings ---- */
 
-static void keep_bearing_sensors(struct plot_rays *rays, const struct frame_reader *reader)
+static void keep_bearing_sensors(struct plot_rays *rays, const struct bearing_frame_reader *reader)
 {
-    const struct frame_sensor *sensors = frame_reader_sensors(reader, &rays->num_sensors);
+    const struct frame_sensor *sensors = bearing_frame_reader_sensors(reader, &rays->num_sensors);
     rays->sensors = must_calloc(rays->num_sensors, sizeof rays->sensors[0]);
     for (size_t i = 0; i < rays->num_sensors; i++) {
         rays->sensors[i] = (struct plot_point){.id = sensors[i].sensor_id,
@@ -194,17 +194,19 @@ static void add_rays(struct plot_rays *rays, const struct rho_bearing_scan *scan
 static void read_bearings(struct plot_rays *rays, char *const *paths, int num_paths,
                           const struct parameters *parameters)
 {
-    struct frame_reader *reader = frame_reader_open(paths, num_paths, parameters, false);
+    struct bearing_frame_reader *reader =
+        bearing_frame_reader_open(paths, num_paths, parameters, false);
     const struct rho_frame *frame;
     keep_bearing_sensors(rays, reader);
-    rays->list = must_calloc(frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
-    while ((frame = frame_reader_next(reader)) != NULL) {
+    rays->list =
+        must_calloc(bearing_frame_reader_counts(reader).bearings + 1, sizeof rays->list[0]);
+    while ((frame = bearing_frame_reader_next(reader)) != NULL) {
         for (uint32_t i = 0; i < frame->num_scans; i++) {
             const struct rho_bearing_scan *scan = &frame->scans[i];
             add_rays(rays, scan, parameters_range_max_m(parameters, scan->sensor_id));
         }
     }
-    frame_reader_close(reader);
+    bearing_frame_reader_close(reader);
 }
 
 /* ---- all ---- */
@@ -287,7 +289,7 @@ struct plot_data plot_data_read(char *const *paths, int num_paths,
     for (int i = 0; i < num_paths; i++) {
         bool is_log = lcm_log_is_log(paths[i]);
         bool has_bearings = is_log ? (log_scans_kinds(paths[i]) & LOG_HAS_BEARINGS) != 0
-                                   : frame_reader_file_has_bearings(paths[i]);
+                                   : bearing_frame_reader_file_has_bearings(paths[i]);
         if (has_bearings) {
             bearings[num_bearings++] = paths[i];
         }

@@ -100,7 +100,7 @@ void initiate_passive(const struct command_line *line)
 {
     struct rho_passive *passive = must_alloc(sizeof *passive);
     struct parameters parameters = line->parameters;
-    struct frame_reader *reader = last_bearings_open(line, &parameters);
+    struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_config config = method_passive_config(&parameters);
     struct bearings_search with = {passive, &passive->batch, push_frame, search_batch};
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/common.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "pipeline/pipeline.h"
 
 static double sensor_distance_m(const struct frame_sensor *a, const struct frame_sensor *b)
@@ -78,22 +78,22 @@ static void push_frame(struct last_bearings *batch, const struct bearings_search
     batch->time_us = frame->time_us;
 }
 
-struct frame_reader *last_bearings_open(const struct command_line *line,
-                                        struct parameters *parameters)
+struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
+                                                struct parameters *parameters)
 {
-    struct frame_reader *reader = frame_reader_open(line->arguments, line->num_arguments,
-                                                    &line->parameters, line->keep_going);
+    struct bearing_frame_reader *reader = bearing_frame_reader_open(
+        line->arguments, line->num_arguments, &line->parameters, line->keep_going);
     const struct frame_sensor *sensors;
     size_t count;
 
-    frame_reader_need_two_sensors(reader);
-    sensors = frame_reader_sensors(reader, &count);
+    bearing_frame_reader_need_two_sensors(reader);
+    sensors = bearing_frame_reader_sensors(reader, &count);
     parameters->passive_apart_m = bearing_sensors_apart_m(sensors, count);
     return reader;
 }
 
 struct last_bearings last_bearings_search(const struct bearings_search *search,
-                                          struct frame_reader *reader,
+                                          struct bearing_frame_reader *reader,
                                           const struct parameters *parameters)
 {
     struct last_bearings batch = {.wall_us = 0};
@@ -101,20 +101,20 @@ struct last_bearings last_bearings_search(const struct bearings_search *search,
     const struct rho_frame *frame;
     size_t num_sensors;
 
-    sensors = frame_reader_sensors(reader, &num_sensors);
+    sensors = bearing_frame_reader_sensors(reader, &num_sensors);
     bearing_sensors_check(sensors, num_sensors, search->batch, parameters);
-    frame_reader_keep_last(reader, search->batch->scans_max);
-    while ((frame = frame_reader_next(reader))) {
+    bearing_frame_reader_keep_last(reader, search->batch->scans_max);
+    while ((frame = bearing_frame_reader_next(reader))) {
         push_frame(&batch, search, frame);
     }
     int64_t start_us = clock_us();
     must_succeed(search->search(search->object), "passive");
     batch.wall_us += clock_us() - start_us;
-    frame_reader_report_skipped(reader);
+    bearing_frame_reader_report_skipped(reader);
     if (batch.num_lost) {
         fprintf(stderr, "rhotrack: %" PRIu64 " bearings beyond %d a scan are left out\n",
                 batch.num_lost, RHO_MAX_BEARINGS);
     }
-    frame_reader_close(reader);
+    bearing_frame_reader_close(reader);
     return batch;
 }

@@ -7,7 +7,7 @@
 #define RHOTRACK_TOOL_LAST_BEARINGS_H
 
 #include "commands.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/detail/batch.h"
 
 /* An initiator, ready for a first frame. */
@@ -28,15 +28,15 @@ struct last_bearings {
  * Opens the files; the parameters then know how far their sensors are apart. Fewer than two
  * sensors, and bad input: exit 2.
  */
-struct frame_reader *last_bearings_open(const struct command_line *line,
-                                        struct parameters *parameters);
+struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
+                                                struct parameters *parameters);
 
 /*
  * Searches, and closes the reader. Sensors that are too many, or too far apart for the cells:
  * exit 2.
  */
 struct last_bearings last_bearings_search(const struct bearings_search *search,
-                                          struct frame_reader *reader,
+                                          struct bearing_frame_reader *reader,
                                           const struct parameters *parameters);
 
 /* The distance of the farthest two. */

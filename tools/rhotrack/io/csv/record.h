@@ -19,13 +19,13 @@
 enum record_kind { RECORD_PLOTS, RECORD_BEARINGS };
 
 struct record {
-    int64_t time_us;          /* as it stands in the row */
+    int64_t time_us;          /* the row's own time, bias_us still in it */
     int32_t bias_us;          /* the sensor's time bias, which is still in */
     int64_t received_us;      /* where the file has that column */
     struct row_number number; /* of the scan */
     int32_t sensor_id;
     uint32_t line;                        /* of the file */
-    float sector_from_rad, sector_to_rad; /* of the scan; both 0 where not given */
+    float sector_from_rad, sector_to_rad; /* the scan's sector; both 0: not given */
     bool has_measurement;
     uint32_t measures;          /* RHO_MEASURES_... of the plot */
     struct rho_plot plot;       /* or, its offset is 0 in both, */

@@ -91,8 +91,8 @@ static void put_radar_place(const struct rows_geodetic *geodetic, const struct r
     }
 }
 
-static struct geodetic_polar polar_plot_of_cells(const struct rows_geodetic *geodetic,
-                                                 int32_t sensor_id, double *cells)
+static struct geodetic_polar read_polar_cells(const struct rows_geodetic *geodetic,
+                                              int32_t sensor_id, double *cells)
 {
     const struct parameters *parameters = geodetic->parameters;
     double sigma_range_m = parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
@@ -125,7 +125,7 @@ static bool can_turn_look(const struct geodetic_polar *polar)
 static bool fill_polar_cells(const struct rows_geodetic *geodetic, const struct row_check *check,
                              const struct radar_frame *frame, int32_t sensor_id, double *cells)
 {
-    struct geodetic_polar polar = polar_plot_of_cells(geodetic, sensor_id, cells);
+    struct geodetic_polar polar = read_polar_cells(geodetic, sensor_id, cells);
     bool had_elevation = polar.has_elevation;
 
     polar.frame = frame;

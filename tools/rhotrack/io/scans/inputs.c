@@ -6,12 +6,12 @@
 #include "base/common.h"
 #include "io/log/lcm_log.h"
 #include "io/log/log_scans.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "io/scans/scan_reader.h"
 
 struct inputs {
-    struct scan_reader *scan_reader;   /* or NULL */
-    struct frame_reader *frame_reader; /* or NULL */
+    struct scan_reader *scan_reader;                   /* or NULL */
+    struct bearing_frame_reader *bearing_frame_reader; /* or NULL */
     /* the next of each kind */
     const struct rho_scan *scan;
     const struct rho_sensor *sensor;
@@ -27,7 +27,7 @@ static unsigned kinds_in_file(const char *path)
     unsigned kinds;
 
     if (!lcm_log_is_log(path)) {
-        return frame_reader_file_has_bearings(path) ? LOG_HAS_BEARINGS : LOG_HAS_PLOTS;
+        return bearing_frame_reader_file_has_bearings(path) ? LOG_HAS_BEARINGS : LOG_HAS_PLOTS;
     }
     kinds = log_scans_kinds(path);
     return kinds ? kinds : LOG_HAS_PLOTS; /* whose reader says what is missing */
@@ -57,8 +57,8 @@ static void read_next_scan(struct inputs *inputs)
 
 static void read_next_frame(struct inputs *inputs)
 {
-    if (inputs->frame_reader && !inputs->has_frame) {
-        inputs->frame = frame_reader_next(inputs->frame_reader);
+    if (inputs->bearing_frame_reader && !inputs->has_frame) {
+        inputs->frame = bearing_frame_reader_next(inputs->bearing_frame_reader);
         inputs->has_frame = inputs->frame;
     }
 }
@@ -91,9 +91,10 @@ struct inputs *inputs_open(char *const *paths, int num_paths, const struct param
     }
     count = paths_of_kind(paths, num_paths, LOG_HAS_BEARINGS, sorted);
     if (count > 0) {
-        inputs->frame_reader = frame_reader_open(sorted, count, parameters, keep_going);
+        inputs->bearing_frame_reader =
+            bearing_frame_reader_open(sorted, count, parameters, keep_going);
         if (!inputs->scan_reader) {
-            frame_reader_need_two_sensors(inputs->frame_reader);
+            bearing_frame_reader_need_two_sensors(inputs->bearing_frame_reader);
         }
     }
     free(sorted);
@@ -123,7 +124,7 @@ bool inputs_have_plots(const struct inputs *inputs)
 
 bool inputs_have_bearings(const struct inputs *inputs)
 {
-    return inputs->frame_reader;
+    return inputs->bearing_frame_reader;
 }
 
 struct input inputs_next(struct inputs *inputs)
@@ -145,13 +146,17 @@ struct input inputs_next(struct inputs *inputs)
 const struct frame_sensor *inputs_passive_sensors(const struct inputs *inputs, size_t *count)
 {
     *count = 0;
-    return inputs->frame_reader ? frame_reader_sensors(inputs->frame_reader, count) : NULL;
+    return inputs->bearing_frame_reader
+               ? bearing_frame_reader_sensors(inputs->bearing_frame_reader, count)
+               : NULL;
 }
 
 uint64_t inputs_bytes_read(const struct inputs *inputs)
 {
     return (inputs->scan_reader ? scan_reader_position(inputs->scan_reader) : 0) +
-           (inputs->frame_reader ? frame_reader_position(inputs->frame_reader) : 0);
+           (inputs->bearing_frame_reader
+                ? bearing_frame_reader_position(inputs->bearing_frame_reader)
+                : 0);
 }
 
 uint64_t inputs_total_bytes(const struct inputs *inputs)
@@ -170,8 +175,9 @@ struct inputs_counts inputs_counts(const struct inputs *inputs)
         counts.plots = scans.plots;
         counts.rows_skipped = scans.rows_skipped;
     }
-    if (inputs->frame_reader) {
-        struct frame_reader_counts frames = frame_reader_counts(inputs->frame_reader);
+    if (inputs->bearing_frame_reader) {
+        struct bearing_frame_reader_counts frames =
+            bearing_frame_reader_counts(inputs->bearing_frame_reader);
 
         counts.frames = frames.frames;
         counts.frames_incomplete = frames.frames_incomplete;
@@ -190,6 +196,6 @@ void inputs_close(struct inputs *inputs)
     if (inputs->scan_reader) {
         scan_reader_close(inputs->scan_reader);
     }
-    frame_reader_close(inputs->frame_reader);
+    bearing_frame_reader_close(inputs->bearing_frame_reader);
     free(inputs);
 }

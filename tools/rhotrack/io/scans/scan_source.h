@@ -24,7 +24,7 @@ struct scan_source_options {
 };
 
 /*
- * Opens a file; scan_reader.h and frame_reader.h say what may be in it. Errors as
+ * Opens a file; scan_reader.h and bearing_frame_reader.h say what may be in it. Errors as
  * `rhotrack: FILE:LINE: what is wrong`, exit 2. The path must outlive the source.
  */
 struct scan_source *scan_source_open(const char *path, const struct parameters *parameters,

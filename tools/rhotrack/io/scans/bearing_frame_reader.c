@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -25,7 +25,7 @@ struct scans_of_time {
     } list[RHO_MAX_SENSORS];
 };
 
-struct frame_reader {
+struct bearing_frame_reader {
     bool keep_going;
     int64_t tolerance_us;
     struct scan_files files;
@@ -38,11 +38,11 @@ struct frame_reader {
     bool has_next;
     uint64_t skip; /* frames before this one are left out */
     uint64_t duplicates_skipped;
-    struct frame_reader_counts counts; /* so far */
-    struct frame_reader_counts total;
+    struct bearing_frame_reader_counts counts; /* so far */
+    struct bearing_frame_reader_counts total;
 };
 
-bool frame_reader_file_has_bearings(const char *path)
+bool bearing_frame_reader_file_has_bearings(const char *path)
 {
     struct stat status;
     struct table *table;
@@ -66,7 +66,7 @@ bool frame_reader_file_has_bearings(const char *path)
 /* ---- Scans in order ---- */
 
 /* Fails, or counts the scan and lets it go. */
-static void refuse_duplicate_scan(struct frame_reader *reader, struct sensor_scan *scan,
+static void refuse_duplicate_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan,
                                   size_t earlier)
 {
     if (!reader->keep_going) {
@@ -83,7 +83,7 @@ static void refuse_duplicate_scan(struct frame_reader *reader, struct sensor_sca
  * A sensor's scan at the time of another one of its own, of another file: which of them was before
  * cannot be told.
  */
-static bool is_duplicate_scan(struct frame_reader *reader, struct sensor_scan *scan)
+static bool is_duplicate_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan)
 {
     struct scans_of_time *before = &reader->before;
 
@@ -103,7 +103,7 @@ static bool is_duplicate_scan(struct frame_reader *reader, struct sensor_scan *s
     return false;
 }
 
-static bool read_scan(struct frame_reader *reader, struct sensor_scan *scan)
+static bool read_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan)
 {
     do {
         if (!scan_files_next(&reader->files, scan)) {
@@ -118,7 +118,8 @@ static bool read_scan(struct frame_reader *reader, struct sensor_scan *scan)
 /* ---- Scans to frames ---- */
 
 /* True where the scan is a further one of the frame; it is not before it. */
-static bool belongs_to_frame(const struct frame_reader *reader, const struct rho_bearing_scan *scan)
+static bool belongs_to_frame(const struct bearing_frame_reader *reader,
+                             const struct rho_bearing_scan *scan)
 {
     if (scan->time_us - reader->tolerance_us > reader->frame.time_us) {
         return false;
@@ -131,7 +132,7 @@ static bool belongs_to_frame(const struct frame_reader *reader, const struct rho
     return true;
 }
 
-static void drop_frame(struct frame_reader *reader)
+static void drop_frame(struct bearing_frame_reader *reader)
 {
     for (size_t i = 0; i < reader->frame.num_scans; i++) {
         free((void *)reader->scans[i].bearings);
@@ -147,7 +148,7 @@ static int compare_scans(const void *a, const void *b)
 }
 
 /* Makes the next frame. Returns false after the last. */
-static bool make_frame(struct frame_reader *reader)
+static bool make_frame(struct bearing_frame_reader *reader)
 {
     struct rho_frame *frame = &reader->frame;
 
@@ -165,7 +166,7 @@ static bool make_frame(struct frame_reader *reader)
     return true;
 }
 
-const struct rho_frame *frame_reader_next(struct frame_reader *reader)
+const struct rho_frame *bearing_frame_reader_next(struct bearing_frame_reader *reader)
 {
     while (make_frame(reader)) {
         if (reader->counts.frames > reader->skip) {
@@ -184,7 +185,7 @@ static int compare_sensors(const void *a, const void *b)
     return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
 }
 
-static void sort_sensors(struct frame_reader *reader)
+static void sort_sensors(struct bearing_frame_reader *reader)
 {
     for (size_t i = 0; i < reader->known.count; i++) {
         reader->sensors[i] = reader->known.list[i].sensor;
@@ -192,27 +193,28 @@ static void sort_sensors(struct frame_reader *reader)
     qsort(reader->sensors, reader->known.count, sizeof *reader->sensors, compare_sensors);
 }
 
-static void rewind_files(struct frame_reader *reader)
+static void rewind_files(struct bearing_frame_reader *reader)
 {
     for (int i = 0; i < reader->files.count; i++) {
         scan_source_rewind(reader->files.list[i].source);
     }
     reader->before.count = 0;
     reader->duplicates_skipped = 0;
-    reader->counts = (struct frame_reader_counts){.frames = 0};
+    reader->counts = (struct bearing_frame_reader_counts){.frames = 0};
 }
 
 /*
  * Sensors and counts: how many frames had so many scans is known before how many sensors there are.
  */
-static void count_frames_and_sensors(struct frame_reader *reader, uint64_t bytes)
+static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64_t bytes)
 {
     uint64_t frames_of[RHO_MAX_SENSORS + 1] = {0};
     struct progress progress = progress_start("frames looked through", 0);
 
     while (make_frame(reader)) {
         frames_of[reader->frame.num_scans]++;
-        progress_show_bytes(&progress, reader->counts.frames, frame_reader_position(reader), bytes);
+        progress_show_bytes(&progress, reader->counts.frames, bearing_frame_reader_position(reader),
+                            bytes);
     }
     progress_end(&progress);
     reader->total = reader->counts;
@@ -225,10 +227,11 @@ static void count_frames_and_sensors(struct frame_reader *reader, uint64_t bytes
     sort_sensors(reader);
 }
 
-struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
-                                       const struct parameters *parameters, bool keep_going)
+struct bearing_frame_reader *bearing_frame_reader_open(char *const *paths, int num_paths,
+                                                       const struct parameters *parameters,
+                                                       bool keep_going)
 {
-    struct frame_reader *reader = must_calloc(1, sizeof *reader);
+    struct bearing_frame_reader *reader = must_calloc(1, sizeof *reader);
     uint64_t bytes = 0;
 
     reader->keep_going = keep_going;
@@ -245,7 +248,7 @@ struct frame_reader *frame_reader_open(char *const *paths, int num_paths,
     return reader;
 }
 
-void frame_reader_need_two_sensors(const struct frame_reader *reader)
+void bearing_frame_reader_need_two_sensors(const struct bearing_frame_reader *reader)
 {
     if (reader->known.count < 2) {
         const struct known_sensor *only = &reader->known.list[0];
@@ -258,34 +261,36 @@ void frame_reader_need_two_sensors(const struct frame_reader *reader)
 
 /* ---- What was read ---- */
 
-void frame_reader_keep_last(struct frame_reader *reader, uint64_t frames)
+void bearing_frame_reader_keep_last(struct bearing_frame_reader *reader, uint64_t frames)
 {
     say_only_last_taken(frames, reader->total.frames, "frames");
     reader->skip = reader->total.frames > frames ? reader->total.frames - frames : 0;
 }
 
-uint64_t frame_reader_num_frames(const struct frame_reader *reader)
+uint64_t bearing_frame_reader_num_frames(const struct bearing_frame_reader *reader)
 {
     return reader->total.frames;
 }
 
-uint64_t frame_reader_position(const struct frame_reader *reader)
+uint64_t bearing_frame_reader_position(const struct bearing_frame_reader *reader)
 {
     return scan_files_position(&reader->files);
 }
 
-const struct frame_sensor *frame_reader_sensors(const struct frame_reader *reader, size_t *count)
+const struct frame_sensor *bearing_frame_reader_sensors(const struct bearing_frame_reader *reader,
+                                                        size_t *count)
 {
     *count = reader->known.count;
     return reader->sensors;
 }
 
-struct frame_reader_counts frame_reader_counts(const struct frame_reader *reader)
+struct bearing_frame_reader_counts
+bearing_frame_reader_counts(const struct bearing_frame_reader *reader)
 {
     return reader->total;
 }
 
-void frame_reader_report_skipped(const struct frame_reader *reader)
+void bearing_frame_reader_report_skipped(const struct bearing_frame_reader *reader)
 {
     say_rows_skipped(reader->total.rows_skipped);
     if (reader->total.frames_incomplete) {
@@ -299,7 +304,7 @@ void frame_reader_report_skipped(const struct frame_reader *reader)
     }
 }
 
-void frame_reader_close(struct frame_reader *reader)
+void bearing_frame_reader_close(struct bearing_frame_reader *reader)
 {
     if (!reader) {
         return;

@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include "base/random.h"
-#include "io/scans/frame_reader.h"
+#include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/frames.h"
 
 #define HEADER "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad\n"
@@ -27,7 +27,7 @@ struct given {
     struct parameters parameters;
     char paths[MAX_FILES][40];
     int num_paths;
-    struct frame_reader *reader;
+    struct bearing_frame_reader *reader;
 };
 
 static void write_file(struct given *given, const char *text)
@@ -49,7 +49,8 @@ static void open_files(struct given *given, bool keep_going)
     for (int i = 0; i < given->num_paths; i++) {
         paths[i] = given->paths[i];
     }
-    given->reader = frame_reader_open(paths, given->num_paths, &given->parameters, keep_going);
+    given->reader =
+        bearing_frame_reader_open(paths, given->num_paths, &given->parameters, keep_going);
 }
 
 static struct given given_text(const char *text)
@@ -71,7 +72,7 @@ static struct given read_text(const char *text)
 
 static void end(struct given *given)
 {
-    frame_reader_close(given->reader);
+    bearing_frame_reader_close(given->reader);
     for (int i = 0; i < given->num_paths; i++) {
         unlink(given->paths[i]);
     }
@@ -84,7 +85,7 @@ static void end(struct given *given)
 static const char *next_text(struct given *given)
 {
     static char text[200];
-    const struct rho_frame *frame = frame_reader_next(given->reader);
+    const struct rho_frame *frame = bearing_frame_reader_next(given->reader);
     int length;
 
     if (!frame) {
@@ -124,7 +125,7 @@ static void a_frame_has_what_the_rows_say(void **state)
     struct given given = read_text(
         "t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,sigma_rad,sector_from_rad,sector_to_rad,"
         "snr_db\n5,1,-10,20,0.25,0.01,-1,2,12\n5,1,-10,20,-3,,-1,2,\n5,2,90,0,1,,,,\n");
-    const struct rho_frame *frame = frame_reader_next(given.reader);
+    const struct rho_frame *frame = bearing_frame_reader_next(given.reader);
     const struct rho_bearing_scan *scan = &frame->scans[0];
     const struct rho_bearing *bearings = scan->bearings;
     (void)state;
@@ -150,7 +151,7 @@ static void a_sigma_is_the_rows_or_the_sensors_or_that_for_all(void **state)
 
     parameters_set_assignment(&given.parameters, "sensor.1.sigma_rad=0.02");
     open_files(&given, false);
-    frame = frame_reader_next(given.reader);
+    frame = bearing_frame_reader_next(given.reader);
     assert_true(frame->scans[0].bearings[0].sigma_rad == 0.01f);
     assert_true(frame->scans[0].bearings[1].sigma_rad == 0.02f);
     assert_true(frame->scans[1].bearings[0].sigma_rad == 0.00175f);
@@ -166,7 +167,7 @@ static void rows_within_the_scan_interval_are_one_scan(void **state)
 
     parameters_set_assignment(&given.parameters, "scan_interval_s=1");
     open_files(&given, false);
-    frame = frame_reader_next(given.reader);
+    frame = bearing_frame_reader_next(given.reader);
     assert_int_equal(frame->scans[0].num_bearings, 2);
     assert_int_equal(frame->scans[0].bearings[1].offset_us, 900000);
     assert_frames(&given, (const char *[]){"1000: 1(1) 2(1)", "end"});
@@ -186,14 +187,14 @@ static void numbered_scans_may_come_mixed(void **state)
     struct given given = read_text("t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad,scan\n"
                                    "1,1,0,0,1,7\n1,2,90,0,2,7\n1.3,1,0,0,1,8\n1.5,1,0,0,1.25,7\n"
                                    "1.5,2,90,0,2,8\n1.75,1,0,0,,8\n");
-    const struct rho_frame *frame = frame_reader_next(given.reader);
+    const struct rho_frame *frame = bearing_frame_reader_next(given.reader);
     (void)state;
 
-    assert_int_equal(frame_reader_counts(given.reader).scans, 4);
+    assert_int_equal(bearing_frame_reader_counts(given.reader).scans, 4);
     assert_int_equal(frame->scans[0].num_bearings, 2);
     assert_int_equal(frame->scans[0].bearings[1].offset_us, 500000);
     assert_string_equal(next_text(&given), "1500: 2(1)");
-    frame = frame_reader_next(given.reader);
+    frame = bearing_frame_reader_next(given.reader);
     assert_int_equal(frame->time_us, 1750000);
     assert_int_equal(frame->scans[0].bearings[0].offset_us, -450000);
     end(&given);
@@ -205,7 +206,7 @@ static void scans_within_the_tolerance_are_one_frame(void **state)
     (void)state;
 
     assert_frames(&given, (const char *[]){"0: 1(1) 2(1)", "1000: 1(1)", "1050: 2(1)", "end"});
-    assert_int_equal(frame_reader_counts(given.reader).frames_incomplete, 2);
+    assert_int_equal(bearing_frame_reader_counts(given.reader).frames_incomplete, 2);
     end(&given);
 }
 
@@ -248,7 +249,7 @@ static void sensors_that_are_missing_are_counted_by_frame(void **state)
 {
     struct given given = read_text(HEADER "0,1,0,0,1\n0,2,9,0,\n0,3,20,0,1\n"
                                           "10,1,0,0,1\n10,3,20,0,1\n20,2,9,0,1\n");
-    struct frame_reader_counts counts = frame_reader_counts(given.reader);
+    struct bearing_frame_reader_counts counts = bearing_frame_reader_counts(given.reader);
     (void)state;
 
     assert_int_equal(counts.frames, 3);
@@ -284,7 +285,7 @@ static void sensors_are_listed_by_number(void **state)
 
     write_file(&given, HEADER "0,-2,9,0,1\n");
     open_files(&given, false);
-    sensors = frame_reader_sensors(given.reader, &count);
+    sensors = bearing_frame_reader_sensors(given.reader, &count);
     assert_int_equal(count, 2);
     assert_int_equal(sensors[0].sensor_id, -2);
     assert_int_equal(sensors[1].sensor_id, 5);
@@ -298,9 +299,9 @@ static void the_last_frames_may_be_taken_alone(void **state)
         read_text(HEADER "0,1,0,0,1\n0,2,9,0,1\n10,1,0,0,1\n20,1,0,0,1\n30,2,9,0,1\n");
     (void)state;
 
-    frame_reader_keep_last(given.reader, 4);
-    assert_int_equal(frame_reader_num_frames(given.reader), 4);
-    frame_reader_keep_last(given.reader, 2);
+    bearing_frame_reader_keep_last(given.reader, 4);
+    assert_int_equal(bearing_frame_reader_num_frames(given.reader), 4);
+    bearing_frame_reader_keep_last(given.reader, 2);
     assert_frames(&given, (const char *[]){"20000: 1(1)", "30000: 2(1)", "end"});
     end(&given);
 }
@@ -317,7 +318,7 @@ static void bad_rows_are_skipped_and_counted(void **state)
     (void)state;
 
     open_files(&given, true);
-    assert_int_equal(frame_reader_counts(given.reader).rows_skipped, 5);
+    assert_int_equal(bearing_frame_reader_counts(given.reader).rows_skipped, 5);
     assert_frames(&given, (const char *[]){"0: 1(1) 2(1)", "10000: 1(1)", "end"});
     end(&given);
 }
@@ -328,11 +329,11 @@ static void a_header_tells_bearings_from_other_files(void **state)
                  both = given_text("t_s,sensor_id,x_m,y_m,bearing_rad\n0,1,2,3,1\n");
     (void)state;
 
-    assert_true(frame_reader_file_has_bearings(bearings.paths[0]));
-    assert_false(frame_reader_file_has_bearings(empty.paths[0]));
-    assert_false(frame_reader_file_has_bearings(both.paths[0]));
-    assert_false(frame_reader_file_has_bearings("/tmp"));
-    assert_false(frame_reader_file_has_bearings("/tmp/there/is/no/such/file"));
+    assert_true(bearing_frame_reader_file_has_bearings(bearings.paths[0]));
+    assert_false(bearing_frame_reader_file_has_bearings(empty.paths[0]));
+    assert_false(bearing_frame_reader_file_has_bearings(both.paths[0]));
+    assert_false(bearing_frame_reader_file_has_bearings("/tmp"));
+    assert_false(bearing_frame_reader_file_has_bearings("/tmp/there/is/no/such/file"));
     end(&bearings);
     end(&empty);
     end(&both);
@@ -405,7 +406,7 @@ static void scans_as_they_come_make_the_same_frames(void **state)
     size_t num_scans = 0, num_frames = 0, closed = 0;
     (void)state;
 
-    while ((frame = frame_reader_next(given.reader))) {
+    while ((frame = bearing_frame_reader_next(given.reader))) {
         expected[num_frames] = *frame;
         expected[num_frames++].scans = in_frames + num_scans;
         memcpy(in_frames + num_scans, frame->scans, frame->num_scans * sizeof *scans);
