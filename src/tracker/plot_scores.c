@@ -119,6 +119,12 @@ static struct plots_near plots_near_track(const struct step *step, const struct 
                                   box->y_min_m - slack_m, box->y_max_m + slack_m);
 }
 
+/* Of so few plots each has a box, which was compared with the limits. */
+static int has_own_box(const struct step *step)
+{
+    return RHO_PLOT_STRIPS <= 1 && step->plots_of_box == 1u;
+}
+
 /*
  * Near the track, and not assigned to another one (before the assignment none is). Most plots are
  * outside of the limits for any noise: they need no box for their own.
@@ -128,7 +134,8 @@ static int is_free_and_near(const struct step *step, struct plot_scores *scores,
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_plot *plot = &step->scan->plots[i];
     const int owner = tracker->assignment.column_row[i];
-    return rho_tracker_is_within(&scores->near, plot) && step->report->fates[i] == RHO_FATE_HELD &&
+    return (has_own_box(step) || rho_tracker_is_within(&scores->near, plot)) &&
+           step->report->fates[i] == RHO_FATE_HELD &&
            !(owner >= 0 && owner != (int)scores->track_row) &&
            rho_hypotheses_is_in_box(&tracker->hypotheses, tracker->tracks[scores->track_row].slot,
                                     &scores->box, plot, step->scan->measures);
