@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * split_bodies: two targets that were taken for one body, until it is surely wider than any, or what
- * it has shown says that it is two (src/tracker/body_doubt.c).
+ * split_bodies: two targets that were taken for one body, until it is surely wider than any, or
+ * what it has shown says that it is two (src/tracker/body_doubt.c).
  *
  * Cars abreast of each other are one group from afar, and go on as one track. Nearer to the sensor
  * their body is known to be as wide as two lanes; where one is faster, range rates tell them apart
@@ -60,21 +60,20 @@ static float least_apart(const struct step *step, enum rho_body_split why, float
                                       : RATE_APART_SIGMAS * rate_sigma_mps;
 }
 
-/* The middle between the outermost plots that are the track's alone. 0: they are near each other. */
+/* The middle between the outermost plots that are the track's alone. 0: these are too near. */
 static int find_middle(const struct step *step, const struct rho_scan *scan, unsigned row,
                        enum rho_body_split why, float *middle)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     float least = 1e30f, most = -1e30f, rate_sigma_mps = 0.0f;
     struct body_plot at;
-    for (unsigned i = groups->first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
-         i = groups->next[i]) {
-        if (groups->contender[i] == RHO_NO_TRACK) {
-            (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
-            least = rho_smaller(least, side_value(why, &at));
-            most = rho_larger(most, side_value(why, &at));
-            rate_sigma_mps = rho_larger(rate_sigma_mps, scan->plots[i].sigma_range_rate_mps);
-        }
+    for (unsigned i =
+             rho_tracker_uncontested(groups, groups->first[step->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_tracker_uncontested(groups, groups->next[i])) {
+        (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
+        least = rho_smaller(least, side_value(why, &at));
+        most = rho_larger(most, side_value(why, &at));
+        rate_sigma_mps = rho_larger(rate_sigma_mps, scan->plots[i].sigma_range_rate_mps);
     }
     *middle = 0.5f * (least + most);
     return most - least > least_apart(step, why, rate_sigma_mps);
@@ -90,11 +89,9 @@ static int find_sides(const struct step *step, const struct rho_scan *scan, unsi
     if (!find_middle(step, scan, row, why, &middle)) {
         return 0;
     }
-    for (unsigned i = groups->first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
-         i = groups->next[i]) {
-        if (groups->contender[i] != UINT16_MAX) {
-            continue;
-        }
+    for (unsigned i =
+             rho_tracker_uncontested(groups, groups->first[step->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_tracker_uncontested(groups, groups->next[i])) {
         (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
         struct side *side = &sides[side_value(why, &at) < middle];
         side->plots++;

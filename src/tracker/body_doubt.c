@@ -3,15 +3,14 @@
  * body_doubt: whether the plots of a body are those of two targets.
  *
  * Looks of several plots are compared with what one rigid body can show. It is no longer than the
- * longest. And as long as it keeps its heading, its range rates are no plane over it that is steeper
- * than a turn explains. Two cars in neighbouring lanes, one faster than the other, show that within
- * a few seconds, long before they are seen apart; two of one lane that were never farther apart than
- * a lorry is long show their length.
+ * longest. And as long as it keeps its heading, its range rates are no plane over it that is
+ * steeper than a turn explains. Two cars in neighbouring lanes, one faster than the other, show
+ * that within a few seconds, long before they are seen apart; two of one lane that were never
+ * farther apart than a truck is long show their length.
  */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
-#include "rhotrack/detail/measurement.h"
 #include "step.h"
 
 /* Looks that count. */
@@ -33,11 +32,11 @@
 /* The square of so many sigmas of a velocity across the line of sight, which turns range rates. */
 #define UNKNOWN_SHARE 4.0f
 /* A chi-square of two dimensions: looks are many, and their errors not independent. */
-#define STRETCHED_CHI2 40.0f
-/* Places across are known to this share of their noise; and those along after a turn was taken off
- * are some share of what they were. */
+#define APART_CHI2 40.0f
+/* Squares of places across the line of sight are known to this share of their noise. */
 #define SIDE_SHARE 0.2f
-#define FAR_SHARE 0.1f
+/* Places are no line: 1 less the square of their correlation. */
+#define PLANE_SHARE 0.1f
 
 static float steady_rad(const struct rho_body_filter *body)
 {
@@ -95,22 +94,18 @@ static struct sums sums_of(const struct step *step, const struct rho_scan *scan,
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     struct sums sums = {.first_m = 1e9f, .last_m = -1e9f};
-    struct rho_measurement seen;
+    const struct rho_groups *groups = &bodies->groups;
     struct body_plot at;
-    float noise[6], axes[3];
-    for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
-         i = bodies->groups.next[i]) {
+    float axes[3];
+    for (unsigned i =
+             rho_tracker_uncontested(groups, groups->first[step->tracker->tracks[row].plot]);
+         i != RHO_NO_ROW; i = rho_tracker_uncontested(groups, groups->next[i])) {
         const struct rho_plot *plot = &scan->plots[i];
-        if (bodies->groups.contender[i] != UINT16_MAX) {
-            continue;
-        }
         if (!rho_tracker_place_on_body(step, scan, row, i, &at) &&
             (scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue; /* at the sensor */
         }
-        rho_measurement_open(plot, 0, step->sensor, &seen);
-        rho_measurement_covariance(&seen, noise);
-        rho_body_to_axes(&bodies->of[row], noise, axes);
+        rho_tracker_noise_on_body(step, &bodies->of[row], plot, axes);
         const float far_m = at.line[0] * at.dx_m + at.line[1] * at.dy_m,
                     side_m = at.line[0] * at.dy_m - at.line[1] * at.dx_m;
         sums.n += 1.0f;
@@ -183,11 +178,12 @@ void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan
  * of as much as the heading may have turned unseen, or the body is no body. Wheels and other parts
  * that move in themselves make all range rates wider.
  */
-static int has_stretched(const struct rho_body_filter *body)
+static int parts_move_apart(const struct rho_body_filter *body)
 {
     const struct rho_body_doubt *doubt = &body->doubt;
     const float det = doubt->far_m2 * doubt->side_m2 - doubt->cross_m2 * doubt->cross_m2;
-    if (doubt->steady_looks < STEADY_LOOKS || !(det > FAR_SHARE * doubt->far_m2 * doubt->side_m2)) {
+    if (doubt->steady_looks < STEADY_LOOKS ||
+        !(det > PLANE_SHARE * doubt->far_m2 * doubt->side_m2)) {
         return 0;
     }
     const float far = doubt->far_m2ps, side = doubt->side_m2ps;
@@ -198,7 +194,7 @@ static int has_stretched(const struct rho_body_filter *body)
     const float turn_radps = TURN_SHARE * steady_rad(body) / (doubt->time_s + 1e-6f);
     const float side_m2 =
         rho_larger(doubt->side_m2 - doubt->side_noise_m2, SIDE_SHARE * doubt->side_noise_m2);
-    return explained * doubt->plots_beyond_one > STRETCHED_CHI2 * noise &&
+    return explained * doubt->plots_beyond_one > APART_CHI2 * noise &&
            explained > doubt->rate_noise_m2ps2 &&
            explained > turn_radps * turn_radps * side_m2 + UNKNOWN_SHARE * doubt->unknown_m2ps2;
 }
@@ -209,5 +205,5 @@ enum rho_body_split rho_tracker_why_two(const struct step *step, unsigned row)
     if (doubt->long_looks > LONG_LOOKS && doubt->long_looks > LONG_SHARE * doubt->looks) {
         return RHO_BODY_TOO_LONG;
     }
-    return has_stretched(&step->tracker->bodies.of[row]) ? RHO_BODY_STRETCHED : RHO_BODY_ONE;
+    return parts_move_apart(&step->tracker->bodies.of[row]) ? RHO_BODY_MOVES_APART : RHO_BODY_ONE;
 }

@@ -93,20 +93,27 @@ int rho_tracker_place_on_body(const struct step *step, const struct rho_scan *sc
     return rho_tracker_rate_off(step, scan, track, seen, at->line, &at->rate_mps);
 }
 
+void rho_tracker_noise_on_body(const struct step *step, const struct rho_body_filter *body,
+                               const struct rho_plot *plot, float axes[3])
+{
+    struct rho_measurement seen;
+    float noise[6];
+    rho_measurement_open(plot, 0, step->sensor, &seen);
+    rho_measurement_covariance(&seen, noise);
+    rho_body_to_axes(body, noise, axes);
+}
+
 /* The squares of distances, and the plots' noise, in the axes of the body. */
 static void sum_up_plots(const struct step *step, const struct rho_scan *scan, unsigned row,
                          struct rho_body_look *look)
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
-    struct rho_measurement seen;
     struct body_plot at;
-    float noise[6], axes[3];
-    for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != UINT16_MAX;
+    float axes[3];
+    for (unsigned i = bodies->groups.first[step->tracker->tracks[row].plot]; i != RHO_NO_ROW;
          i = bodies->groups.next[i]) {
         (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
-        rho_measurement_open(&scan->plots[i], 0, step->sensor, &seen);
-        rho_measurement_covariance(&seen, noise);
-        rho_body_to_axes(&bodies->of[row], noise, axes);
+        rho_tracker_noise_on_body(step, &bodies->of[row], &scan->plots[i], axes);
         look->num_plots++;
         look->along_m2 += at.along_m * at.along_m;
         look->across_m2 += at.across_m * at.across_m;

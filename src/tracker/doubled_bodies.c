@@ -97,7 +97,7 @@ static void end_one(struct step *step, unsigned stays, unsigned ends)
             groups->owner[i] = (uint16_t)stays;
         }
         if (groups->contender[i] == ends || groups->contender[i] == groups->owner[i]) {
-            groups->contender[i] = RHO_NO_TRACK;
+            groups->contender[i] = RHO_NO_ROW;
         }
     }
     rho_tracker_spend(step, step->num_gated / RHO_WORK_PASSED_A_UNIT);
@@ -115,7 +115,7 @@ static void end_those_on_others(struct step *step)
     }
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const unsigned one = groups->owner[i], other = groups->contender[i];
-        if (one == RHO_NO_TRACK || other == RHO_NO_TRACK) {
+        if (one == RHO_NO_ROW || other == RHO_NO_ROW) {
             continue;
         }
         const unsigned older = one < other ? one : other, younger = one + other - older;
@@ -139,13 +139,13 @@ static void end_new_ones(struct step *step)
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_track *tracks = tracker->tracks;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
+        int goes_on = is_new(step, row);
         for (unsigned other = row + 1u;
-             is_new(step, row) && other < tracker->num_tracks && !rho_tracker_is_spent(step);
-             other++) {
+             goes_on && other < tracker->num_tracks && !rho_tracker_is_spent(step); other++) {
             rho_tracker_spend(step, PASS_UNITS);
             if (are_near(step, row, other) && is_new(step, other) &&
                 may_be_one_body(step, row, other) && move_alike(&tracks[row], &tracks[other])) {
-                const int goes_on = tracks[row].hits >= tracks[other].hits;
+                goes_on = tracks[row].hits >= tracks[other].hits;
                 end_one(step, goes_on ? row : other, goes_on ? other : row);
             }
         }

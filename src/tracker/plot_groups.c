@@ -30,8 +30,6 @@
 #define PAIR_UNITS 2u
 #define PASS_UNITS 1u
 
-#define NONE RHO_NO_TRACK
-
 static float longest_body_m(const struct step *step)
 {
     return step->tracker->bodies.length_max_m;
@@ -148,16 +146,13 @@ static int has_rate_of_track(const struct step *step, const struct outline *outl
 static int explains_plot(const struct step *step, const struct outline *outline,
                          const struct rho_plot *plot, float *misfit)
 {
-    struct rho_measurement seen;
-    float noise[6], axes[3];
+    float axes[3];
     const float after_s = (float)plot->offset_us * 1e-6f, *state = outline->track->kalman.state;
     const float c = outline->body->cos_heading, s = outline->body->sin_heading;
     const float dx_m = plot->x_m - state[0] - after_s * state[3],
                 dy_m = plot->y_m - state[1] - after_s * state[4];
     const float along_m = c * dx_m + s * dy_m, across_m = c * dy_m - s * dx_m;
-    rho_measurement_open(plot, 0, step->sensor, &seen);
-    rho_measurement_covariance(&seen, noise);
-    rho_body_to_axes(outline->body, noise, axes);
+    rho_tracker_noise_on_body(step, outline->body, plot, axes);
     const float along_m2 = outline->place_m2[0] + axes[0],
                 across_m2 = outline->place_m2[2] + axes[2];
     const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
@@ -180,13 +175,14 @@ static void claim(struct rho_groups *groups, unsigned row, uint32_t plot, float 
 {
     const unsigned owner = groups->owner[plot];
     const float better = groups->misfit[plot] - misfit;
-    if (owner != NONE && better <= 0.0f) {
+    if (owner != RHO_NO_ROW && better <= 0.0f) {
         if (-better < CONTESTED_MISFIT) {
             groups->contender[plot] = (uint16_t)row;
         }
         return;
     }
-    groups->contender[plot] = owner != NONE && better < CONTESTED_MISFIT ? (uint16_t)owner : NONE;
+    groups->contender[plot] =
+        owner != RHO_NO_ROW && better < CONTESTED_MISFIT ? (uint16_t)owner : RHO_NO_ROW;
     groups->owner[plot] = (uint16_t)row;
     groups->misfit[plot] = misfit;
 }
@@ -201,15 +197,11 @@ static void find_owners(struct step *step)
             continue;
         }
         const struct outline outline = outline_of(step, row);
-        const float *state = outline.track->kalman.state;
-        const float half_m = half_box_m(step, &outline);
-        struct plots_near near = plots_about(step, &outline, half_m);
+        struct plots_near near = plots_about(step, &outline, half_box_m(step, &outline));
         for (uint32_t i;
              !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
             const struct rho_plot *plot = &step->scan->plots[i];
-            const float dx_m = plot->x_m - state[0], dy_m = plot->y_m - state[1];
-            if (step->report->fates[i] != RHO_FATE_HELD || dx_m > half_m || dx_m < -half_m ||
-                dy_m > half_m || dy_m < -half_m) {
+            if (step->report->fates[i] != RHO_FATE_HELD || !rho_tracker_is_within(&near, plot)) {
                 continue;
             }
             rho_tracker_spend(step, TEST_UNITS);
@@ -241,7 +233,7 @@ static void join_group(struct rho_groups *groups, unsigned group, uint32_t plot)
 static int fits_all_in_group(struct step *step, unsigned group, uint32_t plot)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
-    for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
+    for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
         if (!fit_together(step, i, plot)) {
             return 0;
         }
@@ -260,8 +252,8 @@ static void gather_near_plots(struct step *step, unsigned group)
                                                     plot->y_m - most_m, plot->y_m + most_m);
     for (uint32_t i; !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
         rho_tracker_spend(step, PASS_UNITS);
-        if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == NONE &&
-            groups->owner[i] == NONE && !rho_tracker_is_excluded(step, i) &&
+        if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == RHO_NO_ROW &&
+            groups->owner[i] == RHO_NO_ROW && !rho_tracker_is_excluded(step, i) &&
             fits_all_in_group(step, group, i)) {
             join_group(groups, group, i);
         }
@@ -274,19 +266,19 @@ static void form_groups(struct step *step)
     struct rho_groups *groups = &step->tracker->bodies.groups;
     uint16_t of_track[RHO_BODY_TRACKS];
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        of_track[row] = NONE;
+        of_track[row] = RHO_NO_ROW;
     }
     for (uint32_t i = 0; i < step->num_gated; i++) {
         const unsigned owner = groups->owner[i];
-        if (groups->of[i] != NONE) {
+        if (groups->of[i] != RHO_NO_ROW) {
             continue;
         }
-        if (owner != NONE && of_track[owner] != NONE) {
+        if (owner != RHO_NO_ROW && of_track[owner] != RHO_NO_ROW) {
             join_group(groups, of_track[owner], i);
             continue;
         }
         begin_group(groups, i);
-        if (owner != NONE) {
+        if (owner != RHO_NO_ROW) {
             of_track[owner] = groups->of[i];
         } else if (step->report->fates[i] == RHO_FATE_HELD && !rho_tracker_is_excluded(step, i)) {
             gather_near_plots(step, groups->of[i]);
@@ -301,7 +293,7 @@ static float rate_spread(const struct step *step, unsigned group, const struct r
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     float sum = 0.0f;
-    for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
+    for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
         const float off_mps = rho_measurement_range_rate_error_mps(
             step->sensor, step->scan->plots[i].range_rate_mps, mean->range_rate_mps);
         sum += off_mps * off_mps;
@@ -317,7 +309,7 @@ static struct rho_plot mean_plot_of(const struct step *step, unsigned group, uns
     struct rho_plot mean = *first, sum = {0};
     float n = 0.0f, offset_us = 0.0f;
     *count = 0;
-    for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
+    for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
         const struct rho_plot *plot = &step->scan->plots[i];
         offset_us += (float)(plot->offset_us - first->offset_us);
         sum.x_m += plot->x_m - first->x_m;
@@ -353,7 +345,7 @@ static void variance_missed_by_mean(const struct step *step, unsigned group,
     const struct rho_bodies *bodies = &step->tracker->bodies;
     const struct rho_groups *groups = &bodies->groups;
     const unsigned owner = groups->owner[groups->first[group]];
-    if (owner != NONE) {
+    if (owner != RHO_NO_ROW) {
         const float share = bodies->of[owner].plots < RHO_BODY_NEW_PLOTS
                                 ? 1.0f
                                 : rho_body_missed_share(&bodies->of[owner], count);
@@ -365,7 +357,7 @@ static void variance_missed_by_mean(const struct step *step, unsigned group,
     }
     xx_yx_yy[0] = xx_yx_yy[2] = rho_tracker_body_prior_m2(step->tracker);
     xx_yx_yy[1] = 0.0f;
-    for (unsigned i = groups->first[group]; i != NONE; i = groups->next[i]) {
+    for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
         const float dx_m = step->scan->plots[i].x_m - mean->x_m,
                     dy_m = step->scan->plots[i].y_m - mean->y_m;
         xx_yx_yy[0] += dx_m * dx_m;
@@ -423,8 +415,8 @@ static void open_groups(struct step *step)
         const struct rho_plot *plot = &step->scan->plots[i];
         const float offset_s = (float)plot->offset_us * 1e-6f;
         const int is_valid = rho_measurement_is_valid(plot, step->scan->measures);
-        groups->of[i] = groups->next[i] = groups->owner[i] = NONE;
-        groups->contender[i] = NONE;
+        groups->of[i] = groups->next[i] = groups->owner[i] = RHO_NO_ROW;
+        groups->contender[i] = RHO_NO_ROW;
         step->report->fates[i] = (uint8_t)(is_valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (is_valid) {
             step->sigma_max_m = rho_larger(step->sigma_max_m, rho_plot_sigma_m(plot));

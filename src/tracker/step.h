@@ -307,6 +307,8 @@ int rho_tracker_has_sound_cell(const struct rho_tracker_learned *learned);
 
 /* ---- bodies ---------------------------------------------------------------------------------- */
 
+/* Of groups: the row of no plot, group or track. */
+#define RHO_NO_ROW UINT16_MAX
 /* The body of a track is known from so many plots on. */
 #define RHO_BODY_NEW_PLOTS 30.0f
 
@@ -344,17 +346,27 @@ struct body_plot {
 int rho_tracker_place_on_body(const struct step *step, const struct rho_scan *scan, unsigned row,
                               unsigned plot, struct body_plot *at);
 
+/* Variances of a plot's own noise in the axes of a body: along, cross, across. */
+void rho_tracker_noise_on_body(const struct step *step, const struct rho_body_filter *body,
+                               const struct rho_plot *plot, float axes[3]);
+/* From this plot of a group on, the first that no other track contends for. */
+static inline unsigned rho_tracker_uncontested(const struct rho_groups *groups, unsigned plot)
+{
+    while (plot != RHO_NO_ROW && groups->contender[plot] != RHO_NO_ROW) {
+        plot = groups->next[plot];
+    }
+    return plot;
+}
+
 /* body_doubt.c: what the plots of a body say of two targets; and for which reason they are two */
 enum rho_body_split {
     RHO_BODY_ONE,
     RHO_BODY_TOO_WIDE,
     RHO_BODY_TOO_LONG,
-    RHO_BODY_STRETCHED /* range rates differ from part to part by more than a turn explains */
+    RHO_BODY_MOVES_APART /* range rates differ from part to part by more than a turn explains */
 };
 void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan, unsigned row);
 enum rho_body_split rho_tracker_why_two(const struct step *step, unsigned row);
-/* Of a plot: the row of no track. */
-#define RHO_NO_TRACK UINT16_MAX
 static inline int rho_tracker_may_own_plots(const struct step *step, unsigned row)
 {
     return RHO_BODIES && row < RHO_BODY_TRACKS &&

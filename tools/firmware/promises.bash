@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 # What a step of each shipped configuration of the node (nodes/) costs at most, as far as a guided
-# search for the worst one can tell: `promise_of NAME` sets core, a step's fixed instructions (a),
+# search for the worst one can tell: `promise_of NAME` sets a step's fixed instructions (a),
 # those of a unit of work (b), and what the processor has time for (most): a quarter of the scan
 # interval at 168 MHz, for `smallest` 4 million; `full` is any radar's, here one of 4 s. `traffic`
 # has half of its interval, which is below a quarter of it at 480 MHz (M7).
 shipped='full en_route marine traffic smallest'
 promise_of() {
-    core=m4 a=5000000 b=90
+    a=5000000 b=90
     case $1 in
     full) most=168000000 ;;
     en_route) most=420000000 ;;
@@ -22,8 +22,7 @@ promise_of() {
 worst_of() {
     local name=$1 line said
     shift
-    said=$("$root/tools/firmware/emulate.sh" "$core" "$build/firmware/$core/worst/$name.elf" "$@") \
-        || {
+    said=$("$root/tools/firmware/emulate.sh" m4 "$build/firmware/m4/worst/$name.elf" "$@") || {
         echo "$said"
         return 1
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Of two tracks of one target the younger ends. At the limits both are made by hand, which takes the
- * private header.
+ * Of two tracks of one target the younger ends. At the limits both are made by hand, which takes
+ * the private header.
  */
 #include "../../src/tracker/step.h"
 #include "tracker_setup.h"
@@ -76,7 +76,7 @@ static void the_younger_of_two_on_each_other_ends(void **state)
     tracker.bodies.groups.contender[0] = 0;
     assert_int_equal(scans_to_end(), 38);
     have_two(0.0f, 0.0f, 1000);
-    tracker.bodies.groups.contender[0] = RHO_NO_TRACK; /* no plot says so */
+    tracker.bodies.groups.contender[0] = RHO_NO_ROW; /* no plot says so */
     assert_int_equal(scans_to_end(), 0);
     for (unsigned row = 0; row < 2; row++) { /* nor does a heading */
         have_two(0.0f, 0.0f, 1000);
@@ -108,7 +108,7 @@ static void what_lasts_counts(void **state)
         have_two(0.0f, 0.0f, 1000);
         for (unsigned scan = 1; scan <= 400; scan++) {
             at.time_us = 50000 * (int64_t)scan;
-            tracker.bodies.groups.contender[0] = scan % every ? RHO_NO_TRACK : 1;
+            tracker.bodies.groups.contender[0] = scan % every ? RHO_NO_ROW : 1;
             rho_tracker_end_doubled(&at);
         }
         assert_int_equal(tracker.tracks[1].status == RHO_TRACK_FREE, every == 2);

@@ -75,13 +75,13 @@ static void group(void)
 static int owner_of(uint32_t plot)
 {
     const struct rho_groups *groups = &tracker.bodies.groups;
-    return plot >= RHO_BODY_PLOTS || groups->owner[plot] == UINT16_MAX ? -1 : groups->owner[plot];
+    return plot >= RHO_BODY_PLOTS || groups->owner[plot] == RHO_NO_ROW ? -1 : groups->owner[plot];
 }
 
 static int contender_of(uint32_t plot)
 {
     const struct rho_groups *groups = &tracker.bodies.groups;
-    return plot >= RHO_BODY_PLOTS || groups->contender[plot] == RHO_NO_TRACK
+    return plot >= RHO_BODY_PLOTS || groups->contender[plot] == RHO_NO_ROW
                ? -1
                : groups->contender[plot];
 }

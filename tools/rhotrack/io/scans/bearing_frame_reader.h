@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_frame_reader: bearing files in, frames out, merged by time. LCM logs are read as log_scans.h has
- * it, and of CSV files
- *
- * columns by name:
+ * bearing_frame_reader: bearing files in, frames out, merged by time. LCM logs are read as
+ * log_scans.h has it, and of CSV files columns by name:
  * t_s,sensor_id,sensor_x_m,sensor_y_m,bearing_rad[,sigma_rad][,sector_from_rad,sector_to_rad]
  *     [,snr_db];
  * others are ignored. Bearings are counter-clockwise from +x. Rows of one sensor with the same t_s
@@ -37,9 +35,10 @@ bool bearing_frame_reader_file_has_bearings(const char *path);
 
 /*
  * Opens the files and reads them through once, since sensors are to be known from the start;
- * bearing_frame_reader_next then reads again. Memory does not grow with the files. Errors as `rhotrack:
- * FILE:LINE: what is wrong`, exit 2; with keep_going bad rows are skipped and counted instead. A
- * sensor that moves, two in one place and more than RHO_MAX_SENSORS are errors of their rows.
+ * bearing_frame_reader_next then reads again. Memory does not grow with the files. Errors as
+ * `rhotrack: FILE:LINE: what is wrong`, exit 2; with keep_going bad rows are skipped and counted
+ * instead. A sensor that moves, two in one place and more than RHO_MAX_SENSORS are errors of their
+ * rows.
  */
 struct bearing_frame_reader *bearing_frame_reader_open(char *const *paths, int num_paths,
                                                        const struct parameters *parameters,
