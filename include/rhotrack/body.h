@@ -18,7 +18,7 @@
  *
  * Two targets that are near each other from their first plots on are one body, until it is surely
  * wider than 0.3 of the longest, or longer than that, or its range rates say that its parts move
- * apart (src/step/split_bodies.c, src/tracker/body_doubt.c). Of two tracks whose bodies stay on
+ * apart (src/step/split_bodies.c, src/bodies/body_doubt.c). Of two tracks whose bodies stay on
  * each other the younger ends. Plots of one body in two sectors of a turn are two groups.
  *
  * Stack: 128 bytes at most.

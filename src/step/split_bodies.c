@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * split_bodies: two targets that were taken for one body, until it is surely wider than any, or
- * what it has shown says that it is two (src/tracker/body_doubt.c).
+ * what it has shown says that it is two (src/bodies/body_doubt.c).
  *
  * Cars abreast of each other are one group from afar, and go on as one track. Nearer to the sensor
  * their body is known to be as wide as two lanes; where one is faster, range rates tell them apart

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * step: the state of one step, and the functions below the phases of src/step: those call them, and
- * none of them calls a phase. Private to src/tracker, src/step and src/walls.
+ * none of them calls a phase. Private to src/tracker, src/bodies, src/step and src/walls.
  *
  * Options of config.h: every build compiles every function, and callers ask the option first
  * (`if (RHO_SECTORS)`), so that the linker leaves out what a build does not need.

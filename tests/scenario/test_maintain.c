@@ -13,8 +13,8 @@
 #include <math.h>
 
 #include "base/random.h"
-#include "pipeline/maintainer.h"
-#include "pipeline/scan_clutter_density.h"
+#include "maintenance/maintainer.h"
+#include "maintenance/scan_clutter_density.h"
 #include "rhotrack/detail/linalg.h"
 
 #define PI 3.141592653589793

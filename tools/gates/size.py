@@ -30,22 +30,22 @@ import measurements  # noqa: E402 (found by the line above)
 
 # The rows of the first table: title, files (patterns of room/file; -pattern: without these),
 # object.
-IMAGES = "*_validate settings/snapshot"
+IMAGES = "*_soundness settings/snapshot"
 ROWS = [
-    ("initiation: kernels, fits, false-track rate, clutter map", "initiation/* -*_validate",
-     "initiator"),
+    ("initiation: kernels, fits, false-track rate, clutter map",
+     "initiation/* window/* -*_soundness", "initiator"),
     ("tracks: estimation, association, tracker",
-     "estimation/* association/* tracker/* settings/* -*_validate -settings/snapshot -tracker/bearing_*",
-     "tracker"),
+     "estimation/* association/* tracker/* bodies/* step/* settings/* "
+     "-*_soundness -settings/snapshot -step/bearing_* -step/paper_starts", "tracker"),
     ("of these kalman, input and gate, by themselves; RAM of one track",
      "estimation/kalman* estimation/input* association/gate", "input"),
     ("walls that are learned, linked only where they are called", "walls/*", ""),
     ("base and measurement", "base/* measurement/* -measurement/crossing", ""),
     ("passive sensors: crossing, bearings, tracker's part, linked only where they are called",
-     "measurement/crossing bearings/* tracker/bearing_* -*_validate -bearings/frames", "passive"),
+     "measurement/crossing bearings/* step/bearing_* -*_soundness -bearings/frames", "passive"),
     ("frames of bearing scans as they arrive, likewise", "bearings/frames", "frames"),
     ("papers: accumulator, likewise", "papers/accumulator*", "accumulator"),
-    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough* papers/plane", "hough"),
+    ("papers: HT, MHT, IHT, NHT, likewise", "papers/hough* papers/plane step/paper_starts", "hough"),
     ("papers: passive Hough transform, likewise", "papers/passive_paper*", "passive_paper"),
     ("papers: Hough gate, likewise", "papers/gate_hough", ""),
     ("snapshot, and the validation of images, likewise", IMAGES, ""),
@@ -63,9 +63,9 @@ ROWS = [
 # stack. Not red.
 AIMS = [
     ("a radar node: all but passive sensors, papers, images and names",
-     "base/* measurement/* estimation/* association/* initiation/* tracker/* settings/* wire/* "
-     "-measurement/crossing -tracker/bearing_* -*_validate -settings/snapshot -wire/message_names "
-     "-wire/show*",
+     "base/* measurement/* estimation/* association/* window/* initiation/* tracker/* bodies/* "
+     "step/* settings/* wire/* -measurement/crossing -step/bearing_* -step/paper_starts "
+     "-*_soundness -settings/snapshot -wire/message_names -wire/show*",
      96 * 1024, "initiator tracker scan_assembler report", 176 * 1024, 4096),
 ]
 
@@ -151,6 +151,9 @@ class Measured:
     def files(self, selection):
         """The stems that a row's selection names."""
         words = selection.split()
+        for word in words:
+            if not fnmatch.filter(self.places.values(), word.lstrip("-")):
+                sys.exit(f"size: no file of src/ is named {word}")
         named = lambda stem, patterns: any(
             fnmatch.fnmatch(self.places[stem], pattern) for pattern in patterns)
         return {stem for stem in self.texts[self.main]

@@ -19,7 +19,7 @@
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/inputs.h"
 #include "live/node_core.h"
-#include "pipeline/maintainer.h"
+#include "maintenance/maintainer.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/measurement.h"
 #include "settings/method.h"

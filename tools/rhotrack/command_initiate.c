@@ -11,9 +11,9 @@
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/scan_reader.h"
 #include "io/turns/revolutions.h"
-#include "pipeline/initiate_hough.h"
-#include "pipeline/initiate_passive.h"
-#include "pipeline/initiate_passive_paper.h"
+#include "initiation/initiate_hough.h"
+#include "initiation/initiate_passive.h"
+#include "initiation/initiate_passive_paper.h"
 #include "rhotrack/tracker.h"
 
 struct batch {

@@ -10,7 +10,7 @@
 #include "io/output/tracks_output.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/scan_reader.h"
-#include "pipeline/maintainer.h"
+#include "maintenance/maintainer.h"
 #include "rhotrack/detail/measurement.h"
 
 struct maintaining {

@@ -19,7 +19,7 @@
 #include "io/scans/inputs.h"
 #include "io/scans/scan_reader.h"
 #include "next_command.h"
-#include "pipeline/last_bearings.h"
+#include "initiation/last_bearings.h"
 #include "pipeline/learned_report.h"
 #include "pipeline/no_tracks_reason.h"
 #include "pipeline/pipeline.h"

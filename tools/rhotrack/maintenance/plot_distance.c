@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/plot_distance.h"
+#include "maintenance/plot_distance.h"
 
 #include <math.h>
 

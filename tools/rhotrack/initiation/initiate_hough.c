@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/initiate_hough.h"
+#include "initiation/initiate_hough.h"
 
 #include <cjson/cJSON.h>
 #include <inttypes.h>

@@ -4,10 +4,10 @@
  */
 #include "rhotrack/body.h"
 
+#include "../tracker/step.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
 #include "rhotrack/detail/measurement.h"
-#include "step.h"
 
 /* Places on a body of unknown extent: it is half as long as the longest, in any direction. */
 #define PRIOR_SHARE 0.5f

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/maintainer_best.h"
+#include "maintenance/maintainer_best.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/common.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/plot_distance.h"
+#include "maintenance/plot_distance.h"
 #include "rhotrack/detail/hypotheses.h"
 
 #define NO_SLOT RHO_HYPOTHESES_SLOTS

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/maintainer.h"
+#include "maintenance/maintainer.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/common.h"
-#include "pipeline/maintainer_best.h"
+#include "maintenance/maintainer_best.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/plot_distance.h"
-#include "pipeline/scan_clutter_density.h"
+#include "maintenance/plot_distance.h"
+#include "maintenance/scan_clutter_density.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/input.h"
 #include "rhotrack/detail/measurement.h"

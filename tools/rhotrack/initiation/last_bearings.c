@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/last_bearings.h"
+#include "initiation/last_bearings.h"
 
 #include <inttypes.h>
 #include <math.h>

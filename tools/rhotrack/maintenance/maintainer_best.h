@@ -6,7 +6,7 @@
 #ifndef RHOTRACK_TOOL_MAINTAINER_BEST_H
 #define RHOTRACK_TOOL_MAINTAINER_BEST_H
 
-#include "pipeline/maintainer.h"
+#include "maintenance/maintainer.h"
 
 struct maintainer_best;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/scan_clutter_density.h"
+#include "maintenance/scan_clutter_density.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,10 +7,10 @@
  * plot never has a higher row than the plot. At the end rows and fates are those of the plots
  * again.
  */
+#include "../tracker/step.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
 #include "rhotrack/detail/measurement.h"
-#include "step.h"
 
 /* A plot is a track's by its place up to so many standard deviations on each axis of the body. */
 #define GATE_SIGMAS 3.0f

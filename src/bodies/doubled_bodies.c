@@ -6,8 +6,8 @@
  * to pairs of tracks whose bodies lie on each other: that lasts, or it was an error of a place. And
  * a body that comes into view as a whole may start two tracks at once.
  */
+#include "../tracker/step.h"
 #include "rhotrack/detail/approx.h"
-#include "step.h"
 
 /* A track has lain on an older one in so many scans when it ends, of those that are remembered. */
 #define DOUBLED_SCANS 30.0f

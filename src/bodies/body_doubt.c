@@ -8,10 +8,10 @@
  * that within a few seconds, long before they are seen apart; two of one lane that were never
  * farther apart than a truck is long show their length.
  */
+#include "../tracker/step.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
-#include "step.h"
 
 /* Looks that count. */
 #define MEMORY_LOOKS 80.0f

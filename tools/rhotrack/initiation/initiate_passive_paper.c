@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#include "pipeline/initiate_passive_paper.h"
+#include "initiation/initiate_passive_paper.h"
 
 #include <cjson/cJSON.h>
 #include <stdlib.h>
 
 #include "base/common.h"
 #include "io/output/initiated_output.h"
-#include "pipeline/last_bearings.h"
+#include "initiation/last_bearings.h"
 #include "pipeline/pipeline.h"
 #include "settings/method.h"
 
