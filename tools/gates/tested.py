@@ -26,7 +26,8 @@ def public_functions(root, build):
         declared |= set(re.findall(r"\b(rho_\w+)\s*\(", header.read_text(encoding="utf-8")))
     functions = {}
     for folder in sorted((build / "embedded/src").iterdir()):
-        objects = sorted(folder.glob("*.o"))
+        objects = [path for path in sorted(folder.glob("*.o"))  # else of a file that was moved
+                   if (root / "src" / folder.name / path.name).with_suffix(".c").is_file()]
         symbols = subprocess.run(["nm", "-g", "--defined-only", *objects], check=True,
                                  capture_output=True, text=True).stdout if objects else ""
         functions |= {

@@ -7,13 +7,13 @@
 
 #include "base/common.h"
 #include "commands.h"
+#include "initiation/initiate_hough.h"
+#include "initiation/initiate_passive.h"
+#include "initiation/initiate_passive_paper.h"
 #include "io/output/initiated_output.h"
 #include "io/scans/bearing_frame_reader.h"
 #include "io/scans/scan_reader.h"
 #include "io/turns/revolutions.h"
-#include "initiation/initiate_hough.h"
-#include "initiation/initiate_passive.h"
-#include "initiation/initiate_passive_paper.h"
 #include "rhotrack/tracker.h"
 
 struct batch {

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "io/output/initiated_output.h"
 #include "initiation/last_bearings.h"
+#include "io/output/initiated_output.h"
 #include "pipeline/pipeline.h"
 #include "rhotrack/detail/angle.h"
 #include "settings/method.h"

@@ -7,9 +7,9 @@
 
 #include "base/common.h"
 #include "maintenance/maintainer_best.h"
-#include "pipeline/pipeline.h"
 #include "maintenance/plot_distance.h"
 #include "maintenance/scan_clutter_density.h"
+#include "pipeline/pipeline.h"
 #include "rhotrack/detail/gate.h"
 #include "rhotrack/detail/input.h"
 #include "rhotrack/detail/measurement.h"

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/common.h"
-#include "pipeline/pipeline.h"
 #include "maintenance/plot_distance.h"
+#include "pipeline/pipeline.h"
 #include "rhotrack/detail/hypotheses.h"
 
 #define NO_SLOT RHO_HYPOTHESES_SLOTS
