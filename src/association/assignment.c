@@ -7,21 +7,20 @@
 #define DISTANCE_NONE INT32_MAX
 
 /*
- * One row's search: Dijkstra's shortest path over the costs reduced by the columns' prices
- * (Jonker and Volgenant 1987). A path ends at a free column, or at a row that gives
- * up its column: a column of its own at cost and price 0 that needs no place in the tables,
- * because a row in it is reached by no later search.
- *
- * Prices stay within -COST_MAX .. 0 and distances within twice that: a row in a column gains by
- * it, so that cost - price <= 0, and no path dearer than staying without is followed. int32_t
- * is enough.
+ * Search for one row's shortest augmenting path: Dijkstra's algorithm over costs reduced by the
+ * columns' prices (Jonker and Volgenant 1987). A path ends at a free column, or at a row that gives
+ * up its column. Such a row is as if assigned to a dummy column of its own with cost and price 0;
+ * dummy columns need no tables, as no later search reaches a row in one. Prices stay within
+ * -COST_MAX .. 0 and distances within twice that: an assigned row has cost - price <= 0, and no
+ * path of higher cost than leaving the row unassigned is followed. int32_t is enough.
  */
 struct search {
-    int32_t end_distance; /* of the nearest row that may give up its column; later of the end */
+    /* distance to the nearest row that may give up its column; after the search, to the end */
+    int32_t end_distance;
     int16_t end_row;
     int16_t end_column;
     int num_scanned;  /* columns at the head of the queue whose rows were expanded */
-    int num_labelled; /* columns in the queue */
+    int num_labelled; /* columns in the queue: those that were labelled */
 };
 
 int rho_assignment_is_ready(const struct rho_assignment *assignment)
@@ -29,13 +28,14 @@ int rho_assignment_is_ready(const struct rho_assignment *assignment)
     return assignment != NULL && assignment->magic == ASSIGNMENT_MAGIC;
 }
 
-/* True where the pair is the worse one to keep; equal costs: the higher column. */
-static int is_dearer(const struct rho_assignment_pair *one, const struct rho_assignment_pair *other)
+/* True where `one` has the higher cost; of equal costs, where it has the higher column. */
+static int is_costlier(const struct rho_assignment_pair *one,
+                       const struct rho_assignment_pair *other)
 {
     return one->cost > other->cost || (one->cost == other->cost && one->column > other->column);
 }
 
-/* Place of a column among a row's pairs, or their number. */
+/* Index of a column among a row's pairs, or the number of pairs where the row does not hold it. */
 static int find_pair(const struct rho_assignment *a, int row, int column)
 {
     const int num_pairs = a->num_pairs[row];
@@ -49,25 +49,26 @@ static int find_pair(const struct rho_assignment *a, int row, int column)
     return i;
 }
 
-static int find_dearest_pair(const struct rho_assignment_pair *pairs)
+static int find_costliest_pair(const struct rho_assignment_pair *pairs)
 {
-    int i, dearest = 0;
+    int i, costliest = 0;
 
     for (i = 1; i < RHO_MAX_GATE_PLOTS; ++i) {
-        if (is_dearer(&pairs[i], &pairs[dearest])) {
-            dearest = i;
+        if (is_costlier(&pairs[i], &pairs[costliest])) {
+            costliest = i;
         }
     }
-    return dearest;
+    return costliest;
 }
 
-/* In a full row: of its pairs and the new one the dearest is dropped. */
-static void replace_dearest_pair(struct rho_assignment *a, int row, struct rho_assignment_pair pair)
+/* Drops the costliest of a full row's pairs and the new pair, and counts it. */
+static void replace_costliest_pair(struct rho_assignment *a, int row,
+                                   struct rho_assignment_pair pair)
 {
-    struct rho_assignment_pair *dearest = &a->pairs[row][find_dearest_pair(a->pairs[row])];
+    struct rho_assignment_pair *costliest = &a->pairs[row][find_costliest_pair(a->pairs[row])];
 
-    if (is_dearer(dearest, &pair)) {
-        *dearest = pair;
+    if (is_costlier(costliest, &pair)) {
+        *costliest = pair;
     }
     if (a->pairs_dropped < UINT32_MAX) {
         ++a->pairs_dropped;
@@ -85,10 +86,10 @@ static void label_column(struct rho_assignment *a, struct search *s, int column,
 }
 
 /*
- * Offers the ways that go on from a row: its columns, or none. base: the row's price less its
- * distance.
+ * Labels the columns that can be reached from a row with their distances, and the row as an end
+ * that gives up its column. base: the row's price less its distance.
  */
-static void label_row(struct rho_assignment *a, struct search *s, int row, int32_t base)
+static void label_columns_of_row(struct rho_assignment *a, struct search *s, int row, int32_t base)
 {
     const int num_pairs = a->num_pairs[row];
     int i;
@@ -101,7 +102,7 @@ static void label_row(struct rho_assignment *a, struct search *s, int row, int32
         const int column = a->pairs[row][i].column;
         const int32_t distance = a->pairs[row][i].cost - a->column_price[column] - base;
 
-        /* Columns no nearer than the end never become part of the path. */
+        /* Columns at least as far as the end never become part of the path. */
         if (distance < a->column_distance[column] && distance < s->end_distance) {
             label_column(a, s, column, row, distance);
         }
@@ -109,10 +110,10 @@ static void label_row(struct rho_assignment *a, struct search *s, int row, int32
 }
 
 /*
- * Brings the nearest open column, the lowest of equals, to the head of the queue's open part;
- * false: none in reach.
+ * Moves the nearest of the labelled columns that were not scanned, of equals the lowest, to the
+ * head of the queue's unscanned part. Returns 0 if none is nearer than the end.
  */
-static int find_nearest_column(struct rho_assignment *a, const struct search *s)
+static int move_nearest_column_to_head(struct rho_assignment *a, const struct search *s)
 {
     int16_t *queue = a->column_queue;
     int32_t least = s->end_distance;
@@ -137,13 +138,14 @@ static int find_nearest_column(struct rho_assignment *a, const struct search *s)
 }
 
 /*
- * Finds the end of the shortest path from a row: s->end_column, or where that is NONE
- * s->end_row.
+ * Finds the end of the shortest augmenting path from a row: s->end_column, or where that is NONE,
+ * s->end_row, which gives up its column.
  */
-static void search_path(struct rho_assignment *a, struct search *s, int row)
+static void search_shortest_path(struct rho_assignment *a, struct search *s, int row)
 {
-    label_row(a, s, row, 0);
-    while (find_nearest_column(a, s)) { /* at most num_columns times: each is scanned once */
+    label_columns_of_row(a, s, row, 0);
+    /* at most num_columns times: each column is scanned once */
+    while (move_nearest_column_to_head(a, s)) {
         const int16_t column = a->column_queue[s->num_scanned];
         const int16_t owner = a->column_row[column];
         int32_t price;
@@ -155,11 +157,14 @@ static void search_path(struct rho_assignment *a, struct search *s, int row)
         }
         ++s->num_scanned;
         price = a->pairs[owner][find_pair(a, owner, column)].cost - a->column_price[column];
-        label_row(a, s, owner, price - a->column_distance[column]);
+        label_columns_of_row(a, s, owner, price - a->column_distance[column]);
     }
 }
 
-/* Keeps the reduced costs of the scanned columns' rows at least zero; leaves the labels clean. */
+/*
+ * Updates the prices of scanned columns so that the reduced costs of their rows stay at least 0,
+ * and clears all labels.
+ */
 static void update_prices(struct rho_assignment *a, const struct search *s)
 {
     int i;
@@ -175,8 +180,8 @@ static void update_prices(struct rho_assignment *a, const struct search *s)
 }
 
 /*
- * Walks back from the end to the row that was searched for, each row on the way taking the
- * column it reached.
+ * Walks back along the path from its end to the row that was searched for: each row takes the
+ * column that was reached from it.
  */
 static void augment_along_path(struct rho_assignment *a, const struct search *s, int first_row)
 {
@@ -190,7 +195,7 @@ static void augment_along_path(struct rho_assignment *a, const struct search *s,
             return;
         }
     }
-    do { /* a shortest path meets a row once */
+    do { /* terminates: a shortest path meets a row once */
         const int16_t freed = a->row_column[a->column_from[column]];
 
         row = a->column_from[column];
@@ -200,7 +205,7 @@ static void augment_along_path(struct rho_assignment *a, const struct search *s,
     } while (row != first_row);
 }
 
-static void clear_answer(struct rho_assignment *a)
+static void clear_answer_and_prices(struct rho_assignment *a)
 {
     int i;
 
@@ -243,7 +248,7 @@ enum rho_status rho_assignment_begin(struct rho_assignment *assignment, unsigned
     assignment->num_columns = (uint16_t)num_columns;
     assignment->pairs_dropped = 0;
     memset(assignment->num_pairs, 0, num_rows * sizeof assignment->num_pairs[0]);
-    clear_answer(assignment);
+    clear_answer_and_prices(assignment);
     return RHO_OK;
 }
 
@@ -273,7 +278,7 @@ enum rho_status rho_assignment_add(struct rho_assignment *assignment, unsigned r
     if (*num_pairs < RHO_MAX_GATE_PLOTS) {
         assignment->pairs[row][(*num_pairs)++] = pair;
     } else {
-        replace_dearest_pair(assignment, (int)row, pair);
+        replace_costliest_pair(assignment, (int)row, pair);
     }
     return RHO_OK;
 }
@@ -285,11 +290,11 @@ void rho_assignment_solve(struct rho_assignment *assignment)
     if (!rho_assignment_is_ready(assignment)) {
         return;
     }
-    clear_answer(assignment);
+    clear_answer_and_prices(assignment);
     for (row = 0; row < assignment->num_rows; ++row) {
         struct search s = {.end_distance = DISTANCE_NONE, .end_column = RHO_ASSIGNMENT_NONE};
 
-        search_path(assignment, &s, row);
+        search_shortest_path(assignment, &s, row);
         update_prices(assignment, &s);
         augment_along_path(assignment, &s, row);
     }

@@ -7,11 +7,11 @@
 #include "rhotrack/detail/linalg.h"
 
 #define DIMENSIONS_MAX (RHO_Z + 2) /* x, y, z and the range rate */
-#define BOX_MARGIN 1.001f          /* more than rounding is wrong by */
+#define BOX_MARGIN 1.001f          /* factor on the box's half widths: more than rounding errors */
 
-/* The expected range rate: the same for all plots without an own time. */
-static void expect_range_rate(const struct rho_kalman *at, const struct rho_sensor *sensor,
-                              int has_z, struct rho_gate_rate *rate)
+/* Predicts the range rate of an estimate: it holds for all plots without an own time. */
+static void predict_range_rate(const struct rho_kalman *at, const struct rho_sensor *sensor,
+                               int has_z, struct rho_gate_rate *rate)
 {
     float row[RHO_KALMAN_STATES], projected[RHO_KALMAN_STATES];
     rate->is_known = rho_measurement_range_rate(at->state, sensor, has_z, row, &rate->rate_mps);
@@ -32,7 +32,7 @@ void rho_gate_open(struct rho_gate *gate, const struct rho_kalman *predicted, fl
     gate->has_z = rho_kalman_is_open(predicted, 2);
     gate->measures = measures;
     if (measures & RHO_MEASURES_RANGE_RATE) {
-        expect_range_rate(predicted, sensor, gate->has_z, &gate->rate);
+        predict_range_rate(predicted, sensor, gate->has_z, &gate->rate);
     }
 }
 
@@ -52,8 +52,8 @@ void rho_gate_box(const struct rho_gate *gate, float sigma_m, float offset_s, fl
 }
 
 /*
- * Outside the gate along one axis alone, at the plot's own time: most plots end here, without a
- * division. NaN ends here too.
+ * True where a plot is outside of the gate along one axis alone, at its own time; also for NaN.
+ * Rejects most plots without a division.
  */
 static int is_outside_on_axis(const struct rho_gate *gate, int axis, float place_m, float offset_s,
                               float variance_m2)
@@ -70,15 +70,15 @@ static int is_outside_on_axis(const struct rho_gate *gate, int axis, float place
     return !(d_m * d_m <= RHO_GATE_CHI2_4D * (spread_m2 + variance_m2));
 }
 
-/* Innovation and its covariance: x, y, then z and the range rate where they count. */
+/* Innovation d and its covariance s: x, y, then z and the range rate where they are tested. */
 struct innovation {
     int num;
     float d[DIMENSIONS_MAX];
     float s[RHO_TRIANGLE(DIMENSIONS_MAX)];
 };
 
-static void begin_with_position(const struct rho_kalman *at, const struct rho_measurement *seen,
-                                int num, struct innovation *innovation)
+static void set_position_innovation(const struct rho_kalman *at, const struct rho_measurement *seen,
+                                    int num, struct innovation *innovation)
 {
     float noise[RHO_TRIANGLE(3)];
     rho_measurement_covariance(seen, noise);
@@ -92,9 +92,12 @@ static void begin_with_position(const struct rho_kalman *at, const struct rho_me
     }
 }
 
-/* The innovations of a range rate and a position are correlated. */
-static int add_range_rate(const struct rho_gate_rate *rate, const struct rho_plot *plot,
-                          struct innovation *innovation)
+/*
+ * Appends a range rate's innovation, which is correlated with the position's. Returns 0 where the
+ * prediction has no range rate.
+ */
+static int append_range_rate_innovation(const struct rho_gate_rate *rate,
+                                        const struct rho_plot *plot, struct innovation *innovation)
 {
     int n = innovation->num;
     if (!rate->is_known) {
@@ -110,7 +113,7 @@ static int add_range_rate(const struct rho_gate_rate *rate, const struct rho_plo
     return 1;
 }
 
-/* Position with height, and a range rate: by the Cholesky factor. */
+/* Tests a position with height and a range rate, by the Cholesky factor. */
 static int test_four_dimensions(struct innovation *innovation, struct rho_gate_result *result)
 {
     if (rho_linalg_cholesky(4, innovation->s, innovation->s) != RHO_OK) {
@@ -125,7 +128,7 @@ static int test_four_dimensions(struct innovation *innovation, struct rho_gate_r
     return result->distance2 <= RHO_GATE_CHI2_4D;
 }
 
-static int is_innovation_inside(struct innovation *innovation, struct rho_gate_result *result)
+static int is_innovation_in_gate(struct innovation *innovation, struct rho_gate_result *result)
 {
     const float *s = innovation->s, *d = innovation->d;
     if (innovation->num == 4) {
@@ -147,18 +150,18 @@ static int test_all_dimensions(const struct rho_gate *gate, const struct rho_kal
     struct innovation innovation;
     rho_measurement_open(plot, gate->measures, gate->sensor, &seen);
     result->has_z = gate->has_z && seen.has_z;
-    begin_with_position(at, &seen, result->has_z ? 3 : 2, &innovation);
-    result->has_range_rate =
-        (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 && add_range_rate(rate, plot, &innovation);
+    set_position_innovation(at, &seen, result->has_z ? 3 : 2, &innovation);
+    result->has_range_rate = (gate->measures & RHO_MEASURES_RANGE_RATE) != 0 &&
+                             append_range_rate_innovation(rate, plot, &innovation);
     if (result->has_range_rate && !rho_measurement_unfold_range_rate(gate->sensor, innovation.num,
                                                                      innovation.s, innovation.d)) {
         result->has_range_rate = 0;
         innovation.num--;
     }
-    return is_innovation_inside(&innovation, result);
+    return is_innovation_in_gate(&innovation, result);
 }
 
-/* At the plot's own time, to which the estimate is predicted. */
+/* Tests a plot at its own time, to which the estimate is predicted. */
 static int test_at_own_time(const struct rho_gate *gate, float offset_s,
                             const struct rho_plot *plot, struct rho_gate_result *result)
 {
@@ -168,7 +171,7 @@ static int test_at_own_time(const struct rho_gate *gate, float offset_s,
         return 0;
     }
     if (gate->measures & RHO_MEASURES_RANGE_RATE) {
-        expect_range_rate(&at, gate->sensor, gate->has_z, &rate);
+        predict_range_rate(&at, gate->sensor, gate->has_z, &rate);
     }
     return test_all_dimensions(gate, &at, &rate, plot, result);
 }
@@ -176,7 +179,7 @@ static int test_at_own_time(const struct rho_gate *gate, float offset_s,
 int rho_gate_test(const struct rho_gate *gate, const struct rho_plot *plot,
                   struct rho_gate_result *result)
 {
-    /* a high line of sight brings the height's noise down */
+    /* the largest sigma: at high elevation the noise of the height is partly horizontal */
     float offset_s = (float)plot->offset_us * 1e-6f, sigma_m = plot->sigma_range_m;
     if (plot->sigma_cross_m > sigma_m) {
         sigma_m = plot->sigma_cross_m;

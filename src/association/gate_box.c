@@ -1,57 +1,65 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * gate_box: the box that holds the gates of all hypotheses of a slot, as a scan begins.
+ * gate_box: the box in space that holds the gates of all hypotheses of a track; plots outside of it
+ * need not be scored.
  */
 #include "hypotheses_pool.h"
 #include "rhotrack/detail/approx.h"
 
-/* Square root of the gate: how far, in standard deviations, a plot may be. */
+/* Square root of RHO_IMM_GATE: largest distance of a plot in the gate, in standard deviations. */
 #define GATE_SIGMAS 5.4772256f
 
-struct span {
+struct element_span {
     float min, max, variance_max;
 };
 
-static inline void include_in_span(struct span *span, float value, float variance)
+static inline void extend_span(struct element_span *span, float value, float variance)
 {
     span->min = value < span->min ? value : span->min;
     span->max = value > span->max ? value : span->max;
     span->variance_max = variance > span->variance_max ? variance : span->variance_max;
 }
 
-/* One element of all hypotheses' states, of both models. */
-static struct span span_of_element(const struct rho_hypotheses *pool, uint16_t slot, int element)
+/*
+ * Range of values and largest variance of one element of the state, over all hypotheses of a slot
+ * and both models.
+ */
+static struct element_span span_of_element(const struct rho_hypotheses *pool, uint16_t slot,
+                                           int element)
 {
     const int variance = RHO_AT(element, element);
-    struct span span = {1e30f, -1e30f, 0.0f};
+    struct element_span span = {1e30f, -1e30f, 0.0f};
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm *imm = &pool->nodes[pool->node_of[slot][i]].imm;
-        include_in_span(&span, imm->state[element], imm->covariance[variance]);
+        extend_span(&span, imm->state[element], imm->covariance[variance]);
         if (element < RHO_KALMAN_STATES) {
-            include_in_span(&span, imm->steady.state[element], imm->steady.covariance[variance]);
+            extend_span(&span, imm->steady.state[element], imm->steady.covariance[variance]);
         }
     }
     return span;
 }
 
-static float gate_reach(const struct span *span)
+static float gate_half_width(const struct element_span *span)
 {
     return GATE_SIGMAS * rho_sqrt(span->variance_max);
 }
 
-/* The largest of three elements from `first` on, without sign, with its uncertainty. */
-static float largest_magnitude(const struct rho_hypotheses *pool, uint16_t slot, int first)
+/*
+ * Largest magnitude of three elements of the state, from `first` on, on any axis, with its
+ * uncertainty.
+ */
+static float largest_axis_magnitude(const struct rho_hypotheses *pool, uint16_t slot, int first)
 {
     float most = 0.0f;
     for (int axis = 0; axis < 3; axis++) {
-        const struct span span = span_of_element(pool, slot, first + axis);
-        const float one = (span.max > -span.min ? span.max : -span.min) + gate_reach(&span);
+        const struct element_span span = span_of_element(pool, slot, first + axis);
+        const float one = (span.max > -span.min ? span.max : -span.min) + gate_half_width(&span);
         most = one > most ? one : most;
     }
     return most;
 }
 
-static int have_heights(const struct rho_hypotheses *pool, uint16_t slot)
+static int have_all_heights(const struct rho_hypotheses *pool, uint16_t slot)
 {
     int have = 1;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
@@ -63,14 +71,15 @@ static int have_heights(const struct rho_hypotheses *pool, uint16_t slot)
 static void fill_box(const struct rho_hypotheses *pool, uint16_t slot,
                      struct rho_hypotheses_box *box)
 {
-    const struct span x = span_of_element(pool, slot, 0), y = span_of_element(pool, slot, 1);
-    const float x_m = gate_reach(&x), y_m = gate_reach(&y);
-    /* a hypothesis without a height ignores that of a plot */
-    struct span z = {0.0f, 0.0f, 0.0f};
+    const struct element_span x = span_of_element(pool, slot, 0),
+                              y = span_of_element(pool, slot, 1);
+    const float x_m = gate_half_width(&x), y_m = gate_half_width(&y);
+    /* no limits of z: a hypothesis without a height ignores the height of a plot */
+    struct element_span z = {0.0f, 0.0f, 0.0f};
     float z_m = 1e30f;
-    if (have_heights(pool, slot)) {
+    if (have_all_heights(pool, slot)) {
         z = span_of_element(pool, slot, 2);
-        z_m = gate_reach(&z);
+        z_m = gate_half_width(&z);
     }
     *box = (struct rho_hypotheses_box){
         .x_min_m = x.min - x_m,
@@ -94,23 +103,28 @@ void rho_hypotheses_begin_scan(struct rho_hypotheses *pool, uint16_t slot,
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         pool->nodes[pool->node_of[slot][i]].num_candidates = 0;
     }
-    pool->gate_slot = RHO_HYPOTHESES_SLOTS; /* of no slot: estimates have moved since */
+    /* gates are of no slot: the estimates have moved since */
+    pool->gate_slot = RHO_HYPOTHESES_SLOTS;
     if (box) {
         fill_box(pool, slot, box);
     }
 }
 
-/* How far a target may move until a plot's own time, by its speed and acceleration and by noise. */
-static float drift_m(const struct rho_hypotheses *pool, uint16_t slot,
-                     struct rho_hypotheses_box *box, float t_s)
+/*
+ * Largest distance that a target may move in t_s, the time to a plot's own time, by its speed and
+ * acceleration and by process noise. Fills the box's limits of speed and acceleration if they are
+ * unset.
+ */
+static float largest_drift_m(const struct rho_hypotheses *pool, uint16_t slot,
+                             struct rho_hypotheses_box *box, float t_s)
 {
     const struct rho_imm_model *model = &pool->model;
     const float noise_m2 =
         t_s * t_s * t_s *
         (model->quiet_density * (1.0f / 3.0f) + model->drive_density * t_s * t_s * (1.0f / 20.0f));
     if (box->speed_max_mps < 0.0f) {
-        box->speed_max_mps = largest_magnitude(pool, slot, RHO_KALMAN_STATES - 3);
-        box->accel_max_mps2 = largest_magnitude(pool, slot, RHO_KALMAN_STATES);
+        box->speed_max_mps = largest_axis_magnitude(pool, slot, RHO_KALMAN_STATES - 3);
+        box->accel_max_mps2 = largest_axis_magnitude(pool, slot, RHO_KALMAN_STATES);
     }
     return t_s * (box->speed_max_mps + 0.5f * t_s * box->accel_max_mps2) +
            GATE_SIGMAS * rho_sqrt(noise_m2);
@@ -120,7 +134,7 @@ float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t sl
                                   struct rho_hypotheses_box *box, float sigma_m, float offset_s)
 {
     const float slack_m = GATE_SIGMAS * sigma_m;
-    return offset_s > 0.0f ? slack_m + drift_m(pool, slot, box, offset_s) : slack_m;
+    return offset_s > 0.0f ? slack_m + largest_drift_m(pool, slot, box, offset_s) : slack_m;
 }
 
 int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
@@ -129,7 +143,7 @@ int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
 {
     float sigma_m = rho_plot_sigma_m(plot);
     if ((measures & RHO_MEASURES_Z) && plot->sigma_up_m > sigma_m) {
-        sigma_m = plot->sigma_up_m; /* a high line of sight brings it down */
+        sigma_m = plot->sigma_up_m; /* at high elevation the noise across is partly horizontal */
     }
     const float slack_m = rho_hypotheses_box_margin_m(pool, slot, box, sigma_m * box->sigma_factor,
                                                       (float)plot->offset_us *

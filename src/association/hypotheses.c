@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hypotheses: the pool, its slots, prediction, and the mean over a slot. hypotheses_scan.c extends
- * them by a scan's plots.
+ * hypotheses: the pool of hypotheses, its slots, prediction, and the mean over a slot.
+ * hypotheses_scan.c extends the hypotheses by the plots of a scan.
  */
 #include "rhotrack/detail/hypotheses.h"
 
@@ -10,7 +10,10 @@
 #include "hypotheses_pool.h"
 #include "rhotrack/detail/approx.h"
 
-/* Less likely ones, e^-9 beside the best one, do not show in the mean. */
+/*
+ * Least share of a hypothesis in the mean, e^-9 of the best one: less likely ones have no visible
+ * effect.
+ */
 #define SHARE_SHOWN_MIN 1.2340980e-4f
 
 /* ---- the pool -------------------------------------------------------------------------------- */
@@ -35,8 +38,11 @@ void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node)
     pool->spare[pool->num_free++] = node;
 }
 
-/* The slot with the most hypotheses, of equals the first; slot `but` does not count. */
-static uint16_t slot_with_most(const struct rho_hypotheses *pool, uint16_t but)
+/*
+ * Slot with the most hypotheses, of equals the first, except for slot `but`; `but` where all others
+ * are free.
+ */
+static uint16_t slot_with_most_hypotheses(const struct rho_hypotheses *pool, uint16_t but)
 {
     uint16_t found = but;
     for (uint16_t slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
@@ -51,7 +57,7 @@ unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, un
 {
     unsigned own = slot < RHO_HYPOTHESES_SLOTS ? pool->num_of[slot] : 0;
     while (own + pool->num_free < wanted) {
-        uint16_t giver = slot_with_most(pool, slot);
+        uint16_t giver = slot_with_most_hypotheses(pool, slot);
         unsigned most = giver == slot ? 0 : pool->num_of[giver];
         if (most < 2 || most <= own + pool->num_free) {
             pool->hypotheses_cut = rho_count(pool->hypotheses_cut, wanted - own - pool->num_free);
@@ -177,9 +183,9 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
 
 /* ---- predict --------------------------------------------------------------------------------- */
 
-/* The models' step of an interval, kept until another interval is asked for. */
-static const struct rho_imm_step *step_of_interval(struct rho_hypotheses *pool, int64_t from_us,
-                                                   int64_t to_us)
+/* Transition of the models over an interval, which is kept until another interval is needed. */
+static const struct rho_imm_step *cached_step_of_interval(struct rho_hypotheses *pool,
+                                                          int64_t from_us, int64_t to_us)
 {
     float dt_s = rho_seconds_between(from_us, to_us);
     if (dt_s < pool->step.dt_s || dt_s > pool->step.dt_s) {
@@ -191,8 +197,9 @@ static const struct rho_imm_step *step_of_interval(struct rho_hypotheses *pool, 
 enum rho_status rho_hypotheses_move_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
                                            int64_t from_us, int64_t to_us)
 {
-    return from_us == to_us ? RHO_OK
-                            : rho_imm_predict_unmixed(imm, step_of_interval(pool, from_us, to_us));
+    return from_us == to_us
+               ? RHO_OK
+               : rho_imm_predict_unmixed(imm, cached_step_of_interval(pool, from_us, to_us));
 }
 
 const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
@@ -218,17 +225,17 @@ float rho_hypotheses_rebase_weights(struct rho_hypotheses *pool, uint16_t slot)
     return best;
 }
 
-static enum rho_status move_without_noise(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                                          int64_t time_us)
+static enum rho_status move_hypothesis_without_noise(struct rho_hypotheses *pool,
+                                                     struct rho_hypothesis *at, int64_t time_us)
 {
-    struct rho_imm_step step = *step_of_interval(pool, at->time_us, time_us);
+    struct rho_imm_step step = *cached_step_of_interval(pool, at->time_us, time_us);
     memset(step.noise, 0, sizeof step.noise);
     memset(step.quiet_noise, 0, sizeof step.quiet_noise);
     return rho_imm_predict_unmixed(&at->imm, &step);
 }
 
-static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
-                                int is_without_noise)
+static enum rho_status move_all_hypotheses(struct rho_hypotheses *pool, uint16_t slot,
+                                           int64_t time_us, int is_without_noise)
 {
     if (!pool) {
         return RHO_ERROR_NULL;
@@ -241,9 +248,10 @@ static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int6
         uint16_t node = pool->node_of[slot][i];
         struct rho_hypothesis *at = &pool->nodes[node];
         if (at->time_us != time_us &&
-            (is_without_noise ? move_without_noise(pool, at, time_us)
-                              : rho_imm_predict(&at->imm, step_of_interval(pool, at->time_us,
-                                                                           time_us))) != RHO_OK) {
+            (is_without_noise
+                 ? move_hypothesis_without_noise(pool, at, time_us)
+                 : rho_imm_predict(
+                       &at->imm, cached_step_of_interval(pool, at->time_us, time_us))) != RHO_OK) {
             rho_hypotheses_release_node(pool, node);
             continue;
         }
@@ -255,19 +263,19 @@ static enum rho_status move_all(struct rho_hypotheses *pool, uint16_t slot, int6
         return RHO_ERROR_VALUE;
     }
     if (pool->nodes[pool->node_of[slot][0]].weight_nat < 0.0f) {
-        (void)rho_hypotheses_rebase_weights(pool, slot); /* the best one is gone */
+        (void)rho_hypotheses_rebase_weights(pool, slot); /* the best hypothesis was removed */
     }
     return RHO_OK;
 }
 
 enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
 {
-    return move_all(pool, slot, time_us, 0);
+    return move_all_hypotheses(pool, slot, time_us, 0);
 }
 
 enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us)
 {
-    return move_all(pool, slot, time_us, 1);
+    return move_all_hypotheses(pool, slot, time_us, 1);
 }
 
 /* ---- the mean -------------------------------------------------------------------------------- */
@@ -282,141 +290,146 @@ float rho_hypotheses_sum_of_shares(const struct rho_hypotheses *pool, uint16_t s
 }
 
 /*
- * Sums over models of hypotheses, each with its share: about a place near all of them, so that one
- * pass will do and nothing cancels.
+ * Sums over both models of all hypotheses, weighted by their shares. States are taken relative to a
+ * place near all of them, so that one pass suffices and no digits cancel.
  */
-struct sums {
+struct moment_sums {
     float about[RHO_KALMAN_STATES];
-    int has_height; /* of any of them; else what belongs to z is 0 */
+    int has_height; /* 1: any hypothesis has a height; 0: sums of z stay 0 */
     float share, maneuver;
-    float way[RHO_KALMAN_STATES]; /* from there */
+    float deviation[RHO_KALMAN_STATES]; /* weighted sum of the states' deviations from `about` */
     float accel_mps2[3];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
 };
 
-/* A model's state less the place that sums are about, and that times the model's share. */
-struct way {
-    float way[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
+/*
+ * A model's state minus the place that sums are about, and this deviation times the model's share.
+ */
+struct deviation {
+    float deviation[RHO_KALMAN_STATES], scaled[RHO_KALMAN_STATES];
 };
 
-static inline void find_deviation(struct sums *sums, const struct rho_imm *imm, float s, float m,
-                                  struct way *steady, struct way *manoeuvre, int i)
+static inline void add_deviation(struct moment_sums *sums, const struct rho_imm *imm, float s,
+                                 float m, struct deviation *steady, struct deviation *manoeuvre,
+                                 int i)
 {
-    steady->way[i] = imm->steady.state[i] - sums->about[i];
-    manoeuvre->way[i] = imm->state[i] - sums->about[i];
-    steady->scaled[i] = s * steady->way[i];
-    manoeuvre->scaled[i] = m * manoeuvre->way[i];
-    sums->way[i] += steady->scaled[i] + manoeuvre->scaled[i];
+    steady->deviation[i] = imm->steady.state[i] - sums->about[i];
+    manoeuvre->deviation[i] = imm->state[i] - sums->about[i];
+    steady->scaled[i] = s * steady->deviation[i];
+    manoeuvre->scaled[i] = m * manoeuvre->deviation[i];
+    sums->deviation[i] += steady->scaled[i] + manoeuvre->scaled[i];
 }
 
-static inline void add_square(float *restrict out, const struct way *restrict s,
-                              const struct way *restrict m, int i, int j)
+static inline void add_deviation_product(float *restrict out, const struct deviation *restrict s,
+                                         const struct deviation *restrict m, int i, int j)
 {
-    out[RHO_AT(i, j)] += s->scaled[i] * s->way[j] + m->scaled[i] * m->way[j];
+    out[RHO_AT(i, j)] += s->scaled[i] * s->deviation[j] + m->scaled[i] * m->deviation[j];
 }
 
 /*
- * The squares of both ways, in the plane. Written out, as the functions below: a loop would take
- * three times as long.
+ * Adds products of both models' deviations in the plane. Written out like the functions below: a
+ * loop would take three times as long.
  */
-static inline void add_plane_squares(float *restrict out, const struct way *restrict s,
-                                     const struct way *restrict m)
+static inline void add_plane_deviation_products(float *restrict out,
+                                                const struct deviation *restrict s,
+                                                const struct deviation *restrict m)
 {
-    add_square(out, s, m, 0, 0);
-    add_square(out, s, m, 1, 0);
-    add_square(out, s, m, 1, 1);
-    add_square(out, s, m, 3, 0);
-    add_square(out, s, m, 3, 1);
-    add_square(out, s, m, 3, 3);
-    add_square(out, s, m, 4, 0);
-    add_square(out, s, m, 4, 1);
-    add_square(out, s, m, 4, 3);
-    add_square(out, s, m, 4, 4);
+    add_deviation_product(out, s, m, 0, 0);
+    add_deviation_product(out, s, m, 1, 0);
+    add_deviation_product(out, s, m, 1, 1);
+    add_deviation_product(out, s, m, 3, 0);
+    add_deviation_product(out, s, m, 3, 1);
+    add_deviation_product(out, s, m, 3, 3);
+    add_deviation_product(out, s, m, 4, 0);
+    add_deviation_product(out, s, m, 4, 1);
+    add_deviation_product(out, s, m, 4, 3);
+    add_deviation_product(out, s, m, 4, 4);
 }
 
-static inline void add_height_squares(float *restrict out, const struct way *restrict s,
-                                      const struct way *restrict m)
+static inline void add_height_deviation_products(float *restrict out,
+                                                 const struct deviation *restrict s,
+                                                 const struct deviation *restrict m)
 {
-    add_square(out, s, m, 2, 0);
-    add_square(out, s, m, 2, 1);
-    add_square(out, s, m, 2, 2);
-    add_square(out, s, m, 3, 2);
-    add_square(out, s, m, 4, 2);
-    add_square(out, s, m, 5, 0);
-    add_square(out, s, m, 5, 1);
-    add_square(out, s, m, 5, 2);
-    add_square(out, s, m, 5, 3);
-    add_square(out, s, m, 5, 4);
-    add_square(out, s, m, 5, 5);
+    add_deviation_product(out, s, m, 2, 0);
+    add_deviation_product(out, s, m, 2, 1);
+    add_deviation_product(out, s, m, 2, 2);
+    add_deviation_product(out, s, m, 3, 2);
+    add_deviation_product(out, s, m, 4, 2);
+    add_deviation_product(out, s, m, 5, 0);
+    add_deviation_product(out, s, m, 5, 1);
+    add_deviation_product(out, s, m, 5, 2);
+    add_deviation_product(out, s, m, 5, 3);
+    add_deviation_product(out, s, m, 5, 4);
+    add_deviation_product(out, s, m, 5, 5);
 }
 
-static inline void add_covariance(float *restrict out, const struct rho_imm *restrict imm,
-                                  int place, float s, float m)
+static inline void add_model_covariances(float *restrict out, const struct rho_imm *restrict imm,
+                                         int place, float s, float m)
 {
     out[place] += s * imm->steady.covariance[place] + m * imm->covariance[place];
 }
 
-/* Terms that couple the axes of the plane, beside add_axis_covariances. */
-static void add_plane_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
-                                  float m)
+/* Adds the covariances between x and y; add_axis_covariances adds those within an axis. */
+static void add_plane_coupling_covariances(float *restrict out, const struct rho_imm *restrict imm,
+                                           float s, float m)
 {
-    add_covariance(out, imm, RHO_AT(1, 0), s, m);
-    add_covariance(out, imm, RHO_AT(3, 1), s, m);
-    add_covariance(out, imm, RHO_AT(4, 0), s, m);
-    add_covariance(out, imm, RHO_AT(4, 3), s, m);
+    add_model_covariances(out, imm, RHO_AT(1, 0), s, m);
+    add_model_covariances(out, imm, RHO_AT(3, 1), s, m);
+    add_model_covariances(out, imm, RHO_AT(4, 0), s, m);
+    add_model_covariances(out, imm, RHO_AT(4, 3), s, m);
 }
 
-/* Terms that couple the axes of the plane with the height. */
-static void add_height_covariances(float *restrict out, const struct rho_imm *restrict imm, float s,
-                                   float m)
+/* Adds the covariances that couple x and y with the height. */
+static void add_height_coupling_covariances(float *restrict out, const struct rho_imm *restrict imm,
+                                            float s, float m)
 {
-    add_covariance(out, imm, RHO_AT(2, 0), s, m);
-    add_covariance(out, imm, RHO_AT(2, 1), s, m);
-    add_covariance(out, imm, RHO_AT(3, 2), s, m);
-    add_covariance(out, imm, RHO_AT(4, 2), s, m);
-    add_covariance(out, imm, RHO_AT(5, 0), s, m);
-    add_covariance(out, imm, RHO_AT(5, 1), s, m);
-    add_covariance(out, imm, RHO_AT(5, 3), s, m);
-    add_covariance(out, imm, RHO_AT(5, 4), s, m);
+    add_model_covariances(out, imm, RHO_AT(2, 0), s, m);
+    add_model_covariances(out, imm, RHO_AT(2, 1), s, m);
+    add_model_covariances(out, imm, RHO_AT(3, 2), s, m);
+    add_model_covariances(out, imm, RHO_AT(4, 2), s, m);
+    add_model_covariances(out, imm, RHO_AT(5, 0), s, m);
+    add_model_covariances(out, imm, RHO_AT(5, 1), s, m);
+    add_model_covariances(out, imm, RHO_AT(5, 3), s, m);
+    add_model_covariances(out, imm, RHO_AT(5, 4), s, m);
 }
 
 static void add_axis_covariances(float *restrict out, const struct rho_imm *restrict imm,
                                  int has_height, float s, float m)
 {
-    add_covariance(out, imm, RHO_AT(0, 0), s, m);
-    add_covariance(out, imm, RHO_AT(1, 1), s, m);
-    add_covariance(out, imm, RHO_AT(3, 0), s, m);
-    add_covariance(out, imm, RHO_AT(3, 3), s, m);
-    add_covariance(out, imm, RHO_AT(4, 1), s, m);
-    add_covariance(out, imm, RHO_AT(4, 4), s, m);
+    add_model_covariances(out, imm, RHO_AT(0, 0), s, m);
+    add_model_covariances(out, imm, RHO_AT(1, 1), s, m);
+    add_model_covariances(out, imm, RHO_AT(3, 0), s, m);
+    add_model_covariances(out, imm, RHO_AT(3, 3), s, m);
+    add_model_covariances(out, imm, RHO_AT(4, 1), s, m);
+    add_model_covariances(out, imm, RHO_AT(4, 4), s, m);
     if (has_height) {
-        add_covariance(out, imm, RHO_AT(2, 2), s, m);
-        add_covariance(out, imm, RHO_AT(5, 2), s, m);
-        add_covariance(out, imm, RHO_AT(5, 5), s, m);
+        add_model_covariances(out, imm, RHO_AT(2, 2), s, m);
+        add_model_covariances(out, imm, RHO_AT(5, 2), s, m);
+        add_model_covariances(out, imm, RHO_AT(5, 5), s, m);
     }
 }
 
-static void add_moments(struct sums *sums, const struct rho_imm *imm, float share)
+static void add_hypothesis_moments(struct moment_sums *sums, const struct rho_imm *imm, float share)
 {
     const float m = share * imm->probability, s = share - m;
     const int has_height = sums->has_height;
-    struct way steady, manoeuvre;
-    find_deviation(sums, imm, s, m, &steady, &manoeuvre, 0);
-    find_deviation(sums, imm, s, m, &steady, &manoeuvre, 1);
-    find_deviation(sums, imm, s, m, &steady, &manoeuvre, 3);
-    find_deviation(sums, imm, s, m, &steady, &manoeuvre, 4);
-    add_plane_squares(sums->covariance, &steady, &manoeuvre);
+    struct deviation steady, manoeuvre;
+    add_deviation(sums, imm, s, m, &steady, &manoeuvre, 0);
+    add_deviation(sums, imm, s, m, &steady, &manoeuvre, 1);
+    add_deviation(sums, imm, s, m, &steady, &manoeuvre, 3);
+    add_deviation(sums, imm, s, m, &steady, &manoeuvre, 4);
+    add_plane_deviation_products(sums->covariance, &steady, &manoeuvre);
     if (has_height) {
-        find_deviation(sums, imm, s, m, &steady, &manoeuvre, 2);
-        find_deviation(sums, imm, s, m, &steady, &manoeuvre, 5);
-        add_height_squares(sums->covariance, &steady, &manoeuvre);
+        add_deviation(sums, imm, s, m, &steady, &manoeuvre, 2);
+        add_deviation(sums, imm, s, m, &steady, &manoeuvre, 5);
+        add_height_deviation_products(sums->covariance, &steady, &manoeuvre);
     }
     add_axis_covariances(sums->covariance, imm, has_height, s, m);
     if (imm->is_coupled) {
-        add_plane_covariances(sums->covariance, imm, s, m);
+        add_plane_coupling_covariances(sums->covariance, imm, s, m);
     }
     if (imm->is_coupled && has_height) {
-        add_height_covariances(sums->covariance, imm, s, m);
+        add_height_coupling_covariances(sums->covariance, imm, s, m);
     }
     sums->share += share;
     sums->maneuver += m;
@@ -425,9 +438,9 @@ static void add_moments(struct sums *sums, const struct rho_imm *imm, float shar
     }
 }
 
-/* Sums over the slot's hypotheses that can be moved to that time. */
-static void sum_up_moments(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
-                           struct sums *sums)
+/* Sums moments over a slot's hypotheses at time_us, without those that cannot be moved there. */
+static void sum_moments_of_slot(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
+                                struct moment_sums *sums)
 {
     int is_first = 1;
     memset(sums, 0, sizeof *sums);
@@ -445,7 +458,7 @@ static void sum_up_moments(struct rho_hypotheses *pool, uint16_t slot, int64_t t
             is_first = 0;
         }
         if (imm) {
-            add_moments(sums, imm, at->share);
+            add_hypothesis_moments(sums, imm, at->share);
         }
     }
 }
@@ -453,25 +466,25 @@ static void sum_up_moments(struct rho_hypotheses *pool, uint16_t slot, int64_t t
 enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot, int64_t time_us,
                                         struct rho_hypotheses_estimate *estimate)
 {
-    struct sums sums;
+    struct moment_sums sums;
     if (!pool || !estimate) {
         return RHO_ERROR_NULL;
     }
     if (!rho_hypotheses_is_open(pool, slot)) {
         return RHO_ERROR_STATE;
     }
-    sum_up_moments(pool, slot, time_us, &sums);
+    sum_moments_of_slot(pool, slot, time_us, &sums);
     if (!(sums.share > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
     const float inverse = 1.0f / sums.share;
     int place = 0;
     for (int i = 0; i < RHO_KALMAN_STATES; i++) {
-        sums.way[i] *= inverse;
-        estimate->kalman.state[i] = sums.about[i] + sums.way[i];
+        sums.deviation[i] *= inverse;
+        estimate->kalman.state[i] = sums.about[i] + sums.deviation[i];
         for (int j = 0; j <= i; j++, place++) {
             estimate->kalman.covariance[place] =
-                sums.covariance[place] * inverse - sums.way[i] * sums.way[j];
+                sums.covariance[place] * inverse - sums.deviation[i] * sums.deviation[j];
         }
     }
     for (int axis = 0; axis < 3; axis++) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Inside of the pool of hypotheses. Private to hypotheses*.c and gate_box.c.
+ * hypotheses_pool: functions on the pool's nodes and filters. Private to hypotheses*.c and
+ * gate_box.c.
  */
 #ifndef RHOTRACK_HYPOTHESES_POOL_H
 #define RHOTRACK_HYPOTHESES_POOL_H
@@ -9,37 +10,37 @@
 
 #define RHO_HYPOTHESES_MAGIC 0x4859504fu /* "HYPO" */
 
-/* hypotheses.c */
+/* True where a slot of an initialised pool has hypotheses. */
 int rho_hypotheses_is_open(const struct rho_hypotheses *pool, uint16_t slot);
 
-/* A node of the pool; there must be one. */
+/* Takes a free node from the pool; num_free must not be 0. */
 uint16_t rho_hypotheses_allot_node(struct rho_hypotheses *pool);
 void rho_hypotheses_release_node(struct rho_hypotheses *pool, uint16_t node);
 
 /*
- * Frees nodes of the slots with the most hypotheses, so that this slot can have `wanted`. Returns
- * how many it can have.
+ * Makes room for `wanted` hypotheses of a slot: removes the least likely hypotheses of the slots
+ * with the most. Returns how many the slot can have.
  */
 unsigned rho_hypotheses_make_room(struct rho_hypotheses *pool, uint16_t slot, unsigned wanted);
 
-/* Moves one filter to another time without mixing: to a plot's own, or back from it. */
+/* Predicts one filter to another time without mixing its models: to a plot's own time, or back. */
 enum rho_status rho_hypotheses_move_filter(struct rho_hypotheses *pool, struct rho_imm *imm,
                                            int64_t from_us, int64_t to_us);
 
 /*
- * A hypothesis' filter at a time that need not be its own, there in the pool's scratch; NULL where
- * it cannot be moved.
+ * Filter of a hypothesis at a given time: its own, or a copy in the pool's scratch that was
+ * predicted there; NULL where the prediction fails.
  */
 const struct rho_imm *rho_hypotheses_filter_at(struct rho_hypotheses *pool,
                                                const struct rho_hypothesis *at, int64_t time_us);
 
 /*
- * Makes the weight of the best, the slot's first, 0 again and updates all shares. Returns the
- * weight that it had.
+ * Subtracts the weight of the best hypothesis, the slot's first, from all weights, and updates all
+ * shares. Returns the subtracted weight.
  */
 float rho_hypotheses_rebase_weights(struct rho_hypotheses *pool, uint16_t slot);
 
-/* The sum of a slot's shares. */
+/* Sum of the shares, e^weight, of a slot's hypotheses. */
 float rho_hypotheses_sum_of_shares(const struct rho_hypotheses *pool, uint16_t slot);
 
 #endif

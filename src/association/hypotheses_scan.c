@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hypotheses_scan: hypotheses score the plots of a scan (gate_box.c begins it), and the best of
- * their children go on.
+ * hypotheses_scan: scores a scan's plots with all hypotheses of a track, expands the hypotheses
+ * into children, and prunes them. gate_box.c begins the scan.
  */
 #include <float.h>
 #include <string.h>
@@ -10,22 +10,25 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/imm_notch.h"
 
-/* The most that a hypothesis loses at once for its speed. */
+/* Largest loss of a hypothesis' weight at one update for a speed above the limit. */
 #define SPEED_LOSS_MAX_NAT 10.0f
 
 /* ---- score ----------------------------------------------------------------------------------- */
 
-/* ln of the clutter's density in two or three axes. */
-static float log_clutter(const struct rho_hypotheses_clutter *clutter, uint32_t measures,
-                         int num_axes)
+/* ln of the clutter's density in all measured dimensions, with two or three axes of position. */
+static float log_clutter_density(const struct rho_hypotheses_clutter *clutter, uint32_t measures,
+                                 int num_axes)
 {
     return clutter->log_per_m2 + (num_axes > 2 ? clutter->log_per_m : 0.0f) +
            (measures & RHO_MEASURES_VELOCITY ? (float)num_axes * clutter->log_per_mps : 0.0f) +
            (measures & RHO_MEASURES_RANGE_RATE ? clutter->log_per_range_rate : 0.0f);
 }
 
-/* A plot, and its pd over the clutter's density, ln: without and with heights. */
-struct offer {
+/*
+ * A plot to be scored, with ln of pd over the clutter's density for hypotheses without (level) and
+ * with (high) a height.
+ */
+struct offered_plot {
     const struct rho_imm_plot *seen;
     int64_t time_us;
     float level, high;
@@ -33,11 +36,11 @@ struct offer {
 };
 
 /*
- * Adds to the hypothesis' list of its best plots, of equals behind the earlier ones. Returns its
- * weight with the plot.
+ * Inserts a plot into a hypothesis' list of its best plots, of equals behind the earlier ones.
+ * Returns the hypothesis' weight with the plot.
  */
-static inline float note_candidate(struct rho_hypothesis *at, float gain_nat, float probability,
-                                   int16_t row)
+static inline float insert_candidate(struct rho_hypothesis *at, float gain_nat, float probability,
+                                     int16_t row)
 {
     struct rho_hypotheses_candidate *list = at->candidates;
     unsigned place = at->num_candidates;
@@ -53,9 +56,9 @@ static inline float note_candidate(struct rho_hypothesis *at, float gain_nat, fl
     return at->weight_nat + gain_nat;
 }
 
-/* The range rates that the slot's hypotheses expect, kept while plots come. */
-static void expect_range_rates(struct rho_hypotheses *pool, uint16_t slot,
-                               const struct rho_sensor *sensor)
+/* Predicts the range rates of a slot's hypotheses, once for all plots of a scan. */
+static void predict_range_rates(struct rho_hypotheses *pool, uint16_t slot,
+                                const struct rho_sensor *sensor)
 {
     if (pool->gate_slot == slot && !(pool->gate_variance_m2 > 0.0f)) {
         return;
@@ -69,12 +72,12 @@ static void expect_range_rates(struct rho_hypotheses *pool, uint16_t slot,
 }
 
 /*
- * At the plot's own time. The expected range rates are known at the hypotheses' time alone; NULL:
- * not yet.
+ * Scores a plot with a hypothesis at the plot's own time. rates: predicted at the hypothesis' time,
+ * used if the plot has the same time; NULL: none.
  */
 static inline int score_hypothesis(struct rho_hypotheses *pool, const struct rho_imm_rates *rates,
-                                   const struct rho_hypothesis *at, const struct offer *offer,
-                                   struct rho_imm_match *match)
+                                   const struct rho_hypothesis *at,
+                                   const struct offered_plot *offer, struct rho_imm_match *match)
 {
     if (rates && at->time_us == offer->time_us) {
         return rho_imm_score_plot_with_rates(&at->imm, rates, offer->seen, match);
@@ -83,35 +86,39 @@ static inline int score_hypothesis(struct rho_hypotheses *pool, const struct rho
     return imm && rho_imm_score_plot(imm, offer->seen, match);
 }
 
-/* Scores one by one. Returns the weight of the best hypothesis with the plot; -FLT_MAX: none. */
+/*
+ * Scores a plot with each hypothesis in turn. Returns the weight of the best hypothesis with the
+ * plot; -FLT_MAX: the plot is in no gate.
+ */
 static float score_each_hypothesis(struct rho_hypotheses *pool, uint16_t slot,
-                                   const struct offer *offer)
+                                   const struct offered_plot *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
     struct rho_imm_match match;
     float best = -FLT_MAX;
     const struct rho_imm_rates *rates = 0;
-    if (pool->nodes[nodes[0]].time_us == offer->time_us) { /* so are the others, most often */
+    /* most often all hypotheses have the same time */
+    if (pool->nodes[nodes[0]].time_us == offer->time_us) {
         rates = pool->opened.rates;
         if (offer->seen->measures & RHO_MEASURES_RANGE_RATE) {
-            expect_range_rates(pool, slot, offer->seen->sensor);
+            predict_range_rates(pool, slot, offer->seen->sensor);
         }
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         struct rho_hypothesis *at = &pool->nodes[nodes[i]];
         if (score_hypothesis(pool, rates ? &rates[i] : 0, at, offer, &match)) {
             const float pd_over_clutter = match.num_axes > 2 ? offer->high : offer->level;
-            const float score = note_candidate(at, pd_over_clutter + match.log_likelihood,
-                                               match.probability, offer->row);
+            const float score = insert_candidate(at, pd_over_clutter + match.log_likelihood,
+                                                 match.probability, offer->row);
             best = score > best ? score : best;
         }
     }
     return best;
 }
 
-/* The gates of all the slot's hypotheses at one time, kept while plots of the same noise come. */
-static void open_gates(struct rho_hypotheses *pool, uint16_t slot, float variance_m2, int has_z,
-                       int64_t time_us)
+/* Prepares the gates of all hypotheses of a slot at one time, kept for plots of the same noise. */
+static void prepare_gates(struct rho_hypotheses *pool, uint16_t slot, float variance_m2, int has_z,
+                          int64_t time_us)
 {
     pool->gate_variance_m2 = variance_m2;
     pool->gate_slot = slot;
@@ -125,9 +132,12 @@ static void open_gates(struct rho_hypotheses *pool, uint16_t slot, float varianc
     }
 }
 
-/* True where the plot can be scored in the open gates, which are at the hypotheses' time. */
-static int fits_open_gates(struct rho_hypotheses *pool, uint16_t slot,
-                           const struct rho_imm_plot *seen, int64_t time_us)
+/*
+ * True where a plot can be scored in gates prepared at the hypotheses' time; prepares them for the
+ * plot's noise if they are for another noise or slot.
+ */
+static int ensure_gates_for_plot(struct rho_hypotheses *pool, uint16_t slot,
+                                 const struct rho_imm_plot *seen, int64_t time_us)
 {
     const float variance_m2 = seen->position.variance_m2[0];
     if (!seen->position.is_isotropic || pool->nodes[pool->node_of[slot][0]].time_us != time_us ||
@@ -136,12 +146,12 @@ static int fits_open_gates(struct rho_hypotheses *pool, uint16_t slot,
     }
     if (pool->gate_slot != slot || pool->gate_has_z != seen->position.has_z ||
         variance_m2 < pool->gate_variance_m2 || variance_m2 > pool->gate_variance_m2) {
-        open_gates(pool, slot, variance_m2, seen->position.has_z, time_us);
+        prepare_gates(pool, slot, variance_m2, seen->position.has_z, time_us);
     }
     return pool->gate_is_usable;
 }
 
-/* A gain no better than this changes neither the hypothesis' list nor the best. */
+/* Gain that a plot must exceed to enter the hypothesis' list or to be better than `best`. */
 static inline float least_useful_gain(const struct rho_hypothesis *at, float best)
 {
     if (at->num_candidates < RHO_HYPOTHESES_CHILDREN) {
@@ -153,30 +163,31 @@ static inline float least_useful_gain(const struct rho_hypothesis *at, float bes
 }
 
 /*
- * A place alone; base: ln of pd over the clutter's density. Returns the better one of `best` and
- * the weight with the plot.
+ * Scores a plot of a position alone in one hypothesis' gate; base: ln of pd over the clutter's
+ * density. Returns the larger one of `best` and the hypothesis' weight with the plot.
  */
-static inline float score_in_gate(struct rho_hypothesis *at, const struct rho_imm_gate *gate,
-                                  const float place_m[3], int16_t row, float base, float best)
+static inline float score_in_one_gate(struct rho_hypothesis *at, const struct rho_imm_gate *gate,
+                                      const float place_m[3], int16_t row, float base, float best)
 {
     float log_likelihood, probability;
     if (!rho_imm_score_in_gate(gate, place_m, least_useful_gain(at, best) - base, &log_likelihood,
                                &probability)) {
         return best;
     }
-    const float made = note_candidate(at, base + log_likelihood, probability, row);
+    const float made = insert_candidate(at, base + log_likelihood, probability, row);
     return made > best ? made : best;
 }
 
-/* The same as score_each_hypothesis, in the gates that are open. */
-static float score_in_gates(struct rho_hypotheses *pool, uint16_t slot, const struct offer *offer)
+/* Scores a plot in the prepared gates of all hypotheses; returns as score_each_hypothesis. */
+static float score_in_all_gates(struct rho_hypotheses *pool, uint16_t slot,
+                                const struct offered_plot *offer)
 {
     const uint16_t *nodes = pool->node_of[slot];
     float best = -FLT_MAX;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         const struct rho_imm_gate *gate = &pool->opened.gates[i];
-        best = score_in_gate(&pool->nodes[nodes[i]], gate, offer->seen->position.place_m,
-                             offer->row, gate->num_axes > 2 ? offer->high : offer->level, best);
+        best = score_in_one_gate(&pool->nodes[nodes[i]], gate, offer->seen->position.place_m,
+                                 offer->row, gate->num_axes > 2 ? offer->high : offer->level, best);
     }
     return best;
 }
@@ -189,15 +200,15 @@ int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
     if (!pool || !seen || !clutter || !gain_nat || !rho_hypotheses_is_open(pool, slot)) {
         return 0;
     }
-    const struct offer offer = {
+    const struct offered_plot offer = {
         .seen = seen,
         .time_us = time_us,
-        .level = log_pd - log_clutter(clutter, seen->measures, 2),
-        .high = log_pd - log_clutter(clutter, seen->measures, 3),
+        .level = log_pd - log_clutter_density(clutter, seen->measures, 2),
+        .high = log_pd - log_clutter_density(clutter, seen->measures, 3),
         .row = row,
     };
-    const float best = fits_open_gates(pool, slot, seen, time_us)
-                           ? score_in_gates(pool, slot, &offer)
+    const float best = ensure_gates_for_plot(pool, slot, seen, time_us)
+                           ? score_in_all_gates(pool, slot, &offer)
                            : score_each_hypothesis(pool, slot, &offer);
     if (!(best > -FLT_MAX)) {
         return 0;
@@ -222,10 +233,10 @@ static int is_free_plot(const struct rho_hypotheses_scan *scan, int16_t row)
     return !scan->claims || scan->claims[row] < 0 || scan->claims[row] == scan->own;
 }
 
-/* The same plots in the last scans: the heavier one has the likelier history. */
-static inline int has_same_plots(const struct rho_hypotheses *pool, const uint16_t *nodes,
-                                 const struct rho_hypotheses_child *a,
-                                 const struct rho_hypotheses_child *b)
+/* True where two children have the same plots in the last scans. */
+static inline int have_same_recent_plots(const struct rho_hypotheses *pool, const uint16_t *nodes,
+                                         const struct rho_hypotheses_child *a,
+                                         const struct rho_hypotheses_child *b)
 {
     if (a->row != b->row) {
         return 0;
@@ -240,15 +251,16 @@ static inline int has_same_plots(const struct rho_hypotheses *pool, const uint16
 }
 
 /*
- * Adds to the list of the heaviest, of equals behind the earlier ones; the lightest falls out of a
- * full list. Of two that are the same the heavier one stays.
+ * Inserts a child into the list of the heaviest, of equals behind the earlier ones; the lightest
+ * drops out of a full list. Of two children with the same recent plots the heavier one is kept.
+ * Returns the list's length.
  */
 static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes, unsigned num,
                              const struct rho_hypotheses_child *child)
 {
     struct rho_hypotheses_child *list = pool->children;
-    unsigned gap = 0; /* what makes room */
-    while (gap < num && !has_same_plots(pool, nodes, &list[gap], child)) {
+    unsigned gap = 0; /* entry that is overwritten */
+    while (gap < num && !have_same_recent_plots(pool, nodes, &list[gap], child)) {
         gap++;
     }
     if (gap < num && !(child->weight_nat > list[gap].weight_nat)) {
@@ -263,15 +275,18 @@ static unsigned insert_child(struct rho_hypotheses *pool, const uint16_t *nodes,
     return num + more;
 }
 
-/* True where a child of that weight would not enter the list. */
+/* True where a child of weight_nat is too light for the list of the heaviest children. */
 static inline int is_too_light(const struct rho_hypotheses *pool, unsigned num, float weight_nat)
 {
     return num == RHO_HYPOTHESES_OF_TRACK && !(weight_nat > pool->children[num - 1].weight_nat);
 }
 
-/* The heaviest children, the heaviest first. No filter has been touched yet. */
-static unsigned expand_children(struct rho_hypotheses *pool, uint16_t slot,
-                                const struct rho_hypotheses_scan *scan)
+/*
+ * Lists the heaviest children of a slot's hypotheses, the heaviest first, without updating any
+ * filter. Returns their number.
+ */
+static unsigned collect_heaviest_children(struct rho_hypotheses *pool, uint16_t slot,
+                                          const struct rho_hypotheses_scan *scan)
 {
     const uint16_t *nodes = pool->node_of[slot];
     unsigned num = 0;
@@ -281,7 +296,7 @@ static unsigned expand_children(struct rho_hypotheses *pool, uint16_t slot,
         for (unsigned k = 0; k < at->num_candidates; k++) {
             child.weight_nat = at->weight_nat + at->candidates[k].gain_nat;
             if (is_too_light(pool, num, child.weight_nat)) {
-                break; /* so are the others, which come behind it */
+                break; /* the candidates that follow are lighter still */
             }
             child.row = at->candidates[k].row;
             child.candidate = (uint8_t)k;
@@ -298,11 +313,14 @@ static unsigned expand_children(struct rho_hypotheses *pool, uint16_t slot,
     return num;
 }
 
-/* The children that go on: none much lighter than the best. */
-static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot,
+/*
+ * Selects the children that replace their parents, none much lighter than the best, and makes room
+ * for them in the pool. Returns their number.
+ */
+static unsigned select_children(struct rho_hypotheses *pool, uint16_t slot,
                                 const struct rho_hypotheses_scan *scan)
 {
-    unsigned num = expand_children(pool, slot, scan);
+    unsigned num = collect_heaviest_children(pool, slot, scan);
     const float least = pool->children[0].weight_nat + RHO_HYPOTHESES_WEIGHT_MIN;
     while (num > 1 && pool->children[num - 1].weight_nat < least) {
         num--;
@@ -310,10 +328,14 @@ static unsigned choose_children(struct rho_hypotheses *pool, uint16_t slot,
     return rho_hypotheses_make_room(pool, slot, num);
 }
 
-/* A refused update leaves the filter as it was predicted: as `before`. */
-static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
-                         const struct rho_imm *before, const struct rho_imm_plot *seen,
-                         int64_t time_us, const struct rho_imm_match *match, int16_t row)
+/*
+ * Updates a hypothesis with a plot at the plot's own time, and returns the plot's row. If the
+ * update fails the filter becomes `before`, and the result is a miss.
+ */
+static int16_t update_with_plot_or_miss(struct rho_hypotheses *pool, struct rho_hypothesis *at,
+                                        const struct rho_imm *before,
+                                        const struct rho_imm_plot *seen, int64_t time_us,
+                                        const struct rho_imm_match *match, int16_t row)
 {
     if (rho_hypotheses_move_filter(pool, &at->imm, at->time_us, time_us) == RHO_OK &&
         rho_imm_update(&at->imm, &pool->model, seen, match) == RHO_OK) {
@@ -326,16 +348,16 @@ static int16_t take_plot(struct rho_hypotheses *pool, struct rho_hypothesis *at,
 }
 
 /*
- * Loss of an estimate faster than any target, nat: half the squared excess in standard deviations
- * of the speed. By the likelier model.
+ * Loss of weight, nat, of an estimate faster than any target: half the squared excess in standard
+ * deviations of the speed, by the likelier model.
  */
-static float loss_of_excess_speed(const struct rho_imm *imm, float most_mps)
+static float excess_speed_loss_nat(const struct rho_imm *imm, float most_mps)
 {
     const float *state = imm->probability > 0.5f ? imm->state : imm->steady.state;
     const float *covariance = imm->probability > 0.5f ? imm->covariance : imm->steady.covariance;
     const float *v = &state[3];
     const float speed2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    float variance = 0.0f; /* times the squared speed */
+    float variance = 0.0f; /* variance of the speed, times the squared speed */
     if (!(most_mps > 0.0f) || !(speed2 > most_mps * most_mps)) {
         return 0.0f;
     }
@@ -350,7 +372,10 @@ static float loss_of_excess_speed(const struct rho_imm *imm, float most_mps)
     return loss < SPEED_LOSS_MAX_NAT * variance ? loss / variance : SPEED_LOSS_MAX_NAT;
 }
 
-/* A refused update weighs as a miss. Weights are still those of the scan. */
+/*
+ * Extends a hypothesis by one child: updates filter, history of plots and weight. A plot whose
+ * update fails is weighed as a miss.
+ */
 static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at,
                                const struct rho_imm *before, const struct rho_hypotheses_scan *scan,
                                const struct rho_hypotheses_child *child,
@@ -361,8 +386,8 @@ static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
     if (row >= 0) {
         const struct rho_hypotheses_candidate *chosen = &at->candidates[child->candidate];
         const struct rho_imm_match match = {.probability = chosen->probability};
-        row = take_plot(pool, at, before, seen, scan->time_us + scan->plots[row].offset_us, &match,
-                        row);
+        row = update_with_plot_or_miss(pool, at, before, seen,
+                                       scan->time_us + scan->plots[row].offset_us, &match, row);
     }
     for (int k = 1; k < RHO_HYPOTHESES_MEMORY; k++) {
         at->picks[k - 1] = at->picks[k];
@@ -370,15 +395,15 @@ static void advance_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesi
     at->picks[RHO_HYPOTHESES_MEMORY - 1] = row;
     at->weight_nat = row == child->row ? child->weight_nat : as_miss;
     if (row >= 0) {
-        at->weight_nat -= loss_of_excess_speed(&at->imm, pool->model.speed_max_mps);
+        at->weight_nat -= excess_speed_loss_nat(&at->imm, pool->model.speed_max_mps);
     } else if (RHO_DOPPLER_NOTCH && scan->look && scan->log_miss < 0.0f) {
         rho_imm_miss(&at->imm, scan->sensor, scan->look);
     }
 }
 
 /*
- * Advances a copy, while the parent has more children; the last child takes the parent's node,
- * whose filter is kept in case the update is refused.
+ * Makes one child of a parent, and returns its node: a copy while the parent has more children; the
+ * last child takes the parent's node, whose filter is saved in case the update fails.
  */
 static uint16_t advance_child(struct rho_hypotheses *pool, uint16_t parent, int is_last,
                               const struct rho_hypotheses_scan *scan,
@@ -400,11 +425,11 @@ static uint16_t advance_child(struct rho_hypotheses *pool, uint16_t parent, int 
 }
 
 /*
- * Parents without children give their nodes back; the others' last child takes the node, the others
- * copies of it.
+ * Replaces a slot's hypotheses by their children. Nodes of parents without children are freed; a
+ * parent's last child takes its node, the others get copies.
  */
-static void replace_parents(struct rho_hypotheses *pool, uint16_t slot,
-                            const struct rho_hypotheses_scan *scan, unsigned num)
+static void replace_parents_by_children(struct rho_hypotheses *pool, uint16_t slot,
+                                        const struct rho_hypotheses_scan *scan, unsigned num)
 {
     uint8_t uses[RHO_HYPOTHESES_OF_TRACK] = {0};
     uint16_t nodes[RHO_HYPOTHESES_OF_TRACK];
@@ -421,7 +446,8 @@ static void replace_parents(struct rho_hypotheses *pool, uint16_t slot,
     for (unsigned i = 0; i < num; i++) {
         const struct rho_hypotheses_child *child = &pool->children[i];
         const int is_last = --uses[child->parent] == 0;
-        if (child->row >= 0 && child->row != opened) { /* often it is that of the one before */
+        /* consecutive children often have the same plot */
+        if (child->row >= 0 && child->row != opened) {
             opened = child->row;
             rho_imm_open_plot(&seen, &scan->plots[opened], scan->measures, scan->sensor);
         }
@@ -433,8 +459,8 @@ static void replace_parents(struct rho_hypotheses *pool, uint16_t slot,
 }
 
 /*
- * Sorts: the best is first and weighs 0, and those much lighter are removed. Returns the weight
- * that the best had.
+ * Sorts a slot's hypotheses by weight, makes the best one's weight 0 and removes those that are
+ * much lighter. Returns the weight that the best one had.
  */
 static float sort_and_prune(struct rho_hypotheses *pool, uint16_t slot)
 {
@@ -468,7 +494,7 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
         return RHO_ERROR_STATE;
     }
     const float before = rho_hypotheses_sum_of_shares(pool, slot);
-    replace_parents(pool, slot, scan, choose_children(pool, slot, scan));
+    replace_parents_by_children(pool, slot, scan, select_children(pool, slot, scan));
     const float best = sort_and_prune(pool, slot);
     outcome->row = pool->nodes[pool->node_of[slot][0]].picks[RHO_HYPOTHESES_MEMORY - 1];
     outcome->gain_nat = best + rho_log(rho_hypotheses_sum_of_shares(pool, slot) / before);
@@ -477,8 +503,8 @@ enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot
 
 /* ---- certain plots --------------------------------------------------------------------------- */
 
-/* Moves a hypothesis to another time. 0: it cannot be moved, and stays as it is. */
-static int move_to_time(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
+/* Moves a hypothesis to another time. Returns 0 if it cannot be moved, and is unchanged. */
+static int move_hypothesis(struct rho_hypotheses *pool, struct rho_hypothesis *at, int64_t time_us)
 {
     pool->scratch = at->imm;
     if (rho_hypotheses_move_filter(pool, &at->imm, at->time_us, time_us) != RHO_OK) {
@@ -493,10 +519,10 @@ static enum rho_status update_hypothesis(struct rho_hypotheses *pool, struct rho
                                          const struct rho_imm_plot *seen, int64_t time_us)
 {
     struct rho_imm_match match;
-    if (!move_to_time(pool, at, time_us)) {
+    if (!move_hypothesis(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
-    /* far from both predictions, neither model is the likelier one */
+    /* a plot far from both predictions does not change the models' probabilities */
     if (!rho_imm_score_plot(&at->imm, seen, &match)) {
         match.probability = at->imm.probability;
     }
@@ -533,7 +559,7 @@ static enum rho_status update_hypothesis_by_bearing(struct rho_hypotheses *pool,
                                                     float sigma_rad, float *gain_nat)
 {
     *gain_nat = 0.0f;
-    if (!move_to_time(pool, at, time_us)) {
+    if (!move_hypothesis(pool, at, time_us)) {
         return RHO_ERROR_VALUE;
     }
     pool->scratch = at->imm;
@@ -546,27 +572,28 @@ static enum rho_status update_hypothesis_by_bearing(struct rho_hypotheses *pool,
     return status;
 }
 
-/* A bearing that a hypothesis could not use has left its gain at 0. */
-static int has_gain(float gain_nat)
+/* True where a hypothesis was updated with the bearing: otherwise its gain is 0. */
+static int has_used_bearing(float gain_nat)
 {
     return gain_nat < 0.0f || gain_nat > 0.0f;
 }
 
 /*
- * A hypothesis that could not use it must not gain by that: it gets the least gain of the others.
+ * Adds the bearing's gains to the weights. Hypotheses that could not use the bearing get the least
+ * gain of the others, so that they have no advantage.
  */
 static void add_bearing_gains(struct rho_hypotheses *pool, uint16_t slot,
                               const float gains_nat[RHO_HYPOTHESES_OF_TRACK])
 {
     float least = 0.0f;
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-        if (has_gain(gains_nat[i]) && (!has_gain(least) || gains_nat[i] < least)) {
+        if (has_used_bearing(gains_nat[i]) && (!has_used_bearing(least) || gains_nat[i] < least)) {
             least = gains_nat[i];
         }
     }
     for (unsigned i = 0; i < pool->num_of[slot]; i++) {
         pool->nodes[pool->node_of[slot][i]].weight_nat +=
-            has_gain(gains_nat[i]) ? gains_nat[i] : least;
+            has_used_bearing(gains_nat[i]) ? gains_nat[i] : least;
     }
 }
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hypotheses_soundness: whether a pool of unknown origin (a snapshot) can be worked with.
+ * hypotheses_soundness: checks whether a pool of unknown origin, such as a snapshot's, is safe to
+ * use.
  */
 #include "hypotheses_pool.h"
 
-/* Nodes that one pass over the lists checks. */
+/* Number of nodes that one pass over the lists checks, to bound the stack. */
 #define PASS_NODES 256u
 
 struct pass {
@@ -12,23 +13,27 @@ struct pass {
     uint8_t is_met[PASS_NODES];
 };
 
-static void mark_met(struct pass *pass, uint16_t node)
+static void mark_node_met(struct pass *pass, uint16_t node)
 {
     if (node >= pass->first && node - pass->first < PASS_NODES) {
         pass->is_met[node - pass->first] = 1;
     }
 }
 
-/* The lists name as many nodes as there are: where each of them is met, each is named once. */
-static int are_all_nodes_met(const struct rho_hypotheses *pool, unsigned first)
+/*
+ * True where the lists of free nodes and of slots' nodes contain each node from `first` on,
+ * PASS_NODES at most. As the lists have as many entries as there are nodes, each node is then
+ * listed once.
+ */
+static int are_all_nodes_listed(const struct rho_hypotheses *pool, unsigned first)
 {
     struct pass pass = {.first = first};
     for (unsigned i = 0; i < pool->num_free; i++) {
-        mark_met(&pass, pool->spare[i]);
+        mark_node_met(&pass, pool->spare[i]);
     }
     for (unsigned slot = 0; slot < RHO_HYPOTHESES_SLOTS; slot++) {
         for (unsigned i = 0; i < pool->num_of[slot]; i++) {
-            mark_met(&pass, pool->node_of[slot][i]);
+            mark_node_met(&pass, pool->node_of[slot][i]);
         }
     }
     for (unsigned i = 0; i < PASS_NODES && first + i < RHO_MAX_HYPOTHESES; i++) {
@@ -52,7 +57,7 @@ static int has_each_node_once(const struct rho_hypotheses *pool)
         return 0;
     }
     for (unsigned first = 0; first < RHO_MAX_HYPOTHESES; first += PASS_NODES) {
-        if (!are_all_nodes_met(pool, first)) {
+        if (!are_all_nodes_listed(pool, first)) {
             return 0;
         }
     }

@@ -7,12 +7,14 @@
 #define ANGLE_LIMIT_RAD 100.0f
 #define TURNS_PER_RADIAN 0.159154943f
 
-/* Rounding of an angle in float32 after it was reduced to one turn. */
+/*
+ * Tolerance of comparisons of angles: float32's rounding of an angle that was reduced to one turn.
+ */
 #define SECTOR_TOLERANCE_RAD 1.0e-6f
-/* Ends of two sectors within this angle are equal. */
+/* Ends of two sectors within this angle of each other count as equal. */
 #define END_TOLERANCE_RAD 1.0e-3f
 
-/* 2 pi in three parts (Cody and Waite): the first two times a count up to 17 are exact. */
+/* 2 pi in three parts (Cody and Waite): products of the first two with up to 17 turns are exact. */
 #define TURN_HIGH 6.28125f
 #define TURN_MIDDLE 1.93500518798828125e-3f
 #define TURN_LOW 3.01991598195675286e-7f
@@ -22,13 +24,13 @@ static float magnitude(float v)
     return v < 0.0f ? -v : v;
 }
 
-static float without_turns(float angle_rad, float turns)
+static float subtract_turns(float angle_rad, float turns)
 {
     return ((angle_rad - turns * TURN_HIGH) - turns * TURN_MIDDLE) - turns * TURN_LOW;
 }
 
-/* Counter-clockwise way from one direction to another, 0 <= way < 2 pi. */
-static float arc_between(float from_rad, float to_rad)
+/* Counter-clockwise angle from one direction to another, in [0, 2 pi). */
+static float ccw_arc_rad(float from_rad, float to_rad)
 {
     const float difference = rho_angle_difference(to_rad, from_rad);
 
@@ -43,16 +45,17 @@ float rho_angle_wrap(float angle_rad)
         return angle_rad;
     }
     if (!(angle_rad >= -ANGLE_LIMIT_RAD && angle_rad <= ANGLE_LIMIT_RAD)) {
-        return rho_log(-1.0f); /* NaN */
+        return rho_log(-1.0f); /* the result is NaN */
     }
     turns = (float)(int32_t)(angle_rad * TURNS_PER_RADIAN + (angle_rad < 0.0f ? -0.5f : 0.5f));
-    wrapped = without_turns(angle_rad, turns);
-    /* The count is rounded: of all floats in range, two end beside the interval, by one digit. */
+    wrapped = subtract_turns(angle_rad, turns);
+    /* The count of turns is rounded: two of all floats end one digit outside of [-pi, pi). */
     return wrapped >= -RHO_PI && wrapped < RHO_PI ? wrapped : -RHO_PI;
 }
 
 /*
- * Both angles are wrapped first: their difference may be beyond the limit, or lose its last digits.
+ * The angles are wrapped before they are subtracted: their difference may exceed the limit of
+ * rho_angle_wrap, or lose its last digits.
  */
 float rho_angle_difference(float a_rad, float b_rad)
 {
@@ -67,16 +70,16 @@ int rho_angle_is_sector(float from_rad, float to_rad)
 
 float rho_angle_sector_width(float from_rad, float to_rad)
 {
-    const float width = arc_between(from_rad, to_rad);
+    const float width = ccw_arc_rad(from_rad, to_rad);
 
     return width <= SECTOR_TOLERANCE_RAD ? RHO_TWO_PI : width;
 }
 
 /*
- * 0 where the gap shows that sectors overlap by more than the tolerance: they and both gaps are
- * then more than one turn.
+ * An overlap of two sectors makes the gap between them almost a full turn. One within the tolerance
+ * sets the gap to 0; returns 0 for a larger overlap.
  */
-static int accept_small_overlap(float *gap_rad, float free_rad, float tolerance_rad)
+static int zero_gap_of_small_overlap(float *gap_rad, float free_rad, float tolerance_rad)
 {
     if (*gap_rad > free_rad + 2.0f * tolerance_rad) {
         if (RHO_TWO_PI - *gap_rad > tolerance_rad) {
@@ -96,12 +99,12 @@ unsigned rho_angle_sector_continues(float from_rad, float to_rad, float next_fro
     const float tolerance_rad =
         0.25f * narrower_rad < END_TOLERANCE_RAD ? 0.25f * narrower_rad : END_TOLERANCE_RAD;
     const float free_rad = RHO_TWO_PI - width_rad - next_rad;
-    float left_rad = arc_between(to_rad, next_from_rad);
-    float right_rad = arc_between(next_to_rad, from_rad);
+    float left_rad = ccw_arc_rad(to_rad, next_from_rad);
+    float right_rad = ccw_arc_rad(next_to_rad, from_rad);
 
     if (!(free_rad >= -tolerance_rad) ||
-        !accept_small_overlap(&left_rad, free_rad, tolerance_rad) ||
-        !accept_small_overlap(&right_rad, free_rad, tolerance_rad)) {
+        !zero_gap_of_small_overlap(&left_rad, free_rad, tolerance_rad) ||
+        !zero_gap_of_small_overlap(&right_rad, free_rad, tolerance_rad)) {
         return 0;
     }
     if (left_rad <= tolerance_rad && right_rad <= tolerance_rad) {
@@ -115,8 +118,8 @@ unsigned rho_angle_sector_continues(float from_rad, float to_rad, float next_fro
 
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)
 {
-    const float width = arc_between(from_rad, to_rad);
-    const float way = arc_between(from_rad, angle_rad);
+    const float width = ccw_arc_rad(from_rad, to_rad);
+    const float way = ccw_arc_rad(from_rad, angle_rad);
 
     if (!(width >= 0.0f && way >= 0.0f)) {
         return 0;
@@ -126,9 +129,9 @@ int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad)
 }
 
 /*
- * rho is the point's component along the normal (-dy, dx), without the detour over sin(theta)
- * and cos(theta), which at 2000 km would cost half a metre. The direction is scaled first so
- * that its squares can neither overflow nor vanish.
+ * rho is the point's component along the normal (-dy, dx): by way of sin(theta) and cos(theta) it
+ * would be off by half a metre at 2000 km. The direction is scaled first so that its squares can
+ * neither overflow nor vanish.
  */
 struct rho_line rho_angle_line(float x_m, float y_m, float dx, float dy)
 {

@@ -5,8 +5,8 @@
 #include <stdint.h>
 
 /*
- * s390x by gcc -std=c99, x87, and rearranged arithmetic would all compute other bits. 16: half
- * precision alone is computed as written, float as float.
+ * Float arithmetic must be done in float: s390x with gcc -std=c99, x87, and rearranged arithmetic
+ * compute other bits. FLT_EVAL_METHOD 16 is about half precision; float is computed as float.
  */
 #if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
 #error "float must be computed as float: -fexcess-precision=fast (s390x), -msse2 -mfpmath=sse (x86)"
@@ -34,7 +34,7 @@
 #define QUARTER_MIDDLE 4.83751296997070312e-4f
 #define QUARTER_LOW 7.54978995489188216e-8f
 
-/* ln 2 in two parts, to the same end for exponents up to 150. */
+/* ln 2 in two parts: the product of the first one with an exponent up to 150 is exact. */
 #define LN2_HIGH 0.693359375f
 #define LN2_LOW (-2.12194440e-4f)
 #define LOG2_E 1.44269504f
@@ -42,12 +42,13 @@
 #define EXP_HIGHEST 88.0f
 
 /*
- * The processor's square root. RHO_SOFTWARE_ROOT leaves it out, to test the code of other
- * processors.
+ * The processor's square root instruction. RHO_SOFTWARE_ROOT disables it, to test the code for
+ * processors without one.
  */
 #if defined __GNUC__ && !defined RHO_SOFTWARE_ROOT
 #if defined __SSE__
-#define ROOT_INSTRUCTION "sqrtss {%1, %0|%0, %1}" /* as -masm says */
+/* operand order of both assembler dialects (-masm) */
+#define ROOT_INSTRUCTION "sqrtss {%1, %0|%0, %1}"
 #define ROOT_REGISTER "x"
 #elif defined __aarch64__
 #define ROOT_INSTRUCTION "fsqrt %s0, %s1"
@@ -87,8 +88,8 @@ static float cosine_kernel(float r)
            0.5f * z + 1.0f;
 }
 
-/* sin(angle + quarters * pi/2). */
-static float sine_shifted(float angle_rad, uint32_t quarters)
+/* sin(angle + quarters * pi/2): quarters 1 gives the cosine. NaN beyond TRIG_LIMIT_RAD. */
+static float sine_plus_quarters(float angle_rad, uint32_t quarters)
 {
     int32_t count;
     uint32_t quadrant;
@@ -137,12 +138,12 @@ static float log_kernel(float f)
 
 float rho_sin(float angle_rad)
 {
-    return sine_shifted(angle_rad, 0u);
+    return sine_plus_quarters(angle_rad, 0u);
 }
 
 float rho_cos(float angle_rad)
 {
-    return sine_shifted(angle_rad, 1u);
+    return sine_plus_quarters(angle_rad, 1u);
 }
 
 float rho_atan2(float y, float x)
@@ -196,7 +197,7 @@ float rho_log(float v)
         if (!(v > 0.0f && v <= FLT_MAX)) {
             return v > 0.0f ? v : rho_float_of(v >= 0.0f ? BITS_INFINITY | 0x80000000u : BITS_NAN);
         }
-        bits = rho_float_bits(v * 8388608.0f); /* subnormal */
+        bits = rho_float_bits(v * 8388608.0f); /* scales a subnormal number up by 2^23 */
         exponent -= EXPONENT_SHIFT;
     }
     exponent += (int32_t)(bits >> EXPONENT_SHIFT);
@@ -210,7 +211,7 @@ float rho_log(float v)
     return f + (log_kernel(f) + k * LN2_LOW - 0.5f * f * f) + k * LN2_HIGH;
 }
 
-/* Fitted to ln(1 + v) / v for the least absolute error of the product. */
+/* ln(1 + v) by a polynomial that is fitted to ln(1 + v) / v for the least absolute error. */
 float rho_log_one_plus(float v)
 {
     float y = -6.4526148e-3f;
@@ -227,8 +228,11 @@ float rho_log_one_plus(float v)
 
 #if defined ROOT_INSTRUCTION
 
-/* Correctly rounded, too: the same bits in one instruction instead of forty. */
-static float root_of(float v)
+/*
+ * Square root by the processor's instruction: correctly rounded, so its bits are those of the
+ * software version, in one instruction instead of forty.
+ */
+static float square_root(float v)
 {
     float root;
 
@@ -239,12 +243,12 @@ static float root_of(float v)
 #else
 
 /*
- * Root of m * 2^23 for 2^23 <= m < 2^25, to the nearest integer. Newton's iteration for 1/sqrt
- * brings the estimate to some units; the remainder, which fits 32 bits though m * 2^23 does
- * not, tells how many, and settles the last one exactly. A root is never half an integer, so
- * there are no ties.
+ * Square root of m * 2^23 for 2^23 <= m < 2^25, to the nearest integer. Newton's iteration for
+ * 1/sqrt gives an estimate that is a few units off. The remainder fits 32 bits though m * 2^23 does
+ * not; it tells the error in units, and settles the last unit exactly. A root is never half an
+ * integer, so there are no ties.
  */
-static uint32_t integer_root(uint32_t m)
+static uint32_t scaled_integer_root(uint32_t m)
 {
     const float x = (float)m * (1.0f / 8388608.0f);
     float y = rho_float_of(0x5f3759dfu - (rho_float_bits(x) >> 1));
@@ -257,14 +261,15 @@ static uint32_t integer_root(uint32_t m)
     }
     root = (uint32_t)(x * y * 8388608.0f);
     rest = (int32_t)((m << EXPONENT_SHIFT) - root * root);
-    missing = (int32_t)((float)rest * y * (1.0f / 16777216.0f)); /* rest / (2 root) */
+    /* rest / (2 root): units that the estimate is too small */
+    missing = (int32_t)((float)rest * y * (1.0f / 16777216.0f));
     rest -= missing * (int32_t)(2u * root + (uint32_t)missing);
     root += (uint32_t)missing;
     return root + (uint32_t)(rest > (int32_t)root) - (uint32_t)(rest <= -(int32_t)root);
 }
 
-/* Of 0 < v <= FLT_MAX. */
-static float root_of(float v)
+/* Square root of 0 < v <= FLT_MAX, correctly rounded, by integer arithmetic. */
+static float square_root(float v)
 {
     const int is_subnormal = v < FLT_MIN;
     const uint32_t bits = rho_float_bits(is_subnormal ? v * 16777216.0f : v);
@@ -272,9 +277,9 @@ static float root_of(float v)
     uint32_t m = (bits & FRACTION_MASK) | FRACTION_ONE;
     uint32_t half;
 
-    m <<= (exponent + 1u) & 1u; /* an even power of two is left over */
+    m <<= (exponent + 1u) & 1u; /* makes the exponent even, so that it can be halved */
     half = ((exponent + EXPONENT_BIAS) >> 1) - (is_subnormal ? 12u : 0u);
-    return rho_float_of((half << EXPONENT_SHIFT) + (integer_root(m) - FRACTION_ONE));
+    return rho_float_of((half << EXPONENT_SHIFT) + (scaled_integer_root(m) - FRACTION_ONE));
 }
 
 #endif
@@ -284,10 +289,10 @@ float rho_sqrt(float v)
     if (!(v > 0.0f && v <= FLT_MAX)) {
         return v >= 0.0f ? v : rho_float_of(BITS_NAN);
     }
-    return root_of(v);
+    return square_root(v);
 }
 
-/* From the exponent halved, and a guess of the rest, by three steps of Newton's method. */
+/* 1 / sqrt(v): a first guess by halving the exponent's bits, and three steps of Newton's method. */
 float rho_inverse_sqrt(float v)
 {
     const float half = 0.5f * v;

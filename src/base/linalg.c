@@ -8,23 +8,23 @@
 #include "rhotrack/detail/approx.h"
 
 /*
- * A variance that an update may lower is first raised by 2^-20, sixteen units of float32's
- * rounding. The products that are taken off carry at most four each, so that what remains of a
- * positive definite matrix is positive definite, even where the measurement is 10^8 times
- * better than the prediction and every digit cancels.
+ * Before an update reduces a variance, the variance is raised by 2^-20, sixteen units of float32's
+ * rounding. The products that are subtracted carry at most four units each, so a positive definite
+ * matrix stays so even where the measurement is 10^8 times better than the prediction and every
+ * digit cancels.
  */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
-/* The same for a rotation, as a share of the larger variance: four units of rounding. */
+/* Allowance for the rounding of a rotation, as a share of the larger variance: four units. */
 #define TURN_ALLOWANCE (1.0f / 4194304.0f)
 
-/* Begin of row i of a packed 6 x 6 matrix. */
+/* Indices of the elements of row i of a packed symmetric 6 x 6 matrix. */
 static const uint8_t row_places[6][6] = {
     {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
     {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
 };
 
-/* False for NaN. */
+/* True for a positive finite number; false for NaN. */
 static int is_positive(float v)
 {
     return v > 0.0f && v <= FLT_MAX;
@@ -35,7 +35,7 @@ static int is_finite(float v)
     return v >= -FLT_MAX && v <= FLT_MAX;
 }
 
-/* a[i] . b over the first n elements of two packed rows. */
+/* Scalar product of the first n elements of two rows. */
 static float dot(int n, const float *a, const float *b)
 {
     float sum = 0.0f;
@@ -47,8 +47,11 @@ static float dot(int n, const float *a, const float *b)
     return sum;
 }
 
-/* Row i of the factor from row i of the matrix and the rows above. */
-static int factor_row(int i, const float *a, float *l)
+/*
+ * Row i of the Cholesky factor, from row i of the matrix and the factor's rows above. False where
+ * the pivot is not positive and finite.
+ */
+static int cholesky_row(int i, const float *a, float *l)
 {
     float *row = &l[RHO_TRIANGLE(i)];
     float pivot;
@@ -64,8 +67,8 @@ static int factor_row(int i, const float *a, float *l)
     return is_positive(pivot);
 }
 
-/* p := p - row row^T / s, off the diagonal. */
-static inline void lower_covariances(float p[21], const float row[6], const float gain[6])
+/* p := p - gain row^T outside of the diagonal; gain: row / S. */
+static inline void reduce_covariances(float p[21], const float row[6], const float gain[6])
 {
     RHO_UNROLL
     for (int i = 1; i < 6; ++i) {
@@ -76,19 +79,23 @@ static inline void lower_covariances(float p[21], const float row[6], const floa
     }
 }
 
-/* The allowance covers the rounding of covariances: a variance without any needs none. */
-static inline float lowered_variance(float variance, float gain, float covariance)
+/*
+ * A variance after an update. The rounding allowance is for the covariances of its element: a
+ * variance without any needs none.
+ */
+static inline float reduced_variance(float variance, float gain, float covariance)
 {
-    const float taken = gain * covariance; /* never negative; 0 where the two are not coupled */
+    /* 0 or more; 0 where measurement and element are not coupled */
+    const float taken = gain * covariance;
 
     return taken > 0.0f ? variance * ROUNDING_ALLOWANCE - taken : variance;
 }
 
-static inline void lower_variances(float p[21], const float row[6], const float gain[6])
+static inline void reduce_variances(float p[21], const float row[6], const float gain[6])
 {
     RHO_UNROLL
     for (int i = 0; i < 6; ++i) {
-        p[RHO_AT(i, i)] = lowered_variance(p[RHO_AT(i, i)], gain[i], row[i]);
+        p[RHO_AT(i, i)] = reduced_variance(p[RHO_AT(i, i)], gain[i], row[i]);
     }
 }
 
@@ -103,7 +110,7 @@ enum rho_status rho_linalg_cholesky(int n, const float *a, float *l)
         return RHO_ERROR_CAPACITY;
     }
     for (i = 0; i < n; ++i) {
-        if (!factor_row(i, a, l)) {
+        if (!cholesky_row(i, a, l)) {
             return RHO_ERROR_SINGULAR;
         }
     }
@@ -154,7 +161,7 @@ float rho_linalg_log_determinant(int n, const float *l)
 }
 
 /*
- * S = L D L^T with a unit L: pivots instead of a determinant, which cancels where the errors
+ * NIS by S = L D L^T with a unit L: pivots instead of a determinant, which cancels where the errors
  * are correlated.
  */
 enum rho_status rho_linalg_gate2(const float s[3], const float d[2], float *distance2,
@@ -210,7 +217,7 @@ enum rho_status rho_linalg_gate3(const float s[6], const float d[3], float *dist
     return RHO_OK;
 }
 
-/* Updates the state; false, and nothing is changed, where a result is not finite. */
+/* x := x + gain innovation. Returns 0, and changes nothing, where a result is not finite. */
 static inline int correct_state(float x[6], const float gain[6], float innovation, float inverse)
 {
     float next[6], sum = 0.0f;
@@ -230,7 +237,7 @@ static inline int correct_state(float x[6], const float gain[6], float innovatio
     return 1;
 }
 
-/* Row i of a packed matrix, from its begin. */
+/* Copies a row of a packed matrix; place: indices of its elements. */
 static inline void read_row(float row[6], const float p[21], const uint8_t place[6])
 {
     RHO_UNROLL
@@ -239,7 +246,8 @@ static inline void read_row(float row[6], const float p[21], const uint8_t place
     }
 }
 
-static inline void write_row(float p[21], const uint8_t place[6], const float row[6], float factor)
+static inline void write_scaled_row(float p[21], const uint8_t place[6], const float row[6],
+                                    float factor)
 {
     RHO_UNROLL
     for (int i = 0; i < 6; ++i) {
@@ -255,34 +263,38 @@ static inline void scale_row(float scaled[6], const float row[6], float factor)
     }
 }
 
-/* Places of an element's covariances with the other two axes. */
+/* Indices of an element's covariances with the elements of the other two axes. */
 static const uint8_t other_axes[6][4] = {
     {1, 3, 10, 15}, {1, 4, 7, 16},    {3, 4, 8, 12},
     {7, 8, 13, 18}, {10, 12, 13, 19}, {15, 16, 18, 19},
 };
 
-/* Absolute value; 0 for zero. */
+/* Bits of a float without its sign: 0 for +0 and -0 alone. */
 static inline uint32_t magnitude_bits(float v)
 {
     return rho_float_bits(v) << 1;
 }
 
-static inline int is_axis_uncoupled(const float p[21], const uint8_t others[4])
+static inline int is_uncoupled_from_other_axes(const float p[21], const uint8_t others[4])
 {
     return (magnitude_bits(p[others[0]]) | magnitude_bits(p[others[1]]) |
             magnitude_bits(p[others[2]]) | magnitude_bits(p[others[3]])) == 0;
 }
 
-/* A scalar measurement of one element: its value and its prediction. */
-struct scalar {
+/*
+ * A scalar measurement of one element: innovation, 1 / S, and the share R / S of the variance that
+ * is kept.
+ */
+struct scalar_measurement {
     float innovation, inverse, kept;
 };
 
 /*
- * The same for an element that is coupled with the other one of its axis alone: the same bits up to
- * the sign of a zero, in a third of the time.
+ * Updates position and velocity of one axis that is coupled with no other axis: the bits of
+ * update_all_axes up to the sign of a zero, in a third of the time.
  */
-static int update_uncoupled(float x[6], float p[21], int index, const struct scalar *seen)
+static int update_axis_alone(float x[6], float p[21], int index,
+                             const struct scalar_measurement *seen)
 {
     const int other = index < 3 ? index + 3 : index - 3;
     float *const mixed = &p[row_places[index][other]], *const own = &p[row_places[index][index]];
@@ -297,14 +309,14 @@ static int update_uncoupled(float x[6], float p[21], int index, const struct sca
     }
     x[index] = x_own;
     x[other] = x_other;
-    *others = lowered_variance(*others, gain, *mixed);
+    *others = reduced_variance(*others, gain, *mixed);
     *own *= seen->kept;
     *mixed *= seen->kept;
     return 1;
 }
 
-static int update_coupled(float x[6], float p[21], const uint8_t place[6],
-                          const struct scalar *seen)
+static int update_all_axes(float x[6], float p[21], const uint8_t place[6],
+                           const struct scalar_measurement *seen)
 {
     float row[6], gain[6];
 
@@ -313,9 +325,9 @@ static int update_coupled(float x[6], float p[21], const uint8_t place[6],
     if (!correct_state(x, gain, seen->innovation, seen->inverse)) {
         return 0;
     }
-    lower_covariances(p, row, gain);
-    lower_variances(p, row, gain);
-    write_row(p, place, row, seen->kept);
+    reduce_covariances(p, row, gain);
+    reduce_variances(p, row, gain);
+    write_scaled_row(p, place, row, seen->kept);
     return 1;
 }
 
@@ -323,7 +335,7 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
                                    float variance, float *nis)
 {
     float predicted, sum;
-    struct scalar seen;
+    struct scalar_measurement seen;
 
     if (x == NULL || p == NULL) {
         return RHO_ERROR_NULL;
@@ -334,15 +346,16 @@ enum rho_status rho_linalg_update6(float x[6], float p[21], int index, float inn
     predicted = p[RHO_AT(index, index)];
     sum = predicted + variance;
     /*
-     * The measured row is scaled, not differenced: no digit is lost. A quotient is never above 1.
+     * The measured row is scaled by R / S instead of being reduced by a difference: no digit
+     * cancels. R / S is never above 1.
      */
-    seen = (struct scalar){innovation, 1.0f / sum, variance / sum};
+    seen = (struct scalar_measurement){innovation, 1.0f / sum, variance / sum};
     if (!(predicted >= 0.0f && variance > 0.0f && sum <= FLT_MAX && seen.inverse <= FLT_MAX)) {
         return RHO_ERROR_SINGULAR;
     }
-    if (!(RHO_FAST_UPDATES && is_axis_uncoupled(p, other_axes[index])
-              ? update_uncoupled(x, p, index, &seen)
-              : update_coupled(x, p, row_places[index], &seen))) {
+    if (!(RHO_FAST_UPDATES && is_uncoupled_from_other_axes(p, other_axes[index])
+              ? update_axis_alone(x, p, index, &seen)
+              : update_all_axes(x, p, row_places[index], &seen))) {
         return RHO_ERROR_VALUE;
     }
     if (nis != NULL) {
@@ -388,8 +401,8 @@ enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[
     if (!correct_state(x, gain, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
-    lower_covariances(p, projected, gain);
-    lower_variances(p, projected, gain);
+    reduce_covariances(p, projected, gain);
+    reduce_variances(p, projected, gain);
     if (nis != NULL) {
         *nis = innovation * inverse * innovation;
     }
@@ -400,7 +413,9 @@ void rho_linalg_turn6(float p[21], int a, int b, float c, float s)
 {
     const uint8_t *row_a = row_places[a], *row_b = row_places[b];
     const float aa = p[row_a[a]], ab = p[row_a[b]], bb = p[row_b[b]];
-    /* the mean of both variances stays, and only the rest is rotated: that rounds least */
+    /*
+     * the mean of both variances is kept, and only their difference is rotated: that rounds least
+     */
     const float cos_twice = c * c - s * s, sin_twice = 2.0f * c * s;
     const float mean = 0.5f * (aa + bb), half = 0.5f * (aa - bb);
     const float rest = cos_twice * half + sin_twice * ab;

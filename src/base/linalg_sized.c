@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * linalg_sized: scalar updates and distances for states of any size up to RHO_LINALG_MAX.
- */
+/* linalg_sized: scalar Kalman updates and NIS for states of any size up to RHO_LINALG_MAX. */
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
@@ -10,11 +8,12 @@
 #include "rhotrack/detail/linalg.h"
 
 /*
- * As in linalg.c: a variance that an update may lower is first raised by sixteen units of rounding.
+ * Before an update reduces a variance, the variance is raised by sixteen units of rounding, as in
+ * linalg.c.
  */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
-/* False for NaN. */
+/* True for a finite number; false for NaN. */
 static int is_finite(float v)
 {
     return v >= -FLT_MAX && v <= FLT_MAX;
@@ -26,7 +25,7 @@ static int is_positive(float v)
 }
 
 /* 1 / (predicted + variance), or 0 where that is not a finite number. */
-static float inverse_of_sum(float predicted, float variance)
+static float inverse_innovation_variance(float predicted, float variance)
 {
     const float sum = predicted + variance;
     const float inverse = 1.0f / sum;
@@ -35,7 +34,7 @@ static float inverse_of_sum(float predicted, float variance)
                                                                                         : 0.0f;
 }
 
-/* x += spread innovation / S; false, and nothing is changed, where a result is not finite. */
+/* x += spread innovation / S. Returns 0, and changes nothing, where a result is not finite. */
 static int correct_state(int n, float *x, const float *spread, float innovation, float inverse)
 {
     float next[RHO_LINALG_MAX], total = 0.0f;
@@ -54,10 +53,10 @@ static int correct_state(int n, float *x, const float *spread, float innovation,
 }
 
 /*
- * p -= spread spread^T / S. Elements that are not coupled to the measurement stay unchanged: an
- * axis without heights, say.
+ * p -= spread spread^T / S. Elements that are not coupled to the measurement, such as those of an
+ * axis without heights, stay unchanged.
  */
-static void lower_covariance(int n, float *p, const float *spread, float inverse)
+static void reduce_covariance(int n, float *p, const float *spread, float inverse)
 {
     int i, j;
 
@@ -74,7 +73,7 @@ static void lower_covariance(int n, float *p, const float *spread, float inverse
     }
 }
 
-static void take_row(int n, const float *p, int index, float *row)
+static void copy_row(int n, const float *p, int index, float *row)
 {
     int i;
 
@@ -98,8 +97,8 @@ enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float
     if (index < 0 || index >= n) {
         return RHO_ERROR_VALUE;
     }
-    take_row(n, p, index, row);
-    inverse = inverse_of_sum(row[index], variance);
+    copy_row(n, p, index, row);
+    inverse = inverse_innovation_variance(row[index], variance);
     if (!(inverse > 0.0f)) {
         return RHO_ERROR_SINGULAR;
     }
@@ -107,8 +106,11 @@ enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float
         return RHO_ERROR_VALUE;
     }
     kept = variance / (row[index] + variance);
-    lower_covariance(n, p, row, inverse);
-    /* The measured row is scaled, not differenced: no digit is lost. */
+    reduce_covariance(n, p, row, inverse);
+    /*
+     * The measured row is scaled by R / S instead of being reduced by a difference: no digit
+     * cancels.
+     */
     for (i = 0; i < n; ++i) {
         p[RHO_AT(i, index)] = row[i] * kept;
     }
@@ -116,10 +118,10 @@ enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index, float
 }
 
 /*
- * spread := p row; returns row . p row. Each element of p is read once: for its row, and for the
- * elements before.
+ * spread := p row; returns row . p row. Each stored element of p is read once, for its row and for
+ * its column.
  */
-static float project_row(int n, const float *p, int num, const float *row, float *spread)
+static float project_covariance(int n, const float *p, int num, const float *row, float *spread)
 {
     float variance = 0.0f;
     int i, j;
@@ -153,18 +155,21 @@ enum rho_status rho_linalg_update_along(int n, float *x, float *p, int num, cons
     if (n < 1 || n > RHO_LINALG_MAX || num < 1 || num > n) {
         return RHO_ERROR_CAPACITY;
     }
-    inverse = inverse_of_sum(project_row(n, p, num, row, spread), variance);
+    inverse = inverse_innovation_variance(project_covariance(n, p, num, row, spread), variance);
     if (!(inverse > 0.0f)) {
         return RHO_ERROR_SINGULAR;
     }
     if (!correct_state(n, x, spread, innovation, inverse)) {
         return RHO_ERROR_VALUE;
     }
-    lower_covariance(n, p, spread, inverse);
+    reduce_covariance(n, p, spread, inverse);
     return RHO_OK;
 }
 
-/* Column k of S = L D L^T leaves what lies right of it, and of d. False where the pivot is none. */
+/*
+ * Eliminates column k of S = L D L^T from the columns to its right and from d. False where the
+ * pivot is not positive.
+ */
 static int eliminate_column(int n, int k, float *s, float *d)
 {
     const float pivot = s[RHO_AT(k, k)];
@@ -185,8 +190,11 @@ static int eliminate_column(int n, int k, float *s, float *d)
     return 1;
 }
 
-/* Pivots are multiplied three at a time: their product stays a number for variances up to 10^12. */
-static float log_of_pivots(int n, const float *s)
+/*
+ * ln det S as the sum of logarithms of pivots. Three are multiplied before each logarithm: their
+ * product is finite for variances up to 10^12.
+ */
+static float log_pivot_product(int n, const float *s)
 {
     float sum = 0.0f, product = 1.0f;
     int k;
@@ -220,7 +228,7 @@ int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *dist
             return 0;
         }
     }
-    logarithm = log_of_pivots(n, s);
+    logarithm = log_pivot_product(n, s);
     if (!is_finite(logarithm)) {
         return 0;
     }

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "rhotrack/types.h"
 
-/* Characters, not pointers: nothing to relocate, so the table is read-only in every build. */
+/*
+ * Names as characters instead of pointers: without relocations the table is read-only in every
+ * build.
+ */
 static const char status_names[RHO_NUM_STATUS][9] = {
     [RHO_OK] = "ok",
     [RHO_ERROR_NULL] = "null",

@@ -9,10 +9,10 @@ static const char fate_names[RHO_NUM_FATES][8] = {
 };
 
 /*
- * To the nearest float, as a conversion goes: the bits that do not fit leave a trace in the last
- * one. Not by a conversion, since compilers' own of 64 bits drag double's arithmetic into firmware.
+ * Converts to the nearest float: bits shifted out set the last bit, which decides the rounding.
+ * Compilers' own conversion from 64 bits would link double arithmetic into firmware.
  */
-static float float_of(uint64_t value)
+static float u64_to_float(uint64_t value)
 {
     float scale = 1.0f;
 
@@ -23,10 +23,12 @@ static float float_of(uint64_t value)
     return (float)(uint32_t)value * scale;
 }
 
-/* Divided, not multiplied by 1e-6f, which is no binary number: one rounding up to 2^24 us. */
-static float seconds_of(uint64_t span_us)
+/*
+ * Divides by 1e6: a factor of 1e-6f is not exact in binary. One rounding for spans up to 2^24 us.
+ */
+static float us_to_seconds(uint64_t span_us)
 {
-    return float_of(span_us) / 1.0e6f;
+    return u64_to_float(span_us) / 1.0e6f;
 }
 
 const char *rho_fate_name(enum rho_fate fate)
@@ -36,7 +38,7 @@ const char *rho_fate_name(enum rho_fate fate)
     return value < RHO_NUM_FATES ? fate_names[value] : "unknown";
 }
 
-/* In pairs, then by fours, eights, and all together. */
+/* Counts bits in pairs, then in groups of four and eight, then all together. */
 unsigned rho_count_bits(uint32_t mask)
 {
     mask = mask - (mask >> 1 & 0x55555555u);
@@ -46,15 +48,15 @@ unsigned rho_count_bits(uint32_t mask)
 }
 
 /*
- * The span of two int64_t needs 64 bits and a sign, so the sign is taken first and the rest is
- * unsigned.
+ * The difference of two int64_t needs 64 bits and a sign: the sign is taken first, and the
+ * magnitude is unsigned.
  */
 float rho_seconds_between(int64_t from_us, int64_t to_us)
 {
     const uint64_t from = (uint64_t)from_us;
     const uint64_t to = (uint64_t)to_us;
 
-    return from_us <= to_us ? seconds_of(to - from) : -seconds_of(from - to);
+    return from_us <= to_us ? us_to_seconds(to - from) : -us_to_seconds(from - to);
 }
 
 uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us)

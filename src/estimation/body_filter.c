@@ -4,47 +4,59 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
-/* Memory, in weights: 500 plots without noise. */
+/* Memory of a body's variances, as a weight: 500 plots without noise. */
 #define WEIGHT_MOST 2500.0f
-/* A speed of so many standard deviations has a direction. */
+/* Speed, in standard deviations, above which the velocity gives the body's heading. */
 #define HEADING_SIGMAS 3.0f
-/* Velocities are so much better than filters that expect manoeuvres say: share of the variance. */
+/*
+ * Actual variance of velocities' directions, as a share of what filters that expect manoeuvres
+ * state.
+ */
 #define TURNED_SHARE 0.3f
-/* The heading's error stays the same for so many looks. */
+/* Looks over which an error of the heading stays the same. */
 #define TURNED_LOOKS 10.0f
-/* Half the variance of a place's square, over the square of its variance: 0.4 if places are uniform
- * on the body, and half of that as most scatterers are the same ones from look to look. */
+/*
+ * Half the variance of the square of a place on a body, over its squared variance: 0.4 for places
+ * uniform on the body, and half of that, as most scatterers are the same from look to look.
+ */
 #define SQUARES_OF_BODY 0.2f
-/* Scatterers that are elsewhere on their parts of the body at each look. */
+/* Share of scatterers that are elsewhere on their part of the body at each look. */
 #define ANEW_SHARE 0.5f
-/* The weight that tells the length for a gate: of 4 plots without noise. */
+/* Weight at which half of the prior's length is still added for gates: 4 plots without noise. */
 #define FEW_WEIGHT 20.0f
-/* A body of which nothing but the heading is known is so many times as long as wide. */
+/* Ratio of length to width of a body of which only the heading is known. */
 #define ASPECT_PRIOR 3.0f
-/* What the prior counts: next to nothing; and a width is known to some 30 %. */
+/* Weights of the priors of length, next to nothing, and width, which is known to some 30 %. */
 #define PRIOR_WEIGHT 0.3f
 #define WIDTH_PRIOR_WEIGHT 6.0f
-/* A body is usually so many times as long as wide, in the weight of its plots. */
+/* Usual ratio of length to width, by which plots are weighted. */
 #define ASPECT_USUAL 4.0f
-/* A body is never longer than so many times its width. */
+/* Largest ratio of length to width. */
 #define ASPECT_MAX 16.0f
 /*
- * Squares over what n plots have on average that a stray plot, or a wrong first heading, may add.
+ * Squares, in variances of a place, that a stray plot or a wrong first heading may add to the sum
+ * over n plots.
  */
 #define STRAY_SQUARES 12.0f
-/* A slope before any was seen, 1 / variance: 5 scatterers on a body 6 times as long as wide. */
+/*
+ * Prior weight, 1 / variance, of the slope of a body's scatterers: 5 scatterers on a body 6 times
+ * as long as wide.
+ */
 #define SLOPE_WEIGHT 144.0f
-/* Few scatterers: a body that looks short is further off, in its length. */
+/*
+ * Correction of a length's sigma for few scatterers: the sigma of a body that looks too short is
+ * too small.
+ */
 #define FEW_PLACES 8.4f
-/* Share of a plot that tells the body's width, at least. */
+/* Least number of plots, after those used up by the heading's error, that update the width. */
 #define LEAST_PLOTS 0.1f
-/* Counted plots stop there; so many tell the slope. */
+/* Largest count of a body's plots, and memory of its slope in plots. */
 #define PLOTS_MOST 500.0f
-/* The least variance of a place on a body: 0.1 m of length. */
+/* Least variance of a place on a body, m^2: a length of 0.1 m. */
 #define LEAST_M2 1e-3f
 
-/* An axis of the body of which no plot has told yet. */
-static struct rho_body_side unseen_side(float m2, float weight)
+/* Extent along one axis of a body before any plot: the prior's variance. */
+static struct rho_body_side prior_side(float m2, float weight)
 {
     return (struct rho_body_side){m2, weight, 2.0f * m2 * m2 / weight, 1.0f};
 }
@@ -56,8 +68,8 @@ void rho_body_start(struct rho_body_filter *body, uint32_t track_id, float prior
         .along_m2 = prior_m2,
         .across_m2 = prior_m2,
         .prior_m2 = prior_m2,
-        .along = unseen_side(prior_m2, PRIOR_WEIGHT),
-        .across = unseen_side(prior_m2, WIDTH_PRIOR_WEIGHT),
+        .along = prior_side(prior_m2, PRIOR_WEIGHT),
+        .across = prior_side(prior_m2, WIDTH_PRIOR_WEIGHT),
         .cos_heading = 1.0f,
         .heading_sigma_rad = RHO_PI,
         .slope_weight = SLOPE_WEIGHT,
@@ -82,7 +94,7 @@ void rho_body_turn(struct rho_body_filter *body, const float velocity_mps[2],
     if (!body->has_heading) {
         const float width_m2 = body->prior_m2 / (ASPECT_PRIOR * ASPECT_PRIOR);
         body->across_m2 = width_m2;
-        body->across = unseen_side(width_m2, WIDTH_PRIOR_WEIGHT);
+        body->across = prior_side(width_m2, WIDTH_PRIOR_WEIGHT);
     }
     body->cos_heading = c;
     body->sin_heading = s;
@@ -112,20 +124,20 @@ void rho_body_spread(const struct rho_body_filter *body, float xx_yx_yy[3])
     xx_yx_yy[2] = s * s * body->along_m2 + c * c * body->across_m2;
 }
 
-/* The share of the length that is taken for width: mean square of the heading's error. */
+/* Mean square of the heading's error: the share of the squared length that appears as width. */
 static float heading_error_share(const struct rho_body_filter *body)
 {
     return TURNED_SHARE * body->heading_sigma_rad * body->heading_sigma_rad;
 }
 
-static float usual_along_m2(const struct rho_body_filter *body)
+static float floored_along_m2(const struct rho_body_filter *body)
 {
     return rho_larger(body->along_m2, body->prior_m2 / 16.0f);
 }
 
-static float usual_across_m2(const struct rho_body_filter *body)
+static float across_of_usual_aspect_m2(const struct rho_body_filter *body)
 {
-    return usual_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
+    return floored_along_m2(body) / (ASPECT_USUAL * ASPECT_USUAL);
 }
 
 float rho_body_missed_share(const struct rho_body_filter *body, unsigned n)
@@ -137,7 +149,10 @@ float rho_body_missed_share(const struct rho_body_filter *body, unsigned n)
     return (most - (float)n) / (most - 1.0f) + ANEW_SHARE / (most * most);
 }
 
-/* 2 / n times this is the variance of a mean square in n plots, over v^2: own noise beside v. */
+/*
+ * Variance of the mean square of n plots' places, times n / 2, relative to v^2; v: the body's
+ * variance, own: the plots' noise.
+ */
 static float relative_square_variance(float v_m2, float own_m2)
 {
     const float own = own_m2 / v_m2;
@@ -145,11 +160,12 @@ static float relative_square_variance(float v_m2, float own_m2)
 }
 
 /*
- * One axis: a variance seen in n plots, without what is not the body's. It counts as what n plots
- * tell of a body of the usual variance, whatever they say.
+ * Updates the extent along one axis by the mean square of n plots' places less their noise. The
+ * weight of the plots is computed for a body of usual variance, so that it does not depend on the
+ * measured one.
  */
-static void learn_side(struct rho_body_side *side, float usual_m2, float seen_m2, float own_m2,
-                       float n)
+static void update_side(struct rho_body_side *side, float usual_m2, float seen_m2, float own_m2,
+                        float n)
 {
     const float more = n / relative_square_variance(usual_m2, own_m2);
     const float v_m2 = rho_larger(side->mean_m2, LEAST_M2);
@@ -164,13 +180,14 @@ static void learn_side(struct rho_body_side *side, float usual_m2, float seen_m2
 }
 
 /*
- * Across: an error of the heading turns all plots of a look about the reference point. How far they
- * seem turned is a slope, that of the scatterers' own places (learned, for it lasts) and the
- * error, whose expected share is taken off.
+ * Updates the extent across the body. An error of the heading turns all plots of a look about the
+ * reference point: their apparent slope is the sum of the scatterers' own slope (learned, as it
+ * lasts) and of this error, whose expected share is subtracted.
  */
-static void learn_across(struct rho_body_filter *body, const struct rho_body_look *look, float n)
+static void update_across_and_slope(struct rho_body_filter *body, const struct rho_body_look *look,
+                                    float n)
 {
-    const float usual_m2 = usual_across_m2(body), noise_m2 = look->noise_across_m2 / n;
+    const float usual_m2 = across_of_usual_aspect_m2(body), noise_m2 = look->noise_across_m2 / n;
     const float missed = rho_body_missed_share(body, look->num_plots);
     const float along_m2 = rho_larger(look->along_m2, n * LEAST_M2);
     const float slope = look->cross_m2 / along_m2;
@@ -178,15 +195,16 @@ static void learn_across(struct rho_body_filter *body, const struct rho_body_loo
     const float turned = heading_error_share(body);
     const float k = turned / (turned + slope_variance);
     const float off = slope - body->slope, left = (1.0f - k) * (1.0f - k) * turned;
-    const float gone = 2.0f * k - k * k; /* plots that tell the turn alone */
+    /* number of plots whose information is used up by the heading's error */
+    const float gone = 2.0f * k - k * k;
     const float squares_m2 = look->across_m2 - 2.0f * k * off * look->cross_m2 +
                              k * k * along_m2 * (off * off + 1.0f / body->slope_weight);
     const float own_m2 = noise_m2 + left * body->along_m2;
     const float most_m2 = (n + STRAY_SQUARES) * (rho_larger(usual_m2, body->across_m2) + own_m2);
     const float sum_m2 = rho_smaller(squares_m2, most_m2) - (n - gone) * noise_m2;
     if (n - gone > LEAST_PLOTS) {
-        learn_side(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2,
-                   own_m2, n - gone);
+        update_side(&body->across, usual_m2, sum_m2 / (n - missed * gone) - left * body->along_m2,
+                    own_m2, n - gone);
     }
     const float more = 1.0f / (slope_variance + TURNED_LOOKS * turned);
     body->slope_weight *= 1.0f - rho_smaller(n / PLOTS_MOST, 1.0f);
@@ -204,17 +222,17 @@ void rho_body_add(struct rho_body_filter *body, const struct rho_body_look *look
         return;
     }
     const float along_m2 = look->noise_along_m2 / n + heading_error_share(body) * body->across_m2;
-    learn_side(&body->along, usual_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
+    update_side(&body->along, floored_along_m2(body), look->along_m2 / n - along_m2, along_m2, n);
     body->along_m2 = rho_larger(body->along.mean_m2, LEAST_M2);
-    learn_across(body, look, n);
+    update_across_and_slope(body, look, n);
     body->across_m2 = rho_larger(body->across.mean_m2, body->along_m2 / (ASPECT_MAX * ASPECT_MAX));
     body->plots = rho_smaller(body->plots + n, PLOTS_MOST);
 }
 
 /*
- * L = root(12 v): dL = 6 dv / L. Beside what plots leave of v: of scatterers that stay where they
- * are, each anywhere in its part of the body, N are seen, whose own variance is off by a share of
- * 2 / N^1.5, however many looks there are. And what headings add lasts: turned_m2.
+ * Length L = root(12 v) and its sigma, dL = 6 dv / L. Besides the error of v: of N scatterers that
+ * stay in their parts of the body, the variance is off by a share of 2 / N^1.5, however many looks
+ * there are. turned_m2, the error due to headings, lasts too.
  */
 static float side_length_m(const struct rho_body_filter *body, const struct rho_body_side *side,
                            float spread_m2, float turned_m2, float *sigma_m)
@@ -235,12 +253,17 @@ void rho_body_shape(const struct rho_body_filter *body, struct rho_body *shape)
     *shape = (struct rho_body){
         .heading_rad = rho_atan2(body->sin_heading, body->cos_heading),
         .sigma_heading_rad = body->heading_sigma_rad,
-        /* the mean of such scatterers is off by L / N^1.5 root 12 */
+        /*
+         * the mean of N scatterers, one in each part of the body, has a sigma of L / (N^1.5 root
+         * 12)
+         */
         .sigma_along_m = rho_sqrt(body->along_m2 / (most * most * most)),
         .sigma_across_m = rho_sqrt(body->across_m2 / (most * most * most)),
         .plots = body->plots,
     };
-    /* a turn that slopes tell is off by as much as the slope is: (s + e)^2 - s^2 */
+    /*
+     * a heading error e adds (s + e)^2 - s^2 to the squared slope s; e is at most as uncertain as s
+     */
     const float turned = rho_smaller(heading_error_share(body), 1.0f / body->slope_weight);
     const float off = rho_sqrt(turned * (turned + 4.0f * body->slope * body->slope));
     shape->length_m = side_length_m(body, &body->along, body->along_m2, turned * body->across_m2,

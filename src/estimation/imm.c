@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * imm: the models, what an interval does to them, mixing and prediction. imm_likelihood.c scores
- * plots, imm_update.c updates with them.
+ * imm: the two motion models, their transition over an interval, mixing and prediction.
+ * imm_likelihood.c scores plots, imm_update.c updates with them.
  */
 #include "rhotrack/detail/imm.h"
 
@@ -19,9 +19,9 @@
 /* ---- models ---------------------------------------------------------------------------------- */
 
 /*
- * Tuned with targets that manoeuvre at 1 to 30 g for 4 to 8 s: stationary acceleration sd of 0.8
- * accel_max, and these shortest times. The times of slower targets are proportional to their
- * turning time v_max / accel_max.
+ * Manoeuvring model's acceleration sd (a share of accel_max), memory, and mean times in each model,
+ * tuned with targets that manoeuvre at 1 to 30 g for 4 to 8 s. The times of slower targets are
+ * proportional to their turning time v_max / accel_max.
  */
 #define ACCEL_SHARE 0.8f
 #define MEMORY_SHARE 0.35f
@@ -31,20 +31,21 @@
 #define TURN_MAX_S 1000.0f
 
 /*
- * Noise of the steady model: after 1 s a share of accel_max; less for targets that hardly
- * manoeuvre, and for calm ones.
+ * Noise of the steady model: a velocity sd of a share of accel_max after 1 s; with upper limits for
+ * agile and for calm targets, m^2/s^3.
  */
 #define QUIET_DENSITY 1.0f
 #define CALM_DENSITY 0.003f
 #define QUIET_SHARE 0.05f
 
-/* Mean time until an agile target that keeps straight becomes calm. */
+/* Mean time until an agile target that flies straight becomes calm. */
 #define SETTLE_S 60.0f
 
 /*
- * Manoeuvres with lower odds are not mixed into the steady model: even a small share would add the
- * squared difference of the models to the steady variance at each scan, and straight targets would
- * stay uncertain. A bound on the probability would not do, as it hardly falls between fast scans.
+ * Odds of the manoeuvring model below which it is not mixed into the steady one: even a small share
+ * would add the squared difference of the models to the steady variance at each scan, and straight
+ * targets would stay uncertain. A bound on the probability would not do, as it hardly falls between
+ * fast scans.
  */
 #define ODDS_OVER 0.16f
 
@@ -93,9 +94,9 @@ static const float gauss_weight[4] = {0.17392742f, 0.32607258f, 0.32607258f, 0.1
 static const float gauss_node[4] = {0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f};
 
 /*
- * Position, velocity and acceleration after `t` for a unit of acceleration at 0, x = t / memory
- * within +-1/2: t^2 (x - 1 + e^-x) / x^2, t (1 - e^-x) / x, e^-x. Series, as the closed forms
- * cancel for small x.
+ * Position, velocity and acceleration at time t after a unit of acceleration at time 0, with x = t
+ * / memory within +-1/2: t^2 (x - 1 + e^-x) / x^2, t (1 - e^-x) / x, e^-x. Computed by series, as
+ * the closed forms cancel for small x.
  */
 static void acceleration_response(float t_s, float memory_s, float out[3])
 {
@@ -112,7 +113,7 @@ static void acceleration_response(float t_s, float memory_s, float out[3])
     out[2] = 1.0f - x * (1.0f - x * rest);
 }
 
-static void open_short_step(struct rho_imm_step *step, const struct rho_imm_model *model,
+static void fill_short_step(struct rho_imm_step *step, const struct rho_imm_model *model,
                             float dt_s)
 {
     float response[3];
@@ -132,7 +133,7 @@ static void open_short_step(struct rho_imm_step *step, const struct rho_imm_mode
     }
 }
 
-/* F P F^T of the manoeuvring model's axis. */
+/* Predicts one axis' covariance of the manoeuvring model without process noise: F P F^T. */
 static inline void propagate_axis_covariance(struct axis *at, struct accel *by,
                                              const struct rho_imm_step *step)
 {
@@ -149,7 +150,10 @@ static inline void propagate_axis_covariance(struct axis *at, struct accel *by,
     by->aa = h * h * by->aa;
 }
 
-/* The transition of a step twice as long. */
+/*
+ * Doubles the interval of the manoeuvring model's transition, with its process noise: two steps in
+ * a row.
+ */
 static void double_step(struct rho_imm_step *step)
 {
     float *noise = step->noise;
@@ -176,9 +180,9 @@ static float change_probability(float dt_s, float mean_s)
 }
 
 /*
- * Transition probabilities of the Markov chain. A manoeuvre of a calm target counts even if it has
- * ended within the step: after a long gap no other term holds its effect. The mean time between
- * manoeuvres of a calm target is at least that of an agile one.
+ * Transition probabilities of the Markov chain over the step's interval. A manoeuvre of a calm
+ * target is counted even if it has ended within the step: after a long gap no other term holds its
+ * effect. The mean time between manoeuvres of a calm target is at least that of an agile one.
  */
 static void set_transition_probabilities(struct rho_imm_step *step,
                                          const struct rho_imm_model *model)
@@ -208,7 +212,7 @@ void rho_imm_step_open(struct rho_imm_step *step, const struct rho_imm_model *mo
         step->dt_s *= 0.5f;
         doublings++;
     }
-    open_short_step(step, model, step->dt_s);
+    fill_short_step(step, model, step->dt_s);
     for (; doublings > 0; doublings--) {
         double_step(step);
     }
@@ -252,20 +256,24 @@ void rho_imm_start(struct rho_imm *imm, const struct rho_imm_model *model,
 /* ---- mix ------------------------------------------------------------------------------------- */
 
 /*
- * Weights in a mixed moment: the model itself, the other one, and the product of their differences.
+ * Weights of one model's mixed moments: of the model itself, of the other one, and of the product
+ * of their differences.
  */
 struct mixing {
     float own, other, spread;
 };
 
-/* Mixing weights of both models. */
+/* Weights with which each model's estimate is mixed with the other's. */
 struct mixing_weights {
     float into_steady,
-        into_manoeuvre; /* probability that the target was in the other model before */
+        into_manoeuvre; /* probability that the target was in the other model before the step */
     struct mixing steady, manoeuvre;
 };
 
-/* The probabilities of calm, agile and manoeuvring are propagated; returns the mixing weights. */
+/*
+ * Predicts the probabilities of calm, agile and manoeuvring by the Markov chain, and returns the
+ * weights for mixing the models.
+ */
 static struct mixing_weights update_markov_chain(struct rho_imm *imm,
                                                  const struct rho_imm_step *step)
 {
@@ -277,7 +285,7 @@ static struct mixing_weights update_markov_chain(struct rho_imm *imm,
     const float calm_stays = calm * (1.0f - step->calm_begins);
     const float agile_stays = agile * (1.0f - step->begins);
     const float stay = calm_stays + agile_stays, is = begins + (was - ends);
-    /* FLT_MIN: a state may have probability 0 after rounding */
+    /* FLT_MIN: no division by 0, as a state may have probability 0 after rounding */
     const float is_steady = ends + stay + FLT_MIN;
     const float steady = ends / is_steady, manoeuvre = begins / (is + FLT_MIN);
     imm->calm = (calm_stays + agile_stays * step->settles) / is_steady;
@@ -295,9 +303,9 @@ static inline float mixed_moment(const struct mixing *by, float own, float other
     return by->own * own + by->other * other + by->spread * product;
 }
 
-/* Mixes one axis of both models. */
-static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct accel *more,
-                            const struct mixing_weights *by)
+/* Mixes the estimates of both models on one axis. */
+static inline void mix_models_on_axis(struct axis *steady, struct axis *manoeuvre,
+                                      struct accel *more, const struct mixing_weights *by)
 {
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
     const float p = manoeuvre->p - steady->p, v = manoeuvre->v - steady->v, a = more->a;
@@ -320,13 +328,14 @@ static inline void mix_axis(struct axis *steady, struct axis *manoeuvre, struct 
     more->aa = m->own * more->aa + m->spread * a * a;
 }
 
-/* The covariances of two axes, with the differences of the models on both axes. */
-static inline void mix_pair(struct pair *steady, struct pair *manoeuvre,
-                            const struct model_difference *a, const struct model_difference *b,
-                            const struct mixing_weights *by)
+/* Mixes both models' covariances of two axes; a, b: differences of the models on these axes. */
+static inline void mix_models_on_axis_pair(struct axis_pair *steady, struct axis_pair *manoeuvre,
+                                           const struct model_difference *a,
+                                           const struct model_difference *b,
+                                           const struct mixing_weights *by)
 {
     const struct mixing *s = &by->steady, *m = &by->manoeuvre;
-    const struct pair was = *steady;
+    const struct axis_pair was = *steady;
     steady->pp = mixed_moment(s, was.pp, manoeuvre->pp, a->p * b->p);
     steady->pv = mixed_moment(s, was.pv, manoeuvre->pv, a->p * b->v);
     steady->vp = mixed_moment(s, was.vp, manoeuvre->vp, a->v * b->p);
@@ -351,7 +360,7 @@ static inline float with_rounding_margin(float variance)
     return higher < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : higher;
 }
 
-/* F x, F P F^T + Q of the manoeuvring model's axis. */
+/* Predicts one axis of the manoeuvring model: F x and F P F^T + Q. */
 static inline void predict_manoeuvre_axis(struct axis *at, struct accel *by,
                                           const struct rho_imm_step *step)
 {
@@ -367,7 +376,7 @@ static inline void predict_manoeuvre_axis(struct axis *at, struct accel *by,
     by->aa = with_rounding_margin(by->aa + step->noise[5]);
 }
 
-/* The same for the steady model. */
+/* Predicts one axis of the steady model: F x and F P F^T + Q. */
 static inline void predict_steady_axis(struct axis *at, float dt,
                                        const float noise[RHO_TRIANGLE(2)])
 {
@@ -377,32 +386,38 @@ static inline void predict_steady_axis(struct axis *at, float dt,
     at->vv = with_rounding_margin(at->vv + noise[2]);
 }
 
-/* The states must be finite, and the variances within their limit. */
-struct checks {
+/* Checks of a prediction: states must be finite, and variances within their limit. */
+struct prediction_checks {
     float state_sum;
     int is_good;
 };
 
-static inline int are_within_limits(const struct checks *checks)
+static inline int are_within_limits(const struct prediction_checks *checks)
 {
     return checks->is_good && checks->state_sum >= -FLT_MAX && checks->state_sum <= FLT_MAX;
 }
 
-/* One axis of both models, mixed if `by` is given. quiet_noise: of the steady model. */
-static void predict_axis(struct rho_imm *imm, int axis, const struct mixing_weights *by,
-                         const struct rho_imm_step *step, const float quiet_noise[RHO_TRIANGLE(2)],
-                         struct checks *checks)
+/*
+ * Predicts one axis of both models, after mixing them if `by` is given. quiet_noise: process noise
+ * of the steady model.
+ */
+static void predict_axis_of_both_models(struct rho_imm *imm, int axis,
+                                        const struct mixing_weights *by,
+                                        const struct rho_imm_step *step,
+                                        const float quiet_noise[RHO_TRIANGLE(2)],
+                                        struct prediction_checks *checks)
 {
     struct rho_kalman *kalman = &imm->steady;
-    if (!is_open(imm, axis)) {
-        checks->is_good &= imm->covariance[RHO_AT(axis, axis)] >= 0.0f; /* NaN is no closed axis */
+    if (!is_axis_open(imm, axis)) {
+        /* NaN: neither open nor closed */
+        checks->is_good &= imm->covariance[RHO_AT(axis, axis)] >= 0.0f;
         return;
     }
     struct axis steady = load_axis(kalman->state, kalman->covariance, axis);
     struct axis manoeuvre = load_axis(imm->state, imm->covariance, axis);
     struct accel more = load_accel(imm, axis);
     if (by) {
-        mix_axis(&steady, &manoeuvre, &more, by);
+        mix_models_on_axis(&steady, &manoeuvre, &more, by);
     }
     predict_steady_axis(&steady, step->dt_s, quiet_noise);
     predict_manoeuvre_axis(&manoeuvre, &more, step);
@@ -414,8 +429,12 @@ static void predict_axis(struct rho_imm *imm, int axis, const struct mixing_weig
     checks->state_sum += steady.p + steady.v + manoeuvre.p + manoeuvre.v + more.a;
 }
 
-/* F C F^T of the manoeuvring model's axes: three columns, then three rows. */
-static inline void predict_manoeuvre_pair(struct pair *at, const struct rho_imm_step *step)
+/*
+ * Predicts the manoeuvring model's covariances of two axes, F C F^T: three columns, then three
+ * rows.
+ */
+static inline void predict_manoeuvre_axis_pair(struct axis_pair *at,
+                                               const struct rho_imm_step *step)
 {
     const float dt = step->dt_s, f = step->position_by_accel, g = step->velocity_by_accel,
                 h = step->accel_by_accel;
@@ -423,7 +442,7 @@ static inline void predict_manoeuvre_pair(struct pair *at, const struct rho_imm_
     const float pa = at->pa + dt * at->va + f * at->aa;
     const float vp = at->vp + g * at->ap, vv = at->vv + g * at->av, va = at->va + g * at->aa;
     const float ap = h * at->ap, av = h * at->av, aa = h * at->aa;
-    *at = (struct pair){
+    *at = (struct axis_pair){
         .pp = pp + dt * pv + f * pa,
         .pv = pv + g * pa,
         .pa = h * pa,
@@ -436,8 +455,8 @@ static inline void predict_manoeuvre_pair(struct pair *at, const struct rho_imm_
     };
 }
 
-/* The same for the steady model. */
-static inline void predict_steady_pair(struct pair *at, float dt_s)
+/* Predicts the steady model's covariances of two axes, F C F^T. */
+static inline void predict_steady_axis_pair(struct axis_pair *at, float dt_s)
 {
     const float pv = at->pv + dt_s * at->vv;
     at->vp += dt_s * at->vv;
@@ -445,7 +464,7 @@ static inline void predict_steady_pair(struct pair *at, float dt_s)
     at->pv = pv;
 }
 
-static inline struct model_difference difference_of(const struct rho_imm *imm, int axis)
+static inline struct model_difference model_difference_on_axis(const struct rho_imm *imm, int axis)
 {
     return (struct model_difference){
         .p = imm->state[axis] - imm->steady.state[axis],
@@ -454,36 +473,41 @@ static inline struct model_difference difference_of(const struct rho_imm *imm, i
     };
 }
 
-/* The covariances of an axis with an earlier one; before the axes themselves are mixed. */
-static void predict_pair(struct rho_imm *imm, int axis, int other, const struct mixing_weights *by,
-                         const struct rho_imm_step *step)
+/*
+ * Predicts both models' covariances of an axis with an earlier one; called before the axes
+ * themselves are mixed, as mixing needs their differences.
+ */
+static void predict_axis_pair(struct rho_imm *imm, int axis, int other,
+                              const struct mixing_weights *by, const struct rho_imm_step *step)
 {
     float *p = imm->covariance, *q = imm->steady.covariance;
     const uint8_t *rows = pair_rows[axis + other - 1];
-    struct pair steady = load_steady_pair(q, rows), manoeuvre = load_pair(p, rows);
+    struct axis_pair steady = load_steady_axis_pair(q, rows), manoeuvre = load_axis_pair(p, rows);
     if (by) {
-        const struct model_difference a = difference_of(imm, axis), b = difference_of(imm, other);
-        mix_pair(&steady, &manoeuvre, &a, &b, by);
+        const struct model_difference a = model_difference_on_axis(imm, axis),
+                                      b = model_difference_on_axis(imm, other);
+        mix_models_on_axis_pair(&steady, &manoeuvre, &a, &b, by);
     }
-    predict_steady_pair(&steady, step->dt_s);
-    predict_manoeuvre_pair(&manoeuvre, step);
-    store_steady_pair(q, rows, &steady);
-    store_pair(p, rows, &manoeuvre);
+    predict_steady_axis_pair(&steady, step->dt_s);
+    predict_manoeuvre_axis_pair(&manoeuvre, step);
+    store_steady_axis_pair(q, rows, &steady);
+    store_axis_pair(p, rows, &manoeuvre);
 }
 
-static void predict_pairs(struct rho_imm *imm, const struct mixing_weights *by,
-                          const struct rho_imm_step *step)
+static void predict_axis_pairs(struct rho_imm *imm, const struct mixing_weights *by,
+                               const struct rho_imm_step *step)
 {
-    predict_pair(imm, RHO_Y, RHO_X, by, step);
-    if (is_open(imm, RHO_Z)) {
-        predict_pair(imm, RHO_Z, RHO_X, by, step);
-        predict_pair(imm, RHO_Z, RHO_Y, by, step);
+    predict_axis_pair(imm, RHO_Y, RHO_X, by, step);
+    if (is_axis_open(imm, RHO_Z)) {
+        predict_axis_pair(imm, RHO_Z, RHO_X, by, step);
+        predict_axis_pair(imm, RHO_Z, RHO_Y, by, step);
     }
 }
 
-static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *step, int may_change)
+static enum rho_status predict_both_models(struct rho_imm *imm, const struct rho_imm_step *step,
+                                           int may_change)
 {
-    struct checks checks = {0.0f, 1};
+    struct prediction_checks checks = {0.0f, 1};
     struct mixing_weights by;
     const struct mixing_weights *mixing = 0;
     if (!imm || !step) {
@@ -497,7 +521,7 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
         mixing = &by;
     }
     if (imm->is_coupled) {
-        predict_pairs(imm, mixing, step);
+        predict_axis_pairs(imm, mixing, step);
     }
     const float density =
         step->quiet_density + imm->calm * (step->calm_density - step->quiet_density);
@@ -505,19 +529,19 @@ static enum rho_status predict(struct rho_imm *imm, const struct rho_imm_step *s
                                                 density * step->quiet_noise[1],
                                                 density * step->quiet_noise[2]};
     for (int axis = 0; axis < NUM_AXES; axis++) {
-        predict_axis(imm, axis, mixing, step, quiet_noise, &checks);
+        predict_axis_of_both_models(imm, axis, mixing, step, quiet_noise, &checks);
     }
     return are_within_limits(&checks) ? RHO_OK : RHO_ERROR_VALUE;
 }
 
 enum rho_status rho_imm_predict_unmixed(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return predict(imm, step, 0);
+    return predict_both_models(imm, step, 0);
 }
 
 enum rho_status rho_imm_predict(struct rho_imm *imm, const struct rho_imm_step *step)
 {
-    return predict(imm, step, 1);
+    return predict_both_models(imm, step, 1);
 }
 
 /* ---- estimate -------------------------------------------------------------------------------- */

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * imm_axes: the two models axis by axis. Private to src/estimation/imm*.c.
- *
- * The covariance of the steady model has the layout of the first 21 elements of the manoeuvring
- * one's: positions and velocities have the same indices in both. The code is written out over named
- * elements, as it runs for each hypothesis of each track.
+ * imm_axes: loads and stores the estimates of both models axis by axis. Private to
+ * src/estimation/imm*.c. The covariance of the steady model has the layout of the first 21 elements
+ * of the manoeuvring model's: positions and velocities have the same indices in both. The code is
+ * written out over named elements, as it runs for each hypothesis of each track.
  */
 #ifndef RHOTRACK_IMM_AXES_H
 #define RHOTRACK_IMM_AXES_H
@@ -16,7 +15,8 @@
 #define NUM_AXES 3
 
 /*
- * Index of the covariance of derivative d of an axis with derivative e of the same or another axis.
+ * Index of the covariance of derivative d (0 position, 1 velocity, 2 acceleration) of an axis with
+ * derivative e of the same or another axis.
  */
 #define COVARIANCE_AT(axis, d, other, e) RHO_AT(NUM_AXES *(d) + (axis), NUM_AXES * (e) + (other))
 
@@ -27,21 +27,28 @@ struct axis {
 };
 
 /*
- * Acceleration of one axis of the manoeuvring model; in the steady model it is 0 with variance 0.
+ * Acceleration of one axis of the manoeuvring model, with its covariances; in the steady model it
+ * is 0 with variance 0.
  */
 struct accel {
     float a;
     float ap, av, aa;
 };
 
-/* Indices of an axis' first own covariance in its rows of position, velocity and acceleration. */
+/*
+ * Index of an axis' covariance with its own position, in its rows of position, velocity and
+ * acceleration.
+ */
 static const uint8_t axis_rows[NUM_AXES][3] = {
     {COVARIANCE_AT(0, 0, 0, 0), COVARIANCE_AT(0, 1, 0, 0), COVARIANCE_AT(0, 2, 0, 0)},
     {COVARIANCE_AT(1, 0, 1, 0), COVARIANCE_AT(1, 1, 1, 0), COVARIANCE_AT(1, 2, 1, 0)},
     {COVARIANCE_AT(2, 0, 2, 0), COVARIANCE_AT(2, 1, 2, 0), COVARIANCE_AT(2, 2, 2, 0)},
 };
 
-/* In such a row the next derivative of the same axis follows NUM_AXES elements later. */
+/*
+ * Loads position and velocity of one axis. In a row of the covariance an axis' elements are
+ * NUM_AXES apart.
+ */
 static inline struct axis load_axis(const float *state, const float *covariance, int axis)
 {
     const float *by_v = &covariance[axis_rows[axis][1]];
@@ -84,18 +91,21 @@ static inline void store_accel(struct rho_imm *imm, int axis, const struct accel
  * Covariances of two axes: the first letter is the derivative of the later axis, the second that of
  * the earlier one. The steady model has the elements without a.
  */
-struct pair {
+struct axis_pair {
     float pp, pv, pa;
     float vp, vv, va;
     float ap, av, aa;
 };
 
-/* Estimate of the manoeuvring model minus that of the steady one, on one axis. */
+/* Estimate of the manoeuvring model minus that of the steady model, on one axis. */
 struct model_difference {
     float p, v, a;
 };
 
-/* Indices of pp; pv; pa va; vp vv; ap av aa, for the axes y and x, z and x, z and y. */
+/*
+ * Indices in the triangle of an axis pair's pp; pv; pa va; vp vv; ap av aa (the first of each
+ * group), for the axes y and x, z and x, z and y.
+ */
 static const uint8_t pair_rows[NUM_AXES][5] = {
     {COVARIANCE_AT(1, 0, 0, 0), COVARIANCE_AT(1, 0, 0, 1), COVARIANCE_AT(1, 0, 0, 2),
      COVARIANCE_AT(1, 1, 0, 0), COVARIANCE_AT(1, 2, 0, 0)},
@@ -105,15 +115,15 @@ static const uint8_t pair_rows[NUM_AXES][5] = {
      COVARIANCE_AT(2, 1, 1, 0), COVARIANCE_AT(2, 2, 1, 0)},
 };
 
-static inline struct pair load_steady_pair(const float *covariance, const uint8_t rows[5])
+static inline struct axis_pair load_steady_axis_pair(const float *covariance, const uint8_t rows[5])
 {
     const float *by_v = &covariance[rows[3]];
-    return (struct pair){
+    return (struct axis_pair){
         .pp = covariance[rows[0]], .pv = covariance[rows[1]], .vp = by_v[0], .vv = by_v[NUM_AXES]};
 }
 
-static inline void store_steady_pair(float *covariance, const uint8_t rows[5],
-                                     const struct pair *in)
+static inline void store_steady_axis_pair(float *covariance, const uint8_t rows[5],
+                                          const struct axis_pair *in)
 {
     float *by_v = &covariance[rows[3]];
     covariance[rows[0]] = in->pp;
@@ -122,10 +132,10 @@ static inline void store_steady_pair(float *covariance, const uint8_t rows[5],
     by_v[NUM_AXES] = in->vv;
 }
 
-static inline struct pair load_pair(const float *covariance, const uint8_t rows[5])
+static inline struct axis_pair load_axis_pair(const float *covariance, const uint8_t rows[5])
 {
     const float *with_a = &covariance[rows[2]], *by_a = &covariance[rows[4]];
-    struct pair out = load_steady_pair(covariance, rows);
+    struct axis_pair out = load_steady_axis_pair(covariance, rows);
     out.pa = with_a[0];
     out.va = with_a[NUM_AXES];
     out.ap = by_a[0];
@@ -134,10 +144,11 @@ static inline struct pair load_pair(const float *covariance, const uint8_t rows[
     return out;
 }
 
-static inline void store_pair(float *covariance, const uint8_t rows[5], const struct pair *in)
+static inline void store_axis_pair(float *covariance, const uint8_t rows[5],
+                                   const struct axis_pair *in)
 {
     float *with_a = &covariance[rows[2]], *by_a = &covariance[rows[4]];
-    store_steady_pair(covariance, rows, in);
+    store_steady_axis_pair(covariance, rows, in);
     with_a[0] = in->pa;
     with_a[NUM_AXES] = in->va;
     by_a[0] = in->ap;
@@ -145,7 +156,7 @@ static inline void store_pair(float *covariance, const uint8_t rows[5], const st
     by_a[2 * NUM_AXES] = in->aa;
 }
 
-/* Positions and velocities of a model, as a filter of their own. */
+/* Copies the positions and velocities of a model into a six-state filter. */
 static inline void load_kinematics(struct rho_kalman *to, const float *state,
                                    const float *covariance)
 {
@@ -153,18 +164,19 @@ static inline void load_kinematics(struct rho_kalman *to, const float *state,
     memcpy(to->covariance, covariance, sizeof to->covariance);
 }
 
-static inline int is_open(const struct rho_imm *imm, int axis)
+static inline int is_axis_open(const struct rho_imm *imm, int axis)
 {
     return imm->covariance[RHO_AT(axis, axis)] > 0.0f;
 }
 
-static inline float plot_velocity(const struct rho_plot *plot, int axis)
+static inline float plot_velocity_component(const struct rho_plot *plot, int axis)
 {
     return axis == 0 ? plot->vx_mps : axis == 1 ? plot->vy_mps : plot->vz_mps;
 }
 
 /*
- * Bayes update of the model probabilities by the innovation `off` of a scalar (imm_likelihood.c).
+ * Bayes update of the model probabilities by a scalar measurement, with innovation `off` and its
+ * variance for each model (imm_likelihood.c). *gain_nat gets ln of the measurement's density.
  */
 void rho_imm_update_probability(struct rho_imm *imm, const float off[2], const float variance[2],
                                 float *gain_nat);

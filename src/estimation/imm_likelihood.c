@@ -10,18 +10,21 @@
 
 #define LOG_TWO_PI 1.83787707f
 #define ROOT_TWO_PI 2.50662827f
-#define LOG_TWO 0.6931473f /* rounded up */
+#define LOG_TWO 0.6931473f /* ln 2, rounded up */
 
 /*
- * If one model is within the gate, the other one counts up to this NIS: its density may be higher,
+ * If one model is within the gate, the other one is used up to this NIS: its density may be higher,
  * as its covariance is smaller.
  */
 #define NIS_COUNTS_MAX (2.0f * RHO_IMM_GATE)
-/* NIS of a model that does not count: larger than that of all that do. */
+/* NIS of a model that is not used: larger than that of any model that is. */
 #define NIS_BEYOND_ALL (2.0f * NIS_COUNTS_MAX)
 
-/* One model beside a plot. Positions and velocities have the same indices in both models. */
-struct view {
+/*
+ * One model's estimate, and how a plot scores under it. Positions and velocities have the same
+ * indices in both models.
+ */
+struct model_view {
     const float *state, *covariance;
     const float *projected; /* covariances of the predicted range rate with the state */
     float expected_mps, rate_variance;
@@ -30,10 +33,13 @@ struct view {
     int counts;
 };
 
-/* Isotropic noise needs no line-of-sight frame. 0: the noise is not isotropic. */
-static int open_isotropic_plot(struct rho_measurement *out, float covariance[6],
-                               const struct rho_plot *plot, uint32_t measures,
-                               const struct rho_sensor *sensor)
+/*
+ * Fills *out and covariance for a plot with isotropic noise, which needs no line-of-sight frame.
+ * Returns 0 if the noise is not isotropic.
+ */
+static int prepare_isotropic_plot(struct rho_measurement *out, float covariance[6],
+                                  const struct rho_plot *plot, uint32_t measures,
+                                  const struct rho_sensor *sensor)
 {
     const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
     const int has_z = (measures & RHO_MEASURES_Z) != 0;
@@ -63,7 +69,7 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
     seen->measures = measures;
     seen->plot = plot;
     seen->sensor = sensor;
-    if (open_isotropic_plot(&seen->position, seen->covariance, plot, measures, sensor)) {
+    if (prepare_isotropic_plot(&seen->position, seen->covariance, plot, measures, sensor)) {
         return;
     }
     rho_measurement_open(plot, measures, sensor, &seen->position);
@@ -72,7 +78,7 @@ void rho_imm_open_plot(struct rho_imm_plot *seen, const struct rho_plot *plot, u
 
 /* ---- independent axes ------------------------------------------------------------------------ */
 
-static inline void position_nis(struct view *view, const struct rho_imm_plot *seen, int has_z)
+static inline void position_nis(struct model_view *view, const struct rho_imm_plot *seen, int has_z)
 {
     const float *p = view->covariance, noise = seen->position.variance_m2[0];
     const float sx = p[RHO_XX] + noise, sy = p[RHO_YY] + noise;
@@ -89,9 +95,9 @@ static inline void position_nis(struct view *view, const struct rho_imm_plot *se
     view->root = rho_inverse_sqrt(det);
 }
 
-/* NIS of the position and velocity of one axis; *det gets its factor of det S. */
-static float axis_nis(const struct view *view, const struct rho_imm_plot *seen, int axis,
-                      float *det)
+/* NIS of the position and velocity of one axis; *det gets the axis' factor of det S. */
+static float axis_position_velocity_nis(const struct model_view *view,
+                                        const struct rho_imm_plot *seen, int axis, float *det)
 {
     const float *p = view->covariance, noise = seen->plot->sigma_mps * seen->plot->sigma_mps;
     const float *by_v = &p[axis_rows[axis][1]];
@@ -100,34 +106,35 @@ static float axis_nis(const struct view *view, const struct rho_imm_plot *seen, 
     const float rest = by_v[NUM_AXES] + noise - factor * by_v[0];
     const float off_m = seen->position.place_m[axis] - view->state[axis];
     const float off_mps =
-        plot_velocity(seen->plot, axis) - view->state[NUM_AXES + axis] - factor * off_m;
+        plot_velocity_component(seen->plot, axis) - view->state[NUM_AXES + axis] - factor * off_m;
     *det = s * rest;
     return off_m * off_m / s + off_mps * off_mps / rest;
 }
 
-static void position_velocity_nis(struct view *view, const struct rho_imm_plot *seen, int num_axes)
+static void position_velocity_nis(struct model_view *view, const struct rho_imm_plot *seen,
+                                  int num_axes)
 {
     float det[NUM_AXES] = {1.0f, 1.0f, 1.0f};
     view->nis = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
-        view->nis += axis_nis(view, seen, axis, &det[axis]);
+        view->nis += axis_position_velocity_nis(view, seen, axis, &det[axis]);
     }
     view->counts = view->nis <= NIS_COUNTS_MAX && det[0] > 0.0f && det[1] > 0.0f && det[2] > 0.0f;
-    /* root by root: the product of six variances may overflow */
+    /* one root for each axis: the product of six variances may overflow */
     view->root = rho_inverse_sqrt(det[0]) * rho_inverse_sqrt(det[1]) * rho_inverse_sqrt(det[2]);
 }
 
 /* ---- coupled axes ---------------------------------------------------------------------------- */
 
-/* Innovation and its covariance, at most three places, three velocities and a range rate. */
+/* Innovation d and its covariance s: at most three positions, three velocities and a range rate. */
 struct innovation {
     float d[7];
     float s[RHO_TRIANGLE(7)];
     int num;
 };
 
-static void add_position(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
-                         struct innovation *out)
+static void set_position_innovation(const struct model_view *view, const struct rho_imm_plot *seen,
+                                    int num_axes, struct innovation *out)
 {
     for (int i = 0; i < num_axes; i++) {
         out->d[i] = seen->position.place_m[i] - view->state[i];
@@ -138,12 +145,13 @@ static void add_position(const struct view *view, const struct rho_imm_plot *see
     out->num = num_axes;
 }
 
-static void add_velocity(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
-                         struct innovation *out)
+static void append_velocity_innovation(const struct model_view *view,
+                                       const struct rho_imm_plot *seen, int num_axes,
+                                       struct innovation *out)
 {
     for (int i = 0; i < num_axes; i++) {
         float *row = &out->s[RHO_TRIANGLE(num_axes + i)];
-        out->d[num_axes + i] = plot_velocity(seen->plot, i) - view->state[NUM_AXES + i];
+        out->d[num_axes + i] = plot_velocity_component(seen->plot, i) - view->state[NUM_AXES + i];
         for (int j = 0; j < num_axes; j++) {
             row[j] = view->covariance[COVARIANCE_AT(i, 1, j, 0)];
         }
@@ -155,45 +163,48 @@ static void add_velocity(const struct view *view, const struct rho_imm_plot *see
     out->num = 2 * num_axes;
 }
 
-static float rate_noise(const struct rho_imm_plot *seen)
+static float range_rate_noise_variance(const struct rho_imm_plot *seen)
 {
     return seen->plot->sigma_range_rate_mps * seen->plot->sigma_range_rate_mps;
 }
 
-static float rate_innovation(const struct view *view, const struct rho_imm_plot *seen)
+static float range_rate_innovation(const struct model_view *view, const struct rho_imm_plot *seen)
 {
     return rho_measurement_range_rate_error_mps(seen->sensor, seen->plot->range_rate_mps,
                                                 view->expected_mps);
 }
 
-/* Appends the range rate to the innovations of places and velocities. */
-static void add_range_rate(const struct view *view, const struct rho_imm_plot *seen, int num_axes,
-                           struct innovation *out)
+/* Appends the range rate to the innovation of positions and velocities. */
+static void append_range_rate_innovation(const struct model_view *view,
+                                         const struct rho_imm_plot *seen, int num_axes,
+                                         struct innovation *out)
 {
     float *row = &out->s[RHO_TRIANGLE(out->num)];
     memcpy(row, view->projected, (size_t)num_axes * sizeof *row);
     memcpy(row + num_axes, view->projected + NUM_AXES, (size_t)num_axes * sizeof *row);
-    row[out->num] = view->rate_variance + rate_noise(seen);
-    out->d[out->num++] = rate_innovation(view, seen);
+    row[out->num] = view->rate_variance + range_rate_noise_variance(seen);
+    out->d[out->num++] = range_rate_innovation(view, seen);
 }
 
-/* 0: the model's position is the sensor's, where no range rate is defined. */
-static int has_predicted_rate(const struct view *view)
+/* False where the model's position is the sensor's, and no range rate is defined. */
+static int has_predicted_range_rate(const struct model_view *view)
 {
     return view->rate_variance >= 0.0f;
 }
 
-/* Positions, velocities and a range rate: the general case. */
-static void joint_nis(struct view *view, const struct rho_imm_plot *seen,
-                      const struct rho_imm_match *match)
+/*
+ * NIS of positions, velocities and, if measured, a range rate, on coupled axes: the general case.
+ */
+static void position_velocity_rate_nis(struct model_view *view, const struct rho_imm_plot *seen,
+                                       const struct rho_imm_match *match)
 {
     struct innovation innovation;
     float log_det = 0.0f;
-    add_position(view, seen, match->num_axes, &innovation);
-    add_velocity(view, seen, match->num_axes, &innovation);
-    view->counts = !match->has_range_rate || has_predicted_rate(view);
+    set_position_innovation(view, seen, match->num_axes, &innovation);
+    append_velocity_innovation(view, seen, match->num_axes, &innovation);
+    view->counts = !match->has_range_rate || has_predicted_range_rate(view);
     if (match->has_range_rate && view->counts) {
-        add_range_rate(view, seen, match->num_axes, &innovation);
+        append_range_rate_innovation(view, seen, match->num_axes, &innovation);
     }
     /* an ambiguous range rate that cannot be unfolded has the density 1 / span */
     const int is_unclear = match->has_range_rate && view->counts &&
@@ -209,14 +220,14 @@ static void joint_nis(struct view *view, const struct rho_imm_plot *seen,
 }
 
 /*
- * NIS of a range rate, given the position innovation: expected_off is the innovation that the
- * positions predict, `explained` the variance they take off. *det gets its factor of det S. An
- * ambiguous range rate that cannot be unfolded has the density 1 / span.
+ * NIS of a range rate, given the position innovation. expected_off: range rate innovation that the
+ * position innovation predicts; `explained`: variance that it explains. *det gets the range rate's
+ * factor of det S. An ambiguous range rate that cannot be unfolded has the density 1 / span.
  */
-static inline float range_rate_nis(const struct view *view, const struct rho_imm_plot *seen,
+static inline float range_rate_nis(const struct model_view *view, const struct rho_imm_plot *seen,
                                    float expected_off, float explained, float *det)
 {
-    const float variance = view->rate_variance + rate_noise(seen) - explained;
+    const float variance = view->rate_variance + range_rate_noise_variance(seen) - explained;
     float off = seen->plot->range_rate_mps - view->expected_mps;
     *det = variance;
     if (rho_measurement_has_span(seen->sensor)) {
@@ -231,8 +242,12 @@ static inline float range_rate_nis(const struct view *view, const struct rho_imm
     return off * off / variance;
 }
 
-/* Position with height, and a range rate: S = L D L^T written out. */
-static void space_nis(struct view *view, const struct rho_imm_plot *seen, int has_rate)
+/*
+ * NIS of a position with height and, if measured, a range rate, on coupled axes: S = L D L^T
+ * written out.
+ */
+static void position_3d_rate_nis(struct model_view *view, const struct rho_imm_plot *seen,
+                                 int has_rate)
 {
     const float *p = view->covariance, *r = seen->covariance, *rate = view->projected;
     const float s00 = p[RHO_XX] + r[RHO_XX], s10 = p[RHO_YX] + r[RHO_YX], l10 = s10 / s00;
@@ -254,9 +269,9 @@ static void space_nis(struct view *view, const struct rho_imm_plot *seen, int ha
     }
     view->nis = nis;
     view->counts = nis <= NIS_COUNTS_MAX && s11 > 0.0f && s22 > 0.0f && rate_det > 0.0f &&
-                   (!has_rate || has_predicted_rate(view));
+                   (!has_rate || has_predicted_range_rate(view));
     if (view->counts) {
-        /* root by root: the product of four variances may overflow */
+        /* two roots: the product of four variances may overflow */
         view->root = rho_inverse_sqrt(s00 * s11 * s22) * rho_inverse_sqrt(rate_det);
     }
 }
@@ -264,11 +279,11 @@ static void space_nis(struct view *view, const struct rho_imm_plot *seen, int ha
 /* ---- both models ----------------------------------------------------------------------------- */
 
 /*
- * The mixture density from the factors and NIS of both models. The smaller NIS is taken out of both
- * exponents, so that their sum cannot underflow.
+ * Mixture density and model probability from both models' NIS and factors (probability / sqrt(det
+ * S)). The smaller NIS is taken out of both exponents, so that their sum cannot underflow.
  */
-static inline void combine_models(const float factor[2], const float nis[2], int num_dimensions,
-                                  struct rho_imm_match *match)
+static inline void combine_model_likelihoods(const float factor[2], const float nis[2],
+                                             int num_dimensions, struct rho_imm_match *match)
 {
     float s = factor[0], m = factor[1];
     if (nis[0] <= nis[1]) {
@@ -283,7 +298,7 @@ static inline void combine_models(const float factor[2], const float nis[2], int
         rho_log(s + m) - 0.5f * (match->nis + (float)num_dimensions * LOG_TWO_PI);
 }
 
-static int is_likelihood(float log_likelihood)
+static int is_valid_log_likelihood(float log_likelihood)
 {
     return log_likelihood >= -1e6f && log_likelihood <= 1e6f;
 }
@@ -304,49 +319,51 @@ void rho_imm_update_probability(struct rho_imm *imm, const float off[2], const f
                                  rho_inverse_sqrt(variance[0]),
                              floored_probability(imm->probability) * rho_inverse_sqrt(variance[1])};
     const float nis[2] = {off[0] * off[0] / variance[0], off[1] * off[1] / variance[1]};
-    combine_models(factor, nis, 1, &match);
+    combine_model_likelihoods(factor, nis, 1, &match);
     imm->probability = match.probability;
     *gain_nat = match.log_likelihood;
 }
 
-/* The NIS of a plot under one model, each case by the cheapest function. */
-static void evaluate_model(struct view *view, const struct rho_imm *imm,
-                           const struct rho_imm_plot *seen, const struct rho_imm_match *match)
+/* Scores a plot under one model, each kind of plot by the cheapest function. */
+static void score_under_model(struct model_view *view, const struct rho_imm *imm,
+                              const struct rho_imm_plot *seen, const struct rho_imm_match *match)
 {
     const int is_coupled = imm->is_coupled || !seen->position.is_isotropic;
     if (match->has_velocity && (is_coupled || match->has_range_rate)) {
-        joint_nis(view, seen, match);
+        position_velocity_rate_nis(view, seen, match);
     } else if (match->has_velocity) {
         position_velocity_nis(view, seen, match->num_axes);
     } else if (!is_coupled && !match->has_range_rate) {
         position_nis(view, seen, match->num_axes > 2);
     } else {
-        space_nis(view, seen, match->has_range_rate);
+        position_3d_rate_nis(view, seen, match->has_range_rate);
     }
 }
 
-static int combine_if_gated(const float factor[2], const float nis[2], int num_dimensions,
-                            struct rho_imm_match *match)
+static int combine_models_if_in_gate(const float factor[2], const float nis[2], int num_dimensions,
+                                     struct rho_imm_match *match)
 {
     if (!(nis[0] <= RHO_IMM_GATE || nis[1] <= RHO_IMM_GATE)) {
         return 0;
     }
-    combine_models(factor, nis, num_dimensions, match);
-    return is_likelihood(match->log_likelihood);
+    combine_model_likelihoods(factor, nis, num_dimensions, match);
+    return is_valid_log_likelihood(match->log_likelihood);
 }
 
-/* A plot without height, as both models use it. */
+/* A plot's position in the plane and its covariance, and whether its range rate is scored. */
 struct plane_plot {
     float x_m, y_m, xx_m2, xy_m2, yy_m2;
     int has_rate;
 };
 
 /*
- * Position without height, and a range rate: S = L D L^T written out. Returns the NIS; *factor gets
- * share / sqrt(det S). NIS_BEYOND_ALL and 0 where the model does not count.
+ * NIS of a position without height and, if measured, a range rate: S = L D L^T written out. *factor
+ * gets share / sqrt(det S). NIS_BEYOND_ALL and factor 0 where the model is not used.
  */
-static inline float plane_nis(const struct view *view, const struct plane_plot *plot,
-                              const struct rho_imm_plot *seen, float share, float *factor)
+static inline float position_2d_rate_nis(const struct model_view *view,
+                                         const struct plane_plot *plot,
+                                         const struct rho_imm_plot *seen, float share,
+                                         float *factor)
 {
     const float *p = view->covariance, *rate = view->projected;
     const float s00 = p[RHO_XX] + plot->xx_m2, s10 = p[RHO_YX] + plot->xy_m2;
@@ -362,7 +379,7 @@ static inline float plane_nis(const struct view *view, const struct plane_plot *
         nis += range_rate_nis(view, seen, rate0 * to0 + rate1 * to1,
                               rate0 * rate0 * inverse0 + rate1 * rate1 * inverse1, &rate_det);
         det *= rate_det;
-        counts = counts && rate_det > 0.0f && has_predicted_rate(view);
+        counts = counts && rate_det > 0.0f && has_predicted_range_rate(view);
     }
     if (!(counts && nis <= NIS_COUNTS_MAX)) {
         *factor = 0.0f;
@@ -372,10 +389,13 @@ static inline float plane_nis(const struct view *view, const struct plane_plot *
     return nis;
 }
 
-/* Range rate that one model predicts; 0: its position is the sensor's. */
-static int predict_rate(const float *state, const float *covariance,
-                        const struct rho_sensor *sensor, float *expected_mps, float *variance,
-                        float projected[RHO_KALMAN_STATES])
+/*
+ * Range rate that one model with a height predicts, its variance and covariances with the state.
+ * Returns 0 where the position is the sensor's.
+ */
+static int predict_range_rate_3d(const float *state, const float *covariance,
+                                 const struct rho_sensor *sensor, float *expected_mps,
+                                 float *variance, float projected[RHO_KALMAN_STATES])
 {
     struct rho_kalman_row rate;
     struct rho_kalman at;
@@ -388,9 +408,9 @@ static int predict_rate(const float *state, const float *covariance,
     return 1;
 }
 
-static int predict_plane_rate(const float *state, const float *covariance,
-                              const struct rho_sensor *sensor, float *expected_mps, float *variance,
-                              float projected[RHO_KALMAN_STATES])
+static int predict_range_rate_2d(const float *state, const float *covariance,
+                                 const struct rho_sensor *sensor, float *expected_mps,
+                                 float *variance, float projected[RHO_KALMAN_STATES])
 {
     struct plane_rate rate;
     float spread[RHO_PLANE_MANOEUVRE];
@@ -414,14 +434,14 @@ void rho_imm_predict_rates(struct rho_imm_rates *rates, const struct rho_imm *im
 {
     const float *states[2] = {imm->steady.state, imm->state};
     const float *covariances[2] = {imm->steady.covariance, imm->covariance};
-    const int has_height = is_open(imm, 2);
+    const int has_height = is_axis_open(imm, 2);
     for (int i = 0; i < 2; i++) {
         float *expected_mps = &rates->expected_mps[i], *variance = &rates->variance[i];
         float *projected = rates->projected[i];
-        if (!(has_height ? predict_rate(states[i], covariances[i], sensor, expected_mps, variance,
-                                        projected)
-                         : predict_plane_rate(states[i], covariances[i], sensor, expected_mps,
-                                              variance, projected))) {
+        if (!(has_height ? predict_range_rate_3d(states[i], covariances[i], sensor, expected_mps,
+                                                 variance, projected)
+                         : predict_range_rate_2d(states[i], covariances[i], sensor, expected_mps,
+                                                 variance, projected))) {
             *expected_mps = 0.0f;
             *variance = -1.0f;
             memset(projected, 0, sizeof rates->projected[i]);
@@ -439,15 +459,18 @@ int rho_imm_score_plot(const struct rho_imm *imm, const struct rho_imm_plot *see
     return rho_imm_score_plot_with_rates(imm, &rates, seen, match);
 }
 
-/* Position without height, with coupled axes or a range rate: the plots of most radars. */
-static int is_planar(const struct rho_imm *imm, const struct rho_imm_plot *seen,
-                     const struct rho_imm_match *match)
+/*
+ * True for a plot of a position without height, with coupled axes or a range rate: the plots of
+ * most radars.
+ */
+static int can_score_in_plane(const struct rho_imm *imm, const struct rho_imm_plot *seen,
+                              const struct rho_imm_match *match)
 {
     return match->num_axes < 3 && !match->has_velocity &&
            (imm->is_coupled || !seen->position.is_isotropic || match->has_range_rate);
 }
 
-static inline void open_view(struct view *view, int model, const struct rho_imm *imm,
+static inline void fill_view(struct model_view *view, int model, const struct rho_imm *imm,
                              const struct rho_imm_rates *rates, int has_rate)
 {
     view->state = model == 0 ? imm->steady.state : imm->state;
@@ -459,7 +482,10 @@ static inline void open_view(struct view *view, int model, const struct rho_imm 
     }
 }
 
-/* A function of its own: it runs for each plot in the gate of each hypothesis. */
+/*
+ * Scores a plot without height: a function apart, as it runs for each plot in the gate of each
+ * hypothesis.
+ */
 static int score_in_plane(const struct rho_imm *imm, const struct rho_imm_rates *rates,
                           const struct rho_imm_plot *seen, struct rho_imm_match *match)
 {
@@ -474,11 +500,11 @@ static int score_in_plane(const struct rho_imm *imm, const struct rho_imm_rates 
     const float share[2] = {1.0f - imm->probability, imm->probability};
     float factor[2], nis[2];
     for (int i = 0; i < 2; i++) {
-        struct view view;
-        open_view(&view, i, imm, rates, plot.has_rate);
-        nis[i] = plane_nis(&view, &plot, seen, share[i], &factor[i]);
+        struct model_view view;
+        fill_view(&view, i, imm, rates, plot.has_rate);
+        nis[i] = position_2d_rate_nis(&view, &plot, seen, share[i], &factor[i]);
     }
-    return combine_if_gated(factor, nis, 2 + plot.has_rate, match);
+    return combine_models_if_in_gate(factor, nis, 2 + plot.has_rate, match);
 }
 
 int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_imm_rates *rates,
@@ -486,27 +512,27 @@ int rho_imm_score_plot_with_rates(const struct rho_imm *imm, const struct rho_im
 {
     const float share[2] = {1.0f - imm->probability, imm->probability};
     float factor[2], nis[2];
-    match->num_axes = seen->position.has_z && is_open(imm, 2) ? 3 : 2;
+    match->num_axes = seen->position.has_z && is_axis_open(imm, 2) ? 3 : 2;
     match->has_velocity = (seen->measures & RHO_MEASURES_VELOCITY) != 0;
     match->has_range_rate = (seen->measures & RHO_MEASURES_RANGE_RATE) != 0;
-    if (is_planar(imm, seen, match)) {
+    if (can_score_in_plane(imm, seen, match)) {
         return score_in_plane(imm, rates, seen, match);
     }
     for (int i = 0; i < 2; i++) {
-        struct view view;
-        open_view(&view, i, imm, rates, match->has_range_rate);
-        evaluate_model(&view, imm, seen, match);
+        struct model_view view;
+        fill_view(&view, i, imm, rates, match->has_range_rate);
+        score_under_model(&view, imm, seen, match);
         nis[i] = view.counts ? view.nis : NIS_BEYOND_ALL;
         factor[i] = view.counts ? floored_probability(share[i]) * view.root : 0.0f;
     }
-    return combine_if_gated(factor, nis,
-                            (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate,
-                            match);
+    return combine_models_if_in_gate(
+        factor, nis, (match->has_velocity ? 2 : 1) * match->num_axes + match->has_range_rate,
+        match);
 }
 
 /* ---- many plots of one noise ----------------------------------------------------------------- */
 
-static void open_gate_of_model(struct rho_imm_gate *gate, int model, const float *state,
+static void fill_gate_of_model(struct rho_imm_gate *gate, int model, const float *state,
                                const float *covariance, float variance_m2, float share)
 {
     float *centre_m = gate->centre_m[model], *inverse = gate->half_inverse[model];
@@ -534,15 +560,16 @@ int rho_imm_open_gate(struct rho_imm_gate *gate, const struct rho_imm *imm, floa
     if (imm->is_coupled) {
         return 0;
     }
-    gate->num_axes = has_z && is_open(imm, 2) ? 3 : 2;
-    open_gate_of_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
+    gate->num_axes = has_z && is_axis_open(imm, 2) ? 3 : 2;
+    fill_gate_of_model(gate, 0, imm->steady.state, imm->steady.covariance, variance_m2,
                        floored_probability(1.0f - imm->probability));
-    open_gate_of_model(gate, 1, imm->state, imm->covariance, variance_m2,
+    fill_gate_of_model(gate, 1, imm->state, imm->covariance, variance_m2,
                        floored_probability(imm->probability));
-    return is_likelihood(gate->log_factor[0]) && is_likelihood(gate->log_factor[1]);
+    return is_valid_log_likelihood(gate->log_factor[0]) &&
+           is_valid_log_likelihood(gate->log_factor[1]);
 }
 
-/* Half of the NIS. */
+/* Half of a plot's NIS under one model; half_inverse: 1 / (2 S) of each axis. */
 static inline float half_nis(const float centre_m[3], const float half_inverse[3],
                              const float place_m[3])
 {
@@ -551,14 +578,18 @@ static inline float half_nis(const float centre_m[3], const float half_inverse[3
     return dx * dx * half_inverse[0] + dy * dy * half_inverse[1] + dz * dz * half_inverse[2];
 }
 
-/* ln of a model's term of the mixture density; next to nothing for a model that does not count. */
-static inline float log_density(float log_factor, float half)
+/*
+ * ln of a model's term of the mixture density; half: half of the NIS. Next to nothing for a model
+ * that is not used.
+ */
+static inline float log_density_of_model(float log_factor, float half)
 {
     return log_factor - (half <= 0.5f * NIS_COUNTS_MAX ? half : 1e6f);
 }
 
 /*
- * ln(e^s + e^m) lies between max(s, m) and max(s, m) + ln 2: `enough` is compared with the bound.
+ * Scores a position of the gate's noise. ln(e^s + e^m) lies between max(s, m) and max(s, m) + ln 2:
+ * `enough` is compared with the upper bound.
  */
 int rho_imm_score_in_gate(const struct rho_imm_gate *gate, const float place_m[3], float enough,
                           float *log_likelihood, float *probability)
@@ -568,8 +599,8 @@ int rho_imm_score_in_gate(const struct rho_imm_gate *gate, const float place_m[3
     if (!(to_s <= 0.5f * RHO_IMM_GATE || to_m <= 0.5f * RHO_IMM_GATE)) {
         return 0;
     }
-    const float s = log_density(gate->log_factor[0], to_s),
-                m = log_density(gate->log_factor[1], to_m);
+    const float s = log_density_of_model(gate->log_factor[0], to_s),
+                m = log_density_of_model(gate->log_factor[1], to_m);
     const float most = s > m ? s : m, least = s > m ? m : s;
     if (!(most + LOG_TWO > enough)) {
         return 0;

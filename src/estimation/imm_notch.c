@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * imm_notch: the two models, and a miss of a radar with a Doppler notch.
- */
+/* imm_notch: updates both models of a filter by a miss of a radar with a Doppler notch. */
 #include "rhotrack/detail/imm_notch.h"
 
 float rho_imm_notch_share(const struct rho_imm *imm, const struct rho_sensor *sensor)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * imm_plane: range rates, projections and updates of estimates without a height, in a third of the
- * instructions that three axes take. Written out: loops would take twice the time.
+ * instructions that three axes need. Written out: loops would take twice the time.
  */
 #include "imm_plane.h"
 
@@ -9,19 +9,19 @@
 
 #include "rhotrack/detail/approx.h"
 
-/* As in linalg.c. */
+/* Factor by which a variance is raised before it is reduced, against rounding, as in linalg.c. */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
-/* As in measurement.c. */
+/* Least range at which a line of sight is defined, as in measurement.c. */
 #define RANGE_LEAST_M 1.0f
 
-/* Begins of rows of the triangle. */
+/* Indices of the first elements of rows in the packed triangle. */
 #define ROW_VX RHO_TRIANGLE(RHO_VX)
 #define ROW_VY RHO_TRIANGLE(RHO_VY)
 #define ROW_AX RHO_TRIANGLE(RHO_AX)
 #define ROW_AY RHO_TRIANGLE(RHO_AY)
 
-/* Places of x y vx vy ax ay in `row` and `spread`. */
+/* Indices of x y vx vy ax ay in `row` and `spread`. */
 enum { PLANE_X, PLANE_Y, PLANE_VX, PLANE_VY, PLANE_AX, PLANE_AY };
 
 int rho_imm_plane_predict_rate(const float *state, const float *covariance,
@@ -82,43 +82,43 @@ float rho_imm_plane_project_rate(int num_states, const float *restrict p, const 
            spread[PLANE_VY] * vy;
 }
 
-static inline float lowered_variance(float variance, float taken)
+static inline float reduced_variance(float variance, float taken)
 {
     return variance * ROUNDING_ALLOWANCE - taken;
 }
 
-static inline void lower_steady_covariance(float *restrict p, const float *restrict s,
-                                           float inverse)
+static inline void reduce_steady_covariance(float *restrict p, const float *restrict s,
+                                            float inverse)
 {
     const float x = s[PLANE_X] * inverse, y = s[PLANE_Y] * inverse, vx = s[PLANE_VX] * inverse,
                 vy = s[PLANE_VY] * inverse;
-    p[RHO_XX] = lowered_variance(p[RHO_XX], x * s[PLANE_X]);
+    p[RHO_XX] = reduced_variance(p[RHO_XX], x * s[PLANE_X]);
     p[RHO_YX] -= y * s[PLANE_X];
-    p[RHO_YY] = lowered_variance(p[RHO_YY], y * s[PLANE_Y]);
+    p[RHO_YY] = reduced_variance(p[RHO_YY], y * s[PLANE_Y]);
     p[ROW_VX + RHO_X] -= vx * s[PLANE_X];
     p[ROW_VX + RHO_Y] -= vx * s[PLANE_Y];
-    p[ROW_VX + RHO_VX] = lowered_variance(p[ROW_VX + RHO_VX], vx * s[PLANE_VX]);
+    p[ROW_VX + RHO_VX] = reduced_variance(p[ROW_VX + RHO_VX], vx * s[PLANE_VX]);
     p[ROW_VY + RHO_X] -= vy * s[PLANE_X];
     p[ROW_VY + RHO_Y] -= vy * s[PLANE_Y];
     p[ROW_VY + RHO_VX] -= vy * s[PLANE_VX];
-    p[ROW_VY + RHO_VY] = lowered_variance(p[ROW_VY + RHO_VY], vy * s[PLANE_VY]);
+    p[ROW_VY + RHO_VY] = reduced_variance(p[ROW_VY + RHO_VY], vy * s[PLANE_VY]);
 }
 
-static inline void lower_acceleration_covariance(float *restrict p, const float *restrict s,
-                                                 float inverse)
+static inline void reduce_acceleration_covariance(float *restrict p, const float *restrict s,
+                                                  float inverse)
 {
     const float ax = s[PLANE_AX] * inverse, ay = s[PLANE_AY] * inverse;
     p[ROW_AX + RHO_X] -= ax * s[PLANE_X];
     p[ROW_AX + RHO_Y] -= ax * s[PLANE_Y];
     p[ROW_AX + RHO_VX] -= ax * s[PLANE_VX];
     p[ROW_AX + RHO_VY] -= ax * s[PLANE_VY];
-    p[ROW_AX + RHO_AX] = lowered_variance(p[ROW_AX + RHO_AX], ax * s[PLANE_AX]);
+    p[ROW_AX + RHO_AX] = reduced_variance(p[ROW_AX + RHO_AX], ax * s[PLANE_AX]);
     p[ROW_AY + RHO_X] -= ay * s[PLANE_X];
     p[ROW_AY + RHO_Y] -= ay * s[PLANE_Y];
     p[ROW_AY + RHO_VX] -= ay * s[PLANE_VX];
     p[ROW_AY + RHO_VY] -= ay * s[PLANE_VY];
     p[ROW_AY + RHO_AX] -= ay * s[PLANE_AX];
-    p[ROW_AY + RHO_AY] = lowered_variance(p[ROW_AY + RHO_AY], ay * s[PLANE_AY]);
+    p[ROW_AY + RHO_AY] = reduced_variance(p[ROW_AY + RHO_AY], ay * s[PLANE_AY]);
 }
 
 static int is_finite(float v)
@@ -138,20 +138,20 @@ enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
     state[RHO_Y] += spread[PLANE_Y] * step;
     state[RHO_VX] += spread[PLANE_VX] * step;
     state[RHO_VY] += spread[PLANE_VY] * step;
-    lower_steady_covariance(covariance, spread, inverse);
+    reduce_steady_covariance(covariance, spread, inverse);
     if (num_states > RHO_PLANE_STEADY) {
         state[RHO_AX] += spread[PLANE_AX] * step;
         state[RHO_AY] += spread[PLANE_AY] * step;
-        lower_acceleration_covariance(covariance, spread, inverse);
+        reduce_acceleration_covariance(covariance, spread, inverse);
     }
-    /* the sum is finite unless a term is not */
+    /* checks all results at once: a sum is finite unless a term is not */
     return is_finite(innovation * step + state[RHO_X] + state[RHO_Y] + state[RHO_VX] +
                      state[RHO_VY])
                ? RHO_OK
                : RHO_ERROR_VALUE;
 }
 
-static inline void keep_floor(float *variance)
+static inline void raise_to_floor(float *variance)
 {
     if (*variance < RHO_KALMAN_VARIANCE_MIN) {
         *variance = RHO_KALMAN_VARIANCE_MIN;
@@ -160,12 +160,12 @@ static inline void keep_floor(float *variance)
 
 void rho_imm_plane_keep_floors(int num_states, float *covariance)
 {
-    keep_floor(&covariance[RHO_XX]);
-    keep_floor(&covariance[RHO_YY]);
-    keep_floor(&covariance[ROW_VX + RHO_VX]);
-    keep_floor(&covariance[ROW_VY + RHO_VY]);
+    raise_to_floor(&covariance[RHO_XX]);
+    raise_to_floor(&covariance[RHO_YY]);
+    raise_to_floor(&covariance[ROW_VX + RHO_VX]);
+    raise_to_floor(&covariance[ROW_VY + RHO_VY]);
     if (num_states > RHO_PLANE_STEADY) {
-        keep_floor(&covariance[ROW_AX + RHO_AX]);
-        keep_floor(&covariance[ROW_AY + RHO_AY]);
+        raise_to_floor(&covariance[ROW_AX + RHO_AX]);
+        raise_to_floor(&covariance[ROW_AY + RHO_AY]);
     }
 }

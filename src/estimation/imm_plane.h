@@ -1,28 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * imm_plane: a model's estimate without a height: x and y with their derivatives. All elements of z
- * are 0, and stay 0 as long as no plot has a height. Private to src/estimation/imm*.c.
- *
- * The states of the plane are x y vx vy, and ax ay in the manoeuvring model. `row` and `spread`
- * hold them one behind the other, `state` and `covariance` where struct rho_imm has them.
+ * imm_plane: scalar updates of one model's estimate in the horizontal plane: x and y with their
+ * derivatives. All elements of z are 0, and stay 0 as long as no plot has a height. Private to
+ * src/estimation/imm*.c. The states of the plane are x y vx vy, and ax ay in the manoeuvring model.
+ * `row` and `spread` hold them one after the other, `state` and `covariance` where struct rho_imm
+ * has them.
  */
 #ifndef RHOTRACK_IMM_PLANE_H
 #define RHOTRACK_IMM_PLANE_H
 
 #include "imm_axes.h"
 
-/* States of the steady and of the manoeuvring model, of two axes. */
+/* Numbers of states on two axes, in the steady and in the manoeuvring model. */
 #define RHO_PLANE_STEADY (2 * 2)
 #define RHO_PLANE_MANOEUVRE (2 * 3)
 
 /* Predicted range rate of an estimate. */
 struct plane_rate {
-    float row[RHO_PLANE_STEADY]; /* its derivatives by x y vx vy */
+    float row[RHO_PLANE_STEADY]; /* derivatives of the range rate by x y vx vy */
     float expected_mps;
     float nonlinearity; /* variance that the linearisation leaves out (kalman.c) */
 };
 
-/* 0: the position is the sensor's, where no range rate is defined. */
+/*
+ * Predicts the range rate of an estimate into *rate. Returns 0 where the position is the sensor's,
+ * and no range rate is defined.
+ */
 int rho_imm_plane_predict_rate(const float *state, const float *covariance,
                                const struct rho_sensor *sensor, struct plane_rate *rate);
 
@@ -36,15 +39,15 @@ float rho_imm_plane_project_rate(int num_states, const float *restrict p, const 
                                  float *restrict spread);
 
 /*
- * A scalar update after a projection: its spread, and its variance `predicted`. The noise variance
- * is RHO_KALMAN_VARIANCE_MIN at least. Errors: SINGULAR, VALUE, as rho_linalg_update_along; then
- * the estimate is of no more use.
+ * Updates an estimate with a scalar whose covariances `spread` and variance `predicted` a
+ * projection gave. The noise variance is RHO_KALMAN_VARIANCE_MIN at least. Errors: SINGULAR, VALUE,
+ * as rho_linalg_update_along; then the estimate must not be used any more.
  */
 enum rho_status rho_imm_plane_update(int num_states, float *restrict state,
                                      float *restrict covariance, const float *restrict spread,
                                      float predicted, float innovation, float variance);
 
-/* After the updates: no variance of an open axis falls below the floor, as it would look closed. */
+/* Raises variances to the floor after an update: an axis with less would look closed. */
 void rho_imm_plane_keep_floors(int num_states, float *covariance);
 
 #endif

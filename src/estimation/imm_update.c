@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * imm_update: both models take a plot, by scalar updates: axis by axis while the axes are
+ * imm_update: updates both models with a plot, by scalar updates: axis by axis while the axes are
  * independent, else by rows along the axes of the plot's noise.
  */
 #include <float.h>
@@ -8,7 +8,7 @@
 #include "imm_plane.h"
 #include "rhotrack/detail/approx.h"
 
-/* As in linalg.c. */
+/* Factor by which a variance is raised before it is reduced, against rounding, as in linalg.c. */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
 static int is_finite(float v)
@@ -16,7 +16,7 @@ static int is_finite(float v)
     return v >= -FLT_MAX && v <= FLT_MAX;
 }
 
-/* No variance of an open axis falls below the floor: it would look closed. */
+/* Raises a variance of an open axis to the floor: with less the axis would look closed. */
 static float at_least_floor(float variance)
 {
     return variance > RHO_KALMAN_VARIANCE_MIN ? variance : RHO_KALMAN_VARIANCE_MIN;
@@ -24,19 +24,23 @@ static float at_least_floor(float variance)
 
 /* ---- independent axes ------------------------------------------------------------------------ */
 
-/* 1 / S, and the share R / S of the measured variance that remains. */
-struct divisor {
+/* Factors of a scalar update: 1 / S, and the share R / S of the measured variance that remains. */
+struct update_factors {
     float inverse, kept;
 };
 
-static inline struct divisor divisor_of(float predicted, float variance)
+static inline struct update_factors update_factors_of(float predicted, float variance)
 {
     const float inverse = 1.0f / (predicted + variance);
-    return (struct divisor){inverse, variance * inverse};
+    return (struct update_factors){inverse, variance * inverse};
 }
 
-/* The measured row is scaled by R / S, not differenced: no cancellation. */
-static inline void apply_position(struct axis *at, const struct divisor *by, float step)
+/*
+ * Updates position and velocity of one axis by a position. The measured element's row is scaled by
+ * R / S instead of being reduced by a difference: no digits cancel.
+ */
+static inline void apply_position_update(struct axis *at, const struct update_factors *by,
+                                         float step)
 {
     const float gain_v = at->vp * by->inverse;
     at->p += at->pp * step;
@@ -46,7 +50,8 @@ static inline void apply_position(struct axis *at, const struct divisor *by, flo
     at->vp *= by->kept;
 }
 
-static inline void apply_velocity(struct axis *at, const struct divisor *by, float step)
+static inline void apply_velocity_update(struct axis *at, const struct update_factors *by,
+                                         float step)
 {
     const float gain_p = at->vp * by->inverse;
     at->p += at->vp * step;
@@ -57,11 +62,12 @@ static inline void apply_velocity(struct axis *at, const struct divisor *by, flo
 }
 
 /*
- * The acceleration is updated before position and velocity. with_seen: its covariance with the
- * measured element, with_other: with the other one; vp: the covariance of these two elements.
+ * Updates the acceleration of one axis, before position and velocity. with_seen: covariance of the
+ * acceleration with the measured element; with_other: with the other element; vp: covariance of
+ * these two elements.
  */
 static inline void update_acceleration(struct accel *at, float *with_seen, float *with_other,
-                                       float vp, const struct divisor *by, float step)
+                                       float vp, const struct update_factors *by, float step)
 {
     const float gain = *with_seen * by->inverse;
     at->a += *with_seen * step;
@@ -71,33 +77,34 @@ static inline void update_acceleration(struct accel *at, float *with_seen, float
 }
 
 /*
- * Scalar update of one axis by its position; more: NULL for the steady model. The result is not
- * finite if anything computed is not. S is never 0, as the noise variance is at least the floor.
+ * Updates one axis by its position; more: its acceleration, NULL for the steady model. The result
+ * is a check: not finite if anything computed is not. S is never 0, as the noise variance is at
+ * least the floor.
  */
 static inline float update_axis_position(struct axis *at, struct accel *more, float place_m,
                                          float variance)
 {
-    const struct divisor by = divisor_of(at->pp, variance);
+    const struct update_factors by = update_factors_of(at->pp, variance);
     const float off = place_m - at->p, step = off * by.inverse;
     const float check = at->pp >= 0.0f ? off * step + at->pp : FLT_MAX + FLT_MAX;
     if (more) {
         update_acceleration(more, &more->ap, &more->av, at->vp, &by, step);
     }
-    apply_position(at, &by, step);
+    apply_position_update(at, &by, step);
     return check + at->p + at->v;
 }
 
-/* Scalar update of one axis by its velocity. */
+/* Updates one axis by its velocity. Returns a check as update_axis_position does. */
 static inline float update_axis_velocity(struct axis *at, struct accel *more, float speed_mps,
                                          float variance)
 {
-    const struct divisor by = divisor_of(at->vv, variance);
+    const struct update_factors by = update_factors_of(at->vv, variance);
     const float off = speed_mps - at->v, step = off * by.inverse;
     const float check = at->vv >= 0.0f ? off * step + at->vv : FLT_MAX + FLT_MAX;
     if (more) {
         update_acceleration(more, &more->av, &more->ap, at->vp, &by, step);
     }
-    apply_velocity(at, &by, step);
+    apply_velocity_update(at, &by, step);
     return check + at->p + at->v;
 }
 
@@ -126,7 +133,7 @@ static float update_velocities(struct rho_imm *imm, int num_axes, const struct r
     const float variance = at_least_floor(seen->plot->sigma_mps * seen->plot->sigma_mps);
     float check = 0.0f;
     for (int axis = 0; axis < num_axes; axis++) {
-        const float speed_mps = plot_velocity(seen->plot, axis);
+        const float speed_mps = plot_velocity_component(seen->plot, axis);
         struct axis steady = load_axis(kalman->state, kalman->covariance, axis);
         struct axis at = load_axis(imm->state, imm->covariance, axis);
         struct accel more = load_accel(imm, axis);
@@ -139,8 +146,8 @@ static float update_velocities(struct rho_imm *imm, int num_axes, const struct r
     return check;
 }
 
-static enum rho_status update_axes(struct rho_imm *imm, int num_axes,
-                                   const struct rho_imm_plot *seen)
+static enum rho_status update_independent_axes(struct rho_imm *imm, int num_axes,
+                                               const struct rho_imm_plot *seen)
 {
     float check = update_positions(imm, num_axes, seen);
     if (seen->measures & RHO_MEASURES_VELOCITY) {
@@ -151,7 +158,7 @@ static enum rho_status update_axes(struct rho_imm *imm, int num_axes,
 
 /* ---- coupled axes ---------------------------------------------------------------------------- */
 
-static void keep_floors(struct rho_imm *imm)
+static void raise_variances_to_floor(struct rho_imm *imm)
 {
     for (int i = 0; i < RHO_IMM_STATES; i++) {
         float *variance = &imm->covariance[RHO_AT(i, i)];
@@ -161,14 +168,14 @@ static void keep_floors(struct rho_imm *imm)
     }
 }
 
-static float dot(const float *row, const float *state)
+static float dot_position(const float *row, const float *state)
 {
     return row[RHO_X] * state[RHO_X] + row[RHO_Y] * state[RHO_Y] + row[RHO_Z] * state[RHO_Z];
 }
 
 /* Scalar update of both models by the position along a direction. */
-static enum rho_status update_along(struct rho_imm *imm, const float direction[3],
-                                    const float place_m[3], float variance)
+static enum rho_status update_position_along(struct rho_imm *imm, const float direction[3],
+                                             const float place_m[3], float variance)
 {
     float row[RHO_KALMAN_STATES] = {direction[0], direction[1], direction[2], 0.0f, 0.0f, 0.0f};
     float innovation_m[3], noise = at_least_floor(variance);
@@ -176,7 +183,7 @@ static enum rho_status update_along(struct rho_imm *imm, const float direction[3
         innovation_m[i] = place_m[i] - imm->steady.state[i];
     }
     enum rho_status status =
-        rho_kalman_update_row(&imm->steady, row, dot(direction, innovation_m), noise, 0);
+        rho_kalman_update_row(&imm->steady, row, dot_position(direction, innovation_m), noise, 0);
     if (status != RHO_OK) {
         return status;
     }
@@ -184,7 +191,7 @@ static enum rho_status update_along(struct rho_imm *imm, const float direction[3
         innovation_m[i] = place_m[i] - imm->state[i];
     }
     return rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, 3, row,
-                                   dot(direction, innovation_m), noise);
+                                   dot_position(direction, innovation_m), noise);
 }
 
 /* Updates both models by one element of the state. */
@@ -197,7 +204,7 @@ static enum rho_status update_element(struct rho_imm *imm, int element, float va
                             : status;
 }
 
-/* Variance of the range along the ground. */
+/* Variance of the range along the ground, from the variances along the line of sight and up. */
 static float ground_range_variance(const struct rho_measurement *seen)
 {
     return seen->has_z ? seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
@@ -205,9 +212,12 @@ static float ground_range_variance(const struct rho_measurement *seen)
                        : seen->variance_m2[0];
 }
 
-/* Without a height in either plot or estimate the plot counts with its range along the ground. */
-static enum rho_status update_directions(struct rho_imm *imm, int num_axes,
-                                         const struct rho_measurement *seen)
+/*
+ * Updates both models with a position along the axes of its noise. If either plot or estimate has
+ * no height, the range along the ground is used.
+ */
+static enum rho_status update_position_along_noise_axes(struct rho_imm *imm, int num_axes,
+                                                        const struct rho_measurement *seen)
 {
     const float ca = seen->cos_azimuth, sa = seen->sin_azimuth;
     const int has_z = num_axes == NUM_AXES;
@@ -216,11 +226,11 @@ static enum rho_status update_directions(struct rho_imm *imm, int num_axes,
     const float up[3] = {-se * ca, -se * sa, ce};
     const float variance = has_z ? seen->variance_m2[0] : ground_range_variance(seen);
     const float *place_m = seen->place_m;
-    enum rho_status status = update_along(imm, cross, place_m, seen->variance_m2[1]);
+    enum rho_status status = update_position_along(imm, cross, place_m, seen->variance_m2[1]);
     if (status == RHO_OK && has_z) {
-        status = update_along(imm, up, place_m, seen->variance_m2[2]);
+        status = update_position_along(imm, up, place_m, seen->variance_m2[2]);
     }
-    return status == RHO_OK ? update_along(imm, along, place_m, variance) : status;
+    return status == RHO_OK ? update_position_along(imm, along, place_m, variance) : status;
 }
 
 static enum rho_status update_velocity(struct rho_imm *imm, int num_axes,
@@ -228,7 +238,7 @@ static enum rho_status update_velocity(struct rho_imm *imm, int num_axes,
 {
     enum rho_status status = RHO_OK;
     for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
-        status = update_element(imm, NUM_AXES + axis, plot_velocity(plot, axis),
+        status = update_element(imm, NUM_AXES + axis, plot_velocity_component(plot, axis),
                                 plot->sigma_mps * plot->sigma_mps);
     }
     return status;
@@ -254,12 +264,12 @@ static enum rho_status update_range_rate(struct rho_imm *imm, const struct rho_i
                                    rate.row, rate.innovation, rate.variance);
 }
 
-static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
-                                      const struct rho_imm_plot *seen)
+static enum rho_status update_coupled_axes(struct rho_imm *imm, int num_axes,
+                                           const struct rho_imm_plot *seen)
 {
     enum rho_status status = RHO_OK;
     if (!seen->position.is_isotropic) {
-        status = update_directions(imm, num_axes, &seen->position);
+        status = update_position_along_noise_axes(imm, num_axes, &seen->position);
     } else {
         for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
             status = update_element(imm, axis, seen->position.place_m[axis],
@@ -272,14 +282,14 @@ static enum rho_status update_coupled(struct rho_imm *imm, int num_axes,
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status = update_range_rate(imm, seen);
     }
-    keep_floors(imm);
+    raise_variances_to_floor(imm);
     return status;
 }
 
 /* ---- without a height ------------------------------------------------------------------------ */
 
-static enum rho_status update_plane_along(struct rho_imm *imm, float x, float y,
-                                          const float place_m[3], float variance)
+static enum rho_status update_plane_position_along(struct rho_imm *imm, float x, float y,
+                                                   const float place_m[3], float variance)
 {
     const float noise = at_least_floor(variance);
     float *steady = imm->steady.state, *state = imm->state, spread[RHO_PLANE_MANOEUVRE];
@@ -296,9 +306,9 @@ static enum rho_status update_plane_along(struct rho_imm *imm, float x, float y,
                                 noise);
 }
 
-/* One model, linearised at its estimate after the position update. */
-static enum rho_status update_plane_rate(int num_states, float *state, float *covariance,
-                                         const struct rho_imm_plot *seen)
+/* Updates one model with a range rate, linearised at its estimate after the position update. */
+static enum rho_status update_plane_range_rate(int num_states, float *state, float *covariance,
+                                               const struct rho_imm_plot *seen)
 {
     const float sigma_mps = seen->plot->sigma_range_rate_mps;
     float spread[RHO_PLANE_MANOEUVRE];
@@ -320,20 +330,25 @@ static enum rho_status update_plane_rate(int num_states, float *state, float *co
                                 variance);
 }
 
-/* A plot with a height counts with its range along the ground. */
-static enum rho_status update_plane(struct rho_imm *imm, const struct rho_imm_plot *seen)
+/*
+ * Updates both models without a height. Of a plot with a height, the range along the ground is
+ * used.
+ */
+static enum rho_status update_in_plane(struct rho_imm *imm, const struct rho_imm_plot *seen)
 {
     const struct rho_measurement *at = &seen->position;
     const float ca = at->cos_azimuth, sa = at->sin_azimuth;
-    enum rho_status status = update_plane_along(imm, -sa, ca, at->place_m, at->variance_m2[1]);
+    enum rho_status status =
+        update_plane_position_along(imm, -sa, ca, at->place_m, at->variance_m2[1]);
     if (status == RHO_OK) {
-        status = update_plane_along(imm, ca, sa, at->place_m, ground_range_variance(at));
+        status = update_plane_position_along(imm, ca, sa, at->place_m, ground_range_variance(at));
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
-        status =
-            update_plane_rate(RHO_PLANE_STEADY, imm->steady.state, imm->steady.covariance, seen);
+        status = update_plane_range_rate(RHO_PLANE_STEADY, imm->steady.state,
+                                         imm->steady.covariance, seen);
         if (status == RHO_OK) {
-            status = update_plane_rate(RHO_PLANE_MANOEUVRE, imm->state, imm->covariance, seen);
+            status =
+                update_plane_range_rate(RHO_PLANE_MANOEUVRE, imm->state, imm->covariance, seen);
         }
     }
     rho_imm_plane_keep_floors(RHO_PLANE_STEADY, imm->steady.covariance);
@@ -343,9 +358,9 @@ static enum rho_status update_plane(struct rho_imm *imm, const struct rho_imm_pl
 
 /* ---- public ---------------------------------------------------------------------------------- */
 
-/* The third axis begins with the plot's height. */
-static enum rho_status open_height(struct rho_imm *imm, const struct rho_imm_model *model,
-                                   const struct rho_imm_plot *seen)
+/* Opens the third axis of both models with the plot's height. */
+static enum rho_status open_height_axis(struct rho_imm *imm, const struct rho_imm_model *model,
+                                        const struct rho_imm_plot *seen)
 {
     const float noise = seen->covariance[RHO_ZZ];
     enum rho_status status =
@@ -369,17 +384,17 @@ enum rho_status rho_imm_update(struct rho_imm *imm, const struct rho_imm_model *
     if (!imm || !model || !seen || !match) {
         return RHO_ERROR_NULL;
     }
-    const int opens = seen->position.has_z && !is_open(imm, RHO_Z);
+    const int opens = seen->position.has_z && !is_axis_open(imm, RHO_Z);
     const int num_axes = seen->position.has_z && !opens ? 3 : 2;
     const int is_simple = !imm->is_coupled && seen->position.is_isotropic &&
                           !(seen->measures & RHO_MEASURES_RANGE_RATE);
-    const int is_in_plane = !is_open(imm, RHO_Z) && !(seen->measures & RHO_MEASURES_VELOCITY);
+    const int is_in_plane = !is_axis_open(imm, RHO_Z) && !(seen->measures & RHO_MEASURES_VELOCITY);
     imm->is_coupled |= !is_simple;
-    enum rho_status status = is_simple     ? update_axes(imm, num_axes, seen)
-                             : is_in_plane ? update_plane(imm, seen)
-                                           : update_coupled(imm, num_axes, seen);
+    enum rho_status status = is_simple     ? update_independent_axes(imm, num_axes, seen)
+                             : is_in_plane ? update_in_plane(imm, seen)
+                                           : update_coupled_axes(imm, num_axes, seen);
     if (status == RHO_OK && opens) {
-        status = open_height(imm, model, seen);
+        status = open_height_axis(imm, model, seen);
     }
     imm->probability = match->probability;
     return status;
@@ -416,7 +431,7 @@ enum rho_status rho_imm_update_bearing(struct rho_imm *imm, float x_m, float y_m
             rho_linalg_update_along(RHO_IMM_STATES, imm->state, imm->covariance, 2, bearings[1].row,
                                     bearings[1].off_m, bearings[1].variance_m2);
     }
-    keep_floors(imm);
+    raise_variances_to_floor(imm);
     if (status == RHO_OK) {
         const float innovations_m[2] = {bearings[0].off_m, bearings[1].off_m};
         rho_imm_update_probability(imm, innovations_m, variance, gain_nat);

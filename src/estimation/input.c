@@ -12,7 +12,7 @@
 #define SIGMA_MAX_MPS2 1.0e5f
 #define NOISE_MAX 1.0e6f
 
-/* Up to this addition to a variance the filter's limit is not checked. */
+/* Addition to a variance up to which the result is not checked against RHO_KALMAN_VARIANCE_MAX. */
 #define ADDED_EASILY (1.0e-3f * RHO_KALMAN_VARIANCE_MAX)
 
 static const struct rho_input no_input = {.present = 0};
@@ -20,12 +20,13 @@ static const struct rho_input no_input = {.present = 0};
 /* ---- configuration --------------------------------------------------------------------------- */
 
 /*
- * M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 26.2.23: absolute error <= 4.5e-4.
+ * Quantile of the normal distribution: M. Abramowitz, I. Stegun, Handbook of Mathematical
+ * Functions, 26.2.23: absolute error <= 4.5e-4.
  */
 float rho_input_threshold(float confidence)
 {
     if (!(confidence >= 0.0f && confidence < 1.0f)) {
-        return rho_log(-1.0f); /* NaN */
+        return rho_log(-1.0f); /* the result is NaN */
     }
     const float t = rho_sqrt(-2.0f * rho_log(0.5f * (1.0f - confidence)));
     return t - (2.515517f + t * (0.802853f + t * 0.010328f)) /
@@ -73,11 +74,11 @@ int rho_input_is_usable(const struct rho_input_config *config)
 /* ---- the estimate with its inputs ------------------------------------------------------------ */
 
 /*
- * M V M^T of these inputs as a sum of squares, V = L D L^T: column by column of M L, each with its
- * element of D.
+ * Adds the effects M u and M V M^T of the correlated inputs on these axes to an estimate. With V =
+ * L D L^T the covariance is a sum over the columns of M L, each with its element of D.
  */
-static void add_correlated_inputs(struct rho_kalman *estimate, const struct rho_input *input,
-                                  uint32_t axes)
+static void add_correlated_input_effects(struct rho_kalman *estimate, const struct rho_input *input,
+                                         uint32_t axes)
 {
     float v[RHO_TRIANGLE(NUM_AXES)], column[NUM_STATES];
 
@@ -86,16 +87,16 @@ static void add_correlated_inputs(struct rho_kalman *estimate, const struct rho_
         const float *m = input->sensitivity[a];
         const float pivot = v[RHO_AT(a, a)];
 
-        if (!has_axis(axes, a)) {
+        if (!includes_axis(axes, a)) {
             continue;
         }
-        add_column(estimate, m, a, input->input_mps2[a], 0.0f);
+        add_input_effect(estimate, m, a, input->input_mps2[a], 0.0f);
         if (!(pivot > 0.0f)) {
             continue;
         }
         memcpy(column, m, sizeof column);
         for (int b = a + 1; b < NUM_AXES; b++) {
-            const float share = has_axis(axes, b) ? v[RHO_AT(b, a)] / pivot : 0.0f;
+            const float share = includes_axis(axes, b) ? v[RHO_AT(b, a)] / pivot : 0.0f;
 
             for (int i = 0; i < NUM_STATES; i++) {
                 column[i] += share * input->sensitivity[b][i];
@@ -104,7 +105,7 @@ static void add_correlated_inputs(struct rho_kalman *estimate, const struct rho_
                 v[RHO_AT(c, b)] -= share * v[RHO_AT(c, a)];
             }
         }
-        add_column(estimate, column, a, 0.0f, pivot);
+        add_input_effect(estimate, column, a, 0.0f, pivot);
     }
 }
 
@@ -113,14 +114,14 @@ static void add_input_effects(struct rho_kalman *estimate, const struct rho_inpu
 {
     static const uint8_t diagonal[NUM_AXES] = {RHO_XX, RHO_YY, RHO_ZZ};
 
-    if (!are_independent(input->variance)) {
-        add_correlated_inputs(estimate, input, axes);
+    if (!are_inputs_independent(input->variance)) {
+        add_correlated_input_effects(estimate, input, axes);
         return;
     }
     for (int a = 0; a < NUM_AXES; a++) {
-        if (has_axis(axes, a)) {
-            add_column(estimate, input->sensitivity[a], a, input->input_mps2[a],
-                       input->variance[diagonal[a]]);
+        if (includes_axis(axes, a)) {
+            add_input_effect(estimate, input->sensitivity[a], a, input->input_mps2[a],
+                             input->variance[diagonal[a]]);
         }
     }
 }
@@ -149,7 +150,7 @@ enum rho_status rho_input_start(struct rho_input *input, const struct rho_input_
         return RHO_ERROR_CONFIG;
     }
     const float variance = config->sigma_mps2 * config->sigma_mps2;
-    const struct rho_kalman bare = *estimate; /* it may lie within *input */
+    const struct rho_kalman bare = *estimate; /* copied, as *estimate may lie within *input */
     *input = no_input;
     input->bare = bare;
     for (int axis = 0; axis < NUM_AXES; axis++) {
@@ -158,7 +159,7 @@ enum rho_status rho_input_start(struct rho_input *input, const struct rho_input_
     return RHO_OK;
 }
 
-/* N = F M + D; back in time N = F^-1 (M - D). Returns the sum of its squares. */
+/* N = F M + D; back in time N = F^-1 (M - D). Returns the sum of squares of N's elements. */
 static float predict_sensitivity(struct rho_input *input, const struct rho_input_config *config,
                                  float dt_s)
 {
@@ -173,7 +174,7 @@ static float predict_sensitivity(struct rho_input *input, const struct rho_input
         n[RHO_X] += dt_s * n[RHO_VX];
         n[RHO_Y] += dt_s * n[RHO_VY];
         n[RHO_Z] += dt_s * n[RHO_VZ];
-        if (input->bare.covariance[RHO_AT(a, a)] > 0.0f) { /* it is open */
+        if (input->bare.covariance[RHO_AT(a, a)] > 0.0f) { /* the axis is open */
             n[a] += moved_m;
             n[a + NUM_AXES] += dt_s;
         }
@@ -183,7 +184,10 @@ static float predict_sensitivity(struct rho_input *input, const struct rho_input
     return size2;
 }
 
-/* V / gamma, at most V(0); covariances grow by the square roots of the variances' factors. */
+/*
+ * Forgetting: V / gamma on axes with an input, at most V(0); covariances grow by the square roots
+ * of the variances' factors.
+ */
 static void grow_input_variance(struct rho_input *input, const struct rho_input_config *config)
 {
     const float most = config->sigma_mps2 * config->sigma_mps2;
@@ -194,7 +198,7 @@ static void grow_input_variance(struct rho_input *input, const struct rho_input_
         const float wider = before / config->gamma;
         const float after = wider < most ? wider : most;
 
-        if (!has_axis(input->present, a) || !(after > before)) {
+        if (!includes_axis(input->present, a) || !(after > before)) {
             continue;
         }
         v[RHO_AT(a, a)] = after;
@@ -208,7 +212,10 @@ static void grow_input_variance(struct rho_input *input, const struct rho_input_
     }
 }
 
-/* The inputs add at most size2 trace V to a variance: usually this bound suffices. */
+/*
+ * True where variances of the corrected estimate are within their limit. Inputs add at most size2
+ * trace V to a variance; this bound usually suffices.
+ */
 static int is_variance_within_limit(const struct rho_input *input, float size2)
 {
     const float *v = input->variance;
@@ -230,8 +237,8 @@ static int is_variance_within_limit(const struct rho_input *input, float size2)
     return 1;
 }
 
-static enum rho_status predict(struct rho_input *input, const struct rho_input_config *config,
-                               float dt_s)
+static enum rho_status predict_filter_and_inputs(struct rho_input *input,
+                                                 const struct rho_input_config *config, float dt_s)
 {
     enum rho_status status = rho_kalman_predict(&input->bare, dt_s, config->noise_density);
 
@@ -258,7 +265,7 @@ enum rho_status rho_input_predict(struct rho_input *input, const struct rho_inpu
         return RHO_ERROR_NULL;
     }
     const struct rho_input before = *input;
-    status = predict(input, config, dt_s);
+    status = predict_filter_and_inputs(input, config, dt_s);
     if (status != RHO_OK) {
         *input = before;
     }

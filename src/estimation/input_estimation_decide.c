@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_estimation_decide: the onset test. On each axis the input is accepted or rejected; the
- * effect of an input that was accepted before and is rejected now is moved into the estimate.
+ * input_estimation_decide: tests on each axis whether an input (an acceleration) is present. The
+ * effect of an input that was present before and is rejected now is moved into the estimate.
  */
 #include <stddef.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "input_estimation_columns.h"
 #include "rhotrack/detail/input.h"
 
-/* Indices of row i of a packed 3 x 3 matrix. */
+/* Indices of the elements of row i of a packed symmetric 3 x 3 matrix. */
 static const uint8_t places[NUM_AXES][NUM_AXES] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
 
 static void reset_input(struct rho_input *input, int axis, float variance)
@@ -31,9 +31,9 @@ static float input_nis(const struct rho_input *input, int axis)
     return u / input->variance[places[axis][axis]] * u;
 }
 
-/* ---- correlated inputs --------------------------------------------------------------- */
+/* ---- correlated inputs ----------------------------------------------------------------------- */
 
-/* A conditional variance; rounding must not take all of it. */
+/* Conditional variance, variance minus the explained part, with a lower limit against rounding. */
 static float remaining_variance(float variance, float explained)
 {
     const float rest = variance - explained, least = variance * ROUNDING_SHARE;
@@ -41,7 +41,7 @@ static float remaining_variance(float variance, float explained)
     return rest > least ? rest : least;
 }
 
-/* The input of this axis is 0: the others are conditioned on that. */
+/* Conditions the other axes' inputs on an input of 0 on this axis. */
 static void condition_on_no_input(struct rho_input *input, int axis)
 {
     const int b = (axis + 1) % NUM_AXES, c = (axis + 2) % NUM_AXES;
@@ -57,10 +57,10 @@ static void condition_on_no_input(struct rho_input *input, int axis)
 }
 
 /*
- * The input of this axis has ended: its effect is moved into the estimate. By regression on the
- * other axes, u = s_b u_b + s_c u_c + rest: their sensitivities get the shares, and only the rest,
- * which is uncorrelated with them, goes into the estimate, so that estimate and inputs stay
- * independent.
+ * Moves the effect of an ended input on one axis into the estimate. By regression on the other
+ * axes, u = s_b u_b + s_c u_c + rest: the other axes' sensitivities get the shares s_b and s_c, and
+ * only the rest, which is uncorrelated with the other inputs, goes into the estimate, so that
+ * estimate and inputs stay independent.
  */
 static void absorb_input(struct rho_input *input, int axis)
 {
@@ -82,17 +82,19 @@ static void absorb_input(struct rho_input *input, int axis)
             input->sensitivity[c][i] += share_c * m[i];
         }
     }
-    add_column(&input->bare, m, axis, rest_mps2, variance);
+    add_input_effect(&input->bare, m, axis, rest_mps2, variance);
 }
 
-/* The axis with the smallest NIS among these, at least one; the first of equals. */
+/*
+ * Axis whose input has the smallest NIS among `axes`, which must not be empty; the first of equals.
+ */
 static int find_weakest_input(const struct rho_input *input, uint32_t axes)
 {
-    int weakest = has_axis(axes, 0) ? 0 : (has_axis(axes, 1) ? 1 : 2);
+    int weakest = includes_axis(axes, 0) ? 0 : (includes_axis(axes, 1) ? 1 : 2);
     float least = input_nis(input, weakest);
 
     for (int axis = weakest + 1; axis < NUM_AXES; axis++) {
-        if (has_axis(axes, axis) && input_nis(input, axis) < least) {
+        if (includes_axis(axes, axis) && input_nis(input, axis) < least) {
             weakest = axis;
             least = input_nis(input, axis);
         }
@@ -100,8 +102,11 @@ static int find_weakest_input(const struct rho_input *input, uint32_t axes)
     return weakest;
 }
 
-/* Returns the axes with inputs. */
-static uint32_t decide_correlated(struct rho_input *input, float limit2, float variance)
+/*
+ * Tests correlated inputs, the weakest first, and removes those below the limit. Returns the axes
+ * with inputs.
+ */
+static uint32_t decide_correlated_inputs(struct rho_input *input, float limit2, float variance)
 {
     uint32_t left = INPUT_ALL_PRESENT;
 
@@ -111,7 +116,7 @@ static uint32_t decide_correlated(struct rho_input *input, float limit2, float v
         if (input_nis(input, axis) > limit2) {
             break;
         }
-        if (has_axis(input->present, axis)) {
+        if (includes_axis(input->present, axis)) {
             absorb_input(input, axis);
         } else {
             condition_on_no_input(input, axis);
@@ -124,7 +129,7 @@ static uint32_t decide_correlated(struct rho_input *input, float limit2, float v
 
 /* ---- independent inputs ---------------------------------------------------------------------- */
 
-static uint32_t decide_independent(struct rho_input *input, float limit2, float variance)
+static uint32_t decide_independent_inputs(struct rho_input *input, float limit2, float variance)
 {
     uint32_t left = 0;
 
@@ -133,9 +138,9 @@ static uint32_t decide_independent(struct rho_input *input, float limit2, float 
             left |= 1u << axis;
             continue;
         }
-        if (has_axis(input->present, axis)) {
-            add_column(&input->bare, input->sensitivity[axis], axis, input->input_mps2[axis],
-                       input->variance[places[axis][axis]]);
+        if (includes_axis(input->present, axis)) {
+            add_input_effect(&input->bare, input->sensitivity[axis], axis, input->input_mps2[axis],
+                             input->variance[places[axis][axis]]);
         }
         reset_input(input, axis, variance);
     }
@@ -150,6 +155,7 @@ void rho_input_decide(struct rho_input *input, const struct rho_input_config *co
     const float limit2 = config->threshold * config->threshold;
     const float variance = config->sigma_mps2 * config->sigma_mps2;
 
-    input->present = are_independent(input->variance) ? decide_independent(input, limit2, variance)
-                                                      : decide_correlated(input, limit2, variance);
+    input->present = are_inputs_independent(input->variance)
+                         ? decide_independent_inputs(input, limit2, variance)
+                         : decide_correlated_inputs(input, limit2, variance);
 }

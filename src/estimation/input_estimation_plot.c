@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_estimation_plot: a plot as scalar measurements: position along its noise axes, range rate,
- * bearing.
+ * input_estimation_plot: updates filter and inputs with a plot, split into scalar measurements:
+ * position along its noise axes, range rate, bearing.
  */
 #include <float.h>
 #include <stddef.h>
@@ -9,14 +9,15 @@
 #include "input_estimation_columns.h"
 #include "rhotrack/detail/input.h"
 
-/* False for NaN. */
+/* True for a finite number; false for NaN. */
 static int is_finite(float v)
 {
     return v >= -FLT_MAX && v <= FLT_MAX;
 }
 
-static enum rho_status update_axis(struct rho_input *input, const struct rho_input_config *config,
-                                   int axis, float place_m, float variance)
+static enum rho_status open_or_update_axis(struct rho_input *input,
+                                           const struct rho_input_config *config, int axis,
+                                           float place_m, float variance)
 {
     if (!rho_kalman_is_open(&input->bare, axis)) {
         return rho_kalman_open_axis(&input->bare, axis, place_m, variance,
@@ -25,7 +26,10 @@ static enum rho_status update_axis(struct rho_input *input, const struct rho_inp
     return rho_input_update(input, config, axis, place_m, variance);
 }
 
-/* Updates along the line of sight, across it, and upwards: their noise is independent. */
+/*
+ * Updates with a position along the line of sight, across it, and upwards: the noise on these axes
+ * is independent.
+ */
 static enum rho_status update_along_noise_axes(struct rho_input *input,
                                                const struct rho_input_config *config,
                                                const struct rho_measurement *seen, int num_axes)
@@ -47,10 +51,12 @@ static enum rho_status update_along_noise_axes(struct rho_input *input,
     return status;
 }
 
-/* Updates or opens the first axes, which are all open or all closed. */
-static enum rho_status update_open_axes(struct rho_input *input,
-                                        const struct rho_input_config *config,
-                                        const struct rho_measurement *seen, int num_axes)
+/*
+ * Updates the first num_axes axes with a position, or opens them; they are all open or all closed.
+ */
+static enum rho_status open_or_update_axes(struct rho_input *input,
+                                           const struct rho_input_config *config,
+                                           const struct rho_measurement *seen, int num_axes)
 {
     if (!rho_kalman_is_open(&input->bare, RHO_X)) {
         return rho_kalman_update_position(&input->bare, seen, config->velocity_variance);
@@ -58,10 +64,13 @@ static enum rho_status update_open_axes(struct rho_input *input,
     return update_along_noise_axes(input, config, seen, num_axes);
 }
 
-/* Height by itself, where only one of (x, y) and z is open; as rho_kalman_update_position. */
-static enum rho_status update_height_apart(struct rho_input *input,
-                                           const struct rho_input_config *config,
-                                           const struct rho_measurement *seen)
+/*
+ * Updates x and y together and z separately, where only one of (x, y) and z is open; as
+ * rho_kalman_update_position.
+ */
+static enum rho_status update_height_separately(struct rho_input *input,
+                                                const struct rho_input_config *config,
+                                                const struct rho_measurement *seen)
 {
     struct rho_measurement level = *seen;
     float covariance[6];
@@ -71,9 +80,9 @@ static enum rho_status update_height_apart(struct rho_input *input,
     level.variance_m2[0] = seen->cos_elevation * seen->cos_elevation * seen->variance_m2[0] +
                            seen->sin_elevation * seen->sin_elevation * seen->variance_m2[2];
     level.has_z = 0;
-    status = update_open_axes(input, config, &level, 2);
+    status = open_or_update_axes(input, config, &level, 2);
     if (status == RHO_OK) {
-        status = update_axis(input, config, RHO_Z, seen->place_m[2], covariance[RHO_ZZ]);
+        status = open_or_update_axis(input, config, RHO_Z, seen->place_m[2], covariance[RHO_ZZ]);
     }
     return status;
 }
@@ -93,7 +102,8 @@ static enum rho_status update_position(struct rho_input *input,
     }
     if (seen->is_isotropic) {
         for (int axis = 0; axis < num_axes && status == RHO_OK; axis++) {
-            status = update_axis(input, config, axis, seen->place_m[axis], seen->variance_m2[axis]);
+            status = open_or_update_axis(input, config, axis, seen->place_m[axis],
+                                         seen->variance_m2[axis]);
         }
         return status;
     }
@@ -101,9 +111,9 @@ static enum rho_status update_position(struct rho_input *input,
         return RHO_ERROR_VALUE;
     }
     if (seen->has_z && is_open != rho_kalman_is_open(&input->bare, RHO_Z)) {
-        return update_height_apart(input, config, seen);
+        return update_height_separately(input, config, seen);
     }
-    return update_open_axes(input, config, seen, num_axes);
+    return open_or_update_axes(input, config, seen, num_axes);
 }
 
 enum rho_status rho_input_update_position(struct rho_input *input,
@@ -129,10 +139,10 @@ enum rho_status rho_input_update_position(struct rho_input *input,
 
 /* ---- range rates and bearings ---------------------------------------------------------------- */
 
-/* Converts an innovation of the corrected estimate to one of the filter without input. */
-static float innovation_without_input(const struct rho_input *input,
-                                      const struct rho_kalman *corrected,
-                                      const float row[NUM_STATES], float innovation)
+/* Converts an innovation of the corrected estimate to that of the filter without input. */
+static float bare_filter_innovation(const struct rho_input *input,
+                                    const struct rho_kalman *corrected, const float row[NUM_STATES],
+                                    float innovation)
 {
     for (int i = 0; i < NUM_STATES; i++) {
         innovation += row[i] * (corrected->state[i] - input->bare.state[i]);
@@ -157,7 +167,7 @@ enum rho_status rho_input_update_range_rate(struct rho_input *input,
         return RHO_OK;
     }
     const float innovation_mps =
-        innovation_without_input(input, &corrected, seen.row, seen.innovation);
+        bare_filter_innovation(input, &corrected, seen.row, seen.innovation);
     return rho_input_update_row(input, config, seen.row, innovation_mps, seen.variance);
 }
 
@@ -178,6 +188,6 @@ enum rho_status rho_input_update_bearing(struct rho_input *input,
     if (!rho_kalman_linearise_bearing(&corrected, x_m, y_m, bearing_rad, sigma_rad, &seen)) {
         return RHO_OK;
     }
-    const float innovation_m = innovation_without_input(input, &corrected, seen.row, seen.off_m);
+    const float innovation_m = bare_filter_innovation(input, &corrected, seen.row, seen.off_m);
     return rho_input_update_row(input, config, seen.row, innovation_m, seen.variance_m2);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * input_estimation_update: a scalar measurement updates the filter without input, and the inputs by
- * the part of the innovation that they explain.
+ * input_estimation_update: updates the filter without input with a scalar measurement, and the
+ * inputs with the part of the innovation that they explain.
  */
 #include <float.h>
 #include <stddef.h>
@@ -10,24 +10,28 @@
 #include "input_estimation_columns.h"
 #include "rhotrack/detail/input.h"
 
-/* Reduced variances are raised by sixteen units of rounding first, as in the filter. */
+/*
+ * Factor by which a variance is raised before it is reduced: sixteen units of rounding, as in
+ * linalg.c.
+ */
 #define ROUNDING_ALLOWANCE (1.0f + 1.0f / 1048576.0f)
 
 #define INPUT2_MAX 1.0e24f
 
 /*
- * Limit of (s / S)^2 P_ii: a covariance with element i is at most sqrt(P_ii) times the largest
+ * Limit of (s / S)^2 P_ii, s the sensitivity of element i: keeps the change of all sensitivities
+ * within SENSITIVITY2_MAX, as a covariance with element i is at most sqrt(P_ii) times the largest
  * sigma.
  */
 #define MOVED2_MAX (SENSITIVITY2_MAX / RHO_KALMAN_VARIANCE_MAX)
 
-/* Indices of row i of a packed 6 x 6 matrix. */
+/* Indices of the elements of row i of a packed symmetric 6 x 6 matrix. */
 static const uint8_t row_indices[NUM_STATES][NUM_STATES] = {
     {0, 1, 3, 6, 10, 15}, {1, 2, 4, 7, 11, 16},     {3, 4, 5, 8, 12, 17},
     {6, 7, 8, 9, 13, 18}, {10, 11, 12, 13, 14, 19}, {15, 16, 17, 18, 19, 20},
 };
 
-static float floored_noise(float variance)
+static float floored_noise_variance(float variance)
 {
     return variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
 }
@@ -39,19 +43,20 @@ static float at_least_floor(float variance)
 
 /* ---- any measurement ------------------------------------------------------------------------- */
 
-/* A scalar measurement with P h, h P h^T + R, and its derivatives by the inputs, H N. */
-struct scalar {
-    const float *row; /* NULL: an element of the state */
+/* A scalar measurement with row h: P h, h P h^T + R, and its derivatives H N by the inputs. */
+struct scalar_measurement {
+    const float *row; /* measured row h; NULL: an element of the state was measured */
     int element;
-    float value;    /* of an element */
-    float noise;    /* R */
-    float off;      /* measured minus predicted by the filter without input */
-    float variance; /* h P h^T + R */
+    float value;    /* measured value of the element */
+    float noise;    /* R, variance of the noise */
+    float off;      /* innovation: measured minus predicted by the filter without input */
+    float variance; /* innovation variance h P h^T + R */
     float projected[NUM_STATES];
     float by_input[NUM_AXES];
 };
 
-static enum rho_status update_bare_filter(struct rho_kalman *bare, const struct scalar *scalar)
+static enum rho_status update_bare_filter(struct rho_kalman *bare,
+                                          const struct scalar_measurement *scalar)
 {
     if (scalar->row) {
         return rho_kalman_update_row(bare, scalar->row, scalar->off, scalar->noise, NULL);
@@ -59,8 +64,11 @@ static enum rho_status update_bare_filter(struct rho_kalman *bare, const struct 
     return rho_kalman_update(bare, scalar->element, scalar->value, scalar->noise, NULL);
 }
 
-/* M = (I - K H) N, a column. False where it is too large, or NaN. */
-static int update_sensitivity(float m[NUM_STATES], const struct scalar *scalar, float by_input)
+/*
+ * Updates one column of the sensitivities: M = (I - K H) N. False where it gets too large, or NaN.
+ */
+static int update_sensitivity(float m[NUM_STATES], const struct scalar_measurement *scalar,
+                              float by_input)
 {
     const float factor = by_input / scalar->variance;
     float size2 = 0.0f;
@@ -72,8 +80,11 @@ static int update_sensitivity(float m[NUM_STATES], const struct scalar *scalar, 
     return size2 <= SENSITIVITY2_MAX;
 }
 
-/* V and u, (11) and (12). False where they are too large, or NaN. */
-static int update_inputs(struct rho_input *input, const struct scalar *scalar)
+/*
+ * Updates the inputs u and their covariance V, the paper's (11) and (12). False where they get too
+ * large, or NaN.
+ */
+static int update_inputs(struct rho_input *input, const struct scalar_measurement *scalar)
 {
     float *v = input->variance, *u = input->input_mps2, vs[NUM_AXES];
     float variance = scalar->variance, rest = scalar->off;
@@ -101,7 +112,7 @@ static int update_inputs(struct rho_input *input, const struct scalar *scalar)
 }
 
 static enum rho_status update_filter_and_inputs(struct rho_input *input,
-                                                const struct scalar *scalar)
+                                                const struct scalar_measurement *scalar)
 {
     struct rho_input next = *input;
     enum rho_status status;
@@ -121,12 +132,12 @@ static enum rho_status update_filter_and_inputs(struct rho_input *input,
     return status;
 }
 
-static enum rho_status update_row(struct rho_input *input, const float row[6], float innovation,
-                                  float variance)
+static enum rho_status update_by_row(struct rho_input *input, const float row[6], float innovation,
+                                     float variance)
 {
-    struct scalar scalar = {.row = row, .noise = variance, .off = innovation};
+    struct scalar_measurement scalar = {.row = row, .noise = variance, .off = innovation};
 
-    scalar.variance = floored_noise(variance) +
+    scalar.variance = floored_noise_variance(variance) +
                       rho_linalg_project6(input->bare.covariance, row, scalar.projected);
     for (int a = 0; a < NUM_AXES; a++) {
         for (int i = 0; i < NUM_STATES; i++) {
@@ -136,18 +147,18 @@ static enum rho_status update_row(struct rho_input *input, const float row[6], f
     return update_filter_and_inputs(input, &scalar);
 }
 
-static enum rho_status update_coupled(struct rho_input *input, int element, float value,
-                                      float variance)
+static enum rho_status update_by_coupled_element(struct rho_input *input, int element, float value,
+                                                 float variance)
 {
-    struct scalar scalar = {.element = element,
-                            .value = value,
-                            .noise = variance,
-                            .off = value - input->bare.state[element]};
+    struct scalar_measurement scalar = {.element = element,
+                                        .value = value,
+                                        .noise = variance,
+                                        .off = value - input->bare.state[element]};
 
     for (int i = 0; i < NUM_STATES; i++) {
         scalar.projected[i] = input->bare.covariance[row_indices[element][i]];
     }
-    scalar.variance = floored_noise(variance) + scalar.projected[element];
+    scalar.variance = floored_noise_variance(variance) + scalar.projected[element];
     for (int a = 0; a < NUM_AXES; a++) {
         scalar.by_input[a] = input->sensitivity[a][element];
     }
@@ -160,19 +171,21 @@ static enum rho_status update_coupled(struct rho_input *input, int element, floa
  * True if the element depends on no other axis' input, and the inputs are uncorrelated: the usual
  * case.
  */
-static int is_axis_independent(const struct rho_input *input, int element, int axis)
+static int is_element_independent(const struct rho_input *input, int element, int axis)
 {
     static const uint8_t others[NUM_AXES][2] = {{1, 2}, {0, 2}, {0, 1}};
     const int b = others[axis][0], c = others[axis][1];
 
-    return (bits_of(input->sensitivity[b][element]) | bits_of(input->sensitivity[c][element]) |
-            bits_of(input->variance[RHO_YX]) | bits_of(input->variance[RHO_ZX]) |
-            bits_of(input->variance[RHO_ZY])) == 0;
+    return (magnitude_bits(input->sensitivity[b][element]) |
+            magnitude_bits(input->sensitivity[c][element]) |
+            magnitude_bits(input->variance[RHO_YX]) | magnitude_bits(input->variance[RHO_ZX]) |
+            magnitude_bits(input->variance[RHO_ZY])) == 0;
 }
 
 /*
- * The same as update_filter_and_inputs, (8) to (13), for one axis; written out, as a loop would
- * take twice the time.
+ * Updates filter and input of one axis with an element that depends on no other input: does what
+ * update_filter_and_inputs does, the paper's (8) to (13), written out, as a loop would take twice
+ * the time.
  */
 static enum rho_status update_axis(struct rho_input *input, int axis, int element, float value,
                                    float variance)
@@ -181,7 +194,8 @@ static enum rho_status update_axis(struct rho_input *input, int axis, int elemen
     const uint8_t *index = row_indices[element];
     float *m = input->sensitivity[axis];
     const float s = m[element], v = input->variance[RHO_AT(axis, axis)];
-    const float bare = p[index[element]] + floored_noise(variance), total = v * s * s + bare;
+    const float bare = p[index[element]] + floored_noise_variance(variance),
+                total = v * s * s + bare;
     const float rest = value - input->bare.state[element] - s * input->input_mps2[axis];
     const float learned_mps2 = input->input_mps2[axis] + v * s / total * rest;
     const float factor = s / bare;
@@ -205,7 +219,7 @@ static enum rho_status update_axis(struct rho_input *input, int axis, int elemen
         m[RHO_VY] = vy;
         m[RHO_VZ] = vz;
         input->input_mps2[axis] = learned_mps2;
-        /* scaled, not differenced: no cancellation */
+        /* scaled instead of being reduced by a difference: no digits cancel */
         input->variance[RHO_AT(axis, axis)] = at_least_floor(v * (bare / total));
     }
     return status;
@@ -224,8 +238,8 @@ enum rho_status rho_input_update(struct rho_input *input, const struct rho_input
     if (!config->is_estimated) {
         return rho_kalman_update(&input->bare, element, value, variance, NULL);
     }
-    if (!is_axis_independent(input, element, axis)) {
-        return update_coupled(input, element, value, variance);
+    if (!is_element_independent(input, element, axis)) {
+        return update_by_coupled_element(input, element, value, variance);
     }
     if (is_zero(
             input->sensitivity[axis][element])) { /* the element does not depend on the inputs */
@@ -243,5 +257,5 @@ enum rho_status rho_input_update_row(struct rho_input *input, const struct rho_i
     if (!config->is_estimated) {
         return rho_kalman_update_row(&input->bare, row, innovation, variance, NULL);
     }
-    return update_row(input, row, innovation, variance);
+    return update_by_row(input, row, innovation, variance);
 }

@@ -8,40 +8,40 @@
 #define TIME_STEP_MAX_S 1.0e5f
 
 /*
- * A predicted position's variance is raised by 2^-19 of what it was added up from, thirty-two units
- * of float32's rounding: more than the sums of its row can be wrong by, forth or back, so that a
+ * A predicted position variance is raised by 2^-19 of its positive terms, thirty-two units of
+ * float32's rounding: more than the error of any sum in its row, forth or back in time, so that a
  * positive definite covariance stays so.
  */
 #define ROUNDING_ALLOWANCE (1.0f / 524288.0f)
 
 /*
- * Indices in the packed triangle: variance of element i, cov(velocity of axis a, position of axis
- * b).
+ * Indices in the packed triangle: of the variance of element i, and of cov(velocity of axis a,
+ * position of axis b).
  */
 #define DIAGONAL(i) RHO_AT(i, i)
 #define VELOCITY_POSITION(a, b) (RHO_TRIANGLE(NUM_AXES + (a)) + (b))
 
-/* One predicted axis: all axes are computed and checked before any is written. */
-struct prediction {
+/* Prediction of one axis. All axes are computed and checked before any is stored. */
+struct axis_prediction {
     float position_m, position_variance, velocity_variance, mixed;
 };
 
-/* False for NaN. */
+/* True for a finite number; false for NaN. */
 static int is_finite(float v)
 {
     return v >= -FLT_MAX && v <= FLT_MAX;
 }
 
-static int is_variance(float v)
+static int is_valid_variance(float v)
 {
     return v >= RHO_KALMAN_VARIANCE_MIN && v <= RHO_KALMAN_VARIANCE_MAX;
 }
 
 /*
- * Keeps the floor on an open axis. Zero marks a closed axis and stays; a negative value is refused
- * later.
+ * Raises a variance of an open axis to the floor. Zero marks a closed axis and stays; a negative
+ * value stays, too, and is refused later.
  */
-static inline float at_least_floor(float variance, float before)
+static inline float floored_if_open(float variance, float before)
 {
     const int is_low = variance >= 0.0f && variance < RHO_KALMAN_VARIANCE_MIN && before > 0.0f;
 
@@ -49,11 +49,11 @@ static inline float at_least_floor(float variance, float before)
 }
 
 /*
- * F P F^T + Q of one axis, F = [1 dt; 0 1]. noise: density x dt. False where the result is beyond
- * the limits.
+ * Predicts one axis: F x and F P F^T + Q, F = [1 dt; 0 1]. noise: density x dt. False where the
+ * result is beyond the limits.
  */
-static inline int predict_axis(struct prediction *next, const struct rho_kalman *kalman, int axis,
-                               float dt_s, float noise)
+static inline int predict_axis(struct axis_prediction *next, const struct rho_kalman *kalman,
+                               int axis, float dt_s, float noise)
 {
     const float *p = kalman->covariance;
     const float position = p[DIAGONAL(axis)];
@@ -67,7 +67,7 @@ static inline int predict_axis(struct prediction *next, const struct rho_kalman 
                             q * dt_s * dt_s * (1.0f / 3.0f);
 
     next->position_m = kalman->state[axis] + dt_s * kalman->state[NUM_AXES + axis];
-    next->position_variance = at_least_floor(predicted, position);
+    next->position_variance = floored_if_open(predicted, position);
     next->velocity_variance = velocity + q;
     next->mixed = mixed + moved + 0.5f * dt_s * q;
     return is_finite(next->position_m) && next->position_variance >= 0.0f &&
@@ -76,10 +76,10 @@ static inline int predict_axis(struct prediction *next, const struct rho_kalman 
 }
 
 /*
- * F P F^T between two axes: with P = [A C^T; C V] this is A + dt (C + C^T) + dt^2 V and C + dt V.
- * One C is moved first, so that A needs one multiplication.
+ * Predicts the covariances of two axes, F P F^T: with P = [A C^T; C V] this is A + dt (C + C^T) +
+ * dt^2 V and C + dt V. One of the two C is predicted first, so that A needs one multiplication.
  */
-static inline void predict_pair(float *p, int a, int b, float dt_s)
+static inline void predict_axis_pair(float *p, int a, int b, float dt_s)
 {
     const float moved = dt_s * p[VELOCITY_POSITION(a, NUM_AXES + b)];
     const float mixed_ab = p[VELOCITY_POSITION(a, b)] + moved;
@@ -90,7 +90,8 @@ static inline void predict_pair(float *p, int a, int b, float dt_s)
     p[VELOCITY_POSITION(b, a)] = mixed_ba + moved;
 }
 
-static inline void store_axis(struct rho_kalman *kalman, int axis, const struct prediction *next)
+static inline void store_predicted_axis(struct rho_kalman *kalman, int axis,
+                                        const struct axis_prediction *next)
 {
     kalman->state[axis] = next->position_m;
     kalman->covariance[DIAGONAL(axis)] = next->position_variance;
@@ -98,19 +99,19 @@ static inline void store_axis(struct rho_kalman *kalman, int axis, const struct 
     kalman->covariance[VELOCITY_POSITION(axis, axis)] = next->mixed;
 }
 
-/* Raises a variance of an open axis to the floor. */
-static inline void keep_floor(float *variance)
+/* Raises a variance of an open axis to the floor; 0 marks a closed axis and stays. */
+static inline void raise_to_floor(float *variance)
 {
     if (*variance < RHO_KALMAN_VARIANCE_MIN && (*variance > 0.0f || *variance < 0.0f)) {
         *variance = RHO_KALMAN_VARIANCE_MIN;
     }
 }
 
-static void keep_floors(struct rho_kalman *kalman)
+static void raise_variances_to_floor(struct rho_kalman *kalman)
 {
     RHO_UNROLL
     for (int i = 0; i < RHO_KALMAN_STATES; ++i) {
-        keep_floor(&kalman->covariance[DIAGONAL(i)]);
+        raise_to_floor(&kalman->covariance[DIAGONAL(i)]);
     }
 }
 
@@ -131,8 +132,8 @@ enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, int axis, float 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (axis < 0 || axis >= NUM_AXES || !is_finite(position_m) || !is_variance(position_variance) ||
-        !is_variance(velocity_variance)) {
+    if (axis < 0 || axis >= NUM_AXES || !is_finite(position_m) ||
+        !is_valid_variance(position_variance) || !is_valid_variance(velocity_variance)) {
         return RHO_ERROR_VALUE;
     }
     for (i = 0; i < RHO_KALMAN_STATES; ++i) {
@@ -159,7 +160,7 @@ void rho_kalman_set_covariance(struct rho_kalman *kalman, float variance)
 enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float noise_density)
 {
     const float noise = dt_s > 0.0f ? noise_density * dt_s : 0.0f;
-    struct prediction next[NUM_AXES];
+    struct axis_prediction next[NUM_AXES];
 
     if (kalman == NULL) {
         return RHO_ERROR_NULL;
@@ -169,7 +170,7 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
         return RHO_ERROR_VALUE;
     }
     if (!(dt_s > 0.0f || dt_s < 0.0f)) {
-        return RHO_OK; /* dt 0: the state stays bit for bit */
+        return RHO_OK; /* dt 0: the estimate stays bit for bit */
     }
     RHO_UNROLL
     for (int axis = 0; axis < NUM_AXES; ++axis) {
@@ -181,17 +182,17 @@ enum rho_status rho_kalman_predict(struct rho_kalman *kalman, float dt_s, float 
     for (int axis = 1; axis < NUM_AXES; ++axis) {
         RHO_UNROLL
         for (int other = 0; other < axis; ++other) {
-            predict_pair(kalman->covariance, axis, other, dt_s);
+            predict_axis_pair(kalman->covariance, axis, other, dt_s);
         }
     }
     RHO_UNROLL
     for (int axis = 0; axis < NUM_AXES; ++axis) {
-        store_axis(kalman, axis, &next[axis]);
+        store_predicted_axis(kalman, axis, &next[axis]);
     }
     return RHO_OK;
 }
 
-/* The variance plus `by` is within the limit. False for NaN. */
+/* True where the sum of a variance and `by` is within the limit; false for NaN. */
 static int can_add_variance(float variance, float by)
 {
     return variance + by <= RHO_KALMAN_VARIANCE_MAX;
@@ -236,12 +237,12 @@ enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element, float 
         !(variance > 0.0f && variance <= FLT_MAX)) {
         return RHO_ERROR_VALUE;
     }
-    /* With a smaller noise the variance could become 0, which marks a closed axis. */
+    /* noise below the floor could make the variance 0, which marks a closed axis */
     noise = variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
     status = rho_linalg_update6(kalman->state, kalman->covariance, element,
                                 value - kalman->state[element], noise, nis);
     if (status == RHO_OK) {
-        keep_floors(kalman);
+        raise_variances_to_floor(kalman);
     }
     return status;
 }
@@ -261,7 +262,7 @@ enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row
     noise = variance < RHO_KALMAN_VARIANCE_MIN ? RHO_KALMAN_VARIANCE_MIN : variance;
     status = rho_linalg_update6_row(kalman->state, kalman->covariance, row, innovation, noise, nis);
     if (status == RHO_OK) {
-        keep_floors(kalman);
+        raise_variances_to_floor(kalman);
     }
     return status;
 }
@@ -276,7 +277,7 @@ static void rotate_vector(float v[3], int a, int b, float c, float s)
     v[b] = c * was_b - s * was_a;
 }
 
-/* Rotates the frame of the estimate in the plane of axes a and b. */
+/* Rotates the frame of the estimate, positions and velocities, in the plane of axes a and b. */
 static void rotate_estimate(struct rho_kalman *kalman, int a, int b, float c, float s)
 {
     rotate_vector(&kalman->state[0], a, b, c, s);
@@ -285,7 +286,7 @@ static void rotate_estimate(struct rho_kalman *kalman, int a, int b, float c, fl
     rho_linalg_turn6(kalman->covariance, NUM_AXES + a, NUM_AXES + b, c, s);
 }
 
-/* Opens or updates one axis. */
+/* Updates one axis with a position, or opens it. */
 static enum rho_status open_or_update_axis(struct rho_kalman *kalman, int axis, float place_m,
                                            float variance, float velocity_variance)
 {
@@ -310,8 +311,9 @@ static enum rho_status open_or_update_axes(struct rho_kalman *kalman, int num_ax
 }
 
 /*
- * Updates in the frame of the noise; its axes are all open, or all closed. The estimate is taken
- * relative to the plot: rotating a position far from the origin would cost digits.
+ * Updates with a position in the frame of the plot's noise. The axes are all open, or all closed.
+ * The estimate is taken relative to the plot: rotating a position far from the origin would cost
+ * digits.
  */
 static enum rho_status update_in_noise_frame(struct rho_kalman *kalman, int num_axes,
                                              const struct rho_measurement *seen,
@@ -340,10 +342,13 @@ static enum rho_status update_in_noise_frame(struct rho_kalman *kalman, int num_
     return status;
 }
 
-/* If only one of (x, y) and z is open, z is updated by itself, with its own noise variance. */
-static enum rho_status update_height_apart(struct rho_kalman *kalman,
-                                           const struct rho_measurement *seen,
-                                           float velocity_variance)
+/*
+ * Updates x and y in the frame of the noise, and z separately with its own variance, where only one
+ * of (x, y) and z is open.
+ */
+static enum rho_status update_height_separately(struct rho_kalman *kalman,
+                                                const struct rho_measurement *seen,
+                                                float velocity_variance)
 {
     struct rho_measurement level = *seen;
     float covariance[6];
@@ -361,7 +366,7 @@ static enum rho_status update_height_apart(struct rho_kalman *kalman,
     return status;
 }
 
-static int is_place(const float place_m[3], int num_axes)
+static int is_finite_place(const float place_m[3], int num_axes)
 {
     return is_finite(place_m[0]) && is_finite(place_m[1]) &&
            (num_axes < NUM_AXES || is_finite(place_m[2]));
@@ -376,7 +381,7 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
     if (kalman == NULL || measurement == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (!is_place(measurement->place_m, num_axes)) {
+    if (!is_finite_place(measurement->place_m, num_axes)) {
         return RHO_ERROR_VALUE;
     }
     if (measurement->is_isotropic) {
@@ -388,15 +393,15 @@ enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
     }
     if (measurement->has_z &&
         rho_kalman_is_open(kalman, RHO_X) != rho_kalman_is_open(kalman, RHO_Z)) {
-        return update_height_apart(kalman, measurement, velocity_variance);
+        return update_height_separately(kalman, measurement, velocity_variance);
     }
     return update_in_noise_frame(kalman, num_axes, measurement, velocity_variance);
 }
 
 /*
- * Variance that the linearisation leaves out if the position is uncertain by much of its range: an
- * error of sigma rotates the line of sight by sigma / range, which takes the share (sigma /
- * range)^2 / 2 off the rate, and the rate is v or less.
+ * Variance of a range rate that the linearisation leaves out if the position's sigma is large
+ * against the range: a position error of sigma rotates the line of sight by sigma / range, which
+ * changes the range rate by up to (sigma / range)^2 / 2 times the speed.
  */
 static float range_rate_nonlinearity(const struct rho_kalman *kalman,
                                      const struct rho_sensor *sensor)
@@ -430,7 +435,7 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
     const float nonlinearity = range_rate_nonlinearity(kalman, sensor);
     seen->innovation = rho_measurement_range_rate_error_mps(sensor, rate_mps, predicted_mps);
     seen->variance = variance;
-    if (variance > 0.0f && nonlinearity <= FLT_MAX) { /* else the update refuses it */
+    if (variance > 0.0f && nonlinearity <= FLT_MAX) { /* else the update refuses the variance */
         seen->variance += nonlinearity;
     }
     return 1;
@@ -464,9 +469,9 @@ enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
 }
 
 /*
- * The second derivative of the bearing is 1 / range^2 (along times across the line of sight): for
- * errors a along and c across, the linearisation leaves out a c / range metres, with the variance
- * (var a var c + cov^2) / range^2.
+ * Variance of a bearing, in metres across, that the linearisation leaves out. The second derivative
+ * of the bearing is 1 / range^2 (along times across the line of sight): for errors a along and c
+ * across, a c / range metres are left out, with the variance (var a var c + cov^2) / range^2.
  */
 static float bearing_nonlinearity(const float *p, const float row[6], float range_m)
 {

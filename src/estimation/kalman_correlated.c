@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* kalman_correlated: elements of the state that were measured with correlated noise. */
+/*
+ * kalman_correlated: Kalman update with several elements of the state that were measured with
+ * correlated noise.
+ */
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
@@ -9,21 +12,22 @@
 /* Smallest pivot as a share of the element's variance: four units of float32's rounding. */
 #define PIVOT_LEAST (1.0f / 4194304.0f)
 
-/* Rows of L^-1 H and L^-1 y, and D: measurements whose noise is independent. */
-struct decorrelated {
+/* Measurements made independent: rows of L^-1 H, innovations L^-1 y, and noise variances D. */
+struct decorrelated_rows {
     int num;
     float row[RHO_KALMAN_STATES][RHO_KALMAN_STATES];
     float off[RHO_KALMAN_STATES];
     float variance[RHO_KALMAN_STATES];
 };
 
-/* False for NaN. */
+/* True for a finite number; false for NaN. */
 static int is_finite(float v)
 {
     return v >= -FLT_MAX && v <= FLT_MAX;
 }
 
-static int are_usable(int num, const int elements[], const float values[], const float covariance[])
+static int are_valid_measurements(int num, const int elements[], const float values[],
+                                  const float covariance[])
 {
     for (int i = 0; i < num; i++) {
         if (elements[i] < 0 || elements[i] >= RHO_KALMAN_STATES || !is_finite(values[i])) {
@@ -38,8 +42,8 @@ static int are_usable(int num, const int elements[], const float values[], const
     return 1;
 }
 
-/* row i := row i - factor x row k */
-static void subtract_row(struct decorrelated *decorrelated, int i, int k, float factor)
+/* Subtracts factor times row k, and its innovation, from row i. */
+static void subtract_row(struct decorrelated_rows *decorrelated, int i, int k, float factor)
 {
     for (int j = 0; j < RHO_KALMAN_STATES; j++) {
         decorrelated->row[i][j] -= factor * decorrelated->row[k][j];
@@ -48,10 +52,11 @@ static void subtract_row(struct decorrelated *decorrelated, int i, int k, float 
 }
 
 /*
- * Row i of L^-1, and D_i, by elimination of the rows before. covariance: of the elements that are
- * used; it turns into L row by row.
+ * Computes row i of L^-1, and D_i, by elimination of the rows before. covariance: noise of the
+ * elements that are used; it is overwritten by L row by row. False where the noise is not positive
+ * definite.
  */
-static int decorrelate_row(struct decorrelated *decorrelated, int i, float covariance[])
+static int decorrelate_row(struct decorrelated_rows *decorrelated, int i, float covariance[])
 {
     const float own = covariance[RHO_AT(i, i)];
     float pivot = own;
@@ -72,14 +77,14 @@ static int decorrelate_row(struct decorrelated *decorrelated, int i, float covar
 }
 
 /* Drops elements of closed axes, and decorrelates the noise of the others. */
-static int decorrelate_all(const struct rho_kalman *kalman, int num, const int elements[],
-                           const float values[], const float covariance[],
-                           struct decorrelated *decorrelated)
+static int decorrelate_noise(const struct rho_kalman *kalman, int num, const int elements[],
+                             const float values[], const float covariance[],
+                             struct decorrelated_rows *decorrelated)
 {
     float kept[RHO_TRIANGLE(RHO_KALMAN_STATES)] = {0.0f};
     int source[RHO_KALMAN_STATES] = {0};
 
-    *decorrelated = (struct decorrelated){.num = 0};
+    *decorrelated = (struct decorrelated_rows){.num = 0};
     for (int i = 0; i < num; i++) {
         if (rho_kalman_is_open(kalman, elements[i] % 3)) {
             const int n = decorrelated->num++;
@@ -103,8 +108,8 @@ static int decorrelate_all(const struct rho_kalman *kalman, int num, const int e
  * The correction is computed first, from a state of 0, and added at the end: differences of large
  * coordinates would add their rounding errors to the innovations.
  */
-static enum rho_status update_all(struct rho_kalman *kalman,
-                                  const struct decorrelated *decorrelated)
+static enum rho_status update_with_decorrelated(struct rho_kalman *kalman,
+                                                const struct decorrelated_rows *decorrelated)
 {
     struct rho_kalman moved = *kalman;
     float total = 0.0f;
@@ -136,16 +141,17 @@ enum rho_status rho_kalman_update_correlated(struct rho_kalman *kalman, int num,
                                              const int elements[], const float values[],
                                              const float covariance[])
 {
-    struct decorrelated decorrelated;
+    struct decorrelated_rows decorrelated;
 
     if (kalman == NULL || elements == NULL || values == NULL || covariance == NULL) {
         return RHO_ERROR_NULL;
     }
-    if (num < 1 || num > RHO_KALMAN_STATES || !are_usable(num, elements, values, covariance)) {
+    if (num < 1 || num > RHO_KALMAN_STATES ||
+        !are_valid_measurements(num, elements, values, covariance)) {
         return RHO_ERROR_VALUE;
     }
-    if (!decorrelate_all(kalman, num, elements, values, covariance, &decorrelated)) {
+    if (!decorrelate_noise(kalman, num, elements, values, covariance, &decorrelated)) {
         return RHO_ERROR_SINGULAR;
     }
-    return update_all(kalman, &decorrelated);
+    return update_with_decorrelated(kalman, &decorrelated);
 }

@@ -4,10 +4,13 @@
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 
-/* Below, sin(delta) has no digits left. */
+/*
+ * Least angle between the bearings of a crossing: sin(delta) of a smaller one has no significant
+ * digits.
+ */
 #define DELTA_MIN_RAD 1.0e-6f
 
-static int is_place(float x_m, float y_m)
+static int is_valid_place(float x_m, float y_m)
 {
     return rho_is_coordinate(x_m) && rho_is_coordinate(y_m);
 }
@@ -18,7 +21,7 @@ enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_
     if (!base) {
         return RHO_ERROR_NULL;
     }
-    if (!is_place(x_a_m, y_a_m) || !is_place(x_b_m, y_b_m)) {
+    if (!is_valid_place(x_a_m, y_a_m) || !is_valid_place(x_b_m, y_b_m)) {
         return RHO_ERROR_VALUE;
     }
     float dx_m = x_b_m - x_a_m, dy_m = y_b_m - y_a_m;
@@ -35,9 +38,9 @@ enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_
     return RHO_OK;
 }
 
-/* Angles from the base. */
-struct angles {
-    float a_rad, b_rad; /* beta, without sign */
+/* Angles of two bearings to the base, and the angle delta between the bearings. */
+struct base_angles {
+    float a_rad, b_rad; /* |beta_a| and |beta_b| */
     float delta_rad;
     int are_on_one_side;
 };
@@ -47,24 +50,27 @@ static float without_sign(float v)
     return v < 0.0f ? -v : v;
 }
 
-/* delta from the bearings themselves: where it is small, their difference is exact. */
-static struct angles angles_of(const struct rho_crossing_base *base, float bearing_a_rad,
-                               float bearing_b_rad)
+/*
+ * Angles of two bearings to the base. delta is the difference of the bearings themselves, which is
+ * exact where it is small.
+ */
+static struct base_angles crossing_angles(const struct rho_crossing_base *base, float bearing_a_rad,
+                                          float bearing_b_rad)
 {
     float a_rad = rho_angle_difference(bearing_a_rad, base->direction_rad);
     float b_rad = rho_angle_difference(bearing_b_rad, base->direction_rad);
     float turn_rad = rho_angle_difference(bearing_b_rad, bearing_a_rad);
-    return (struct angles){.a_rad = without_sign(a_rad),
-                           .b_rad = without_sign(b_rad),
-                           .delta_rad = a_rad + b_rad < 0.0f ? -turn_rad : turn_rad,
-                           .are_on_one_side = !(a_rad * b_rad < 0.0f)};
+    return (struct base_angles){.a_rad = without_sign(a_rad),
+                                .b_rad = without_sign(b_rad),
+                                .delta_rad = a_rad + b_rad < 0.0f ? -turn_rad : turn_rad,
+                                .are_on_one_side = !(a_rad * b_rad < 0.0f)};
 }
 
 /*
- * B sin(beta), as the one sensor's distance from the other's line of sight: no angle of the base to
- * round.
+ * B sin(beta), as the distance of one sensor from the other one's line of sight: the rounding of
+ * the base's direction does not enter.
  */
-static float distance_to_sight_m(const struct rho_crossing_base *base, float bearing_rad)
+static float sensor_to_ray_distance_m(const struct rho_crossing_base *base, float bearing_rad)
 {
     float dx_m = base->x_b_m - base->x_a_m, dy_m = base->y_b_m - base->y_a_m;
     return without_sign(dx_m * rho_sin(bearing_rad) - dy_m * rho_cos(bearing_rad));
@@ -73,13 +79,13 @@ static float distance_to_sight_m(const struct rho_crossing_base *base, float bea
 float rho_crossing_delta_rad(const struct rho_crossing_base *base, float bearing_a_rad,
                              float bearing_b_rad)
 {
-    struct angles angles = angles_of(base, bearing_a_rad, bearing_b_rad);
+    struct base_angles angles = crossing_angles(base, bearing_a_rad, bearing_b_rad);
     return angles.are_on_one_side ? angles.delta_rad : -RHO_PI;
 }
 
 /*
- * From the sensor that is nearer: its error of range, of one rounding of sin(delta), moves the
- * place less.
+ * Computes the place of a crossing from the nearer sensor: the rounding of sin(delta) is a relative
+ * error of the range, and moves the place less.
  */
 static void place_crossing(const struct rho_crossing_base *base, float bearing_a_rad,
                            float bearing_b_rad, struct rho_crossing *crossing)
@@ -95,16 +101,16 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
                                          float bearing_b_rad, float range_max_m,
                                          struct rho_crossing *crossing)
 {
-    struct angles angles = angles_of(base, bearing_a_rad, bearing_b_rad);
+    struct base_angles angles = crossing_angles(base, bearing_a_rad, bearing_b_rad);
     if (!angles.are_on_one_side) {
         return RHO_CROSSING_SIDES;
     }
-    if (!(angles.delta_rad > DELTA_MIN_RAD)) { /* also for NaN */
+    if (!(angles.delta_rad > DELTA_MIN_RAD)) { /* true for NaN, too */
         return RHO_CROSSING_APART;
     }
     float sine = rho_sin(angles.delta_rad);
-    float over_a_m = distance_to_sight_m(base, bearing_b_rad);
-    float over_b_m = distance_to_sight_m(base, bearing_a_rad);
+    float over_a_m = sensor_to_ray_distance_m(base, bearing_b_rad);
+    float over_b_m = sensor_to_ray_distance_m(base, bearing_a_rad);
     if (!(over_a_m <= range_max_m * sine && over_b_m <= range_max_m * sine)) {
         return RHO_CROSSING_RANGE;
     }
@@ -120,7 +126,7 @@ void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_
                              float covariance_m2[3])
 {
     float sine = rho_sin(crossing->delta_rad);
-    /* a's error moves the place along b's ray, and b's along a's */
+    /* a's bearing error moves the place along b's ray, and b's error along a's ray */
     float along_b_m = crossing->range_a_m * sigma_a_rad / sine;
     float along_a_m = crossing->range_b_m * sigma_b_rad / sine;
     float ax_m = along_a_m * rho_cos(bearing_a_rad), ay_m = along_a_m * rho_sin(bearing_a_rad);
@@ -130,7 +136,7 @@ void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_
     covariance_m2[2] = ay_m * ay_m + by_m * by_m;
 }
 
-/* Characters, not pointers: nothing to relocate. */
+/* Names as characters instead of pointers: the table needs no relocations. */
 static const char names[RHO_NUM_CROSSING_FATES][6] = {
     [RHO_CROSSING_MEETS] = "meets",
     [RHO_CROSSING_SIDES] = "sides",

@@ -59,7 +59,10 @@ int rho_measurement_is_valid(const struct rho_plot *plot, uint32_t measures)
     return !(measures & RHO_MEASURES_VELOCITY) || is_valid_velocity(plot, measures);
 }
 
-/* 0, or within its limits where the build has ambiguous range rates. */
+/*
+ * True for a span of range rates of 0 (not ambiguous), or one within its limits in a build with
+ * RHO_AMBIGUOUS_RANGE_RATES.
+ */
 static int is_ambiguity_span(float span_mps)
 {
     return rho_is_within(span_mps, 0.0f, 0.0f) ||
@@ -78,13 +81,13 @@ int rho_measurement_is_sensor(const struct rho_sensor *sensor)
 
 int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor)
 {
-    float bias_us = sensor->time_bias_s * 1e6f; /* RHO_LIMIT_BIAS_S: 32 bits hold it */
+    float bias_us = sensor->time_bias_s * 1e6f; /* 32 bits hold RHO_LIMIT_BIAS_S in microseconds */
     return (int32_t)(bias_us + (bias_us < 0.0f ? -0.5f : 0.5f));
 }
 
 /* ---- polar plots ----------------------------------------------------------------------------- */
 
-static int is_usable_polar(const struct rho_polar_plot *polar, uint32_t measures)
+static int is_valid_polar_plot(const struct rho_polar_plot *polar, uint32_t measures)
 {
     if (!(polar->range_m > 0.0f && polar->range_m <= RANGE_MAX_M) ||
         !rho_is_within(polar->azimuth_rad, -RHO_PI, RHO_PI) || !is_sigma(polar->sigma_range_m) ||
@@ -100,18 +103,18 @@ static int is_usable_polar(const struct rho_polar_plot *polar, uint32_t measures
            (is_speed(polar->range_rate_mps) && is_sigma(polar->sigma_range_rate_mps));
 }
 
-/* A polar plot without its sensor's biases, and the position of the sensor. */
-struct sighting {
+/* A polar plot from which the sensor's biases are subtracted, and the sensor's position. */
+struct unbiased_polar {
     float range_m, azimuth_rad, elevation_rad;
-    float variance_azimuth, variance_elevation; /* rad^2 */
+    float variance_azimuth, variance_elevation; /* variances of the angles, rad^2 */
     int64_t offset_us;
     float x_m, y_m, z_m;
 };
 
-static struct sighting remove_biases(const struct rho_polar_plot *polar, uint32_t measures,
-                                     const struct rho_sensor *sensor)
+static struct unbiased_polar remove_biases(const struct rho_polar_plot *polar, uint32_t measures,
+                                           const struct rho_sensor *sensor)
 {
-    struct sighting seen = {
+    struct unbiased_polar seen = {
         .range_m = polar->range_m,
         .azimuth_rad = polar->azimuth_rad,
         .variance_azimuth = polar->sigma_azimuth_rad * polar->sigma_azimuth_rad,
@@ -132,13 +135,13 @@ static struct sighting remove_biases(const struct rho_polar_plot *polar, uint32_
     return seen;
 }
 
-static float root_sum(float a, float b)
+static float root_sum_squares(float a, float b)
 {
     return rho_sqrt(a * a + b * b);
 }
 
-/* Limits a derived sigma: near the sensor the metres across vanish. */
-static float sigma_within_limits(float sigma_m)
+/* Limits a sigma that was converted from an angle to metres: near the sensor it goes to 0. */
+static float clamp_sigma_m(float sigma_m)
 {
     if (!(sigma_m > RHO_LIMIT_SIGMA_MIN)) {
         return RHO_LIMIT_SIGMA_MIN;
@@ -146,13 +149,15 @@ static float sigma_within_limits(float sigma_m)
     return sigma_m < RHO_LIMIT_SIGMA_MAX ? sigma_m : RHO_LIMIT_SIGMA_MAX;
 }
 
-static void convert_polar(const struct sighting *seen, const struct rho_polar_plot *polar,
-                          uint32_t measures, struct rho_plot *plot)
+static void unbiased_polar_to_plot(const struct unbiased_polar *seen,
+                                   const struct rho_polar_plot *polar, uint32_t measures,
+                                   struct rho_plot *plot)
 {
     int z = (measures & RHO_MEASURES_Z) != 0;
     float cos_elevation = rho_cos(seen->elevation_rad);
     /*
-     * e^(sigma^2 / 2) to the second order: exact to float32 for sigmas up to 0.1 rad, 3e-4 at 0.5
+     * gains e^(sigma^2 / 2) against the bias of the conversion, to the second order: exact to
+     * float32 for sigmas up to 0.1 rad, to 3e-4 at 0.5 rad
      */
     float half_azimuth = 0.5f * seen->variance_azimuth,
           half_elevation = 0.5f * seen->variance_elevation;
@@ -160,23 +165,23 @@ static void convert_polar(const struct sighting *seen, const struct rho_polar_pl
     float elevation_gain = 1.0f + half_elevation * (1.0f + 0.5f * half_elevation);
     float level_m = seen->range_m * elevation_gain * cos_elevation;
     float ground_m = level_m * azimuth_gain;
-    float spread_m = 0.70710678f * root_sum(level_m * seen->variance_azimuth,
-                                            seen->range_m * seen->variance_elevation);
+    float spread_m = 0.70710678f * root_sum_squares(level_m * seen->variance_azimuth,
+                                                    seen->range_m * seen->variance_elevation);
 
     *plot = (struct rho_plot){
         .offset_us = (int32_t)seen->offset_us,
         .x_m = seen->x_m + ground_m * rho_cos(seen->azimuth_rad),
         .y_m = seen->y_m + ground_m * rho_sin(seen->azimuth_rad),
         .range_rate_mps = (measures & RHO_MEASURES_RANGE_RATE) ? polar->range_rate_mps : 0.0f,
-        .sigma_range_m = sigma_within_limits(root_sum(polar->sigma_range_m, spread_m)),
-        .sigma_cross_m = sigma_within_limits(level_m * polar->sigma_azimuth_rad),
+        .sigma_range_m = clamp_sigma_m(root_sum_squares(polar->sigma_range_m, spread_m)),
+        .sigma_cross_m = clamp_sigma_m(level_m * polar->sigma_azimuth_rad),
         .sigma_range_rate_mps =
             (measures & RHO_MEASURES_RANGE_RATE) ? polar->sigma_range_rate_mps : 0.0f,
         .snr_db = polar->snr_db,
     };
     if (z) {
         plot->z_m = seen->z_m + seen->range_m * elevation_gain * rho_sin(seen->elevation_rad);
-        plot->sigma_up_m = sigma_within_limits(seen->range_m * polar->sigma_elevation_rad);
+        plot->sigma_up_m = clamp_sigma_m(seen->range_m * polar->sigma_elevation_rad);
     }
 }
 
@@ -187,14 +192,14 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
     if (!polar || !plot) {
         return RHO_ERROR_NULL;
     }
-    if (!is_usable_polar(polar, measures) || (sensor && !rho_measurement_is_sensor(sensor))) {
+    if (!is_valid_polar_plot(polar, measures) || (sensor && !rho_measurement_is_sensor(sensor))) {
         return RHO_ERROR_VALUE;
     }
-    struct sighting seen = remove_biases(polar, measures, sensor);
+    struct unbiased_polar seen = remove_biases(polar, measures, sensor);
     if (!(seen.range_m > 0.0f && seen.range_m <= RANGE_MAX_M) || !is_offset(seen.offset_us)) {
         return RHO_ERROR_VALUE;
     }
-    convert_polar(&seen, polar, measures, &converted);
+    unbiased_polar_to_plot(&seen, polar, measures, &converted);
     if (!rho_measurement_is_valid(&converted, measures & ~RHO_MEASURES_VELOCITY)) {
         return RHO_ERROR_VALUE;
     }
@@ -204,10 +209,13 @@ enum rho_status rho_measurement_from_polar(const struct rho_polar_plot *polar, u
 
 /* ---- the frame of the noise ------------------------------------------------------------------ */
 
-/* Without a line of sight: one variance for all axes. */
-static void open_without_line_of_sight(const struct rho_plot *plot,
-                                       const struct rho_sigma_factors *factors,
-                                       struct rho_measurement *out)
+/*
+ * Fills a measurement of a plot at the sensor's position, which has no line of sight: the largest
+ * variance on all axes.
+ */
+static void fill_isotropic_noise(const struct rho_plot *plot,
+                                 const struct rho_sigma_factors *factors,
+                                 struct rho_measurement *out)
 {
     float sigma_m = rho_plot_sigma_m(plot);
     if (out->has_z) {
@@ -220,9 +228,9 @@ static void open_without_line_of_sight(const struct rho_plot *plot,
     out->is_isotropic = 1;
 }
 
-static void open_elevation(float ground_m, float dz_m, struct rho_measurement *out)
+static void fill_elevation(float ground_m, float dz_m, struct rho_measurement *out)
 {
-    float range_m = out->has_z ? root_sum(ground_m, dz_m) : ground_m;
+    float range_m = out->has_z ? root_sum_squares(ground_m, dz_m) : ground_m;
     out->cos_elevation = out->has_z ? ground_m / range_m : 1.0f;
     out->sin_elevation = out->has_z ? dz_m / range_m : 0.0f;
 }
@@ -237,8 +245,11 @@ static float scaled_variance(float sigma_m, float factor)
     return sigma_m * sigma_m * (factor * factor);
 }
 
-/* No factor is learned for heights: they take the part on which range and azimuth agree. */
-static float height_factor(const struct rho_sigma_factors *factors)
+/*
+ * Sigma factor of heights, for which none is learned: the factor of range or azimuth that is nearer
+ * to 1 where both are on one side of 1, else 1.
+ */
+static float height_sigma_factor(const struct rho_sigma_factors *factors)
 {
     const float least = factors->range < factors->cross ? factors->range : factors->cross;
     const float most = rho_larger(factors->range, factors->cross);
@@ -275,27 +286,27 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
     float dx_m = plot->x_m - (sensor ? sensor->x_m : 0.0f);
     float dy_m = plot->y_m - (sensor ? sensor->y_m : 0.0f);
     float dz_m = plot->z_m - (sensor ? sensor->z_m : 0.0f);
-    float ground_m = root_sum(dx_m, dy_m);
+    float ground_m = root_sum_squares(dx_m, dy_m);
     const struct rho_sigma_factors factors = rho_measurement_sigma_factors(sensor);
     out->has_z = (measures & RHO_MEASURES_Z) != 0;
     out->place_m[0] = plot->x_m;
     out->place_m[1] = plot->y_m;
     out->place_m[2] = out->has_z ? plot->z_m : 0.0f;
     if (!(ground_m >= RANGE_LEAST_M)) {
-        if (!out->has_z || !(root_sum(ground_m, dz_m) >= RANGE_LEAST_M)) {
-            open_without_line_of_sight(plot, &factors, out);
+        if (!out->has_z || !(root_sum_squares(ground_m, dz_m) >= RANGE_LEAST_M)) {
+            fill_isotropic_noise(plot, &factors, out);
             return;
         }
-        ground_m = dx_m = RHO_LIMIT_SIGMA_MIN; /* overhead: any azimuth will do */
+        ground_m = dx_m = RHO_LIMIT_SIGMA_MIN; /* plot overhead: any azimuth will do */
         dy_m = 0.0f;
     }
     out->cos_azimuth = dx_m / ground_m;
     out->sin_azimuth = dy_m / ground_m;
-    open_elevation(ground_m, dz_m, out);
+    fill_elevation(ground_m, dz_m, out);
     out->variance_m2[0] = scaled_variance(plot->sigma_range_m, factors.range);
     out->variance_m2[1] = scaled_variance(plot->sigma_cross_m, factors.cross);
     out->variance_m2[2] =
-        out->has_z ? scaled_variance(plot->sigma_up_m, height_factor(&factors)) : 0.0f;
+        out->has_z ? scaled_variance(plot->sigma_up_m, height_sigma_factor(&factors)) : 0.0f;
     out->is_isotropic = are_equal(out->variance_m2[0], out->variance_m2[1]) &&
                         (!out->has_z || are_equal(out->variance_m2[0], out->variance_m2[2]));
 }
@@ -311,10 +322,12 @@ void rho_measurement_covariance(const struct rho_measurement *measurement, float
         covariance[1] = covariance[3] = covariance[4] = 0.0f;
         return;
     }
-    /* level: along the ground; slant: between ground and height */
+    /*
+     * level: variance of the range along the ground; slant: covariance of that range and the height
+     */
     float level = ce * ce * variance[0] + se * se * variance[2];
     float slant = ce * se * (variance[0] - variance[2]);
-    /* rounding of the thinnest ellipses */
+    /* allowance for rounding: very thin ellipses would not be positive definite */
     float allowance = rho_larger(level, variance[1]) * ROUNDING_ALLOWANCE;
     covariance[0] = ca * ca * level + sa * sa * variance[1] + allowance;
     covariance[1] = ca * sa * (level - variance[1]);
@@ -352,10 +365,12 @@ int rho_measurement_range_rate(const float state[6], const struct rho_sensor *se
 
 /* ---- ambiguous range rates ------------------------------------------------------------------- */
 
-#define INNOVATIONS_MAX (3 + 3 + 1) /* place, velocity, range rate */
-#define TURNS_MAX 1.0e6f            /* what is farther off is no range rate */
+/* largest innovation: three of place, three of velocity, one range rate */
+#define INNOVATIONS_MAX (3 + 3 + 1)
+/* multiples of the span beyond which a difference is not unfolded */
+#define TURNS_MAX 1.0e6f
 
-/* Standard deviations of the expectation within half the span. */
+/* Standard deviations of the expected range rate that half the span must hold. */
 #define CLEAR_SIGMAS 3.0f
 
 float rho_measurement_range_rate_error_mps(const struct rho_sensor *sensor, float measured_mps,
@@ -382,8 +397,11 @@ int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor, float v
     return CLEAR_SIGMAS * CLEAR_SIGMAS * variance <= half_mps * half_mps;
 }
 
-/* The lower triangle's Cholesky factor, in place, with less stack than rho_linalg_cholesky. */
-static int factorise(int num, float *a)
+/*
+ * Cholesky factor of a packed lower triangle, in place, with less stack than rho_linalg_cholesky.
+ * Returns 0 where the matrix is not positive definite.
+ */
+static int cholesky_in_place(int num, float *a)
 {
     for (int i = 0; i < num; i++) {
         for (int j = 0; j <= i; j++) {
@@ -412,7 +430,7 @@ int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
     for (int k = 0; k < RHO_TRIANGLE(num); k++) {
         factor[k] = covariance[k];
     }
-    if (!factorise(num, factor)) {
+    if (!cholesky_in_place(num, factor)) {
         return 0;
     }
     for (int i = 0; i < last; i++) {
@@ -439,7 +457,7 @@ float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_m
     return rho_log(2.0f * v_max_mps / sensor->range_rate_span_mps);
 }
 
-/* ---- coverage -------------------------------------------------------------------------------- */
+/* ---- bearings and coverage ------------------------------------------------------------------- */
 
 int rho_measurement_bearing(const float state[6], float x_m, float y_m, float bearing_rad,
                             float row[6], float *off_m, float *range_m)
@@ -471,7 +489,7 @@ int rho_measurement_covers(const struct rho_sensor *sensor, float sector_from_ra
     }
     if (rho_angle_is_circle(sector_from_rad, sector_to_rad) &&
         (!sensor || rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad))) {
-        return range2_m2 <= FLT_MAX; /* most radars: wherever it is, the arctangent is not needed */
+        return range2_m2 <= FLT_MAX; /* most radars look all round: no arctangent is needed */
     }
     float azimuth_rad = rho_atan2(dy_m, dx_m);
     return rho_angle_in_sector(azimuth_rad, sector_from_rad, sector_to_rad) &&

@@ -19,7 +19,7 @@ struct rho_line {
     float theta_rad;
 };
 
-/* The same direction in -pi <= angle < pi. */
+/* Wraps an angle into -pi <= angle < pi. */
 float rho_angle_wrap(float angle_rad);
 
 /* a - b by the shorter way, in -pi <= difference < pi. */
@@ -35,20 +35,21 @@ static inline int rho_angle_is_circle(float from_rad, float to_rad)
 float rho_angle_sector_width(float from_rad, float to_rad);
 
 /*
- * The end of a sector that the next sector continues: the nearer one, within gap_max_rad; both,
- * or-ed, where the next sector closes the circle. 0 where the gap is larger, the sectors overlap,
- * or one is the whole circle. Ends within 1 mrad, or a quarter of the narrower sector, count as
- * equal.
+ * The end of a sector that the next sector continues: the nearer one, if the gap is gap_max_rad or
+ * less; both ends, or-ed, where the next sector closes the circle. 0 where the gap is larger, the
+ * sectors overlap, or one of them is the whole circle. Ends within 1 mrad, or a quarter of the
+ * narrower sector, count as equal.
  */
-#define RHO_ANGLE_CONTINUES_LEFT 1u  /* counter-clockwise, from its end `to` */
-#define RHO_ANGLE_CONTINUES_RIGHT 2u /* clockwise, from its end `from` */
+/* the next sector follows counter-clockwise, from the end `to` */
+#define RHO_ANGLE_CONTINUES_LEFT 1u
+#define RHO_ANGLE_CONTINUES_RIGHT 2u /* the next sector follows clockwise, from the end `from` */
 unsigned rho_angle_sector_continues(float from_rad, float to_rad, float next_from_rad,
                                     float next_to_rad, float gap_max_rad);
 
 /*
  * True (1) where the direction lies in the sector that runs counter-clockwise from .. to, ends
- * included; equal ends are the whole circle. All to 1e-6 rad, so that -pi .. pi and 0 .. 2 pi are
- * whole too. False for NaN.
+ * included; equal ends are the whole circle. The tolerance is 1e-6 rad, so that -pi .. pi and 0 ..
+ * 2 pi are the whole circle, too. False for NaN.
  */
 int rho_angle_in_sector(float angle_rad, float from_rad, float to_rad);
 

@@ -2,11 +2,11 @@
 /*
  * approx: elementary functions in float32.
  *
- * The library has its own functions so that every target decides alike: libm differs between newlib
- * and glibc, and newlib's versions need errno. Only +, -, *, / and the square root of IEEE
- * binary32, and integer operations: the same bits on every machine. No state, no loops over data,
- * constant cost. Errors below are against exact arithmetic over the whole stated range, checked by
- * tests/unit/base/test_approx.c. NaN in gives NaN out. Stack: 32 bytes at most.
+ * The library has its own functions so that tracks are the same on every machine: libm differs
+ * between newlib and glibc, and newlib's versions need errno. Only +, -, *, / and the square root
+ * of IEEE binary32, and integer operations: the same bits on every machine. No state, no loops over
+ * data, constant cost. Errors below are against exact arithmetic over the whole stated range,
+ * checked by tests/unit/base/test_approx.c. NaN in gives NaN out. Stack: 32 bytes at most.
  */
 #ifndef RHOTRACK_APPROX_H
 #define RHOTRACK_APPROX_H
@@ -22,8 +22,8 @@ extern "C" {
 #define RHO_HALF_PI 1.57079637f
 
 /*
- * The bits of a float, and the float of these bits. A union: where there is no standard library to
- * know about (-ffreestanding), a memcpy of four bytes would be called. No stack.
+ * Reads a float's bits, and makes a float of bits. By a union: with -ffreestanding a memcpy of four
+ * bytes would be a call. No stack.
  */
 union rho_binary32 {
     float v;
@@ -83,15 +83,15 @@ float rho_log(float v);
 float rho_log_one_plus(float v);
 
 /*
- * Square root of v >= 0, correctly rounded (the bits of IEEE 754). v < 0: NaN. +infinity:
- * +infinity. The processor's own instruction where gcc or clang know one, else some 40
- * instructions.
+ * Square root of v >= 0, correctly rounded as IEEE 754 demands. v < 0: NaN. +infinity: +infinity.
+ * The processor's own instruction where gcc or clang know one, else some 40 instructions.
  */
 float rho_sqrt(float v);
 
 /*
  * 1 / sqrt(v) of a normal v, FLT_MIN .. FLT_MAX: relative error <= 3e-7. Other values give no
- * sensible result. Some 20 instructions: for densities, where rho_sqrt would be a waste.
+ * sensible result. Some 20 instructions: for probability densities, which do not need rho_sqrt's
+ * last digits.
  */
 float rho_inverse_sqrt(float v);
 

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * body_filter: the extent of a target from the plots that its scatterers give: how far they lie
- * from the reference point, along the body and across it.
+ * body_filter: estimates a target's length and width from plots of its scatterers: from their
+ * distances to the reference point, along the body and across it.
  *
- * A plot that a target has given at a place of its body lies off by the variance
+ * The distance of a plot of some place of the body has the variance
  *
  *     L^2 / 12 + R        along, and W^2 / 12 + R across,
  *
- * R its own noise, for scatterers that are spread over a rectangle of length L and width W. The
- * means of squares less R are smoothed over some 500 plots without noise; the length begins with
- * half of the longest body, which counts next to nothing, the width with a third of that, known to
- * 30 %. They belong to a frame that turns with the body. Across, a look's plots lie along a line
- * where the heading is off: its slope against the scatterers' own, which is learned, is taken off
- * as far as the heading's sigma says, and with it what it takes off the width.
+ * where R is the plot's noise, for scatterers that are spread over a rectangle of length L and
+ * width W. The means of squares less R are smoothed over some 500 plots without noise. The prior
+ * length is half of the longest body, with next to no weight; the prior width a third of that,
+ * known to 30 %. Both belong to a frame that turns with the body. If the heading is wrong, a look's
+ * plots lie along a sloping line. The part of the slope that the heading's sigma explains, beyond
+ * the learned slope of the scatterers themselves, is subtracted, and the width is corrected for it.
  *
- * Scatterers stay on the body: N of them, each anywhere in its part, tell L with a sigma of
+ * Scatterers stay on the body: N of them, each anywhere in its part, determine L with a sigma of
  * L / N^1.5 and the centre with L / (N^1.5 root 12), however long they are seen.
  *
  * Stack: 104 bytes at most.
@@ -30,7 +30,7 @@
 extern "C" {
 #endif
 
-/* No extent is known: prior_m2 the variance of a place on it, on each axis. */
+/* Starts a body whose extent is unknown; prior_m2: variance of a place on it, on each axis. */
 void rho_body_start(struct rho_body_filter *body, uint32_t track_id, float prior_m2);
 
 /*
@@ -40,33 +40,44 @@ void rho_body_start(struct rho_body_filter *body, uint32_t track_id, float prior
 void rho_body_turn(struct rho_body_filter *body, const float velocity_mps[2],
                    const float covariance[3]);
 
-/* A covariance of x and y in the directions of the body: along, cross, across. Constant cost. */
+/*
+ * Rotates a covariance of x and y into the body's axes: along, cross term, across. Constant cost.
+ */
 void rho_body_to_axes(const struct rho_body_filter *body, const float xx_yx_yy[3], float axes[3]);
 
-/* The variance along with what it may be more, as long as few plots have told it. */
+/*
+ * Upper bound of the variance along the body, for gates: the estimate, and a share of the prior
+ * that falls with the number of plots.
+ */
 float rho_body_most_along_m2(const struct rho_body_filter *body);
 
-/* Variances of a place on the body in x and y: xx, yx, yy. Constant cost. */
+/* Covariance of a random place on the body, in x and y: xx, yx, yy. Constant cost. */
 void rho_body_spread(const struct rho_body_filter *body, float xx_yx_yy[3]);
 
-/* The plots of one look. */
+/* Sums over the plots of one body in one look. */
 struct rho_body_look {
     unsigned num_plots;
-    float along_m2, across_m2;             /* sums of squared distances from the reference point */
-    float cross_m2;                        /* ... and of their products */
+    /* sums of the plots' squared distances from the reference point, along the body and across */
+    float along_m2, across_m2;
+    /* sum of products of the plots' distances along and across */
+    float cross_m2;
     float noise_along_m2, noise_across_m2; /* sums of the plots' own variances */
 };
 
 /*
- * The mean of n plots, of the most that were ever seen at once, is off by this share of the
- * variance that the mean of n places anywhere on the body has. Constant cost.
+ * The mean of n plots has this share of the variance that the mean of n random places on the body
+ * would have: it falls with n as a share of the most plots that a look ever had, as scatterers stay
+ * the same. Constant cost.
  */
 float rho_body_missed_share(const struct rho_body_filter *body, unsigned n);
 
-/* After the reference point was updated with these plots. Constant cost. */
+/*
+ * Updates the extent by the plots of one look, after the reference point was updated with them.
+ * Constant cost.
+ */
 void rho_body_add(struct rho_body_filter *body, const struct rho_body_look *look);
 
-/* What is known of the extent. Constant cost. */
+/* Fills *shape with length, width, heading and their sigmas. Constant cost. */
 void rho_body_shape(const struct rho_body_filter *body, struct rho_body *shape);
 
 #ifdef __cplusplus

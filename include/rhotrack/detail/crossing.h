@@ -37,15 +37,16 @@ extern "C" {
 
 struct rho_crossing_base {
     float x_a_m, y_a_m, x_b_m, y_b_m;
-    float length_m, direction_rad; /* from a to b */
+    float length_m, direction_rad; /* length and direction of the base, from a to b */
 };
 
-/* The outcome for two bearings. */
+/* Whether two bearings cross, or why not. */
 enum rho_crossing_fate {
     RHO_CROSSING_MEETS = 0,
-    RHO_CROSSING_SIDES, /* they point to different sides of the base */
-    RHO_CROSSING_APART, /* delta <= 0: parallel, or they would meet behind the sensors */
-    RHO_CROSSING_RANGE, /* they meet beyond the largest range of either sensor */
+    RHO_CROSSING_SIDES, /* the bearings point to different sides of the base */
+    /* delta <= 0: the bearings are parallel, or would cross behind the sensors */
+    RHO_CROSSING_APART,
+    RHO_CROSSING_RANGE, /* the bearings cross beyond the largest range of a sensor */
     RHO_NUM_CROSSING_FATES
 };
 
@@ -56,9 +57,9 @@ struct rho_crossing {
 };
 
 /*
- * Errors: NULL, VALUE (a place not finite or beyond RHO_LIMIT_POSITION_M, the places nearer to each
- * other than RHO_CROSSING_BASE_MIN_M); *base is unchanged. Cost: an arctangent, a square root.
- * Stack: 56 bytes.
+ * Computes the base from the positions of two sensors. Errors: NULL, VALUE (a place not finite or
+ * beyond RHO_LIMIT_POSITION_M, the places nearer to each other than RHO_CROSSING_BASE_MIN_M); *base
+ * is unchanged. Cost: an arctangent, a square root. Stack: 56 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_crossing_set_base(struct rho_crossing_base *base, float x_a_m,
                                                      float y_a_m, float x_b_m, float y_b_m);
@@ -67,7 +68,8 @@ RHO_MUST_CHECK enum rho_status rho_crossing_set_base(struct rho_crossing_base *b
  * The crossing of a bearing from a (bearing_a_rad) and one from b. Both finite; range_max_m > 0.
  * *crossing is filled only with RHO_CROSSING_MEETS. A bearing that is not finite:
  * RHO_CROSSING_APART. Within 80 km, and with a delta of 0.02 to pi - 0.02 rad, the place is within
- * a metre of exact arithmetic; nearer to pi it is between the sensors, which point at each other.
+ * a metre of exact arithmetic; nearer to pi the crossing is between the sensors, which point at
+ * each other.
  * Cost: three sines and cosines, two divisions. Stack: 110 bytes.
  */
 enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, float bearing_a_rad,
@@ -75,8 +77,8 @@ enum rho_crossing_fate rho_crossing_find(const struct rho_crossing_base *base, f
                                          struct rho_crossing *crossing);
 
 /*
- * The angle delta = |beta_b| - |beta_a| alone; -pi where the bearings look to different sides.
- * Constant cost.
+ * The angle delta = |beta_b| - |beta_a| between two bearings, without their crossing; -pi where the
+ * bearings point to different sides of the base. Constant cost.
  */
 float rho_crossing_delta_rad(const struct rho_crossing_base *base, float bearing_a_rad,
                              float bearing_b_rad);
@@ -90,7 +92,7 @@ void rho_crossing_covariance(const struct rho_crossing *crossing, float bearing_
                              float bearing_b_rad, float sigma_a_rad, float sigma_b_rad,
                              float covariance_m2[3]);
 
-/* Name of a fate in lower case ("meets", ...); "unknown" for any other value. */
+/* Name of a crossing's fate in lower case ("meets", ...); "unknown" for any other value. */
 const char *rho_crossing_fate_name(enum rho_crossing_fate fate);
 
 #ifdef __cplusplus

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hypotheses: keeps open for a few scans which plots were a track's (multiple-hypothesis tracking
- * of one track).
+ * hypotheses: multiple-hypothesis tracking of one track: alternative histories of the plots that
+ * belong to it, kept open for a few scans.
  *
- * A hypothesis is one history of assignments: an imm filter that took those plots, and a weight, ln
- * of the likelihood that they were the target's and all others clutter. At each scan every
- * hypothesis has children: one for each of its best plots, and one for a miss. The heaviest go on;
- * of those with the same assignments in the last RHO_HYPOTHESES_MEMORY scans only one. So a clutter
- * plot that was taken for the target's is undone when the next plots do not follow it.
+ * A hypothesis is one history of assignments: an IMM filter that was updated with its plots, and a
+ * weight, ln of the likelihood that these were the target's and all others clutter. At each scan
+ * every hypothesis has children: one for each of its best plots, and one for a miss. The heaviest
+ * children replace their parents; of children with the same assignments in the last
+ * RHO_HYPOTHESES_MEMORY scans only the heaviest one is kept. So an assignment of a clutter plot is
+ * undone when the next plots do not follow it.
  *
- *     scan n            n+1              A steady track in thin clutter has one hypothesis, one that
- *     h1 ---- plot 3 ---- plot 1   w  0  meets clutter while it turns RHO_HYPOTHESES_OF_TRACK.
+ *     scan n            n+1              A steady track in thin clutter has one hypothesis, one
+ *     h1 ---- plot 3 ---- plot 1   w  0  that meets clutter while it turns RHO_HYPOTHESES_OF_TRACK.
  *       \---- miss ------ plot 1   w -4  All tracks share one pool. Where it is empty, the tracks
- *        \--- plot 7 ---- miss     w -9  with the most hypotheses lose the least likely ones, and
- *                                        a counter moves.
+ *        \--- plot 7 ---- miss     w -9  with the most hypotheses lose the least likely ones, which
+ *                                        a counter counts.
  *
  * Tracks have slots in the pool. One scan is: rho_hypotheses_predict, rho_hypotheses_begin_scan,
  * rho_hypotheses_score_plot for each plot near the track, rho_hypotheses_commit. Between the last
@@ -40,28 +41,33 @@
 extern "C" {
 #endif
 
-#define RHO_HYPOTHESES_SLOTS                                                                       \
-    (RHO_MAX_TRACKS + 1) /* one more, for a track that is yet to get its place */
+#define RHO_HYPOTHESES_SLOTS (RHO_MAX_TRACKS + 1) /* one more, for a track that is being started */
 #define RHO_HYPOTHESES_OF_TRACK 8
-#define RHO_HYPOTHESES_CHILDREN 3          /* plots of a scan that one hypothesis goes on with */
-#define RHO_HYPOTHESES_MEMORY 3            /* scans in which two hypotheses must differ */
-#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f) /* beside the best one; less is given up */
+/* most plots of a scan for which one hypothesis has children */
+#define RHO_HYPOTHESES_CHILDREN 3
+/* number of last scans in whose plots two hypotheses of a track must differ */
+#define RHO_HYPOTHESES_MEMORY 3
+/* least weight relative to the best hypothesis, nat; lighter ones are removed */
+#define RHO_HYPOTHESES_WEIGHT_MIN (-20.0f)
 #define RHO_HYPOTHESES_MISS (-1)
 
-/* A plot of the scan, for one hypothesis. */
+/* A plot of the scan in the gate of one hypothesis. */
 struct rho_hypotheses_candidate {
     float gain_nat;
-    float probability; /* of a manoeuvre, if it is the target's */
+    float probability; /* probability of a manoeuvre, if the plot is the target's */
     int16_t row;
 };
 
 struct rho_hypothesis {
     struct rho_imm imm;
-    int64_t time_us;                      /* of the filter: a scan's, or the last plot's own */
-    float weight_nat;                     /* 0: the best of its track */
-    float share;                          /* e^weight */
-    int16_t picks[RHO_HYPOTHESES_MEMORY]; /* rows of the last scans' plots, the newest last */
-    struct rho_hypotheses_candidate candidates[RHO_HYPOTHESES_CHILDREN]; /* the best one first */
+    int64_t time_us; /* time of the filter: a scan's, or the last plot's own */
+    /* weight relative to the track's best hypothesis, whose weight is 0 */
+    float weight_nat;
+    float share; /* share in the mean over hypotheses: e^weight, not normalised */
+    /* rows of the last scans' plots, or RHO_HYPOTHESES_MISS; the newest last */
+    int16_t picks[RHO_HYPOTHESES_MEMORY];
+    /* candidates, the best one first */
+    struct rho_hypotheses_candidate candidates[RHO_HYPOTHESES_CHILDREN];
     uint8_t num_candidates;
 };
 
@@ -71,74 +77,81 @@ struct rho_hypotheses_child {
     uint8_t parent, candidate;
 };
 
-/* The pool. */
+/* The pool of all tracks' hypotheses. */
 struct rho_hypotheses {
     uint32_t magic;
-    /* numerically impossible: the hypothesis took a miss instead; saturates */
+    /* updates that were numerically impossible, and became misses; saturates */
     uint32_t updates_refused;
-    uint32_t hypotheses_cut; /* given up for want of room; saturates */
+    uint32_t hypotheses_cut; /* hypotheses removed because the pool was full; saturates */
     uint16_t num_free;
     struct rho_imm_model model;
-    struct rho_imm_step step;             /* of the last interval: most tracks have the same one */
-    uint8_t num_of[RHO_HYPOTHESES_SLOTS]; /* hypotheses of a slot; 0: free */
-    uint16_t node_of[RHO_HYPOTHESES_SLOTS][RHO_HYPOTHESES_OF_TRACK]; /* the best first */
+    /* transition of the last interval, kept as most tracks have the same interval */
+    struct rho_imm_step step;
+    uint8_t num_of[RHO_HYPOTHESES_SLOTS]; /* number of hypotheses of a slot; 0: the slot is free */
+    /* nodes of a slot's hypotheses, the best first */
+    uint16_t node_of[RHO_HYPOTHESES_SLOTS][RHO_HYPOTHESES_OF_TRACK];
     uint16_t spare[RHO_MAX_HYPOTHESES];
-    struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK]; /* of a scan: the best first */
+    /* children of one slot's hypotheses in a scan, the best first */
+    struct rho_hypotheses_child children[RHO_HYPOTHESES_OF_TRACK];
     struct rho_imm scratch;
     /*
-     * of the slot that is looked at: for plots of this isotropic noise; or for those with range
-     * rates
+     * prepared for the hypotheses of slot gate_slot: gates for plots of isotropic noise
+     * gate_variance_m2, or predicted range rates
      */
     union {
         struct rho_imm_gate gates[RHO_HYPOTHESES_OF_TRACK];
         struct rho_imm_rates rates[RHO_HYPOTHESES_OF_TRACK];
     } opened;
-    float gate_variance_m2; /* 0: rates */
+    float gate_variance_m2; /* noise variance of the gates; 0: range rates are prepared */
     uint16_t gate_slot;
     uint8_t gate_has_z, gate_is_usable;
     struct rho_hypothesis nodes[RHO_MAX_HYPOTHESES];
 };
 
-/* How dense clutter is, in each of the dimensions that may count: ln. */
+/* Density of clutter, as natural logarithms, for each dimension that plots may have. */
 struct rho_hypotheses_clutter {
-    float log_per_m2;         /* of the plane */
-    float log_per_m;          /* of height */
-    float log_per_mps;        /* of each velocity */
-    float log_per_range_rate; /* m/s */
+    float log_per_m2;         /* ln of the density in x and y */
+    float log_per_m;          /* ln of the density in height */
+    float log_per_mps;        /* ln of the density in each velocity component */
+    float log_per_range_rate; /* ln of the density in range rate, per m/s */
 };
 
-/* Plots outside of the box need not be scored. It grows with a plot's sigma and own time. */
+/*
+ * Box that holds the gates of all hypotheses of a track: plots outside of it need not be scored. A
+ * margin for a plot's sigma and own time is added.
+ */
 struct rho_hypotheses_box {
     float x_min_m, x_max_m, y_min_m, y_max_m;
-    float z_min_m, z_max_m; /* of tracks with a height */
+    float z_min_m, z_max_m; /* limits of z, for tracks with a height */
     /*
-     * of all hypotheses, with their uncertainty; below 0 until a plot with a time of its own asks
-     * for them
+     * largest speed and acceleration of all hypotheses, with their uncertainty; below 0 until a
+     * plot with an own time needs them
      */
     float speed_max_mps, accel_max_mps2;
-    float sigma_factor; /* of the plots' sigmas, as learned of their sensor */
+    float sigma_factor; /* factor of the plots' sigmas, as learned for their sensor */
 };
 
-/* A scan that a track commits itself to. */
+/* A scan whose plots extend a track's hypotheses. */
 struct rho_hypotheses_scan {
     int64_t time_us;
     uint32_t measures;
     const struct rho_plot *plots;
-    const struct rho_sensor *sensor; /* NULL: at the origin */
-    float log_miss;                  /* ln(1 - pd); 0 where the sensor did not look */
-    /* where it looked, and is blind at some range rates; NULL: at none */
+    const struct rho_sensor *sensor; /* sensor of the scan; NULL: one at the origin */
+    /* ln(1 - pd), the weight of a miss; 0 where the sensor did not look */
+    float log_miss;
+    /* the look of a sensor that is blind at some range rates; NULL: at none */
     const struct rho_notch_look *look;
     /*
-     * plots of others: row of plots to track, or -1 for no track's; own is this track. NULL: all
-     * are free
+     * track that claims each row of plots, or -1: none; own is this track. NULL: all plots are free
      */
     const int16_t *claims;
     int16_t own;
 };
 
 struct rho_hypotheses_outcome {
-    int16_t row;    /* of the best hypothesis' plot; RHO_HYPOTHESES_MISS: none */
-    float gain_nat; /* ln of the scan's likelihood with this track's target, over clutter alone */
+    int16_t row; /* row of the best hypothesis' plot; RHO_HYPOTHESES_MISS: none */
+    /* ln of the scan's likelihood with the track's target, over that of clutter alone */
+    float gain_nat;
 };
 
 struct rho_hypotheses_estimate {
@@ -147,33 +160,40 @@ struct rho_hypotheses_estimate {
     float maneuver_probability;
 };
 
-/* Prepares an empty pool; the model is copied. Errors: NULL, SIZE, CONFIG. Cost: clears the object.
- * Stack: 240 bytes. */
+/*
+ * Initialises an empty pool; the model is copied. Errors: NULL, SIZE, CONFIG. Cost: clears the
+ * object. Stack: 240 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_init(struct rho_hypotheses *pool, size_t size,
                                                    const struct rho_imm_model *model);
 
-/* From now on this model, but for calm_s, which stays as it was learned. Errors: NULL, CONFIG;
- * nothing is changed. Cost: one rho_imm_step_open. Stack: 300 bytes. */
+/*
+ * Sets the motion model, except for calm_s, whose learned value is kept. Errors: NULL, CONFIG;
+ * nothing is changed. Cost: one rho_imm_step_open. Stack: 300 bytes.
+ */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_set_model(struct rho_hypotheses *pool,
                                                         const struct rho_imm_model *model);
 
-/* From now on the model's calm_s, > 0, where it has calm targets. Cost: one rho_imm_step_open where
- * it is another one. Stack: 160 bytes. */
+/*
+ * Sets the model's calm_s, > 0, the mean time between manoeuvres of calm targets, if the model has
+ * such targets. Cost: one rho_imm_step_open where calm_s changes. Stack: 160 bytes.
+ */
 void rho_hypotheses_set_calm(struct rho_hypotheses *pool, float calm_s);
 
 /*
  * Opens a slot with one hypothesis that starts from an estimate. Errors: NULL, STATE, CAPACITY (all
- * slots taken, or no hypothesis that another track could give up). Cost: RHO_MAX_TRACKS.
+ * slots taken, or the pool full, and no other track with a hypothesis to spare). Cost:
+ * RHO_MAX_TRACKS.
  * Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_open(struct rho_hypotheses *pool,
                                                    const struct rho_kalman *estimate,
                                                    int64_t time_us, uint16_t *slot);
 
-/* Gives a slot and its hypotheses back; one that is not open is left alone. */
+/* Frees a slot and its hypotheses; does nothing for a slot that is not open. */
 void rho_hypotheses_close(struct rho_hypotheses *pool, uint16_t slot);
 
-/* Hypotheses of a slot; 0 where it is not open. Constant cost. */
+/* Number of hypotheses of a slot; 0 where the slot is not open. Constant cost. */
 unsigned rho_hypotheses_count(const struct rho_hypotheses *pool, uint16_t slot);
 
 /* One hypothesis of an open slot, the best at 0; NULL beyond. Constant cost. */
@@ -181,66 +201,65 @@ const struct rho_hypothesis *rho_hypotheses_at(const struct rho_hypotheses *pool
                                                unsigned index);
 
 /*
- * Moves all hypotheses of a slot to time_us. One that cannot be moved on is given up. Errors: NULL,
- * STATE (slot), VALUE (none is left: the slot is closed). Cost: rho_imm_predict each, and
- * rho_imm_step_open wherever the interval is another than the last one asked for: once a scan, but
- * for hypotheses that took a plot at its own time. Stack: 490 bytes.
+ * Moves all hypotheses of a slot to time_us. A hypothesis that cannot be moved is removed. Errors:
+ * NULL, STATE (slot), VALUE (none is left: the slot is closed). Cost: rho_imm_predict each, and
+ * rho_imm_step_open wherever the interval differs from the last one: once a scan, except for
+ * hypotheses whose last plot had an own time. Stack: 490 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_predict(struct rho_hypotheses *pool, uint16_t slot,
                                                       int64_t time_us);
 
 /*
- * The same without noise, and without change: on to where they had been before they were moved
- * back.
- * Errors as above. Stack: 490 bytes.
+ * Moves all hypotheses of a slot to time_us without process noise and without transitions between
+ * models: on to the time from which they had been moved back.
+ * Errors: as rho_hypotheses_predict. Stack: 490 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_return(struct rho_hypotheses *pool, uint16_t slot,
                                                      int64_t time_us);
 
 /*
- * Begins a scan: no plot has been scored. *box (may be NULL) is filled. Cost: 70 instructions a
- * hypothesis and model.
- * Stack: 240 bytes.
+ * Begins a scan: removes the candidates of the scan before, and fills *box (may be NULL). Cost: 70
+ * instructions a hypothesis and model. Stack: 240 bytes.
  */
 void rho_hypotheses_begin_scan(struct rho_hypotheses *pool, uint16_t slot,
                                struct rho_hypotheses_box *box);
 
 /*
  * True where a plot of a scan that measures `measures` may be in the gate of a hypothesis of the
- * slot, whose box rho_hypotheses_begin_scan has filled since its last prediction; *box takes more
- * in for the first plot with a time of its own.
- * Constant cost but for that. Stack: 170 bytes.
+ * slot. rho_hypotheses_begin_scan must have filled *box since the slot's last prediction; the first
+ * plot with an own time completes it. Constant cost otherwise. Stack: 170 bytes.
  */
 int rho_hypotheses_is_in_box(const struct rho_hypotheses *pool, uint16_t slot,
                              struct rho_hypotheses_box *box, const struct rho_plot *plot,
                              uint32_t measures);
 
 /*
- * How far beyond *box plots may be whose noise is sigma_m at most, and their own times offset_s
- * either way. The same cost, stack as above.
+ * Margin about *box for plots with sigmas of at most sigma_m and own times of at most offset_s
+ * either way. Cost and stack: as rho_hypotheses_is_in_box.
  */
 float rho_hypotheses_box_margin_m(const struct rho_hypotheses *pool, uint16_t slot,
                                   struct rho_hypotheses_box *box, float sigma_m, float offset_s);
 
 /*
- * Scores a plot of time_us, its own, with every hypothesis; each keeps its RHO_HYPOTHESES_CHILDREN
- * best, of equals those that came first. Returns 1 where the plot is in the gate of any, and then
- * in *gain_nat the weight of the best hypothesis with the plot: ln of pd times the plot's density
- * over the clutter's, plus that hypothesis' weight. Cost: rho_imm_score_plot a hypothesis, and
- * rho_imm_predict_unmixed for a plot with an own time. Stack: 820 bytes.
+ * Scores a plot with every hypothesis, at the plot's own time time_us; each hypothesis keeps its
+ * RHO_HYPOTHESES_CHILDREN best plots as candidates, of equals the earlier ones. Returns 1 where the
+ * plot is in the gate of any hypothesis; *gain_nat is then the weight of the best hypothesis with
+ * the plot: ln of pd times the plot's density over the clutter's, plus the hypothesis' weight.
+ * Cost: rho_imm_score_plot a hypothesis, and rho_imm_predict_unmixed for a plot with an own time.
+ * Stack: 820 bytes.
  */
 int rho_hypotheses_score_plot(struct rho_hypotheses *pool, uint16_t slot,
                               const struct rho_imm_plot *seen, int64_t time_us, int16_t row,
                               float log_pd, const struct rho_hypotheses_clutter *clutter,
                               float *gain_nat);
 
-/* True where any plot of this scan is in the gate. */
+/* True where any plot of this scan is in the gate of any hypothesis of the slot. */
 int rho_hypotheses_has_candidates(const struct rho_hypotheses *pool, uint16_t slot);
 
 /*
- * Ends the scan: the heaviest children of all hypotheses go on. Plots that scan->claims gives to
- * other tracks are left out. An update that is refused becomes a miss (updates_refused). Errors:
- * NULL, STATE (slot).
+ * Ends the scan: the heaviest children of all hypotheses replace their parents. Plots that
+ * scan->claims gives to other tracks are left out. An update that is numerically impossible becomes
+ * a miss (updates_refused). Errors: NULL, STATE (slot).
  * Cost: rho_imm_update for each of at most RHO_HYPOTHESES_OF_TRACK. Stack: 850 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool, uint16_t slot,
@@ -248,17 +267,18 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_commit(struct rho_hypotheses *pool
                                                      struct rho_hypotheses_outcome *outcome);
 
 /*
- * All hypotheses take a plot that is known to be the target's, at its own time. Errors: NULL, STATE
- * (slot), and those of rho_imm_update where no hypothesis could take it: then they are as they were
- * predicted to its time, or where they were if that is too far back. Stack: 800 bytes.
+ * Updates all hypotheses with a plot that is known to be the target's, at its own time. Errors:
+ * NULL, STATE (slot), and those of rho_imm_update where it fails for all hypotheses: these are then
+ * predicted to the plot's time, or unchanged if that is too far back. Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_update(struct rho_hypotheses *pool, uint16_t slot,
                                                      const struct rho_imm_plot *seen,
                                                      int64_t time_us);
 
 /*
- * The same with a bearing from a place: hypotheses' weights change by its likelihood, and those
- * much lighter than the best are removed. Stack: 800 bytes.
+ * Updates all hypotheses with a bearing from a place that is known to be the target's: their
+ * weights change by its likelihood, and those much lighter than the best are removed. Stack: 800
+ * bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_update_bearing(struct rho_hypotheses *pool,
                                                              uint16_t slot, int64_t time_us,
@@ -266,8 +286,9 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_update_bearing(struct rho_hypothes
                                                              float bearing_rad, float sigma_rad);
 
 /*
- * The mean over all hypotheses, moved to time_us. Errors: NULL, STATE (slot), VALUE (none can be
- * moved there); *estimate is unchanged. Cost: 450 instructions a hypothesis, without heights 300.
+ * Fills *estimate with the mean over all hypotheses of a slot, moved to time_us. Errors: NULL,
+ * STATE (slot), VALUE (no hypothesis can be moved to time_us); *estimate is unchanged. Cost: 450
+ * instructions a hypothesis, without heights 300.
  * Stack: 800 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *pool, uint16_t slot,
@@ -275,9 +296,9 @@ RHO_MUST_CHECK enum rho_status rho_hypotheses_estimate(struct rho_hypotheses *po
                                                        struct rho_hypotheses_estimate *estimate);
 
 /*
- * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that
- * outlived a reset): counts and places are within what they count, numbers within their limits.
- * rho_snapshot_load asks it. Cost: all nodes. Stack: 500 bytes.
+ * True where a pool of unknown origin (a snapshot, memory that survived a reset) is safe to use:
+ * counts and indices are consistent, and numbers within their limits. Called by rho_snapshot_load.
+ * Cost: all nodes. Stack: 500 bytes.
  */
 int rho_hypotheses_is_sound(const struct rho_hypotheses *pool);
 

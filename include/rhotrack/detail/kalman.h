@@ -6,8 +6,8 @@
  * (linalg.h), 21 floats: symmetric by construction. An axis that was never measured is closed: its
  * state and variances are 0 and stay 0. Scalar updates need no matrix inverse: a measurement with
  * independent noise on the axes is one update per axis, which gives the same estimate as the vector
- * update. Noise along a line of sight couples x, y and z, but not the axes of its own frame: the
- * estimate is rotated into that frame, updated, and rotated back.
+ * update. Noise with the axes of a line of sight couples x, y and z, but is independent in the
+ * frame of these axes: the estimate is rotated into that frame, updated, and rotated back.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -24,7 +24,7 @@ extern "C" {
 
 #define RHO_KALMAN_STATES 6
 
-/* Order of the state, and indices of the positions' covariances in the triangle. */
+/* Indices of the state's elements, and of the positions' covariances in the packed triangle. */
 #define RHO_X 0
 #define RHO_Y 1
 #define RHO_Z 2
@@ -38,15 +38,17 @@ extern "C" {
 #define RHO_ZY RHO_AT(RHO_Z, RHO_Y)
 #define RHO_ZZ RHO_AT(RHO_Z, RHO_Z)
 
-#define RHO_KALMAN_VARIANCE_MIN 1.0e-9f /* of a measured element; updates keep it there */
-#define RHO_KALMAN_VARIANCE_MAX 1.0e12f /* beyond, the filter says nothing: RHO_ERROR_VALUE */
+/* least variance of an element of an open axis; updates keep it there */
+#define RHO_KALMAN_VARIANCE_MIN 1.0e-9f
+/* largest variance; larger results are refused, RHO_ERROR_VALUE */
+#define RHO_KALMAN_VARIANCE_MAX 1.0e12f
 
 struct rho_kalman {
     float state[RHO_KALMAN_STATES];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
 };
 
-/* All axes closed: everything is 0. Constant cost. */
+/* Sets all axes closed: state and covariance are 0. Constant cost. */
 void rho_kalman_init(struct rho_kalman *kalman);
 
 /*
@@ -59,7 +61,7 @@ RHO_MUST_CHECK enum rho_status rho_kalman_open_axis(struct rho_kalman *kalman, i
                                                     float velocity_variance);
 
 /*
- * Makes the covariance variance times I, m^2 and (m/s)^2, on the axes that are open; variance is
+ * Sets the covariance to variance times I, m^2 and (m/s)^2, on the axes that are open; variance is
  * RHO_KALMAN_VARIANCE_MIN .. MAX. Constant cost.
  */
 void rho_kalman_set_covariance(struct rho_kalman *kalman, float variance);
@@ -76,21 +78,19 @@ RHO_MUST_CHECK enum rho_status rho_kalman_predict(struct rho_kalman *kalman, flo
                                                   float noise_density);
 
 /*
- * Adds noise of its own to each open axis: a step of the papers that state Q a step, whatever its
- * interval.
- * Errors: NULL, VALUE (a variance negative or not finite, a result beyond RHO_KALMAN_VARIANCE_MAX);
- * unchanged.
- * Cost: about 60 instructions. Stack: 16 bytes.
+ * Adds process noise to each open axis: for papers that state Q per step, independent of the
+ * interval. Errors: NULL, VALUE (a variance negative or not finite, a result beyond
+ * RHO_KALMAN_VARIANCE_MAX); unchanged. Cost: about 60 instructions. Stack: 16 bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_kalman_add_noise(struct rho_kalman *kalman, float position_variance, float velocity_variance);
 
 /*
  * One scalar update: element 0 .. 5 of the state was measured as value with the given variance > 0
- * (below RHO_KALMAN_VARIANCE_MIN it counts as that). *nis (may be NULL) gets the normalised
- * innovation squared. On an axis that is not open nothing else changes. Errors: NULL, VALUE
- * (element, value or variance, a result not finite), SINGULAR (innovation variance not positive and
- * finite); unchanged. Cost: about 300 instructions. Stack: 144 bytes.
+ * (raised to RHO_KALMAN_VARIANCE_MIN). *nis (may be NULL) gets the normalised innovation squared.
+ * An element of an axis that is not open is left unchanged. Errors: NULL, VALUE (element, value or
+ * variance, a result not finite), SINGULAR (innovation variance not positive and finite);
+ * unchanged. Cost: about 300 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int element,
                                                  float value, float variance, float *nis);
@@ -98,17 +98,17 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update(struct rho_kalman *kalman, int 
 /*
  * One scalar update: row . state was measured, `innovation` is its measured minus predicted value,
  * `variance` its noise.
- * Errors as above. Cost: about 590 instructions. Stack: 200 bytes.
+ * Errors: as rho_kalman_update. Cost: about 590 instructions. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_row(struct rho_kalman *kalman, const float row[6],
                                                      float innovation, float variance, float *nis);
 
 /*
- * 1 .. 6 elements of the state were measured together: elements[i] as values[i], the noise's
- * covariance a packed triangle. It is made diagonal once, R = L D L^T without a square root, and
- * each row of L^-1 H is a scalar update. Elements of an axis that is not open are left out. Errors:
- * NULL, VALUE (num, an element, a value or covariance not finite, a result), SINGULAR (R not
- * positive definite, an innovation variance); unchanged.
+ * Updates with 1 .. 6 elements of the state that were measured with correlated noise: elements[i]
+ * as values[i], the noise's covariance a packed triangle. The covariance is made diagonal once, R =
+ * L D L^T without a square root, and each row of L^-1 H is a scalar update. Elements of an axis
+ * that is not open are left out. Errors: NULL, VALUE (num, an element, a value or covariance not
+ * finite, a result), SINGULAR (R not positive definite, an innovation variance); unchanged.
  * Cost: about 2700 instructions for 3 elements, 6250 for 6. Stack: 570 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_correlated(struct rho_kalman *kalman, int num,
@@ -121,8 +121,8 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_correlated(struct rho_kalman *k
  * with its place and its noise, and a velocity of 0 with variance velocity_variance. After an error
  * the filter is partly updated: work on a copy where that matters. Errors: as rho_kalman_update and
  * rho_kalman_open_axis.
- * Cost: a scalar update an axis, and where the noise is not isotropic 2 (with z 4) turns there and
- * as many back, about 200 instructions each. Stack: 310 bytes.
+ * Cost: a scalar update an axis, and where the noise is not isotropic 2 rotations (with z 4) into
+ * its frame and as many back, about 200 instructions each. Stack: 310 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_position(struct rho_kalman *kalman,
                                                           const struct rho_measurement *measurement,
@@ -131,14 +131,14 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_position(struct rho_kalman *kal
 /* A scalar measurement, linearised at an estimate: the arguments of rho_kalman_update_row. */
 struct rho_kalman_row {
     float row[RHO_KALMAN_STATES];
-    float innovation; /* measured minus predicted */
-    float variance;   /* the noise, and the error of the linearisation */
+    float innovation; /* innovation: measured minus predicted */
+    float variance;   /* noise variance, and that of the linearisation's error */
 };
 
 /*
- * Fills *seen for a range rate with noise `variance`. Returns 0, and fills nothing, if the
- * estimate is nearer than a metre to the sensor. Cost: rho_measurement_range_rate, and a division.
- * Stack: 170 bytes.
+ * Linearises a range rate with noise `variance` at an estimate, into *seen. Returns 0, and fills
+ * nothing, if the estimate is nearer than a metre to the sensor. Cost: rho_measurement_range_rate,
+ * and a division. Stack: 170 bytes.
  */
 int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
                                     const struct rho_sensor *sensor, float rate_mps, float variance,
@@ -146,16 +146,17 @@ int rho_kalman_linearise_range_rate(const struct rho_kalman *kalman,
 
 /*
  * True unless the range rate is ambiguous and the estimate is too uncertain to unfold it
- * (measurement.h). Cost: rho_linalg_project6 where it is ambiguous.
+ * (measurement.h). Cost: rho_linalg_project6 for an ambiguous range rate.
  */
 int rho_kalman_is_range_rate_clear(const struct rho_kalman *kalman, const struct rho_sensor *sensor,
                                    const struct rho_kalman_row *seen);
 
 /*
- * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate:
- * after the position of the same plot. For an estimate nearer than a metre to the sensor,
- * and for an ambiguous range rate that cannot be unfolded, nothing is done: RHO_OK.
- * Errors: as rho_kalman_update_row. Cost: that and rho_measurement_range_rate. Stack: 250 bytes.
+ * Updates with a range rate seen from `sensor` (NULL: the origin), linearised at the estimate; to
+ * be called after the update with the same plot's position. For an estimate nearer than a metre to
+ * the sensor, and for an ambiguous range rate that cannot be unfolded, nothing is done: RHO_OK.
+ * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and rho_measurement_range_rate.
+ * Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *kalman,
                                                             const struct rho_sensor *sensor,
@@ -167,14 +168,15 @@ RHO_MUST_CHECK enum rho_status rho_kalman_update_range_rate(struct rho_kalman *k
  */
 struct rho_kalman_bearing {
     float row[RHO_KALMAN_STATES];
-    float off_m;       /* measured minus predicted */
-    float variance_m2; /* the noise */
+    float off_m;       /* innovation: measured minus predicted */
+    float variance_m2; /* variance of the noise, and of the linearisation's error */
     float range_m;
 };
 
 /*
- * Fills *seen; the variance includes the error of the linearisation for an uncertain position.
- * Returns 0, and fills nothing, if the estimate is nearer than a metre to the place.
+ * Linearises a bearing at an estimate, into *seen; the variance includes the error of the
+ * linearisation for an uncertain position. Returns 0, and fills nothing, if the estimate is nearer
+ * than a metre to the place.
  * Cost: an arctangent, a square root, two divisions. Stack: 96 bytes.
  */
 int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, float y_m,
@@ -184,13 +186,14 @@ int rho_kalman_linearise_bearing(const struct rho_kalman *kalman, float x_m, flo
 /*
  * Updates with a bearing from a place, linearised at the estimate. An estimate nearer than a metre
  * to the place has no bearing: nothing is done, RHO_OK.
- * Errors: as rho_kalman_update_row. Cost: that and rho_kalman_linearise_bearing. Stack: 300 bytes.
+ * Errors: as rho_kalman_update_row. Cost: rho_kalman_update_row and rho_kalman_linearise_bearing.
+ * Stack: 300 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_kalman_update_bearing(struct rho_kalman *kalman, float x_m,
                                                          float y_m, float bearing_rad,
                                                          float sigma_rad);
 
-/* True if axis 0 .. 2 was opened. */
+/* True if axis 0 (x), 1 (y) or 2 (z) was opened. */
 int rho_kalman_is_open(const struct rho_kalman *kalman, int axis);
 
 #ifdef __cplusplus

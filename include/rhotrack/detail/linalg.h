@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * linalg: small symmetric matrices, sized by their use.
+ * linalg: small symmetric matrices: Cholesky factors, NIS, scalar Kalman updates, rotations.
  *
  * A symmetric n x n matrix is its lower triangle row by row: element (i, j <= i) at i (i + 1) / 2 +
  * j, n (n + 1) / 2 floats. n <= RHO_LINALG_MAX. Every routine checks positive definiteness where it
- * divides (a comparison that NaN fails), and returns an error without touching its operands;
- * rho_linalg_cholesky alone may have changed l.
+ * divides (by a comparison that is false for NaN), and returns an error without changing its
+ * operands; rho_linalg_cholesky alone may have changed l.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -23,7 +23,7 @@ extern "C" {
 #define RHO_TRIANGLE(n) ((n) * ((n) + 1) / 2)
 #define RHO_AT(i, j) ((i) >= (j) ? (i) * ((i) + 1) / 2 + (j) : (j) * ((j) + 1) / 2 + (i))
 
-/* The loop that follows is straight code, also where compilers optimise for size. */
+/* Unrolls the loop that follows, also where the compiler optimises for size. */
 #if RHO_FAST_UPDATES && defined(__GNUC__)
 #define RHO_UNROLL _Pragma("GCC unroll 6")
 #else
@@ -37,13 +37,16 @@ extern "C" {
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_cholesky(int n, const float *a, float *l);
 
-/* b := L^-1 b for a factor from rho_linalg_cholesky. Cost: n^2 / 2. */
+/* Forward substitution: b := L^-1 b for a factor from rho_linalg_cholesky. Cost: n^2 / 2. */
 void rho_linalg_forward(int n, const float *l, float *b);
 
-/* b := L^-T b. After rho_linalg_forward b solves a x = b. Cost: n^2 / 2. */
+/*
+ * Backward substitution: b := L^-T b. After rho_linalg_forward the result is the solution x of a x
+ * = b. Cost: n^2 / 2.
+ */
 void rho_linalg_backward(int n, const float *l, float *b);
 
-/* ln det(L L^T) = 2 sum ln L_ii. Cost: n logarithms. */
+/* ln det(L L^T) = 2 sum ln L_ii, from the Cholesky factor. Cost: n logarithms. */
 float rho_linalg_log_determinant(int n, const float *l);
 
 /*
@@ -70,9 +73,9 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6(float x[6], float p[21], int i
                                                   float innovation, float variance, float *nis);
 
 /*
- * The same for a measurement of row . x, with row any vector of 6 floats; `innovation`
- * is the measured minus the predicted value. Errors as above. Cost: about 530 instructions.
- * Stack: 144 bytes.
+ * One scalar Kalman update by a measurement of row . x, with row any vector of 6 floats;
+ * `innovation` is the measured minus the predicted value. Errors: as the update by one element.
+ * Cost: about 530 instructions. Stack: 144 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], const float row[6],
                                                       float innovation, float variance, float *nis);
@@ -84,9 +87,9 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update6_row(float x[6], float p[21], c
 float rho_linalg_project6(const float p[21], const float row[6], float projected[6]);
 
 /*
- * The same updates for a state of n <= RHO_LINALG_MAX elements and its triangle p: of element
- * `index`, and of a row whose elements beyond the first num are 0. Errors: also CAPACITY (n, num).
- * Cost: about 4 n^2 and 6 n^2 instructions.
+ * Scalar Kalman updates of a state of n <= RHO_LINALG_MAX elements with covariance p: by a
+ * measurement of element `index`, or of row . x, where elements of row beyond the first num are 0.
+ * Errors: as for six elements, and CAPACITY (n, num). Cost: about 4 n^2 and 6 n^2 instructions.
  * Stack: 250 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_linalg_update_at(int n, float *x, float *p, int index,
@@ -96,18 +99,20 @@ RHO_MUST_CHECK enum rho_status rho_linalg_update_along(int n, float *x, float *p
                                                        float variance);
 
 /*
- * d^T S^-1 d and ln det S for any n <= RHO_LINALG_MAX, S (its triangle) and d spoiled. 0 where S is
- * not positive definite, a result is not finite, or the distance beyond distance2_max: then nothing
- * else is filled. Cost: n^3 / 3 operations, n divisions and a logarithm for each three dimensions.
+ * NIS d^T S^-1 d and ln det S for any n <= RHO_LINALG_MAX; S (a triangle) and d are overwritten.
+ * Returns 0, and fills nothing, where S is not positive definite, a result is not finite, or the
+ * NIS exceeds its limit. Cost: n^3 / 3 operations, n divisions and a logarithm for each three
+ * dimensions.
  */
 int rho_linalg_match(int n, float *s, float *d, float distance2_max, float *distance2,
                      float *log_det);
 
 /*
- * Turns the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G p
- * G^T with new a = c a + s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised by
- * 2^-22 of the larger one, more than rounding takes, so that a positive definite p stays so, unless
- * it is singular to within 10^-6 already. a, b: 0 .. 5, not the same; not checked.
+ * Rotates the frame of a symmetric 6 x 6 matrix in the plane of two of its elements a and b: p := G
+ * p G^T with new a = c a + s b and new b = c b - s a, c^2 + s^2 = 1. The two variances are raised
+ * by 2^-22 of the larger one, more than rounding takes, so that a positive definite p stays so,
+ * unless it is singular to within 10^-6 already. a and b are two different elements, 0 .. 5, and
+ * not checked.
  * Cost: about 90 instructions.
  */
 void rho_linalg_turn6(float p[21], int a, int b, float c, float s);

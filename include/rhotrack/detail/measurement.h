@@ -10,8 +10,8 @@
  *         | /                    up     = (-sin e cos a, -sin e sin a, cos e)
  *     ----o---- cross            a azimuth, e elevation of the plot as the sensor sees it
  *
- * Rotated into that frame a plot is two or three scalars of independent noise: no matrix is
- * inverted. Plots of a scan without heights lie in the horizontal plane: elevation 0, two axes.
+ * In the frame of the line of sight a plot is two or three scalars of independent noise: no matrix
+ * is inverted. Plots of a scan without heights lie in the horizontal plane: elevation 0, two axes.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -26,26 +26,30 @@
 extern "C" {
 #endif
 
-/* Gates: 99.9 % limits of chi-square in 1 to 4 dimensions. */
+/* Limits of gates: 99.9 % quantiles of chi-square in 1 to 4 dimensions. */
 #define RHO_GATE_CHI2_1D 10.8276f
 #define RHO_GATE_CHI2_2D 13.8155f
 #define RHO_GATE_CHI2_3D 16.2662f
 #define RHO_GATE_CHI2_4D 18.4668f
 
-/* Where heights count, clutter and births are assumed to spread over this interval of heights. */
+/*
+ * Interval of heights over which clutter and new targets are assumed to be spread, where heights
+ * are measured.
+ */
 #define RHO_CLUTTER_HEIGHT_M 20000.0f
 
 /* A plot as its place, the frame of its noise, and the variances in that frame. */
 struct rho_measurement {
-    float place_m[3]; /* x, y, z; z 0 where not measured */
+    float place_m[3]; /* position x, y, z; z is 0 where not measured */
     float cos_azimuth, sin_azimuth;
-    float cos_elevation, sin_elevation; /* 1 and 0 where z is not measured */
-    float variance_m2[3];               /* along, cross, up */
+    float cos_elevation, sin_elevation; /* elevation 0 where z is not measured */
+    /* noise variances along the line of sight, across it, and upwards */
+    float variance_m2[3];
     int has_z;
-    int is_isotropic; /* equal variances on all axes: the frame does not matter */
+    int is_isotropic; /* 1: variances are equal on all axes, and the frame does not matter */
 };
 
-/* The time bias of a sensor in whole microseconds. Constant cost. */
+/* Time bias of a sensor in whole microseconds. Constant cost. */
 int32_t rho_measurement_time_bias_us(const struct rho_sensor *sensor);
 
 /*
@@ -62,10 +66,13 @@ struct rho_sigma_factors {
     float range, cross;
 };
 
-/* The sensor's percentages as factors; 1 for NULL, or where they are 0. Constant cost. */
+/*
+ * Factors of a sensor's sigmas from its percentages; 1 for a percentage of 0, and for NULL.
+ * Constant cost.
+ */
 struct rho_sigma_factors rho_measurement_sigma_factors(const struct rho_sensor *sensor);
 
-/* The larger of both, at least 1. Constant cost. */
+/* The larger one of a sensor's two sigma factors, at least 1. Constant cost. */
 float rho_measurement_widest_factor(const struct rho_sensor *sensor);
 
 /*
@@ -79,12 +86,15 @@ void rho_measurement_open(const struct rho_plot *plot, uint32_t measures,
                           const struct rho_sensor *sensor, struct rho_measurement *out);
 
 /*
- * True where a sensor's place, biases, variance factor and span of range rates are finite and
- * within the limits of types.h. Constant cost.
+ * True where a sensor's place, biases and span of range rates are finite and within the limits of
+ * types.h. Constant cost.
  */
 int rho_measurement_is_sensor(const struct rho_sensor *sensor);
 
-/* The noise's covariance in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant cost. */
+/*
+ * Covariance of a plot's noise in x, y, z as a lower triangle: xx, yx, yy, zx, zy, zz. Constant
+ * cost.
+ */
 void rho_measurement_covariance(const struct rho_measurement *measurement, float covariance[6]);
 
 /*
@@ -99,33 +109,41 @@ int rho_measurement_range_rate(const float state[6], const struct rho_sensor *se
 
 /*
  * Ambiguous range rates: a radar of pulse repetition frequency f and wavelength w measures range
- * rates up to multiples of f w / 2, the sensor's range_rate_span_mps. The multiple nearest to the
- * expected range rate is taken where the expectation is certain enough: three standard deviations
- * of the difference within half the span. Elsewhere the range rate counts as not measured. For a
- * sensor without a span, or NULL, range rates are taken as they are.
+ * rates modulo f w / 2, the sensor's range_rate_span_mps. The multiple that brings the measured
+ * range rate nearest to the expected one is added, if three standard deviations of their difference
+ * are within half the span. Otherwise the range rate counts as not measured. Range rates of a
+ * sensor without a span, or of NULL, are taken as they are.
  */
-/* Measured minus expected, brought within +-span/2. Cost: a division. */
+/*
+ * Measured minus expected range rate, brought within +-span/2 by multiples of the span if the
+ * sensor's range rates are ambiguous. Cost: a division.
+ */
 float rho_measurement_range_rate_error_mps(const struct rho_sensor *sensor, float measured_mps,
                                            float expected_mps);
 
-/* True where a difference of this variance, (m/s)^2, determines the multiple. Constant cost. */
+/*
+ * True where the difference of measured and expected range rate has a variance, (m/s)^2, small
+ * enough to determine the multiple of the span. Constant cost.
+ */
 int rho_measurement_is_range_rate_clear(const struct rho_sensor *sensor, float variance);
 
 /*
- * The same for num (2 .. 7) correlated innovations, the last one of a range rate: its multiple is
- * chosen nearest to its expectation given the others. covariance: their packed triangle. Returns 0,
- * and changes nothing, where the multiple is not determined, or the covariance is not positive
- * definite. Cost: a Cholesky factor of num x num. Stack: 280 bytes.
+ * Unfolds an ambiguous range rate, the last one of num (2 .. 7) correlated innovations: the
+ * multiple of the span is chosen nearest to the expectation given the other innovations.
+ * covariance: of the innovations, a packed triangle. Returns 0, and changes nothing, where the
+ * multiple is not determined, or the covariance is not positive definite. Cost: a Cholesky factor
+ * of num x num. Stack: 280 bytes.
  */
 int rho_measurement_unfold_range_rate(const struct rho_sensor *sensor, int num,
                                       const float *covariance, float *innovation);
 
 /*
- * ln of the number of range rates within -v_max .. v_max that a sensor cannot tell apart; 0 where
- * it can. Cost: a logarithm.
+ * ln of the number of range rates within -v_max .. v_max that an ambiguous one can stand for; 0 for
+ * a sensor whose range rates are not ambiguous. Cost: a logarithm.
  */
 float rho_measurement_log_aliases(const struct rho_sensor *sensor, float v_max_mps);
 
+/* True where a sensor's range rates are ambiguous. */
 static inline int rho_measurement_has_span(const struct rho_sensor *sensor)
 {
     return RHO_AMBIGUOUS_RANGE_RATES && sensor && sensor->range_rate_span_mps > 0.0f;
@@ -143,7 +161,7 @@ int rho_measurement_bearing(const float state[6], float x_m, float y_m, float be
 
 /*
  * True where a scan covers a place: it is within the scan's sector, and the sensor's sector and
- * range limits. NULL: a sensor at the origin that covers the sector of the scan. Cost: an
+ * range limits. A sensor of NULL is at the origin and covers the scan's sector. Cost: an
  * arctangent.
  */
 int rho_measurement_covers(const struct rho_sensor *sensor, float sector_from_rad,
