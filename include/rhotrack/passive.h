@@ -8,14 +8,14 @@
  *
  *   1 cross     all pairs of sensors, scan by scan; ghosts are pruned (ghost), and with three
  *               sensors or more a crossing needs a bearing of a third sensor
- *   2 vote      crossings vote for lines (rho, theta), spread according to their covariance; the
- *               votes of a cell are distinct scans
- *   3 propose   pairs of a line's crossings give constant velocities; those that most bearings
- *               agree with are fitted to the bearings (Gauss-Newton, nearest bearing of each scan
- *               and sensor)
- *   4 select    the set of tracks with the highest total score if no bearing counts twice
- *   5 repeat    with the bearings that no track has claimed, with fewer votes and without the
- *               third sensor; then one selection from all candidates
+ *   2 vote      crossings vote for lines (rho, theta), spread according to their covariance; a cell
+ *               counts the distinct scans that vote for it
+ *   3 propose   pairs of a line's crossings give hypotheses of constant velocity; those that most
+ *               bearings agree with are fitted to the bearings (Gauss-Newton, nearest bearing of
+ *               each scan and sensor)
+ *   4 select    the set of tracks with the highest total score in which no bearing counts twice
+ *   5 repeat    steps 1 to 3 with the bearings that no track has claimed, with fewer votes and
+ *               without the third sensor; then one selection from all candidates
  *
  * Source: the passive Hough transform paper (see crossing.h) for steps 1 and 2, in which lines of
  * crossings are the tracks. A line has no time, and ghosts form lines too: src/DESIGN.md derives
@@ -39,66 +39,82 @@ extern "C" {
 #endif
 
 struct rho_passive_config {
-    uint32_t scans; /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
+    uint32_t scans; /* number of scans in the batch, N: 4 .. RHO_MAX_PASSIVE_SCANS */
     /*
      * range limit of all sensors: 1000 .. 500000. If it is too small, targets beyond it are not
-     * found, and ghosts within it are confirmed by their bearings
+     * found, and ghosts within it are confirmed by the bearings of these targets
      */
     float range_max_m;
-    float v_max_mps;         /* of targets: 1 .. RHO_LIMIT_SPEED_MPS */
+    float v_max_mps;         /* largest speed of targets: 1 .. RHO_LIMIT_SPEED_MPS */
     float pd;                /* probability that a sensor sees a target in a scan: 0.01 .. 0.999 */
-    float field_of_view_rad; /* of false bearings: 0.01 .. 2 pi */
+    float field_of_view_rad; /* width of the sector in which false bearings occur: 0.01 .. 2 pi */
     /*
-     * smallest share of hits in the looks whose sector contained the track: 0.1 .. 1; half of it
-     * is required of all looks
+     * smallest share of hits in the looks whose sector contained the track: 0.1 .. 1; half this
+     * share is required of all looks
      */
     float hits_min;
-    /* at least 2 (range_max_m + the farthest sensor) / RHO_PASSIVE_RHO_CELLS */
+    /*
+     * size of the cells of rho: at least 2 (range_max_m + distance of the farthest sensor) /
+     * RHO_PASSIVE_RHO_CELLS
+     */
     float rho_cell_m;
-    float theta_cell_rad;        /* at least pi / RHO_PASSIVE_THETA_CELLS */
-    enum rho_ghost_rule rule;    /* of step 1 */
-    float false_tracks_per_hour; /* rate of false tracks at start_mnat: 1e-6 .. 1e6 */
+    /* size of the cells of theta: at least pi / RHO_PASSIVE_THETA_CELLS */
+    float theta_cell_rad;
+    enum rho_ghost_rule rule; /* rule by which ghosts are pruned in step 1 */
+    /* rate of false tracks that reach the score start_mnat: 1e-6 .. 1e6 */
+    float false_tracks_per_hour;
 };
 
-/* A track found: constant velocity, at the newest scan's time. */
+/* A track found by a search: position and constant velocity at the time of the newest scan. */
 struct rho_passive_track {
     float x_m, y_m, vx_mps, vy_mps;
-    float covariance[10]; /* of these four, lower triangle */
-    int32_t score_mnat;   /* log-likelihood ratio: one target's bearings against false ones */
-    int32_t margin_mnat; /* total score of the tracks minus that of the best set without this one */
-    float chi2;          /* of the bearings, hits - 4 degrees of freedom */
-    uint16_t hits;       /* bearings */
-    uint16_t scans;      /* bit k: a bearing of scan k, 0 the oldest */
-    /* by scan and sensor: index of the bearing among those held, from 1; 0: none */
+    float covariance[10]; /* covariance of x, y, vx, vy, lower triangle */
+    int32_t score_mnat;   /* log-likelihood ratio of one target against false bearings */
+    /* margin: total score of all tracks minus that of the best set of tracks without this one */
+    int32_t margin_mnat;
+    /* sum of the bearings' squared normalised residuals, with hits - 4 degrees of freedom */
+    float chi2;
+    uint16_t hits;  /* number of bearings of the track */
+    uint16_t scans; /* scans with bearings of the track: bit k for scan k, 0 the oldest */
+    /*
+     * bearings of the track: for each scan and sensor the index in the batch, from 1; 0: no bearing
+     */
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
 
-/* Counters of a search, and of what exceeded a capacity. All saturate. */
+/* Counters of a search, and of items left out for lack of room. All saturate. */
 struct rho_passive_work {
-    uint32_t crossings, ghosts; /* of the first pass: all pairs of bearings; pruned before voting */
-    uint32_t points_dropped;    /* crossings beyond RHO_MAX_PASSIVE_POINTS: the least certain */
-    uint32_t line_points_dropped; /* of a line beyond 160: those of the last sensor pairs */
-    uint32_t peaks;               /* lines searched */
-    uint32_t hypotheses;          /* pairs of crossings scored */
-    uint32_t fits;                /* repeated only if forgotten */
-    uint32_t candidates_dropped;  /* beyond RHO_MAX_PASSIVE_CANDIDATES */
+    /* first pass: crossings of all pairs of bearings, and those pruned as ghosts */
+    uint32_t crossings, ghosts;
+    uint32_t points_dropped; /* crossings beyond RHO_MAX_PASSIVE_POINTS, the least certain ones */
+    /* crossings on a line beyond 160, those of the last sensor pairs */
+    uint32_t line_points_dropped;
+    uint32_t peaks;      /* lines from whose crossings hypotheses were made */
+    uint32_t hypotheses; /* pairs of crossings whose agreement with the bearings was computed */
+    /* fits of a state to bearings; a pair of crossings is fitted again only if it was forgotten */
+    uint32_t fits;
+    uint32_t candidates_dropped; /* candidates beyond RHO_MAX_PASSIVE_CANDIDATES */
 };
 
-/* A crossing that was not pruned; the origin is the sensors' centroid. */
+/*
+ * A crossing of two bearings that was not pruned, with covariance, relative to the sensors'
+ * centroid.
+ */
 struct rho_passive_point {
     float x_m, y_m;
     float xx_m2, xy_m2, yy_m2;
     uint16_t scan;
-    uint16_t reserved; /* 0 */
+    uint16_t reserved; /* always 0 */
 };
 
-/* A pair of crossings that was fitted: their indices in points. */
+/* A pair of crossings that was fitted, as indices in points[]. */
 struct rho_passive_fitted {
-    uint16_t a, b; /* equal: no pair */
-    uint16_t when; /* candidates removed before; UINT16_MAX: the fit was no track */
+    uint16_t a, b; /* indices of the crossings; equal: an empty entry */
+    /* number of candidates removed before the fit; UINT16_MAX: the fit did not give a track */
+    uint16_t when;
 };
 
-/* A fitted hypothesis: position at mid-batch, and displacement in half the batch. */
+/* A fitted hypothesis of a track: position at mid-batch, and displacement in half the batch. */
 struct rho_passive_candidate {
     float state_m[4];
     float score_nat;
@@ -106,25 +122,27 @@ struct rho_passive_candidate {
     uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
 
-/* Tracks that are fitted together, no bearing in two of them. */
+/* Tracks that are fitted together, so that no two of them claim one bearing. */
 struct rho_passive_set {
     uint16_t num;
-    float total_nat; /* of the scores */
+    float total_nat; /* sum of the scores of the tracks */
     struct rho_passive_candidate tracks[RHO_MAX_PASSIVE_TRACKS];
     float chi2[RHO_MAX_PASSIVE_TRACKS];
-    uint8_t candidate[RHO_MAX_PASSIVE_TRACKS]; /* index of the candidate */
+    /* index of the candidate that each track started from */
+    uint8_t candidate[RHO_MAX_PASSIVE_TRACKS];
     uint8_t is_track[RHO_MAX_PASSIVE_TRACKS];
 };
 
 struct rho_passive {
     uint32_t magic;
     struct rho_passive_config config;
-    uint16_t num_tracks; /* found by the last search, the best score first */
+    /* number of tracks found by the last search; they are sorted by score, best first */
+    uint16_t num_tracks;
     uint16_t num_candidates;
     /*
-     * False tracks reach a score below this more often than false_tracks_per_hour: the four
-     * bearings of two crossings always fit a state, and there are many pairs of crossings
-     * (src/DESIGN.md).
+     * score that a new track must reach: false tracks reach it at the rate false_tracks_per_hour.
+     * It is high, as the four bearings of two crossings always fit a state, and there are many
+     * pairs of crossings (src/DESIGN.md)
      */
     int32_t start_mnat;
     uint32_t num_points;
@@ -132,27 +150,30 @@ struct rho_passive {
     struct rho_passive_track tracks[RHO_MAX_PASSIVE_TRACKS];
     struct rho_batch batch;
     uint8_t is_claimed[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_MAX_BEARINGS];
-    /* scratch of a search */
+    /* from here on: scratch memory of a search */
     /*
-     * bins of direction, around |x| + |y| = 1 from south: bit set if a bearing is within 9 sigmas
+     * directions near bearings of each look: bit set if a bearing is within 9 sigmas; bins count
+     * around |x| + |y| = 1 from south
      */
     uint32_t directions[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS][RHO_PASSIVE_BINS / 32];
-    uint16_t cells[RHO_PASSIVE_THETA_CELLS][RHO_PASSIVE_RHO_CELLS]; /* a bit per scan */
+    /* Hough plane of the crossings: a bit in a cell for each scan that voted */
+    uint16_t cells[RHO_PASSIVE_THETA_CELLS][RHO_PASSIVE_RHO_CELLS];
     struct rho_passive_point points[RHO_MAX_PASSIVE_POINTS];
     struct rho_passive_fitted fitted[RHO_PASSIVE_PAIRS];
     struct rho_passive_candidate candidates[RHO_MAX_PASSIVE_CANDIDATES];
-    uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES]; /* bearings */
+    /* number of bearings that two candidates both claim */
+    uint8_t shared[RHO_MAX_PASSIVE_CANDIDATES][RHO_MAX_PASSIVE_CANDIDATES];
     struct rho_passive_set best, other, spare;
 };
 
 /*
- * scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65, cells of 2 km and
- * 5 degrees, the safe rule. Constant cost.
+ * Defaults: scans 8, range 100 km, v_max 450 m/s, pd 0.9, field of view pi, hits_min 0.65, cells of
+ * 2 km and 5 degrees, the safe rule. Constant cost.
  */
 void rho_passive_config_default(struct rho_passive_config *config);
 
 /*
- * Prepares an empty batch; the config is copied.
+ * Initialises the passive initiator with an empty batch; the config is copied.
  *   size   sizeof(struct rho_passive) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: sizeof(passive) bytes cleared.
  * Stack: 170 bytes.
@@ -161,35 +182,34 @@ RHO_MUST_CHECK enum rho_status rho_passive_init(struct rho_passive *passive, siz
                                                 const struct rho_passive_config *config);
 
 /*
- * Whether rho_passive_push takes the frame: STATE (not initialised), and the errors of
- * rho_batch_accepts.
+ * Tells whether rho_passive_push would take the frame. Errors: STATE (not initialised), and those
+ * of rho_batch_accepts.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_accepts(const struct rho_passive *passive,
                                                    const struct rho_frame *frame);
 
 /*
- * Takes a frame: rho_batch_push of the batch, and its errors. The tracks of the last search are
- * gone. Stack: 160 bytes.
+ * Adds a frame of bearings to the batch by rho_batch_push, and discards the tracks of the last
+ * search. Errors: those of rho_batch_push. Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_push(struct rho_passive *passive,
                                                 const struct rho_frame *frame, uint8_t *fates);
 
 /*
- * Removes the bearings of a found track from the batch: a later search starts no other track from
- * them.
- * Once a track of the last search. Returns how many these were.
+ * Removes the bearings of a track of the last search from the batch, so that a later search starts
+ * no other track from them. To be called once a track. Returns the number of bearings removed.
  */
 uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passive_track *track);
 
 /*
- * Searches the batch. Results: passive->tracks[0 .. num_tracks - 1].
+ * Searches the batch for tracks. Results: passive->tracks[0 .. num_tracks - 1].
  * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no track.
  * Cost: src/DESIGN.md. Stack: 3.5 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_passive_search(struct rho_passive *passive);
 
 /*
- * Pairs of sensors that both gave the track a bearing. Cost: RHO_MAX_PASSIVE_SCANS x
+ * Number of pairs of sensors that both gave the track a bearing. Cost: RHO_MAX_PASSIVE_SCANS x
  * RHO_MAX_PASSIVE_SENSORS.
  */
 unsigned rho_passive_sensor_pairs(const struct rho_passive_track *track);

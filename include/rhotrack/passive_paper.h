@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * passive_paper: straight lines from the bearings of two to RHO_MAX_PASSIVE_SENSORS sensors, by the
- * paper's method to the letter. For comparison; passive is what finds tracks.
+ * passive Hough transform exactly as the paper has it. For comparison: passive.h finds tracks.
  *
  *   1 cross     each pair of sensors K, L, scan by scan; ghosts are pruned (ghost)
- *   2 vote      a crossing that is left votes in its pair's accumulator, in one cell of each row
- *               of theta, at
+ *   2 vote      each crossing that was not pruned votes in the accumulator of its pair of sensors,
+ *               in one cell of each row of theta, at
  *
  *                   rho = rho^K + rho_cor^K                                            eq. (3)
  *                       = D_ij^K cos(z_i^K - theta) + D_K cos(alpha_K - theta)
@@ -13,10 +13,11 @@
  *               D_ij^K, z_i^K: range and bearing of the crossing from sensor K, which is at the
  *               polar coordinates D_K, alpha_K
  *   3 accept    cells with T votes or more, of distinct scans or crossings; with three sensors or
- *               more, a cell must be accepted in the accumulators of all pairs, there or in a
- *               neighbour: the ghosts of different pairs lie elsewhere
+ *               more, all pairs of sensors must confirm a cell by T votes in the cell itself or a
+ *               neighbour, which ghosts rarely pass: those of different pairs are in other places
  *   4 choose    the cell with the most votes of all pairs together, the middle one of equal
- *               neighbours; then the next one that is not within 4 cells of theta and 3 of rho
+ *               neighbours; then the next one that is not within 4 cells of theta and 3 of rho of a
+ *               chosen cell
  *
  * A line has no time. Its position and velocity are a least-squares fit through the crossings that
  * voted for it, ghosts among them.
@@ -44,69 +45,85 @@ extern "C" {
 #endif
 
 struct rho_passive_paper_config {
-    uint16_t scans;     /* N, the batch: 4 .. RHO_MAX_PASSIVE_SCANS */
-    uint16_t votes_min; /* T: 1 .. 255; 0: four fifths of the scans that are held, rounded up */
-    float range_max_m;  /* range limit of all sensors: 1000 .. 500000 */
+    uint16_t scans; /* number of scans in the batch, N: 4 .. RHO_MAX_PASSIVE_SCANS */
+    /* votes that a cell needs, T: 1 .. 255; 0: four fifths of the scans in the batch, rounded up */
+    uint16_t votes_min;
+    float range_max_m; /* range limit of all sensors: 1000 .. 500000 */
     /*
-     * 2 range_max_m over it: at most RHO_PAPER_RHO_CELLS; what is left holds half the sensors'
-     * distance to either side
+     * size of the cells of rho; 2 range_max_m / rho_cell_m: at most RHO_PAPER_RHO_CELLS; cells that
+     * are left hold half the sensors' distance to either side
      */
     float rho_cell_m;
-    float theta_cell_rad;             /* pi over it: at most RHO_PAPER_THETA_CELLS; at most 0.5 */
-    enum rho_accumulator_votes votes; /* distinct scans, or crossings: their count stops at 255 */
-    enum rho_ghost_rule rule;         /* of step 1 */
+    /* size of the cells of theta: at most 0.5; pi over it at most RHO_PAPER_THETA_CELLS */
+    float theta_cell_rad;
+    /* votes of a cell: distinct scans, or crossings, whose count stops at 255 */
+    enum rho_accumulator_votes votes;
+    enum rho_ghost_rule rule; /* rule by which ghosts are pruned in step 1 */
 };
 
-/* A line, through the centre of its cell. */
+/* A line found by a search, through the centre of its cell. */
 struct rho_passive_paper_line {
-    float rho_m, theta_rad; /* x cos(theta) + y sin(theta) = rho; 0 <= theta < pi */
-    uint16_t votes;         /* the least of any pair of sensors, each where it confirms the line */
-    uint16_t votes_sum;     /* of all pairs in the line's own cell; the most first; stops at 254 */
-    uint16_t scans;         /* bit k: a crossing of scan k voted for it, 0 the oldest */
-    uint16_t crossings;     /* that did, of all pairs */
-    uint16_t has_state;     /* 1: they are of two scans or more, and gave the state */
-    uint16_t reserved;      /* 0 */
-    float x_m, y_m, vx_mps, vy_mps; /* at the newest scan; 0 without has_state */
+    float rho_m, theta_rad; /* the line x cos(theta) + y sin(theta) = rho; 0 <= theta < pi */
     /*
-     * covariance of x and vx, and of y and vy alike, by the scatter of the crossings about the fit,
-     * no less than that of a place within the cell; m^2, m^2/s, (m/s)^2
+     * votes of the pair of sensors that gave the line least, in the cell where it confirms the line
+     */
+    uint16_t votes;
+    /* sum of all pairs' votes in the line's own cell, by which lines are ordered; stops at 254 */
+    uint16_t votes_sum;
+    uint16_t scans; /* scans whose crossings voted for the line: bit k for scan k, 0 the oldest */
+    uint16_t crossings; /* number of crossings of all pairs that voted for the line */
+    /* 1: the crossings are of two scans or more, and gave position and velocity */
+    uint16_t has_state;
+    uint16_t reserved; /* always 0 */
+    /* position and velocity at the newest scan; 0 without has_state */
+    float x_m, y_m, vx_mps, vy_mps;
+    /*
+     * covariance of x and vx, the same for y and vy: scatter of the crossings about the fit, at
+     * least that of a position within the cell; m^2, m^2/s, (m/s)^2
      */
     float place_m2, place_velocity_m2ps, velocity_m2ps2;
-    uint32_t track_id; /* of the track that rho_passive_paper_step started by it; 0: none */
+    /* id of the track that rho_passive_paper_step started from the line; 0: no track */
+    uint32_t track_id;
 };
 
-/* Counters of a search, and of what exceeded a capacity. All saturate. */
+/* Counters of a search, and of items left out for lack of room. All saturate. */
 struct rho_passive_paper_work {
-    uint32_t crossings, ghosts; /* all pairs of bearings; removed before voting */
+    /* crossings of all pairs of bearings, and those removed as ghosts */
+    uint32_t crossings, ghosts;
     /*
-     * of one pair of sensors beyond RHO_MAX_PAPER_CROSSINGS: the newest scans'; none in the default
-     * profiles
+     * crossings of one pair of sensors beyond RHO_MAX_PAPER_CROSSINGS, of the newest scans; 0 in
+     * the default profiles
      */
     uint32_t points_dropped;
-    uint32_t votes;         /* crossings that are left times rows */
-    uint32_t cells;         /* accepted, and confirmed by every pair */
-    uint32_t lines_dropped; /* beyond RHO_MAX_PASSIVE_LINES: those of the lowest votes_sum */
+    uint32_t votes;         /* votes cast: crossings that were not removed, times rows */
+    uint32_t cells;         /* cells that every pair of sensors confirms */
+    uint32_t lines_dropped; /* lines beyond RHO_MAX_PASSIVE_LINES, with the lowest votes_sum */
 };
 
-/* A crossing that was not pruned; the origin is the sensors' centroid. */
+/* A crossing of two bearings that was not pruned, relative to the sensors' centroid. */
 struct rho_passive_paper_point {
     float x_m, y_m;
 };
 
-/* Sums of the crossings that voted for a line: n, and of u, x, y from the first one. */
+/*
+ * Sums of a least-squares fit through the crossings that voted for a line, relative to the first
+ * one.
+ */
 struct rho_passive_paper_fit {
-    int16_t row, column; /* the line's cell */
+    int16_t row, column; /* cell of the line */
     uint32_t count;
     float first_x_m, first_y_m;
-    float u, uu, x_m, y_m, ux_m, uy_m; /* u: the scan's time, -1 .. 1 over the batch */
-    float rr_m2;                       /* of x^2 + y^2 */
+    /* sums of u, u^2, x, y, u x, u y; u is the time of the scan, -1 .. 1 over the batch */
+    float u, uu, x_m, y_m, ux_m, uy_m;
+    float rr_m2; /* sum of x^2 + y^2 */
 };
 
 struct rho_passive_paper {
     uint32_t magic;
     struct rho_passive_paper_config config;
-    uint16_t votes_min; /* T of the last search */
-    uint16_t num_lines; /* found by the last search, the highest votes_sum first */
+    uint16_t votes_min; /* T, the votes that a cell needed in the last search */
+    /* number of lines found by the last search; they are sorted by votes_sum, highest first */
+    uint16_t num_lines;
     struct rho_passive_paper_line lines[RHO_MAX_PASSIVE_LINES];
     struct rho_passive_paper_work work;
     struct rho_batch batch;
@@ -123,69 +140,68 @@ struct rho_passive_paper {
 };
 
 /*
- * scans 8, votes_min 0, range 100 km, cells of 1 km and 2 degrees, votes of scans, the literal
- * rule. Constant cost.
+ * Defaults: scans 8, votes_min 0, range 100 km, cells of 1 km and 2 degrees, votes of scans, the
+ * literal rule. Constant cost.
  */
 void rho_passive_paper_config_default(struct rho_passive_paper_config *config);
 
 /*
- * Prepares an empty batch; the config is copied.
+ * Initialises the search with an empty batch; the config is copied.
  *   size   sizeof(struct rho_passive_paper) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range); *paper is unchanged. Cost:
- * sizeof(paper) bytes cleared.
- * Stack: 160 bytes.
+ * sizeof(paper) bytes cleared. Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status
 rho_passive_paper_init(struct rho_passive_paper *paper, size_t size,
                        const struct rho_passive_paper_config *config);
 
 /*
- * Takes a frame: rho_batch_push of the batch, and its errors. The lines of the last search are
- * gone.
- * Stack: 160 bytes.
+ * Adds a frame of bearings to the batch by rho_batch_push, and discards the lines of the last
+ * search. Errors: those of rho_batch_push. Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
                                                       const struct rho_frame *frame,
                                                       uint8_t *fates);
 
 /*
- * Searches the batch. Results: paper->lines[0 .. num_lines - 1]. Sensors without a scan in the
- * batch are left out.
+ * Searches the batch for lines. Results: paper->lines[0 .. num_lines - 1]. Sensors without a scan
+ * in the batch are left out.
  * Errors: NULL, STATE (not initialised). Fewer than 4 frames, or one sensor: RHO_OK and no line.
- * Cost: for each pair of sensors its crossings times the rows, and times the lines; cells times
- * lines (also those dropped). Stack: 1.5 KB with 8 bearings a scan, 4 KB with 16.
+ * Cost: for each pair of sensors its crossings times the rows of theta, and times the lines; cells
+ * times lines, with those dropped. Stack: 1.5 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper);
 
-/* Two sensors with scans in the batch: their places among batch.sensors. */
+/* Two sensors that have scans in the batch, as indices in batch.sensors. */
 struct rho_passive_paper_pair {
     uint8_t a, b;
 };
 
 /*
- * The pairs of a search, in its order: number from 0. Returns 0 beyond the last one, and *pair is
- * unchanged. Cost: scans times sensors. Stack: 180 bytes.
+ * Gets the pair of sensors with this number, from 0, in the order of a search. Returns 0 beyond the
+ * last pair, and *pair is unchanged. Cost: scans times sensors. Stack: 180 bytes.
  */
 int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned number,
                            struct rho_passive_paper_pair *pair);
 
-/* Where the cells of a search are: its rho is measured from the origin. */
+/* Extent of the cells of a search; rho is measured from the origin. */
 struct rho_passive_paper_space {
-    float origin_x_m, origin_y_m, rho_max_m; /* rho from -rho_max_m to rho_max_m */
+    /* the origin is the sensors' centroid; cells of rho reach from -rho_max_m to rho_max_m */
+    float origin_x_m, origin_y_m, rho_max_m;
     uint16_t theta_cells, rho_cells;
 };
 
 /*
- * Errors: NULL, STATE (not initialised, or no sensor in the batch). Cost: scans times sensors.
- * Stack: 200 bytes.
+ * Extent of the cells of the last search. Errors: NULL, STATE (not initialised, or no sensor in the
+ * batch). Cost: scans times sensors. Stack: 200 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
                                                        struct rho_passive_paper_space *space);
 
 /*
- * Step 1 for one scan and pair: the ghost matrix, pruned by the config's rule. It is that of the
- * last search until the next frame is pushed.
- *   scan  of the batch, 0 the oldest
+ * Step 1 for one scan and one pair of sensors: the ghost matrix, pruned by the config's rule. It is
+ * the matrix of the last search until the next frame is pushed.
+ *   scan  index of the scan in the batch, 0 the oldest
  * Errors: NULL, STATE (not initialised), VALUE (no such scan or pair). Cost: rho_ghost_fill and
  * rho_ghost_prune. Stack: 1 KB with 8 bearings a scan, 3 KB with 16.
  */
@@ -195,22 +211,24 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_ghosts(const struct rho_passive
                                                         struct rho_ghost_matrix *matrix);
 
 /*
- * Step 2: the votes of a pair's accumulator; of all pairs (NULL) the sums, in the cells that every
- * pair confirms, and 0 in the others. They are those of the last search until the next frame is
- * pushed; the lines stay as they are.
+ * Step 2: a picture of the votes in the accumulator of a pair of sensors. With pair NULL: the sums
+ * of the votes of all pairs, in the cells that every pair confirms, and 0 in the others. The votes
+ * are those of the last search until the next frame is pushed; the lines stay as they are.
  * Errors: NULL (paper), STATE (not initialised, or too little in the batch to search), VALUE (no
- * such pair), and those of rho_plane_open. Cost: the voting of rho_passive_paper_search. Stack:
- * 1.6 KB with 8 bearings a scan, 4 KB with 16.
+ * such pair), and those of rho_plane_open. Cost: the voting of rho_passive_paper_search.
+ * Stack: 1.6 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
                                                        const struct rho_passive_paper_pair *pair,
                                                        struct rho_plane *plane);
 
 /*
- * Step 3 for one pair: the cells with T votes or more in its accumulator, best first, none near a
- * better one (step 4). Lifetime, errors and stack as above; NULL also for peaks and num_peaks.
- *   peaks  room for max_peaks cells, from which they are chosen; their masks are filled
- * Cost: the voting of a pair, and the crossings a cell.
+ * Step 3 for one pair of sensors: the cells with T votes or more in its accumulator, best first,
+ * without cells near a better one (step 4). Lifetime and errors as rho_passive_paper_plane; NULL
+ * also for peaks and num_peaks.
+ *   peaks  room for max_peaks cells, from which the result is chosen; masks of scans are filled
+ * Cost: the voting of a pair, and for each cell found the crossings.
+ * Stack: 1.6 KB with 8 bearings a scan, 4 KB with 16.
  */
 RHO_MUST_CHECK enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
                                                        const struct rho_passive_paper_pair *pair,
@@ -218,9 +236,9 @@ RHO_MUST_CHECK enum rho_status rho_passive_paper_cells(struct rho_passive_paper 
                                                        uint32_t max_peaks, uint32_t *num_peaks);
 
 /*
- * Eq. (3): rho of the line in direction theta through what a sensor at (x_m, y_m) sees at this
- * range and bearing. Any two sensors that see the same agree. All finite, angles within 16 turns.
- * Constant cost, stack 64 bytes.
+ * Eq. (3): rho of the line with the normal theta through the place that a sensor at (x_m, y_m)
+ * measures at this range and bearing. It is the same from any sensor. All arguments finite, angles
+ * within 16 turns. Constant cost, stack 64 bytes.
  */
 float rho_passive_paper_rho_m(float range_m, float bearing_rad, float x_m, float y_m,
                               float theta_rad);

@@ -30,7 +30,7 @@ static float distance_m(float x_m, float y_m, float other_x_m, float other_y_m)
     return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
 }
 
-/* The known sensor of this identity, or num_sensors. */
+/* Index of the sensor with this sensor_id in the batch; num_sensors: the batch has none. */
 static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
 {
     unsigned i = 0;
@@ -40,15 +40,19 @@ static unsigned find_sensor(const struct rho_batch *batch, int32_t sensor_id)
     return i;
 }
 
-static int is_base_usable(const struct rho_batch *batch, const struct rho_bearing_scan *scan,
-                          float x_m, float y_m)
+static int is_baseline_usable(const struct rho_batch *batch, const struct rho_bearing_scan *scan,
+                              float x_m, float y_m)
 {
     return rho_is_within(distance_m(scan->x_m, scan->y_m, x_m, y_m), RHO_CROSSING_BASE_MIN_M,
                          batch->apart_max_m);
 }
 
-/* True where a known sensor has not moved, or a new one is far enough from the known ones. */
-static int has_possible_position(const struct rho_batch *batch, const struct rho_bearing_scan *scan)
+/*
+ * A known sensor must not have moved; a new sensor must make a usable baseline with every known
+ * one.
+ */
+static int is_position_consistent(const struct rho_batch *batch,
+                                  const struct rho_bearing_scan *scan)
 {
     unsigned known = find_sensor(batch, scan->sensor_id);
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
@@ -57,21 +61,24 @@ static int has_possible_position(const struct rho_batch *batch, const struct rho
     for (unsigned i = 0; i < batch->num_sensors; i++) {
         const struct rho_batch_sensor *sensor = &batch->sensors[i];
         if (i == known ? distance_m(scan->x_m, scan->y_m, sensor->x_m, sensor->y_m) > 0.0f
-                       : !is_base_usable(batch, scan, sensor->x_m, sensor->y_m)) {
+                       : !is_baseline_usable(batch, scan, sensor->x_m, sensor->y_m)) {
             return 0;
         }
     }
     return 1;
 }
 
-/* The sensor has no other scan in the frame, and is far enough from the sensors of the others. */
-static int is_apart_in_frame(const struct rho_batch *batch, const struct rho_frame *frame,
-                             uint32_t number)
+/*
+ * Scan `number` must not repeat a sensor of an earlier scan of the frame, and must make usable
+ * baselines with the sensors of those scans.
+ */
+static int is_apart_from_earlier_scans(const struct rho_batch *batch, const struct rho_frame *frame,
+                                       uint32_t number)
 {
     for (uint32_t i = 0; i < number; i++) {
         const struct rho_bearing_scan *other = &frame->scans[i];
         if (other->sensor_id == frame->scans[number].sensor_id ||
-            !is_base_usable(batch, &frame->scans[number], other->x_m, other->y_m)) {
+            !is_baseline_usable(batch, &frame->scans[number], other->x_m, other->y_m)) {
             return 0;
         }
     }
@@ -86,7 +93,7 @@ static enum rho_status check_scans(const struct rho_batch *batch, const struct r
         if (scan->num_bearings > 0 && !scan->bearings) {
             return RHO_ERROR_NULL;
         }
-        if (!has_possible_position(batch, scan) || !is_apart_in_frame(batch, frame, i) ||
+        if (!is_position_consistent(batch, scan) || !is_apart_from_earlier_scans(batch, frame, i) ||
             !rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad)) {
             return RHO_ERROR_VALUE;
         }
@@ -190,7 +197,7 @@ enum rho_status rho_batch_push(struct rho_batch *batch, const struct rho_frame *
     return RHO_OK;
 }
 
-/* ---- taking out ------------------------------------------------------------------------------ */
+/* ---- removal of bearings --------------------------------------------------------------------- */
 
 uint32_t rho_batch_remove(struct rho_batch *batch,
                           const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS])
@@ -201,7 +208,8 @@ uint32_t rho_batch_remove(struct rho_batch *batch,
             unsigned place = claim[k][s];
             if (place > 0 && place <= batch->num_bearings[k][s]) {
                 struct rho_batch_bearing *bearing = &batch->bearings[k][s][place - 1];
-                count += bearing->sigma_rad > 0.0f; /* not removed before */
+                /* a bearing that was removed before is not counted again */
+                count += bearing->sigma_rad > 0.0f;
                 bearing->sigma_rad = 0.0f;
             }
         }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * batch_soundness: whether a batch of unknown origin (a snapshot) can be worked with.
+ * batch_soundness: checks that a batch of unknown origin (a snapshot) is valid: counts, positions
+ * and baselines of the sensors, rising times, bearings.
  */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
@@ -25,7 +26,7 @@ static int has_sound_sensors(const struct rho_batch *batch)
     return 1;
 }
 
-/* A bearing that was taken out of the batch has a sigma of 0. */
+/* The sigma of a removed bearing is 0. */
 static int is_sound_bearing(const struct rho_batch_bearing *bearing)
 {
     return rho_is_within(bearing->cosine, -1.01f, 1.01f) &&

@@ -9,15 +9,18 @@
 
 #include "passive_search.h"
 
-#define SWAPPED 12u /* the best candidates */
+#define SWAPPED 12u /* candidates with the highest scores that are paired */
 
-/* Claims of the best candidates: offers change the order of the list. */
+/*
+ * Claims of the best candidates, copied because offering candidates changes the order of their
+ * list.
+ */
 struct claims {
     unsigned count;
     uint8_t of[SWAPPED][RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
 };
 
-static void copy_claims(const struct rho_passive *passive, struct claims *claims)
+static void copy_claims_of_best(const struct rho_passive *passive, struct claims *claims)
 {
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES];
     rho_passive_rank_candidates(passive, order);
@@ -27,11 +30,14 @@ static void copy_claims(const struct rho_passive *passive, struct claims *claims
     }
 }
 
-/* Where a bearing of sensor a and one of sensor b in a scan cross. Claims count from 1. */
-static int cross_claims(const struct rho_passive_search *search,
-                        const struct rho_crossing_base *base, unsigned scan,
-                        const unsigned sensors[2], const unsigned claims[2],
-                        struct rho_crossing *crossing)
+/*
+ * Crosses the claimed bearings of two sensors in a scan; claims are indices from 1. Returns 0 where
+ * there is no claim or no crossing.
+ */
+static int cross_claimed_bearings(const struct rho_passive_search *search,
+                                  const struct rho_crossing_base *base, unsigned scan,
+                                  const unsigned sensors[2], const unsigned claims[2],
+                                  struct rho_crossing *crossing)
 {
     const struct rho_batch *batch = &search->passive->batch;
     return claims[0] > 0 && claims[1] > 0 &&
@@ -40,10 +46,13 @@ static int cross_claims(const struct rho_passive_search *search,
                              search->passive->config.range_max_m, crossing) == RHO_CROSSING_MEETS;
 }
 
-/* The state through the first and the last crossing of the swapped bearings. */
-static int swapped_state(const struct rho_passive_search *search, const struct claims *claims,
-                         unsigned i, unsigned j, const unsigned sensors[2],
-                         float state_m[RHO_PASSIVE_STATES])
+/*
+ * The state through the first and the last crossing of candidate i's bearings from the first sensor
+ * with candidate j's bearings from the second one. Returns 0 without two crossings.
+ */
+static int state_from_swapped_bearings(const struct rho_passive_search *search,
+                                       const struct claims *claims, unsigned i, unsigned j,
+                                       const unsigned sensors[2], float state_m[RHO_PASSIVE_STATES])
 {
     const struct rho_batch *batch = &search->passive->batch;
     struct rho_crossing_base base;
@@ -55,7 +64,7 @@ static int swapped_state(const struct rho_passive_search *search, const struct c
     }
     for (unsigned k = 0; k < batch->num_scans; k++) {
         const unsigned both[2] = {claims->of[i][k][sensors[0]], claims->of[j][k][sensors[1]]};
-        if (cross_claims(search, &base, k, sensors, both, &crossing)) {
+        if (cross_claimed_bearings(search, &base, k, sensors, both, &crossing)) {
             first = first_scan == batch->num_scans ? crossing : first;
             first_scan = first_scan == batch->num_scans ? k : first_scan;
             last = crossing;
@@ -73,15 +82,15 @@ static int swapped_state(const struct rho_passive_search *search, const struct c
     return 1;
 }
 
-static void swap_pair(struct rho_passive_search *search, const struct claims *claims, unsigned i,
-                      unsigned j)
+static void offer_swapped_candidates(struct rho_passive_search *search, const struct claims *claims,
+                                     unsigned i, unsigned j)
 {
     unsigned num_sensors = search->passive->batch.num_sensors;
     float state_m[RHO_PASSIVE_STATES];
     for (unsigned a = 0; a + 1u < num_sensors; a++) {
         for (unsigned b = a + 1u; b < num_sensors; b++) {
             const unsigned sensors[2] = {a, b};
-            if (swapped_state(search, claims, i, j, sensors, state_m)) {
+            if (state_from_swapped_bearings(search, claims, i, j, sensors, state_m)) {
                 rho_passive_fit_nearest(search, state_m, 1);
                 (void)rho_passive_offer_candidate(search, state_m);
             }
@@ -92,11 +101,11 @@ static void swap_pair(struct rho_passive_search *search, const struct claims *cl
 void rho_passive_swap_bearings(struct rho_passive_search *search)
 {
     struct claims claims;
-    copy_claims(search->passive, &claims);
+    copy_claims_of_best(search->passive, &claims);
     for (unsigned i = 0; i < claims.count; i++) {
         for (unsigned j = 0; j < claims.count; j++) {
             if (i != j) {
-                swap_pair(search, &claims, i, j);
+                offer_swapped_candidates(search, &claims, i, j);
             }
         }
     }

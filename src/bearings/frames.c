@@ -5,12 +5,13 @@
 
 #include "rhotrack/detail/approx.h"
 
-#define FRAMES_MAGIC 0x46524d53u /* "FRMS" */
+#define FRAMES_MAGIC 0x46524d53u /* "FRMS" in ASCII */
 
 #define SECOND_US INT64_C(1000000)
 #define TOLERANCE_MAX_US (10 * SECOND_US)
 #define JUMP_MAX_US (3600 * SECOND_US)
-#define APART_MIN_M 1.0f /* below, bearings do not cross (crossing.h) */
+/* bearings of sensors nearer to each other than this do not cross (crossing.h) */
+#define APART_MIN_M 1.0f
 
 /* ---- setting up ------------------------------------------------------------------------------ */
 
@@ -44,7 +45,8 @@ enum rho_status rho_frames_init(struct rho_frames *frames, size_t size,
     if (!is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
-    struct rho_frames_config kept = *config; /* it may lie within *frames */
+    /* the caller's config may lie within *frames, which is cleared */
+    struct rho_frames_config kept = *config;
     memset(frames, 0, sizeof *frames);
     frames->magic = FRAMES_MAGIC;
     frames->config.tolerance_us = kept.tolerance_us;
@@ -58,7 +60,7 @@ enum rho_status rho_frames_init(struct rho_frames *frames, size_t size,
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-/* The known sensor of this identity, or num_sensors. */
+/* Index of the sensor with this sensor_id in the frames object; num_sensors: it has none. */
 static unsigned find_sensor(const struct rho_frames *frames, int32_t sensor_id)
 {
     unsigned i = 0;
@@ -68,7 +70,8 @@ static unsigned find_sensor(const struct rho_frames *frames, int32_t sensor_id)
     return i;
 }
 
-static unsigned find_or_add_sensor(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+static unsigned find_or_add_heard_sensor(struct rho_frames *frames,
+                                         const struct rho_bearing_scan *scan)
 {
     unsigned i = find_sensor(frames, scan->sensor_id);
     if (i == frames->num_sensors) {
@@ -79,9 +82,9 @@ static unsigned find_or_add_sensor(struct rho_frames *frames, const struct rho_b
     return i;
 }
 
-/* True where a known sensor has not moved, or a new one is far enough from the known ones. */
-static int has_possible_position(const struct rho_frames *frames,
-                                 const struct rho_bearing_scan *scan)
+/* A known sensor must not have moved; a new sensor must be at least APART_MIN_M from the others. */
+static int is_position_consistent(const struct rho_frames *frames,
+                                  const struct rho_bearing_scan *scan)
 {
     if (!rho_is_coordinate(scan->x_m) || !rho_is_coordinate(scan->y_m)) {
         return 0;
@@ -107,7 +110,7 @@ static enum rho_status check_scan(const struct rho_frames *frames,
     if (scan->time_us < -RHO_LIMIT_TIME_US || scan->time_us > RHO_LIMIT_TIME_US ||
         !rho_is_within(scan->sector_from_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
         !rho_is_within(scan->sector_to_rad, -RHO_TWO_PI, RHO_TWO_PI) ||
-        !has_possible_position(frames, scan)) {
+        !is_position_consistent(frames, scan)) {
         return RHO_ERROR_VALUE;
     }
     return find_sensor(frames, scan->sensor_id) < RHO_MAX_PASSIVE_SENSORS ? RHO_OK
@@ -126,8 +129,8 @@ static int has_scan_of(const struct rho_frames_slot *slot, unsigned sensor)
     return 0;
 }
 
-/* The frame has a scan of every sensor that is expected. */
-static int is_complete(const struct rho_frames *frames, const struct rho_frames_slot *slot)
+/* A frame is complete when it has sensors_min scans, and one of every sensor that is expected. */
+static int is_frame_complete(const struct rho_frames *frames, const struct rho_frames_slot *slot)
 {
     for (unsigned i = 0; i < frames->num_sensors; i++) {
         if (frames->sensors[i].silent < frames->config.silent_frames && !has_scan_of(slot, i)) {
@@ -137,7 +140,8 @@ static int is_complete(const struct rho_frames *frames, const struct rho_frames_
     return slot->num_scans >= frames->config.sensors_min;
 }
 
-static void count_missing(struct rho_frames *frames, const struct rho_frames_slot *slot)
+static void count_frame_and_missing_sensors(struct rho_frames *frames,
+                                            const struct rho_frames_slot *slot)
 {
     for (unsigned i = 0; i < frames->num_sensors; i++) {
         struct rho_frames_sensor *sensor = &frames->sensors[i];
@@ -151,14 +155,16 @@ static void count_missing(struct rho_frames *frames, const struct rho_frames_slo
     frames->counters.frames = rho_count(frames->counters.frames, 1);
 }
 
-/* The open frame, if there is one, becomes the closed one. */
+/*
+ * The open frame, if it has scans, becomes the closed frame; the other slot is emptied and opened.
+ */
 static void close_open_frame(struct rho_frames *frames)
 {
     const struct rho_frames_slot *slot = &frames->slots[frames->open];
     if (slot->num_scans == 0) {
         return;
     }
-    count_missing(frames, slot);
+    count_frame_and_missing_sensors(frames, slot);
     frames->closed_us = slot->time_us;
     frames->has_closed = 1;
     frames->open = frames->open ^ 1u;
@@ -181,23 +187,29 @@ static void copy_scan(struct rho_frames *frames, struct rho_frames_scan *to, uns
         rho_count(frames->counters.bearings_no_room, scan->num_bearings - count);
 }
 
-/* Adds the scan to the open frame, and closes the frame if no other sensor is expected. */
-static void add_scan(struct rho_frames *frames, const struct rho_bearing_scan *scan)
+/* Adds the scan to the open frame, and closes the frame if it is then complete. */
+static void add_scan_and_close_if_complete(struct rho_frames *frames,
+                                           const struct rho_bearing_scan *scan)
 {
     struct rho_frames_slot *slot = &frames->slots[frames->open];
     int is_first = slot->num_scans == 0;
-    copy_scan(frames, &slot->scans[slot->num_scans++], find_or_add_sensor(frames, scan), scan);
+    copy_scan(frames, &slot->scans[slot->num_scans++], find_or_add_heard_sensor(frames, scan),
+              scan);
     slot->time_us = is_first || scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
     slot->last_us = is_first || scan->time_us > slot->last_us ? scan->time_us : slot->last_us;
     frames->clock_us = scan->time_us;
     frames->counters.scans_taken = rho_count(frames->counters.scans_taken, 1);
-    if (is_complete(frames, slot)) {
+    if (is_frame_complete(frames, slot)) {
         close_open_frame(frames);
     }
 }
 
-/* Whether the scans of the open frame and this one lie within the tolerance. */
-static int is_within_tolerance(const struct rho_frames *frames, const struct rho_bearing_scan *scan)
+/*
+ * A scan joins the open frame if all scans of the frame then lie within the tolerance, and the
+ * frame has no scan of the same sensor yet.
+ */
+static int belongs_to_open_frame(const struct rho_frames *frames,
+                                 const struct rho_bearing_scan *scan)
 {
     const struct rho_frames_slot *slot = &frames->slots[frames->open];
     int64_t first_us = scan->time_us < slot->time_us ? scan->time_us : slot->time_us;
@@ -209,24 +221,25 @@ static int is_within_tolerance(const struct rho_frames *frames, const struct rho
 static void add_or_count_late(struct rho_frames *frames, const struct rho_bearing_scan *scan)
 {
     const struct rho_frames_slot *slot = &frames->slots[frames->open];
-    int is_joining = slot->num_scans > 0 && is_within_tolerance(frames, scan);
+    int is_joining = slot->num_scans > 0 && belongs_to_open_frame(frames, scan);
     int is_newer = slot->num_scans == 0 || scan->time_us > slot->time_us;
     if (scan->time_us <= frames->closed_us || (!is_joining && !is_newer)) {
-        find_or_add_sensor(frames, scan);
+        find_or_add_heard_sensor(frames, scan);
         frames->counters.scans_late = rho_count(frames->counters.scans_late, 1);
         return;
     }
     if (!is_joining) {
         close_open_frame(frames);
     }
-    add_scan(frames, scan);
+    add_scan_and_close_if_complete(frames, scan);
 }
 
 /* ---- the clock ------------------------------------------------------------------------------- */
 
 static int is_off_clock(const struct rho_frames *frames, int64_t time_us)
 {
-    int64_t ahead_us = time_us - frames->clock_us; /* RHO_LIMIT_TIME_US: it fits */
+    /* cannot overflow: times are within RHO_LIMIT_TIME_US */
+    int64_t ahead_us = time_us - frames->clock_us;
     return frames->counters.scans_taken > 0 &&
            (ahead_us > frames->config.jump_max_us || -ahead_us > frames->config.jump_max_us);
 }
@@ -238,7 +251,7 @@ static void restart_frames(struct rho_frames *frames, const struct rho_bearing_s
     frames->off_clock = 0;
     frames->counters.clock_jumps = rho_count(frames->counters.clock_jumps, 1);
     frames->slots[frames->open].is_restart = 1;
-    add_scan(frames, scan);
+    add_scan_and_close_if_complete(frames, scan);
 }
 
 enum rho_status rho_frames_push(struct rho_frames *frames, const struct rho_bearing_scan *scan)
@@ -279,7 +292,7 @@ enum rho_status rho_frames_close(struct rho_frames *frames)
     return RHO_OK;
 }
 
-/* ---- what was closed ------------------------------------------------------------------------- */
+/* ---- the closed frame ------------------------------------------------------------------------ */
 
 static void view_scan(const struct rho_frames *frames, const struct rho_frames_scan *from,
                       struct rho_bearing_scan *scan)

@@ -3,11 +3,11 @@
 
 #include "rhotrack/types.h"
 
-#define ANGLE_MAX_RAD 100.0f /* of angle.h */
+#define ANGLE_MAX_RAD 100.0f /* largest angle, either way, that the functions of angle.h accept */
 
 /* ---- elimination ----------------------------------------------------------------------------- */
 
-static int are_finite(const float *bearings_rad, unsigned count)
+static int are_bearings_valid(const float *bearings_rad, unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {
         if (!rho_is_within(bearings_rad[i], -ANGLE_MAX_RAD, ANGLE_MAX_RAD)) {
@@ -44,7 +44,7 @@ enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
     if (num_a > RHO_MAX_BEARINGS || num_b > RHO_MAX_BEARINGS) {
         return RHO_ERROR_CAPACITY;
     }
-    if (!are_finite(bearings_a_rad, num_a) || !are_finite(bearings_b_rad, num_b) ||
+    if (!are_bearings_valid(bearings_a_rad, num_a) || !are_bearings_valid(bearings_b_rad, num_b) ||
         !(range_max_m > 0.0f)) {
         return RHO_ERROR_VALUE;
     }
@@ -64,10 +64,12 @@ enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
 
 /* ---- pruning --------------------------------------------------------------------------------- */
 
-/* Rows of a matrix, or its columns: the paper's rules are the same for both. */
+/*
+ * The beams of one sensor: rows or columns of the ghost matrix, which are pruned by the same rule.
+ */
 struct beams {
     struct rho_ghost_matrix *matrix;
-    unsigned count, others; /* beams of this sensor, and of the other one */
+    unsigned count, others; /* number of beams of this sensor, and of the other one */
     int are_columns;
 };
 
@@ -85,7 +87,7 @@ static void remove_crossing(const struct beams *beams, unsigned beam, unsigned o
     beams->matrix->reason[row][column] = beams->are_columns ? RHO_GHOST_COLUMN : RHO_GHOST_ROW;
 }
 
-/* How many crossings a beam has; *only is one of them. */
+/* Number of crossings of a beam that are not removed; *only is the last of them. */
 static unsigned count_kept_crossings(const struct beams *beams, unsigned beam, unsigned *only)
 {
     unsigned count = 0;
@@ -99,9 +101,10 @@ static unsigned count_kept_crossings(const struct beams *beams, unsigned beam, u
 }
 
 /*
- * The first beam with a single crossing that is not done; the number of beams where there is none.
+ * Index of the first unprocessed beam that has a single crossing left; beams->count: no beam has.
  */
-static unsigned find_single_crossing(const struct beams *beams, const uint8_t *done, unsigned *only)
+static unsigned find_beam_with_single_crossing(const struct beams *beams, const uint8_t *done,
+                                               unsigned *only)
 {
     unsigned beam = 0;
     while (beam < beams->count && (done[beam] || count_kept_crossings(beams, beam, only) != 1)) {
@@ -111,13 +114,14 @@ static unsigned find_single_crossing(const struct beams *beams, const uint8_t *d
 }
 
 /*
- * Steps 2.1 to 2.4: a beam's only crossing is its target, and the other beam's too, whose other
- * crossings are ghosts.
+ * Steps 2.1 to 2.4 of the paper: where a beam has a single crossing left, that is the target of
+ * both beams, and the other crossings of the other sensor's beam are ghosts. Returns their number.
  */
-static unsigned prune_beams(const struct beams *beams, uint8_t *done, uint8_t *others_done)
+static unsigned prune_beams_by_single_crossings(const struct beams *beams, uint8_t *done,
+                                                uint8_t *others_done)
 {
     unsigned removed = 0, only = 0, beam;
-    while ((beam = find_single_crossing(beams, done, &only)) < beams->count) {
+    while ((beam = find_beam_with_single_crossing(beams, done, &only)) < beams->count) {
         for (unsigned i = 0; i < beams->count; i++) {
             if (i != beam && is_crossing_kept(beams, i, only)) {
                 remove_crossing(beams, i, only);
@@ -129,28 +133,28 @@ static unsigned prune_beams(const struct beams *beams, uint8_t *done, uint8_t *o
     return removed;
 }
 
-static unsigned prune_single_crossings(struct rho_ghost_matrix *matrix)
+static unsigned prune_by_single_crossings(struct rho_ghost_matrix *matrix)
 {
     uint8_t rows_done[RHO_MAX_BEARINGS] = {0}, columns_done[RHO_MAX_BEARINGS] = {0};
     struct beams rows = {matrix, matrix->rows, matrix->columns, 0};
     struct beams columns = {matrix, matrix->columns, matrix->rows, 1};
-    unsigned removed = prune_beams(&rows, rows_done, columns_done);
-    return removed + prune_beams(&columns, columns_done, rows_done);
+    unsigned removed = prune_beams_by_single_crossings(&rows, rows_done, columns_done);
+    return removed + prune_beams_by_single_crossings(&columns, columns_done, rows_done);
 }
 
 /* ---- complete matchings ---------------------------------------------------------------------- */
 
 #define NONE 0xffu
 
-/* Each bearing of sensor a matched with one of sensor b. */
+/* One-to-one matching of the bearings of sensor a (rows) with those of sensor b (columns). */
 struct matching {
-    unsigned count;                   /* bearings of either sensor */
-    uint64_t kept[RHO_MAX_BEARINGS];  /* columns that meet the row */
-    uint8_t column[RHO_MAX_BEARINGS]; /* of a row; NONE: not yet */
-    uint8_t row[RHO_MAX_BEARINGS];    /* of a column */
+    unsigned count;                   /* number of bearings of either sensor */
+    uint64_t kept[RHO_MAX_BEARINGS];  /* bit j of row i: crossing (i, j) is not a ghost */
+    uint8_t column[RHO_MAX_BEARINGS]; /* column matched with each row; NONE: not matched yet */
+    uint8_t row[RHO_MAX_BEARINGS];    /* row matched with each column; NONE: not matched yet */
 };
 
-static void open_matching(struct matching *matching, const struct rho_ghost_matrix *matrix)
+static void init_matching(struct matching *matching, const struct rho_ghost_matrix *matrix)
 {
     matching->count = matrix->rows;
     for (unsigned i = 0; i < matching->count; i++) {
@@ -162,9 +166,12 @@ static void open_matching(struct matching *matching, const struct rho_ghost_matr
     }
 }
 
-/* Back along the path by which the column was reached, every row takes the column behind it. */
-static void take_columns(struct matching *matching, const uint8_t *reached_from, unsigned row,
-                         unsigned column)
+/*
+ * Augments the matching along the path from a free row to a free column: each row of the path gives
+ * up its column and gets the next one.
+ */
+static void augment_along_path(struct matching *matching, const uint8_t *reached_from, unsigned row,
+                               unsigned column)
 {
     unsigned taker = NONE;
     while (taker != row) {
@@ -176,7 +183,10 @@ static void take_columns(struct matching *matching, const uint8_t *reached_from,
     }
 }
 
-/* A row may take a column whose row finds another one, and so on. Returns 0 where there is none. */
+/*
+ * Matches one more row: breadth-first search for an augmenting path to a free column. Returns 0
+ * where there is no such path.
+ */
 static int match_row(struct matching *matching, unsigned row)
 {
     uint8_t rows[RHO_MAX_BEARINGS], reached_from[RHO_MAX_BEARINGS];
@@ -191,7 +201,7 @@ static int match_row(struct matching *matching, unsigned row)
             reached |= (uint64_t)1 << column;
             reached_from[column] = rows[i];
             if (matching->row[column] == NONE) {
-                take_columns(matching, reached_from, row, column);
+                augment_along_path(matching, reached_from, row, column);
                 return 1;
             }
             rows[end++] = matching->row[column];
@@ -200,7 +210,7 @@ static int match_row(struct matching *matching, unsigned row)
     return 0;
 }
 
-static int complete_matching(struct matching *matching)
+static int find_complete_matching(struct matching *matching)
 {
     unsigned row = 0;
     while (row < matching->count && match_row(matching, row)) {
@@ -209,7 +219,10 @@ static int complete_matching(struct matching *matching)
     return row == matching->count;
 }
 
-/* The rows that are free once each of them has taken the column of the next: from row i a bit k. */
+/*
+ * Transitive closure: bit k of ways[i] is set if row i can get the column of row k while rows
+ * between them exchange columns.
+ */
 static void find_reachable_rows(const struct matching *matching, uint64_t ways[RHO_MAX_BEARINGS])
 {
     for (unsigned i = 0; i < matching->count; i++) {
@@ -226,16 +239,16 @@ static void find_reachable_rows(const struct matching *matching, uint64_t ways[R
 }
 
 /*
- * A crossing is part of a complete matching where the row that has its column finds a way to the
- * column of the crossing's row.
+ * Removes crossings that are in no complete matching. Crossing (i, j) is in one if the row matched
+ * with column j can get the column of row i (find_reachable_rows).
  */
 static unsigned prune_unmatched(struct rho_ghost_matrix *matrix)
 {
     struct matching matching;
     uint64_t ways[RHO_MAX_BEARINGS];
     unsigned removed = 0;
-    open_matching(&matching, matrix);
-    if (!complete_matching(&matching)) {
+    init_matching(&matching, matrix);
+    if (!find_complete_matching(&matching)) {
         return 0;
     }
     find_reachable_rows(&matching, ways);
@@ -254,12 +267,12 @@ static unsigned prune_unmatched(struct rho_ghost_matrix *matrix)
 unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule)
 {
     if (rule == RHO_GHOST_LITERAL) {
-        return prune_single_crossings(matrix);
+        return prune_by_single_crossings(matrix);
     }
     return rule == RHO_GHOST_SAFE && matrix->rows == matrix->columns ? prune_unmatched(matrix) : 0;
 }
 
-/* Characters, not pointers: nothing to relocate. */
+/* arrays of characters rather than pointers, so that the table needs no relocation */
 static const char names[RHO_NUM_GHOST_REASONS][10] = {
     [RHO_GHOST_KEPT] = "kept",           [RHO_GHOST_SIDES] = "sides", [RHO_GHOST_APART] = "apart",
     [RHO_GHOST_RANGE] = "range",         [RHO_GHOST_ROW] = "row",     [RHO_GHOST_COLUMN] = "column",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive: configuration, frames, and the plan of a search (rho_passive_search). Each phase of the
- * search is a file of its own; passive_search.h lists them.
+ * passive: configuration, frames, and the sequence of phases of a search (rho_passive_search). Each
+ * phase is a file of its own; passive_search.h lists them.
  */
 #include "rhotrack/passive.h"
 
@@ -10,14 +10,14 @@
 #include "passive_search.h"
 #include "rhotrack/types.h"
 
-#define PASSIVE_MAGIC 0x50415353u /* "PASS" */
+#define PASSIVE_MAGIC 0x50415353u /* "PASS" in ASCII */
 
 #define SCANS_MIN 4u
 #define LINES_MAX 96u
-#define VOTES_MIN 2u /* crossings of a line */
+#define VOTES_MIN 2u /* smallest number of scans whose crossings must vote for a line */
 /*
- * Votes of a line, as a share of the scans that have crossings: in the first pass and in the
- * second.
+ * Smallest share of the scans with crossings that must vote for a line, in the first and the second
+ * pass of a search.
  */
 #define FIRST_VOTES_SHARE 0.6f
 #define SECOND_VOTES_SHARE 0.5f
@@ -54,7 +54,10 @@ static int is_usable(const struct rho_passive_config *config)
            (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
 
-/* Farther apart, and lines through what the sensors see could lie outside of the cells of rho. */
+/*
+ * Largest distance of two sensors at which all lines through their coverage lie within the cells of
+ * rho.
+ */
 static float max_sensor_distance_m(const struct rho_passive_config *config)
 {
     float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PASSIVE_RHO_CELLS - config->range_max_m;
@@ -75,7 +78,8 @@ enum rho_status rho_passive_init(struct rho_passive *passive, size_t size,
     if (!is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
-    struct rho_passive_config kept = *config; /* it may lie within *passive */
+    /* the caller's config may lie within *passive, which is cleared */
+    struct rho_passive_config kept = *config;
     memset(passive, 0, sizeof *passive);
     passive->config = kept;
     passive->magic = PASSIVE_MAGIC;
@@ -119,8 +123,8 @@ uint32_t rho_passive_consume(struct rho_passive *passive, const struct rho_passi
 
 /* ---- the search ------------------------------------------------------------------------------ */
 
-/* Only scans that two sensors or more reported in have crossings, and votes. */
-static unsigned count_crossed_scans(const struct rho_batch *batch)
+/* Scans in which at least two sensors reported: no other scan has crossings that can vote. */
+static unsigned count_multi_sensor_scans(const struct rho_batch *batch)
 {
     unsigned count = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
@@ -134,13 +138,13 @@ static unsigned count_crossed_scans(const struct rho_batch *batch)
 }
 
 /*
- * Crossings, lines of crossings, and hypotheses on the lines, from the bearings that are not
- * claimed.
+ * One pass over the unclaimed bearings: crossings, the lines that they vote for, and candidates
+ * from hypotheses on those lines.
  */
-static void search_lines(struct rho_passive_search *search, float votes_share)
+static void find_line_candidates(struct rho_passive_search *search, float votes_share)
 {
     struct rho_passive_line line;
-    float votes = votes_share * (float)count_crossed_scans(&search->passive->batch);
+    float votes = votes_share * (float)count_multi_sensor_scans(&search->passive->batch);
     unsigned votes_min = (unsigned)votes + ((float)(unsigned)votes < votes ? 1u : 0u);
     votes_min = votes_min > VOTES_MIN ? votes_min : VOTES_MIN;
     rho_passive_find_crossings(search);
@@ -151,7 +155,7 @@ static void search_lines(struct rho_passive_search *search, float votes_share)
     }
 }
 
-static void release_claims(struct rho_passive *passive)
+static void clear_claims(struct rho_passive *passive)
 {
     memset(passive->is_claimed, 0, sizeof passive->is_claimed);
 }
@@ -159,7 +163,7 @@ static void release_claims(struct rho_passive *passive)
 static void clear_results(struct rho_passive *passive)
 {
     memset(&passive->work, 0, sizeof passive->work);
-    release_claims(passive);
+    clear_claims(passive);
     passive->num_tracks = passive->num_candidates = 0;
     passive->start_mnat = 0;
 }
@@ -180,17 +184,17 @@ enum rho_status rho_passive_search(struct rho_passive *passive)
     }
     rho_passive_prepare(&search);
 
-    /* the first pass: crossings that a third sensor supports */
-    search_lines(&search, FIRST_VOTES_SHARE);
+    /* first pass: only crossings that a third sensor supports */
+    find_line_candidates(&search, FIRST_VOTES_SHARE);
     rho_passive_claim_best_set(&search);
     rho_passive_set_start_score(&search);
 
-    /* the second pass: all crossings of the bearings that are left */
+    /* second pass: all crossings of the bearings that no track of the first pass has claimed */
     search.is_second = 1;
-    search_lines(&search, SECOND_VOTES_SHARE);
-    release_claims(passive);
+    find_line_candidates(&search, SECOND_VOTES_SHARE);
+    clear_claims(passive);
 
-    /* candidates of both passes */
+    /* the final selection is from the candidates of both passes */
     rho_passive_swap_bearings(&search);
     rho_passive_select_tracks(&search);
     return RHO_OK;
@@ -218,5 +222,6 @@ int rho_passive_is_sound(const struct rho_passive *passive)
     return is_usable(&passive->config) && rho_batch_is_sound(&passive->batch) &&
            passive->batch.scans_max == passive->config.scans &&
            passive->num_tracks <= RHO_MAX_PASSIVE_TRACKS &&
-           rho_passive_accepts(passive, NULL) == RHO_ERROR_NULL; /* STATE: not initialised */
+           /* an initialised object refuses a NULL frame by NULL, any other by STATE */
+           rho_passive_accepts(passive, NULL) == RHO_ERROR_NULL;
 }

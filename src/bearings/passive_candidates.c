@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_candidates: the candidates for tracks, best score first where they are ranked. A
- * candidate that shares most of its bearings with a better one is a duplicate, and is dropped.
+ * passive_candidates: the list of candidates for tracks. A candidate that shares most of its
+ * bearings with a better one is a duplicate, and is dropped.
  */
 #include <string.h>
 
@@ -23,7 +23,7 @@ unsigned rho_passive_count_shared(const struct rho_passive_search *search,
     return shared;
 }
 
-/* Whether the other candidate claims most of the bearings of `of`. */
+/* Whether candidate `other` claims at least DUPLICATE_SHARE of the bearings of candidate `of`. */
 static int is_duplicate(const struct rho_passive_search *search,
                         const struct rho_passive_candidate *of,
                         const struct rho_passive_candidate *other)
@@ -51,12 +51,13 @@ static void remove_worse_duplicates(struct rho_passive_search *search,
     for (unsigned i = passive->num_candidates; i > 0; i--) {
         if (is_duplicate(search, &passive->candidates[i - 1u], candidate)) {
             passive->candidates[i - 1u] = passive->candidates[--passive->num_candidates];
-            search->candidates_removed++; /* at most once a fit: 2 passes, 96 lines, 20 fits */
+            /* cannot overflow: at most one removal for each of 2 passes x 96 lines x 20 fits */
+            search->candidates_removed++;
         }
     }
 }
 
-/* A full list drops the candidate with the lowest score. */
+/* Adds a candidate to the list; a full list drops its lowest score, or the new candidate. */
 static void add_candidate(struct rho_passive_search *search,
                           const struct rho_passive_candidate *candidate)
 {

@@ -10,11 +10,12 @@
 #include "passive_search.h"
 
 #define STARTS 12u
-#define SAME_TARGET_SHARE 0.7f /* of the bearings */
+/* share of a candidate's bearings at which another candidate counts as the same target */
+#define SAME_TARGET_SHARE 0.7f
 
 /* ---- joint selection ------------------------------------------------------------------------- */
 
-static void start_choice(struct rho_passive_choice *choice, const struct rho_passive_search *search)
+static void init_choice(struct rho_passive_choice *choice, const struct rho_passive_search *search)
 {
     memset(choice, 0, sizeof *choice);
     choice->search = search;
@@ -24,7 +25,7 @@ static void start_choice(struct rho_passive_choice *choice, const struct rho_pas
     }
 }
 
-/* Adds a candidate, or removes it. */
+/* Adds a candidate to the choice, or removes it, and updates the gains of the others. */
 static void toggle_candidate(struct rho_passive_choice *choice, unsigned which)
 {
     const struct rho_passive *passive = choice->search->passive;
@@ -39,7 +40,7 @@ static void toggle_candidate(struct rho_passive_choice *choice, unsigned which)
     }
 }
 
-/* The candidate that gains most; count: none gains. */
+/* The candidate outside the choice that raises the total most; choice->count: no candidate does. */
 static unsigned find_best_addition(const struct rho_passive_choice *choice, unsigned excluded)
 {
     unsigned best = choice->count;
@@ -54,7 +55,7 @@ static unsigned find_best_addition(const struct rho_passive_choice *choice, unsi
     return best;
 }
 
-/* Adds candidates while the total grows, and removes those that then have a negative gain. */
+/* Adds candidates while the total grows, and removes those whose gain has become negative. */
 static void add_while_gaining(struct rho_passive_choice *choice, unsigned excluded)
 {
     for (unsigned added; (added = find_best_addition(choice, excluded)) < choice->count;) {
@@ -67,8 +68,10 @@ static void add_while_gaining(struct rho_passive_choice *choice, unsigned exclud
     }
 }
 
-/* Replaces one candidate by others if that raises the total. Returns whether it is. */
-static int try_to_replace(struct rho_passive_choice *choice, unsigned which)
+/*
+ * Removes one candidate and adds others instead, if that raises the total. Returns whether it did.
+ */
+static int try_to_replace_candidate(struct rho_passive_choice *choice, unsigned which)
 {
     struct rho_passive_choice tried = *choice;
     toggle_candidate(&tried, which);
@@ -86,12 +89,12 @@ void rho_passive_improve_choice(struct rho_passive_choice *choice)
     do {
         is_better = 0;
         for (unsigned i = 0; i < choice->count; i++) {
-            is_better |= choice->is_in[i] && try_to_replace(choice, i);
+            is_better |= choice->is_in[i] && try_to_replace_candidate(choice, i);
         }
     } while (is_better);
 }
 
-static void count_shared_bearings(const struct rho_passive_search *search)
+static void fill_shared_bearings_table(const struct rho_passive_search *search)
 {
     struct rho_passive *passive = search->passive;
     for (unsigned i = 0; i < passive->num_candidates; i++) {
@@ -107,11 +110,11 @@ void rho_passive_choose_candidates(const struct rho_passive_search *search,
 {
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
     rho_passive_rank_candidates(search->passive, order);
-    count_shared_bearings(search);
-    start_choice(best, search);
+    fill_shared_bearings_table(search);
+    init_choice(best, search);
     for (unsigned i = 0; i < STARTS && i < best->count; i++) {
         struct rho_passive_choice choice = {.count = 0};
-        start_choice(&choice, search);
+        init_choice(&choice, search);
         toggle_candidate(&choice, order[i]);
         add_while_gaining(&choice, choice.count);
         rho_passive_improve_choice(&choice);
@@ -123,8 +126,8 @@ void rho_passive_choose_candidates(const struct rho_passive_search *search,
 
 /* ---- choices with and without a candidate ---------------------------------------------------- */
 
-/* Whether both are fits of the same target that differ in a few bearings. */
-static int is_same_target(const struct rho_passive *passive, unsigned of, unsigned other)
+/* Whether two candidates share so many bearings that both are fits of one target. */
+static int are_fits_of_same_target(const struct rho_passive *passive, unsigned of, unsigned other)
 {
     return (float)passive->shared[of][other] >=
            SAME_TARGET_SHARE * (float)passive->candidates[of].hits;
@@ -133,7 +136,7 @@ static int is_same_target(const struct rho_passive *passive, unsigned of, unsign
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which)
 {
     for (unsigned i = 0; i < choice->count; i++) {
-        if (i == which || is_same_target(choice->search->passive, which, i)) {
+        if (i == which || are_fits_of_same_target(choice->search->passive, which, i)) {
             choice->is_out[i] = 1;
             if (choice->is_in[i]) {
                 toggle_candidate(choice, i);

@@ -11,7 +11,7 @@
 
 #define SUPPORT_SIGMAS 3.0f
 
-/* Bearings of two sensors in one scan that are not left out, and their indices in the batch. */
+/* The unclaimed bearings of two sensors in one scan, with their indices in the batch. */
 struct sensor_pair {
     unsigned scan, a, b;
     unsigned num_a, num_b;
@@ -19,8 +19,8 @@ struct sensor_pair {
     uint8_t index_a[RHO_MAX_BEARINGS], index_b[RHO_MAX_BEARINGS];
 };
 
-static unsigned collect_bearings(const struct rho_passive_search *search, unsigned scan,
-                                 unsigned sensor, float *bearings_rad, uint8_t *index)
+static unsigned collect_unclaimed_bearings(const struct rho_passive_search *search, unsigned scan,
+                                           unsigned sensor, float *bearings_rad, uint8_t *index)
 {
     const struct rho_passive *passive = search->passive;
     unsigned count = 0;
@@ -33,9 +33,11 @@ static unsigned collect_bearings(const struct rho_passive_search *search, unsign
     return count;
 }
 
-/* Whether a sensor has a bearing towards the crossing, within the errors of both. */
-static int has_bearing_at(const struct rho_passive_search *search, unsigned sensor,
-                          const struct rho_passive_point *point)
+/*
+ * Whether a sensor has a bearing towards the crossing, within the errors of bearing and crossing.
+ */
+static int has_bearing_towards(const struct rho_passive_search *search, unsigned sensor,
+                               const struct rho_passive_point *point)
 {
     const struct rho_passive *passive = search->passive;
     float dx_m = point->x_m - search->x_m[sensor], dy_m = point->y_m - search->y_m[sensor];
@@ -43,7 +45,7 @@ static int has_bearing_at(const struct rho_passive_search *search, unsigned sens
     if (!(range2 > 1.0f)) {
         return 0;
     }
-    /* variance of the crossing across the line of sight, times range^2 */
+    /* variance of the crossing across the line of sight, times the squared range */
     float across =
         point->xx_m2 * dy_m * dy_m - 2.0f * point->xy_m2 * dx_m * dy_m + point->yy_m2 * dx_m * dx_m;
     for (unsigned i = 0; i < passive->batch.num_bearings[point->scan][sensor]; i++) {
@@ -58,17 +60,20 @@ static int has_bearing_at(const struct rho_passive_search *search, unsigned sens
     return 0;
 }
 
-/* All further sensors but one must have a bearing towards it, and one at least. */
-static int is_supported_by_sensors(const struct rho_passive_search *search,
-                                   const struct sensor_pair *pair,
-                                   const struct rho_passive_point *point)
+/*
+ * In the first pass, with three sensors or more: all but one of the sensors besides the pair, and
+ * at least one, must have a bearing towards the crossing.
+ */
+static int is_supported_by_other_sensors(const struct rho_passive_search *search,
+                                         const struct sensor_pair *pair,
+                                         const struct rho_passive_point *point)
 {
     unsigned num_sensors = search->passive->batch.num_sensors, support = 0;
     if (num_sensors < 3 || search->is_second) {
         return 1;
     }
     for (unsigned s = 0; s < num_sensors; s++) {
-        support += s != pair->a && s != pair->b && has_bearing_at(search, s, point);
+        support += s != pair->a && s != pair->b && has_bearing_towards(search, s, point);
     }
     return support >= (num_sensors > 4 ? num_sensors - 3u : 1u);
 }
@@ -85,8 +90,11 @@ static uint32_t find_least_certain_crossing(const struct rho_passive *passive)
     return worst;
 }
 
-/* A full list drops its least certain crossing, which is searched only after a change. */
-static void list_crossing(struct rho_passive_search *search, const struct rho_passive_point *point)
+/*
+ * Adds a crossing; a full list replaces its least certain crossing if the new one is more certain.
+ * The index of the least certain one is kept until the list changes.
+ */
+static void store_crossing(struct rho_passive_search *search, const struct rho_passive_point *point)
 {
     struct rho_passive *passive = search->passive;
     if (passive->num_points < RHO_MAX_PASSIVE_POINTS) {
@@ -105,8 +113,8 @@ static void list_crossing(struct rho_passive_search *search, const struct rho_pa
     }
 }
 
-static void try_crossing(struct rho_passive_search *search, const struct sensor_pair *pair,
-                         const struct rho_crossing_base *base, unsigned i, unsigned j)
+static void cross_bearing_pair(struct rho_passive_search *search, const struct sensor_pair *pair,
+                               const struct rho_crossing_base *base, unsigned i, unsigned j)
 {
     struct rho_passive *passive = search->passive;
     const struct rho_batch_bearing *a =
@@ -127,8 +135,8 @@ static void try_crossing(struct rho_passive_search *search, const struct sensor_
                                       .xy_m2 = covariance_m2[1],
                                       .yy_m2 = covariance_m2[2],
                                       .scan = (uint16_t)pair->scan};
-    if (is_supported_by_sensors(search, pair, &point)) {
-        list_crossing(search, &point);
+    if (is_supported_by_other_sensors(search, pair, &point)) {
+        store_crossing(search, &point);
     }
 }
 
@@ -139,7 +147,7 @@ static void cross_scan(struct rho_passive_search *search, const struct sensor_pa
     struct rho_ghost_matrix matrix;
     if (rho_ghost_fill(&matrix, base, pair->bearings_a_rad, pair->num_a, pair->bearings_b_rad,
                        pair->num_b, passive->config.range_max_m) != RHO_OK) {
-        return; /* cannot be: frames were checked */
+        return; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
     rho_ghost_prune(&matrix, passive->config.rule);
     for (unsigned i = 0; i < pair->num_a; i++) {
@@ -150,7 +158,7 @@ static void cross_scan(struct rho_passive_search *search, const struct sensor_pa
                 passive->work.ghosts = rho_count(passive->work.ghosts, (unsigned)is_ghost);
             }
             if (!is_ghost) {
-                try_crossing(search, pair, base, i, j);
+                cross_bearing_pair(search, pair, base, i, j);
             }
         }
     }
@@ -161,12 +169,12 @@ static void cross_sensors(struct rho_passive_search *search, unsigned a, unsigne
     struct rho_crossing_base base;
     if (rho_crossing_set_base(&base, search->x_m[a], search->y_m[a], search->x_m[b],
                               search->y_m[b]) != RHO_OK) {
-        return; /* cannot be: frames were checked */
+        return; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
     for (unsigned scan = 0; scan < search->passive->batch.num_scans; scan++) {
         struct sensor_pair pair = {.scan = scan, .a = a, .b = b};
-        pair.num_a = collect_bearings(search, scan, a, pair.bearings_a_rad, pair.index_a);
-        pair.num_b = collect_bearings(search, scan, b, pair.bearings_b_rad, pair.index_b);
+        pair.num_a = collect_unclaimed_bearings(search, scan, a, pair.bearings_a_rad, pair.index_a);
+        pair.num_b = collect_unclaimed_bearings(search, scan, b, pair.bearings_b_rad, pair.index_b);
         cross_scan(search, &pair, &base);
     }
 }

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* passive_fit: the fit of a state to bearings, its score, and its covariance. */
+/*
+ * passive_fit: Gauss-Newton fit of a constant-velocity state to bearings, its log-likelihood score,
+ * the tests of a track, and the covariance.
+ */
 #include <string.h>
 
 #include "passive_search.h"
@@ -10,12 +13,15 @@
 
 #define N RHO_PASSIVE_STATES
 #define GATE_SIGMAS 3.5f
-/* Weak priors that keep a fit from diverging: a position within the range, and this speed. */
+/* sigma of the weak prior of speed; with a prior of position it keeps fits from diverging */
 #define SPEED_PRIOR_MPS 500.0f
-#define EXACT_M 1.0f               /* model error; near a sensor a bearing is more accurate */
-#define STEP_MAX_RANGES 0.1f       /* largest step */
-#define POSITION_MAX_RANGES 2.0f   /* largest coordinate */
-#define CHI2_QUANTILE_SIGMAS 3.09f /* 99.9 % */
+/* sigma of the motion model in metres: it limits the weight of bearings taken near a sensor */
+#define EXACT_M 1.0f
+/* largest change of a state component in one step, as a share of range_max_m */
+#define STEP_MAX_RANGES 0.1f
+/* largest magnitude of a state component, as a multiple of range_max_m */
+#define POSITION_MAX_RANGES 2.0f
+#define CHI2_QUANTILE_SIGMAS 3.09f /* normal quantile of 99.9 %, for the chi-square limit */
 
 static float square(float v)
 {
@@ -40,8 +46,8 @@ static void add_equation(struct equations *equations, const float row[N], float 
     }
 }
 
-static void add_priors(const struct rho_passive_search *search, const float state_m[N],
-                       struct equations *equations)
+static void add_prior_equations(const struct rho_passive_search *search, const float state_m[N],
+                                struct equations *equations)
 {
     float way_m = SPEED_PRIOR_MPS * search->half_s, range_m = search->passive->config.range_max_m;
     for (int i = 0; i < N; i++) {
@@ -51,8 +57,9 @@ static void add_priors(const struct rho_passive_search *search, const float stat
     }
 }
 
-static void add_bearing(const struct rho_passive_search *search, unsigned scan,
-                        const struct rho_passive_match *nearest, struct equations *equations)
+static void add_bearing_equation(const struct rho_passive_search *search, unsigned scan,
+                                 const struct rho_passive_match *nearest,
+                                 struct equations *equations)
 {
     /* derivative of the bearing by the position, rad per metre */
     float range2_m2 = square(nearest->offset.x_m) + square(nearest->offset.y_m);
@@ -68,10 +75,10 @@ static int is_in_gate(const struct rho_passive_match *nearest, float gate_sigmas
     return square(rho_passive_normalised_residual(nearest)) < square(gate_sigmas);
 }
 
-/* Normal equations of the nearest bearings within the gate. */
-static struct equations equations_of_nearest(const struct rho_passive_search *search,
-                                             const float state_m[N], float gate,
-                                             int include_claimed)
+/* Normal equations of the nearest bearings within the gate, with the priors. */
+static struct equations equations_of_nearest_bearings(const struct rho_passive_search *search,
+                                                      const float state_m[N], float gate,
+                                                      int include_claimed)
 {
     const struct rho_batch *batch = &search->passive->batch;
     struct equations equations = {.b = {0}};
@@ -80,16 +87,17 @@ static struct equations equations_of_nearest(const struct rho_passive_search *se
             struct rho_passive_match nearest =
                 rho_passive_match_nearest(search, k, s, state_m, include_claimed);
             if (nearest.bearing >= 0 && is_in_gate(&nearest, gate)) {
-                add_bearing(search, k, &nearest, &equations);
+                add_bearing_equation(search, k, &nearest, &equations);
             }
         }
     }
-    add_priors(search, state_m, &equations);
+    add_prior_equations(search, state_m, &equations);
     return equations;
 }
 
-static struct equations equations_of_claimed(const struct rho_passive_search *search,
-                                             const float state_m[N], rho_passive_const_claim *claim)
+static struct equations equations_of_claimed_bearings(const struct rho_passive_search *search,
+                                                      const float state_m[N],
+                                                      rho_passive_const_claim *claim)
 {
     const struct rho_batch *batch = &search->passive->batch;
     struct equations equations = {.b = {0}};
@@ -98,11 +106,11 @@ static struct equations equations_of_claimed(const struct rho_passive_search *se
             struct rho_passive_match nearest =
                 rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
             if (nearest.bearing >= 0) {
-                add_bearing(search, k, &nearest, &equations);
+                add_bearing_equation(search, k, &nearest, &equations);
             }
         }
     }
-    add_priors(search, state_m, &equations);
+    add_prior_equations(search, state_m, &equations);
     return equations;
 }
 
@@ -111,7 +119,10 @@ static float clipped(float v, float most)
     return v < most ? (v > -most ? v : -most) : most;
 }
 
-/* 0: the equations are singular, and the state stays as it is. */
+/*
+ * Solves the normal equations and moves the state, each component by a limited step. Returns 0
+ * where they are singular, and the state stays.
+ */
 static int gauss_newton_step(const struct rho_passive_search *search, struct equations *equations,
                              float state_m[N])
 {
@@ -135,7 +146,7 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
     int goes_on = 1;
     for (unsigned step = 0; step < 4 && goes_on; step++) {
         struct equations equations =
-            equations_of_nearest(search, state_m, gates[step], include_claimed);
+            equations_of_nearest_bearings(search, state_m, gates[step], include_claimed);
         goes_on = gauss_newton_step(search, &equations, state_m);
     }
     search->passive->work.fits = rho_count(search->passive->work.fits, 1);
@@ -144,7 +155,7 @@ void rho_passive_fit_nearest(const struct rho_passive_search *search, float stat
 void rho_passive_fit_claimed(const struct rho_passive_search *search, float state_m[N],
                              rho_passive_const_claim *claim)
 {
-    struct equations equations = equations_of_claimed(search, state_m, claim);
+    struct equations equations = equations_of_claimed_bearings(search, state_m, claim);
     (void)gauss_newton_step(search, &equations, state_m);
 }
 
@@ -158,7 +169,7 @@ static float chi2_limit(unsigned freedom)
     return n * root * root * root;
 }
 
-/* Two sensors with two bearings each: a single sensor measures neither range nor speed. */
+/* A track needs two sensors with two bearings each: one sensor measures neither range nor speed. */
 static int is_observable(const struct rho_passive_search *search, rho_passive_const_claim *claim)
 {
     unsigned sensors = 0;
@@ -178,7 +189,7 @@ static int is_too_fast(const struct rho_passive_search *search, const float stat
     return square(state_m[RHO_PASSIVE_DX]) + square(state_m[RHO_PASSIVE_DY]) >= square(most_m);
 }
 
-/* Whether the position was within the sensor's sector at that look. */
+/* Whether the state's position was within the sensor's sector in the scan. */
 static int is_in_view(const struct rho_passive_search *search, unsigned scan, unsigned sensor,
                       const float state_m[N])
 {
@@ -193,8 +204,9 @@ static int is_in_view(const struct rho_passive_search *search, unsigned scan, un
     return rho_angle_in_sector(rho_atan2(offset.y_m, offset.x_m), from_rad, to_rad);
 }
 
-static void count_miss(const struct rho_passive_search *search, unsigned scan, unsigned sensor,
-                       const float state_m[N], struct rho_passive_score *score)
+static void add_miss_to_score(const struct rho_passive_search *search, unsigned scan,
+                              unsigned sensor, const float state_m[N],
+                              struct rho_passive_score *score)
 {
     if (!search->passive->batch.was_seen[scan][sensor]) {
         return;
@@ -207,8 +219,8 @@ static void count_miss(const struct rho_passive_search *search, unsigned scan, u
 }
 
 /*
- * A share of the looks that had the position in view, and half that share of all looks: else a
- * state that is hardly ever in view would need very few hits.
+ * Hits must be a share hits_min of the looks that had the position in view, and half that share of
+ * all looks: otherwise a state that is hardly ever in view would need very few hits.
  */
 static int has_enough_hits(const struct rho_passive_search *search,
                            const struct rho_passive_score *score)
@@ -227,7 +239,7 @@ static int is_track(const struct rho_passive_search *search, const float state_m
            is_observable(search, claim);
 }
 
-/* Score of a look with a bearing. */
+/* Log-likelihood ratio of a look in which the state has a bearing with this squared residual. */
 static float score_of_hit(const struct rho_passive_search *search,
                           const struct rho_passive_match *seen, float chi2)
 {
@@ -245,7 +257,7 @@ struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_sear
             struct rho_passive_match seen =
                 rho_passive_match_claimed(search, k, s, state_m, claim[k][s]);
             if (seen.bearing < 0) {
-                count_miss(search, k, s, state_m, &score);
+                add_miss_to_score(search, k, s, state_m, &score);
                 continue;
             }
             float chi2 = square(rho_passive_normalised_residual(&seen));
@@ -293,9 +305,9 @@ float rho_passive_score_gain(const struct rho_passive_search *search, const floa
     return score_of_hit(search, &seen, chi2) - search->miss_nat;
 }
 
-/* ---- report ---------------------------------------------------------------------------------- */
+/* ---- estimate of a track --------------------------------------------------------------------- */
 
-/* Column `column` of the inverse of a factored matrix. */
+/* Column `column` of the inverse of a matrix, from the matrix' Cholesky factor. */
 static void inverse_column(const float factor[RHO_TRIANGLE(N)], int column, float out[N])
 {
     for (int i = 0; i < N; i++) {
@@ -306,10 +318,11 @@ static void inverse_column(const float factor[RHO_TRIANGLE(N)], int column, floa
 }
 
 /*
- * Covariance of (p + d, d / half_s) from that of (p, d): position and velocity at the newest scan.
+ * Covariance of position p + d and velocity d / half_s at the newest scan, from the covariance of
+ * the state (p, d): position at mid-batch, displacement in half the batch.
  */
-static void propagate_to_newest_scan(float half_s, const float from[N][N],
-                                     float covariance[RHO_TRIANGLE(N)])
+static void propagate_covariance_to_newest_scan(float half_s, const float from[N][N],
+                                                float covariance[RHO_TRIANGLE(N)])
 {
     for (int i = 0; i < N; i++) {
         for (int j = 0; j <= i; j++) {
@@ -330,7 +343,7 @@ int rho_passive_estimate_track(const struct rho_passive_search *search, const fl
                                struct rho_passive_track *track)
 {
     struct equations equations =
-        equations_of_claimed(search, state_m, (rho_passive_const_claim *)track->claim);
+        equations_of_claimed_bearings(search, state_m, (rho_passive_const_claim *)track->claim);
     float factor[RHO_TRIANGLE(N)], columns[N][N] = {{0}};
     if (rho_linalg_cholesky(N, equations.a, factor) != RHO_OK) {
         return 0;
@@ -338,7 +351,8 @@ int rho_passive_estimate_track(const struct rho_passive_search *search, const fl
     for (int i = 0; i < N; i++) {
         inverse_column(factor, i, columns[i]);
     }
-    propagate_to_newest_scan(search->half_s, (const float(*)[N])columns, track->covariance);
+    propagate_covariance_to_newest_scan(search->half_s, (const float(*)[N])columns,
+                                        track->covariance);
     track->x_m = search->middle_x_m + state_m[RHO_PASSIVE_X] + state_m[RHO_PASSIVE_DX];
     track->y_m = search->middle_y_m + state_m[RHO_PASSIVE_Y] + state_m[RHO_PASSIVE_DY];
     track->vx_mps = state_m[RHO_PASSIVE_DX] / search->half_s;

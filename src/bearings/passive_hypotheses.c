@@ -7,33 +7,38 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define LINE_CELLS 1.5f        /* smallest distance at which a crossing counts as on a line */
-#define PAIR_SCANS_MIN 3       /* closer scans tell little of the velocity */
-#define SPEED_SLACK_MPS 150.0f /* beyond v_max_mps, before the fit */
+/* crossings within this many rho cells of a line always count as on the line */
+#define LINE_CELLS 1.5f
+/*
+ * smallest number of scans between two crossings of a pair: closer ones tell little of the velocity
+ */
+#define PAIR_SCANS_MIN 3
+/* margin above v_max_mps for the speed of a pair, as crossings are inaccurate before the fit */
+#define SPEED_SLACK_MPS 150.0f
 #define LINE_POINTS_MAX 160u
 #define FITS_PER_LINE 20u
 
-/* Indices of two crossings; the scan of a is before that of b. */
+/* Indices of two crossings in passive->points; crossing a is of an earlier scan than crossing b. */
 struct pair {
     uint16_t a, b;
 };
 
-/* The best pairs so far, best first. */
+/* The pairs of crossings with the highest agreement so far, best first. */
 struct best_pairs {
     unsigned count;
     float agreement[FITS_PER_LINE];
     struct pair pair[FITS_PER_LINE];
 };
 
-/* A pair must agree better than this to be listed. */
-static float least_agreement(const struct best_pairs *best)
+/* A new pair of crossings must agree better than this to enter the list of the best pairs. */
+static float agreement_to_beat(const struct best_pairs *best)
 {
     return best->count < FITS_PER_LINE ? -1.0f : best->agreement[FITS_PER_LINE - 1u];
 }
 
-static void list_pair(struct best_pairs *best, float agreement, struct pair pair)
+static void insert_pair_if_better(struct best_pairs *best, float agreement, struct pair pair)
 {
-    if (!(agreement > least_agreement(best))) {
+    if (!(agreement > agreement_to_beat(best))) {
         return;
     }
     unsigned place = best->count < FITS_PER_LINE ? best->count++ : FITS_PER_LINE - 1u;
@@ -45,8 +50,8 @@ static void list_pair(struct best_pairs *best, float agreement, struct pair pair
     best->pair[place] = pair;
 }
 
-static unsigned collect_points_of_line(const struct rho_passive_search *search,
-                                       const struct rho_passive_line *line, uint16_t *index)
+static unsigned collect_crossings_near_line(const struct rho_passive_search *search,
+                                            const struct rho_passive_line *line, uint16_t *index)
 {
     const struct rho_passive *passive = search->passive;
     float least_m = LINE_CELLS * passive->config.rho_cell_m;
@@ -70,7 +75,7 @@ static unsigned collect_points_of_line(const struct rho_passive_search *search,
     return count;
 }
 
-/* The constant velocity through two crossings. 0: no target is so fast. */
+/* The constant-velocity state through two crossings. Returns 0 where its speed is too high. */
 static int connect_crossings(const struct rho_passive_search *search, struct pair pair,
                              float state_m[RHO_PASSIVE_STATES])
 {
@@ -80,7 +85,8 @@ static int connect_crossings(const struct rho_passive_search *search, struct pai
     float dx_m = b->x_m - a->x_m, dy_m = b->y_m - a->y_m;
     float most_m = (search->passive->config.v_max_mps + SPEED_SLACK_MPS) * span_s;
     float way2_m2 = dx_m * dx_m + dy_m * dy_m;
-    if (way2_m2 > most_m * most_m) { /* the square root is seldom needed */
+    /* uncertainty of the crossings is added only where needed: it costs a square root */
+    if (way2_m2 > most_m * most_m) {
         most_m += rho_sqrt(rho_passive_uncertainty_m2(a) + rho_passive_uncertainty_m2(b));
         if (way2_m2 > most_m * most_m) {
             return 0;
@@ -93,8 +99,8 @@ static int connect_crossings(const struct rho_passive_search *search, struct pai
     return 1;
 }
 
-static void score_pairs(struct rho_passive_search *search, const uint16_t *index, unsigned count,
-                        struct best_pairs *best)
+static void list_best_pairs(struct rho_passive_search *search, const uint16_t *index,
+                            unsigned count, struct best_pairs *best)
 {
     struct rho_passive *passive = search->passive;
     for (unsigned i = 0; i < count; i++) {
@@ -104,8 +110,8 @@ static void score_pairs(struct rho_passive_search *search, const uint16_t *index
             float state_m[RHO_PASSIVE_STATES];
             if (passive->points[pair.b].scan >= scan_min &&
                 connect_crossings(search, pair, state_m)) {
-                list_pair(best, rho_passive_agreement(search, state_m, least_agreement(best)),
-                          pair);
+                insert_pair_if_better(
+                    best, rho_passive_agreement(search, state_m, agreement_to_beat(best)), pair);
                 passive->work.hypotheses = rho_count(passive->work.hypotheses, 1);
             }
         }
@@ -118,20 +124,20 @@ static struct rho_passive_fitted *fitted_pair_entry(struct rho_passive *passive,
 }
 
 /*
- * Neighbouring lines share pairs. A pair that gave no track gives none again; a pair that gave a
- * track would give a duplicate of that candidate, unless a candidate was removed since.
+ * Neighbouring lines share pairs of crossings. Fitting a pair again gives no track if it gave none
+ * before; otherwise it gives a duplicate, unless a candidate has been removed since.
  */
-static int was_fitted(const struct rho_passive_search *search, struct pair pair)
+static int was_pair_fitted(const struct rho_passive_search *search, struct pair pair)
 {
     const struct rho_passive_fitted *fitted = fitted_pair_entry(search->passive, pair);
     return fitted->a == pair.a && fitted->b == pair.b &&
            (fitted->when == UINT16_MAX || fitted->when == search->candidates_removed);
 }
 
-static void fit_pair(struct rho_passive_search *search, struct pair pair)
+static void fit_and_offer_pair(struct rho_passive_search *search, struct pair pair)
 {
     float state_m[RHO_PASSIVE_STATES];
-    if (was_fitted(search, pair) || !connect_crossings(search, pair, state_m)) {
+    if (was_pair_fitted(search, pair) || !connect_crossings(search, pair, state_m)) {
         return;
     }
     rho_passive_fit_nearest(search, state_m, 0);
@@ -145,8 +151,8 @@ void rho_passive_fit_hypotheses(struct rho_passive_search *search,
 {
     uint16_t index[LINE_POINTS_MAX];
     struct best_pairs best = {.count = 0};
-    score_pairs(search, index, collect_points_of_line(search, line, index), &best);
+    list_best_pairs(search, index, collect_crossings_near_line(search, line, index), &best);
     for (unsigned i = 0; i < best.count; i++) {
-        fit_pair(search, best.pair[i]);
+        fit_and_offer_pair(search, best.pair[i]);
     }
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_joint_fit: tracks fitted together. The bearings of each look are assigned to the tracks,
- * one to one, so that the total score is high; then each track is fitted to its own bearings; and
- * again.
+ * passive_joint_fit: fits several tracks together. The bearings of each look are assigned to the
+ * tracks one to one, for a high total score; each track is fitted to its own bearings; both steps
+ * are repeated.
  */
 #include <string.h>
 
@@ -14,7 +14,10 @@
 
 /* ---- one look -------------------------------------------------------------------------------- */
 
-/* The bearing of one look that each track gets (from 1; 0: none), and all score gains. */
+/*
+ * Assignment of the bearings of one look to tracks: the bearing of each track (index from 1; 0:
+ * none), and the score gain of each pair of track and bearing.
+ */
 struct look_assignment {
     unsigned num_tracks, num_bearings;
     float gain_nat[RHO_MAX_PASSIVE_TRACKS][RHO_MAX_BEARINGS + 1];
@@ -22,8 +25,9 @@ struct look_assignment {
     uint8_t is_taken[RHO_MAX_BEARINGS + 1];
 };
 
-static void open_look(const struct rho_passive_search *search, const struct rho_passive_set *set,
-                      unsigned scan, unsigned sensor, struct look_assignment *look)
+static void init_look_assignment(const struct rho_passive_search *search,
+                                 const struct rho_passive_set *set, unsigned scan, unsigned sensor,
+                                 struct look_assignment *look)
 {
     memset(look, 0, sizeof *look);
     look->num_tracks = set->num;
@@ -43,7 +47,7 @@ static void assign_bearing(struct look_assignment *look, unsigned track, unsigne
     look->is_taken[bearing] = bearing > 0;
 }
 
-/* The free bearing with the largest gain; 0: none gains. */
+/* The unassigned bearing of the look that gains most for a track; 0: no bearing gains. */
 static unsigned best_free_bearing(const struct look_assignment *look, unsigned track)
 {
     unsigned best = 0;
@@ -55,7 +59,7 @@ static unsigned best_free_bearing(const struct look_assignment *look, unsigned t
     return best;
 }
 
-/* Greedily: the largest gain first. */
+/* Greedy assignment: repeatedly the pair of free track and free bearing with the largest gain. */
 static void assign_greedily(struct look_assignment *look)
 {
     for (unsigned n = 0; n < look->num_tracks; n++) {
@@ -77,10 +81,10 @@ static void assign_greedily(struct look_assignment *look)
 }
 
 /*
- * The taker gets the loser's bearing, and the loser the best free one. Undone, and 0 returned,
- * where the total of the gains does not grow.
+ * Gives the bearing of track `loser` to track `taker`, and the best free bearing to the loser. If
+ * the total gain does not grow, that is undone, and 0 is returned.
  */
-static int take_over_bearing(struct look_assignment *look, unsigned taker, unsigned loser)
+static int try_to_take_over_bearing(struct look_assignment *look, unsigned taker, unsigned loser)
 {
     unsigned kept = look->claim[taker], wanted = look->claim[loser];
     float before_nat = look->gain_nat[taker][kept] + look->gain_nat[loser][wanted];
@@ -100,11 +104,12 @@ static int take_over_bearing(struct look_assignment *look, unsigned taker, unsig
     return 0;
 }
 
-static int improve_by_taking_over(struct look_assignment *look)
+static int improve_assignment_once(struct look_assignment *look)
 {
     for (unsigned taker = 0; taker < look->num_tracks; taker++) {
         for (unsigned loser = 0; loser < look->num_tracks; loser++) {
-            if (taker != loser && look->claim[loser] > 0 && take_over_bearing(look, taker, loser)) {
+            if (taker != loser && look->claim[loser] > 0 &&
+                try_to_take_over_bearing(look, taker, loser)) {
                 return 1;
             }
         }
@@ -112,13 +117,13 @@ static int improve_by_taking_over(struct look_assignment *look)
     return 0;
 }
 
-static void assign_look(const struct rho_passive_search *search, struct rho_passive_set *set,
-                        unsigned scan, unsigned sensor)
+static void assign_bearings_of_look(const struct rho_passive_search *search,
+                                    struct rho_passive_set *set, unsigned scan, unsigned sensor)
 {
     struct look_assignment look;
-    open_look(search, set, scan, sensor, &look);
+    init_look_assignment(search, set, scan, sensor, &look);
     assign_greedily(&look);
-    for (unsigned i = 0; i < EXCHANGES_MAX && improve_by_taking_over(&look); i++) {
+    for (unsigned i = 0; i < EXCHANGES_MAX && improve_assignment_once(&look); i++) {
     }
     for (unsigned t = 0; t < set->num; t++) {
         set->tracks[t].claim[scan][sensor] = look.claim[t];
@@ -127,11 +132,12 @@ static void assign_look(const struct rho_passive_search *search, struct rho_pass
 
 /* ---- all looks ------------------------------------------------------------------------------- */
 
-static void assign_all_looks(const struct rho_passive_search *search, struct rho_passive_set *set)
+static void assign_bearings_of_all_looks(const struct rho_passive_search *search,
+                                         struct rho_passive_set *set)
 {
     for (unsigned k = 0; k < search->passive->batch.num_scans; k++) {
         for (unsigned s = 0; s < search->passive->batch.num_sensors; s++) {
-            assign_look(search, set, k, s);
+            assign_bearings_of_look(search, set, k, s);
         }
     }
 }
@@ -154,7 +160,7 @@ static void score_set(const struct rho_passive_search *search, struct rho_passiv
 static void assign_and_fit(const struct rho_passive_search *search, struct rho_passive_set *set)
 {
     for (unsigned round = 0; round < ROUNDS; round++) {
-        assign_all_looks(search, set);
+        assign_bearings_of_all_looks(search, set);
         for (unsigned t = 0; t < set->num; t++) {
             struct rho_passive_candidate *track = &set->tracks[t];
             rho_passive_fit_claimed(search, track->state_m,
@@ -164,8 +170,11 @@ static void assign_and_fit(const struct rho_passive_search *search, struct rho_p
     score_set(search, set);
 }
 
-/* Drops the member with the lowest score that is no track. Returns whether there was one. */
-static int drop_worst_member(struct rho_passive_set *set)
+/*
+ * Drops the member of the set that fails a track's tests and has the lowest score. Returns 0 where
+ * all members are tracks.
+ */
+static int drop_worst_non_track(struct rho_passive_set *set)
 {
     unsigned worst = set->num;
     for (unsigned t = 0; t < set->num; t++) {
@@ -185,8 +194,9 @@ static int drop_worst_member(struct rho_passive_set *set)
     return 1;
 }
 
-static void fill_set(const struct rho_passive_search *search,
-                     const struct rho_passive_choice *choice, struct rho_passive_set *set)
+static void fill_set_with_chosen(const struct rho_passive_search *search,
+                                 const struct rho_passive_choice *choice,
+                                 struct rho_passive_set *set)
 {
     struct rho_passive *passive = search->passive;
     uint8_t order[RHO_MAX_PASSIVE_CANDIDATES] = {0};
@@ -210,7 +220,7 @@ static void fit_until_all_are_tracks(const struct rho_passive_search *search,
 {
     do {
         assign_and_fit(search, set);
-    } while (drop_worst_member(set));
+    } while (drop_worst_non_track(set));
 }
 
 void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_claim *claims,
@@ -225,8 +235,11 @@ void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_clai
     }
 }
 
-/* Each track in turn is fitted to the nearest bearings that no better track has claimed. */
-static void fit_in_turn(const struct rho_passive_search *search, struct rho_passive_set *set)
+/*
+ * Fits the tracks one after the other, best first, each to the nearest bearings that no earlier
+ * track has claimed.
+ */
+static void fit_tracks_in_turn(const struct rho_passive_search *search, struct rho_passive_set *set)
 {
     for (unsigned t = 0; t < set->num; t++) {
         struct rho_passive_candidate *track = &set->tracks[t];
@@ -241,17 +254,17 @@ static void fit_in_turn(const struct rho_passive_search *search, struct rho_pass
 }
 
 /*
- * Assignments and fits in turn end in a local optimum near their start: two starts, and the better
- * end.
+ * Alternating assignment and fit ends in a local optimum near its start. So there are two starts,
+ * the candidates and the tracks fitted in turn, and the result with the higher total is kept.
  */
 void rho_passive_fit_jointly(const struct rho_passive_search *search,
                              const struct rho_passive_choice *choice, struct rho_passive_set *set)
 {
     struct rho_passive_set *spare = &search->passive->spare;
-    fill_set(search, choice, set);
+    fill_set_with_chosen(search, choice, set);
     *spare = *set;
     fit_until_all_are_tracks(search, set);
-    fit_in_turn(search, spare);
+    fit_tracks_in_turn(search, spare);
     fit_until_all_are_tracks(search, spare);
     if (spare->total_nat > set->total_nat + RHO_PASSIVE_GAIN_MIN_NAT) {
         *set = *spare;

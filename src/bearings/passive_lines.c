@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_lines: phase 2 of the search. The crossings vote for lines (rho, theta), and the
- * lines with the most votes are taken one after the other.
+ * passive_lines: phase 2 of the search, a Hough transform. The crossings of bearings vote for lines
+ * (rho, theta), and the lines with the most votes are taken one after the other.
  */
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "rhotrack/types.h"
 
 #define SPREAD_CELLS_MAX 8
-#define NEIGHBOUR_CELLS 2 /* cells that belong to a line that was taken */
+#define NEIGHBOUR_CELLS 2 /* cells on either side that are cleared with a line that was taken */
 
 /* ---- votes ----------------------------------------------------------------------------------- */
 
@@ -18,8 +18,8 @@ static int clipped_cell(float cell, int last)
     return cell > 0.0f ? (cell < (float)last ? (int)cell : last) : 0;
 }
 
-static void vote_in_row(struct rho_passive_search *search, const struct rho_passive_point *point,
-                        unsigned row)
+static void vote_crossing_in_row(struct rho_passive_search *search,
+                                 const struct rho_passive_point *point, unsigned row)
 {
     float cell_m = search->passive->config.rho_cell_m;
     int last = search->rho_cells - 1;
@@ -50,7 +50,7 @@ void rho_passive_vote_for_lines(struct rho_passive_search *search)
     memset(passive->cells, 0, sizeof passive->cells);
     for (uint32_t i = 0; i < passive->num_points; i++) {
         for (unsigned row = 0; row < search->theta_cells; row++) {
-            vote_in_row(search, &passive->points[i], row);
+            vote_crossing_in_row(search, &passive->points[i], row);
         }
     }
     for (unsigned row = 0; row < search->theta_cells; row++) {
@@ -64,7 +64,7 @@ struct cell {
     int row, column;
 };
 
-/* The first cell with the most votes. */
+/* Finds the first cell with the most votes in the plane. Returns its votes. */
 static unsigned find_peak(const struct rho_passive_search *search, struct cell *at)
 {
     unsigned most = 0;
@@ -82,20 +82,24 @@ static unsigned find_peak(const struct rho_passive_search *search, struct cell *
     return most;
 }
 
-static int has_votes(const struct rho_passive_search *search, int row, int column, unsigned votes)
+static int has_exactly_votes(const struct rho_passive_search *search, int row, int column,
+                             unsigned votes)
 {
     return row >= 0 && row < search->theta_cells && column >= 0 && column < search->rho_cells &&
            rho_count_bits(search->passive->cells[row][column]) == votes;
 }
 
-/* Votes spread over several cells and form plateaus: the line is in the middle of its plateau. */
-static struct cell plateau_middle(const struct rho_passive_search *search, struct cell from,
-                                  unsigned votes)
+/*
+ * Votes spread over several cells, so that cells of equal votes form plateaus. The line is taken
+ * from the cell in the middle of its plateau.
+ */
+static struct cell find_plateau_middle(const struct rho_passive_search *search, struct cell from,
+                                       unsigned votes)
 {
     int reach = 2 * NEIGHBOUR_CELLS, sum_row = 0, sum_column = 0, count = 0;
     for (int row = from.row - reach; row <= from.row + reach; row++) {
         for (int column = from.column - reach; column <= from.column + reach; column++) {
-            if (has_votes(search, row, column, votes)) {
+            if (has_exactly_votes(search, row, column, votes)) {
                 sum_row += row;
                 sum_column += column;
                 count++;
@@ -108,7 +112,7 @@ static struct cell plateau_middle(const struct rho_passive_search *search, struc
         for (int column = from.column - reach; column <= from.column + reach; column++) {
             int off_row = row * count - sum_row, off_column = column * count - sum_column;
             int off = off_row * off_row + off_column * off_column;
-            if (has_votes(search, row, column, votes) && off < least) {
+            if (has_exactly_votes(search, row, column, votes) && off < least) {
                 least = off;
                 best = (struct cell){row, column};
             }
@@ -117,8 +121,11 @@ static struct cell plateau_middle(const struct rho_passive_search *search, struc
     return best;
 }
 
-/* Clears the votes of a line, also across the ends of theta, where rho changes its sign. */
-static void clear_neighbours(struct rho_passive_search *search, struct cell at)
+/*
+ * Clears the votes of a line and its neighbours, also across the ends of theta, where rho changes
+ * its sign.
+ */
+static void clear_votes_around(struct rho_passive_search *search, struct cell at)
 {
     for (int i = at.row - NEIGHBOUR_CELLS; i <= at.row + NEIGHBOUR_CELLS; i++) {
         int is_turned = i < 0 || i >= search->theta_cells;
@@ -141,8 +148,8 @@ int rho_passive_next_line(struct rho_passive_search *search, unsigned votes_min,
     if (votes < votes_min || votes == 0) {
         return 0;
     }
-    at = plateau_middle(search, at, votes);
-    clear_neighbours(search, at);
+    at = find_plateau_middle(search, at, votes);
+    clear_votes_around(search, at);
     *line = (struct rho_passive_line){
         .cosine = search->cosine[at.row],
         .sine = search->sine[at.row],

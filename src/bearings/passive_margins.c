@@ -1,31 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_margins: by how much the total of the best set of tracks exceeds that of the best set
- * without each of its tracks. A set that turns out to have a higher total becomes the best.
+ * passive_margins: the margin of each track: total score of the best set of tracks minus that of
+ * the best set without this track. A set with a higher total that is found becomes the best set.
  */
 #include <string.h>
 
 #include "passive_search.h"
 #include "rhotrack/types.h"
 
-#define FITTED_WITHIN_NAT 20.0f /* alternatives with a lower total of the choice are not fitted */
-#define FITTED_MAX 4u           /* alternatives that are fitted for each track */
+/* alternatives whose total is lower than the best choice's by more than this are not fitted */
+#define FITTED_WITHIN_NAT 20.0f
+#define FITTED_MAX 4u /* largest number of alternatives that are fitted for each track */
 #define NONE_NAT (-1.0e9f)
-#define CHANGES_MAX 4 /* of the best set */
+#define CHANGES_MAX 4 /* largest number of times that another set may become the best set */
 
 /*
- * Choices without the target of a candidate, by the candidate that takes its place; last: none
- * does.
+ * Choices without the target of one candidate: alternative i has candidate i in its place, the last
+ * alternative has none.
  */
 struct alternatives {
     struct rho_passive_choice without;
-    /* total of the choice; NONE_NAT: none, or already fitted */
+    /* total score of each alternative; NONE_NAT: no such alternative, or already fitted */
     float total_nat[RHO_MAX_PASSIVE_CANDIDATES + 1];
 };
 
-static void list_alternatives(const struct rho_passive *passive,
-                              const struct rho_passive_choice *choice, unsigned which,
-                              struct alternatives *alternatives)
+static void compute_alternative_totals(const struct rho_passive *passive,
+                                       const struct rho_passive_choice *choice, unsigned which,
+                                       struct alternatives *alternatives)
 {
     alternatives->without = *choice;
     rho_passive_exclude_target(&alternatives->without, which);
@@ -53,17 +54,18 @@ static unsigned find_best_alternative(const struct alternatives *alternatives)
 }
 
 /*
- * The highest total of a set without the target of the candidate. If it is higher than that of the
- * best set and may_change, the set becomes the best one, and its choice the choice. Alternatives
- * that are not fitted count with the total of their choice.
+ * The highest total of a set of tracks without the target of candidate `which`. With may_change, a
+ * set that exceeds passive->best replaces it, and its choice replaces *choice. Alternatives beyond
+ * FITTED_MAX are not fitted; the total of their choice is taken.
  */
-static float best_total_without(const struct rho_passive_search *search,
-                                struct rho_passive_choice *choice, unsigned which, int may_change)
+static float best_total_without_target(const struct rho_passive_search *search,
+                                       struct rho_passive_choice *choice, unsigned which,
+                                       int may_change)
 {
     struct rho_passive *passive = search->passive;
     float most_nat = NONE_NAT, fit_nat = passive->best.total_nat - choice->total_nat;
     struct alternatives alternatives;
-    list_alternatives(passive, choice, which, &alternatives);
+    compute_alternative_totals(passive, choice, which, &alternatives);
     for (unsigned n = 0; n < FITTED_MAX; n++) {
         unsigned best = find_best_alternative(&alternatives);
         if (alternatives.total_nat[best] < choice->total_nat - FITTED_WITHIN_NAT) {
@@ -87,7 +89,7 @@ static float best_total_without(const struct rho_passive_search *search,
 }
 
 /*
- * All margins belong to one best set: they are computed anew when another set becomes the best,
+ * All margins refer to one best set: they are computed anew when another set becomes the best,
  * which happens at most CHANGES_MAX times.
  */
 void rho_passive_find_margins(const struct rho_passive_search *search,
@@ -98,8 +100,8 @@ void rho_passive_find_margins(const struct rho_passive_search *search,
     unsigned changes = 0;
     for (unsigned t = 0; t < best->num;) {
         float total_nat = best->total_nat;
-        float margin_nat = total_nat - best_total_without(search, choice, best->candidate[t],
-                                                          changes < CHANGES_MAX);
+        float margin_nat = total_nat - best_total_without_target(search, choice, best->candidate[t],
+                                                                 changes < CHANGES_MAX);
         if (best->total_nat > total_nat) {
             changes++;
             t = 0;

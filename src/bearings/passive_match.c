@@ -10,8 +10,8 @@
 #include "rhotrack/types.h"
 
 #define N RHO_PASSIVE_STATES
-#define NEAR_SIGMAS 9.0f     /* the widest gate */
-#define ROUNDING_RAD 1.0e-5f /* bound of the rounding error of a direction */
+#define NEAR_SIGMAS 9.0f     /* bearings farther than this from the predicted bearing never match */
+#define ROUNDING_RAD 1.0e-5f /* bound of the rounding error of a direction in rad */
 #define FAR_M2 1.0e24f
 
 /* ---- the nearest bearing --------------------------------------------------------------------- */
@@ -37,26 +37,29 @@ struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passiv
         .y_m = state_m[RHO_PASSIVE_Y] + step * state_m[RHO_PASSIVE_DY] - search->y_m[sensor]};
 }
 
-static float range2_m2(struct rho_passive_offset offset)
+static float squared_range_m2(struct rho_passive_offset offset)
 {
     return square(offset.x_m) + square(offset.y_m);
 }
 
-/* The bin of a direction, counted around the diamond |x| + |y| = 1: this needs no arctangent. */
+/* Bin of a direction, counted along the diamond |x| + |y| = 1, which needs no arctangent. */
 static unsigned direction_bin(float x, float y)
 {
     float size_x = x < 0.0f ? -x : x, size_y = y < 0.0f ? -y : y;
-    float round = y / (size_x + size_y); /* -1 .. 1 .. 3 from south, counter-clockwise */
+    /* direction along the diamond: -1 .. 1 .. 3 from south, counter-clockwise */
+    float round = y / (size_x + size_y);
     round = x < 0.0f ? 3.0f - round : 1.0f + round;
     return (unsigned)(round * (0.25f * (float)RHO_PASSIVE_BINS)) % RHO_PASSIVE_BINS;
 }
 
-/* The bins of all directions within NEAR_SIGMAS of the bearing. */
-static void mark_direction(const struct rho_batch_bearing *bearing, float sigma_rad, uint32_t *bins)
+/* Marks the bins of all directions within NEAR_SIGMAS of a bearing. */
+static void mark_bearing_directions(const struct rho_batch_bearing *bearing, float sigma_rad,
+                                    uint32_t *bins)
 {
     float sine = NEAR_SIGMAS * sigma_rad + ROUNDING_RAD;
     float cosine = sine < 1.0f ? rho_sqrt(1.0f - sine * sine) : -ROUNDING_RAD;
-    sine = sine < 1.0f ? sine : 1.0f; /* a right angle: positions behind the sensor never match */
+    /* at most a right angle: positions behind the sensor never match */
+    sine = sine < 1.0f ? sine : 1.0f;
     unsigned bin = direction_bin(bearing->cosine * cosine + bearing->sine * sine,
                                  bearing->sine * cosine - bearing->cosine * sine);
     unsigned last = direction_bin(bearing->cosine * cosine - bearing->sine * sine,
@@ -75,19 +78,20 @@ void rho_passive_mark_directions(struct rho_passive_search *search)
         for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             for (unsigned i = 0; i < passive->batch.num_bearings[k][s]; i++) {
                 const struct rho_batch_bearing *bearing = &passive->batch.bearings[k][s][i];
-                mark_direction(bearing, floored_sigma_rad(search, bearing),
-                               passive->directions[k][s]);
+                mark_bearing_directions(bearing, floored_sigma_rad(search, bearing),
+                                        passive->directions[k][s]);
             }
         }
     }
 }
 
 /*
- * False if no bearing is within NEAR_SIGMAS of the direction, or the range is 0 or far too large.
+ * Tests the marked bins: 0 means that no bearing of the look is within NEAR_SIGMAS of the
+ * direction, or that the range is 0 or far too large.
  */
-static int has_bearing_near(const uint32_t *bins, struct rho_passive_offset offset)
+static int may_have_bearing_near(const uint32_t *bins, struct rho_passive_offset offset)
 {
-    float size_m2 = range2_m2(offset);
+    float size_m2 = squared_range_m2(offset);
     if (!(size_m2 > 1.0f && size_m2 < FAR_M2)) {
         return 0;
     }
@@ -96,9 +100,9 @@ static int has_bearing_near(const uint32_t *bins, struct rho_passive_offset offs
 }
 
 /*
- * Residuals that matter are small angles: their sine, the distance of the position from the
- * bearing's ray divided by the range, stands for the angle, so that no arctangent is needed; the
- * squares are compared, which needs no square root.
+ * The bearing of a look with the smallest normalised residual, within NEAR_SIGMAS. The sine of the
+ * residual (cross range / range) stands for the angle, and squares are compared: this needs neither
+ * arctangent nor square root.
  */
 static struct rho_passive_match find_nearest_bearing(const struct rho_passive_search *search,
                                                      unsigned scan, unsigned sensor,
@@ -107,8 +111,9 @@ static struct rho_passive_match find_nearest_bearing(const struct rho_passive_se
 {
     const struct rho_passive *passive = search->passive;
     const struct rho_batch_bearing *bearings = passive->batch.bearings[scan][sensor];
-    float least_m2 =
-        range2_m2(offset); /* cross_range_m^2 of NEAR_SIGMAS for a sigma of 1 / NEAR_SIGMAS rad */
+    float least_m2 = squared_range_m2(
+        /* squared cross range that is NEAR_SIGMAS for the initial sigma of 1 / NEAR_SIGMAS rad */
+        offset);
     struct rho_passive_match nearest = {
         .bearing = -1, .offset = offset, .sigma_rad = 1.0f / NEAR_SIGMAS};
     for (unsigned i = 0; i < passive->batch.num_bearings[scan][sensor]; i++) {
@@ -130,7 +135,7 @@ struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_sear
 {
     struct rho_passive_offset offset =
         rho_passive_offset_from_sensor(search, scan, sensor, state_m);
-    if (!has_bearing_near(search->passive->directions[scan][sensor], offset)) {
+    if (!may_have_bearing_near(search->passive->directions[scan][sensor], offset)) {
         return (struct rho_passive_match){.bearing = -1};
     }
     return find_nearest_bearing(search, scan, sensor, offset, include_claimed);
@@ -142,7 +147,7 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
 {
     struct rho_passive_offset offset =
         rho_passive_offset_from_sensor(search, scan, sensor, state_m);
-    if (claim == 0 || !(range2_m2(offset) > 1.0f)) {
+    if (claim == 0 || !(squared_range_m2(offset) > 1.0f)) {
         return (struct rho_passive_match){.bearing = -1};
     }
     const struct rho_batch_bearing *bearing =
@@ -154,17 +159,18 @@ struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_sear
 
 float rho_passive_normalised_residual(const struct rho_passive_match *match)
 {
-    return match->cross_range_m / (rho_sqrt(range2_m2(match->offset)) * match->sigma_rad);
+    return match->cross_range_m / (rho_sqrt(squared_range_m2(match->offset)) * match->sigma_rad);
 }
 
 /* ---- agreement ------------------------------------------------------------------------------- */
 
 /*
- * Number of looks that may have a bearing nearby; bit s of is_near[k] marks them. Stops as soon as
- * the number is `least` or less.
+ * Marks the looks that may have a bearing near the state: bit s of is_near[k] for sensor s in scan
+ * k. Returns their number; stops early once it cannot exceed `least`.
  */
-static unsigned mark_near_looks(const struct rho_passive_search *search, const float state_m[N],
-                                float least, uint8_t is_near[RHO_MAX_PASSIVE_SCANS])
+static unsigned mark_looks_with_bearing_near(const struct rho_passive_search *search,
+                                             const float state_m[N], float least,
+                                             uint8_t is_near[RHO_MAX_PASSIVE_SCANS])
 {
     const struct rho_passive *passive = search->passive;
     unsigned num_sensors = passive->batch.num_sensors;
@@ -172,7 +178,7 @@ static unsigned mark_near_looks(const struct rho_passive_search *search, const f
     for (unsigned k = 0; k < passive->batch.num_scans && (float)left > least; k++) {
         unsigned seen = 0;
         for (unsigned s = 0; s < num_sensors; s++) {
-            unsigned is_seen = (unsigned)has_bearing_near(
+            unsigned is_seen = (unsigned)may_have_bearing_near(
                 passive->directions[k][s], rho_passive_offset_from_sensor(search, k, s, state_m));
             seen |= is_seen << s;
             left -= 1u - is_seen;
@@ -182,10 +188,12 @@ static unsigned mark_near_looks(const struct rho_passive_search *search, const f
     return left;
 }
 
-/* How well the nearest bearing of one look agrees with the state: 0 .. 1. */
+/*
+ * Agreement of the nearest bearing of one look with the state: 1 at residual 0, 0 from NEAR_SIGMAS.
+ */
 static float look_agreement(const struct rho_passive_match *nearest)
 {
-    float reach_m2 = range2_m2(nearest->offset) * square(NEAR_SIGMAS * nearest->sigma_rad);
+    float reach_m2 = squared_range_m2(nearest->offset) * square(NEAR_SIGMAS * nearest->sigma_rad);
     float share = square(nearest->cross_range_m) / reach_m2;
     return nearest->bearing >= 0 && share < 1.0f ? 1.0f - share : 0.0f;
 }
@@ -195,8 +203,8 @@ float rho_passive_agreement(const struct rho_passive_search *search, const float
 {
     const struct rho_passive *passive = search->passive;
     uint8_t is_near[RHO_MAX_PASSIVE_SCANS] = {0};
-    /* upper bound: each marked look counts 1 until its bearings have been compared */
-    float most = (float)mark_near_looks(search, state_m, least, is_near);
+    /* upper bound of the agreement: each marked look counts 1 until its bearings are compared */
+    float most = (float)mark_looks_with_bearing_near(search, state_m, least, is_near);
     for (unsigned k = 0; k < passive->batch.num_scans && most > least; k++) {
         for (unsigned s = 0; s < passive->batch.num_sensors; s++) {
             if (is_near[k] >> s & 1u) {

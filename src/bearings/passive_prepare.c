@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_prepare: what a search needs before its phases: the geometry of the sensors, the times of
- * the scans, the log-likelihood ratios of a hit and a miss, and the score that a track must reach.
+ * passive_prepare: values computed once before a search: positions of the sensors, times of the
+ * scans, log-likelihood ratios of a hit and a miss, and the score that a track must reach.
  */
 #include "passive_search.h"
 #include "rhotrack/detail/approx.h"
@@ -38,8 +38,8 @@ static void set_scan_times(struct rho_passive_search *search)
 }
 
 /*
- * The ratio of the largest sigma to the smallest is limited: float32 has too few digits for the
- * normal equations of very different bearings.
+ * Raises small sigmas, to limit the ratio of the largest sigma to the smallest: float32 has too few
+ * digits for the normal equations of very different bearings.
  */
 static void set_sigma_floor(struct rho_passive_search *search)
 {
@@ -56,8 +56,8 @@ static void set_sigma_floor(struct rho_passive_search *search)
 }
 
 /*
- * The density of false bearings is the density of all bearings of the batch: a false bearing is
- * equally likely anywhere in the field of view.
+ * Log-likelihood ratios of a hit and a miss. False bearings are taken as uniform in the field of
+ * view, with the density of all bearings of the batch.
  */
 static void set_likelihood_ratios(struct rho_passive_search *search)
 {
@@ -105,10 +105,10 @@ void rho_passive_prepare(struct rho_passive_search *search)
 }
 
 /*
- * Two crossings determine a state, and its four bearings always fit. The likelihood ratio of the
- * other bearings has the mean 1 if all bearings are false, so that it reaches e^s in at most one of
- * e^s pairs of crossings. So the start score is that of the four bearings, and ln of the number of
- * pairs over the wanted number of false tracks in an interval.
+ * Two crossings determine a state, which always fits their four bearings. If all bearings are
+ * false, the likelihood ratio of the other bearings has the mean 1, so that it reaches e^s in at
+ * most one of e^s pairs of crossings. Hence the start score is the score of four bearings plus ln
+ * (pairs of crossings / false tracks allowed in a scan interval).
  */
 void rho_passive_set_start_score(const struct rho_passive_search *search)
 {

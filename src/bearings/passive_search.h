@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_search: one search of the passive initiator, as its phases share it. A file may call
- * those above it in this list, never those below it:
+ * passive_search: state of one search of the passive initiator, and the functions that its phases
+ * share. A file may call files above it in this list, never files below it:
  *
  *   passive_match.c        the bearings that match a state
  *   passive_fit.c          Gauss-Newton fit, score and covariance of a state
@@ -15,8 +15,8 @@
  *   passive_lines.c        phase 2: votes, and the lines with the most votes
  *   passive_hypotheses.c   phase 3: constant velocities through pairs of a line's crossings
  *   passive_selection.c    phases 4 and 5: the best set of candidates, and the tracks
- *   bearing_swap.c         candidates from two candidates that have swapped their bearings
- *   passive.c              configuration, frames, the plan of a search
+ *   bearing_swap.c         candidates from bearings swapped between two candidates
+ *   passive.c              configuration, frames, the sequence of phases of a search
  */
 #ifndef RHOTRACK_PASSIVE_SEARCH_H
 #define RHOTRACK_PASSIVE_SEARCH_H
@@ -35,47 +35,57 @@
 #define RHO_PASSIVE_DX 2
 #define RHO_PASSIVE_DY 3
 
-#define RHO_PASSIVE_GAIN_MIN_NAT 1.0e-3f /* above rounding errors */
-#define RHO_PASSIVE_SPREAD_SIGMAS 2.0f   /* of a crossing's rho: its votes, and lines it is on */
+/* smallest gain of a total score that counts: larger than rounding errors */
+#define RHO_PASSIVE_GAIN_MIN_NAT 1.0e-3f
+/* half width, in sigmas of rho, of a crossing's votes, and of the band in which it is on a line */
+#define RHO_PASSIVE_SPREAD_SIGMAS 2.0f
 
-/* Values computed once for a search. Positions count from the sensors' centroid. */
+/* Values computed once for a search. Positions are relative to the sensors' centroid. */
 struct rho_passive_search {
     struct rho_passive *passive;
-    float middle_x_m, middle_y_m; /* the centroid */
+    float middle_x_m, middle_y_m; /* the sensors' centroid */
     float x_m[RHO_MAX_PASSIVE_SENSORS], y_m[RHO_MAX_PASSIVE_SENSORS];
-    float half_s;                      /* half the time from the first scan to the last */
-    float step[RHO_MAX_PASSIVE_SCANS]; /* -1 .. 1 */
-    float hit_nat;       /* score of a bearing with residual 0, plus ln of its sigma in rad */
-    float miss_nat;      /* score of a look without a bearing */
-    float share_nat;     /* penalty for a bearing that two candidates claim */
-    float sigma_min_rad; /* bearings with a smaller sigma get this one */
-    unsigned looks;      /* scans times sensors that reported */
-    int is_second;       /* second pass: claimed bearings are left out, no third sensor is needed */
+    float half_s; /* half the time from the first scan to the last */
+    /* time of each scan, from -1 for the first to 1 for the last */
+    float step[RHO_MAX_PASSIVE_SCANS];
+    float hit_nat; /* score of a bearing with residual 0 and a sigma of 1 rad */
+    /* score of a look in which the track's position was in view but got no bearing */
+    float miss_nat;
+    float share_nat;     /* penalty of a choice for each bearing that two chosen candidates claim */
+    float sigma_min_rad; /* floor of the bearings' sigmas */
+    unsigned looks;      /* number of reports: pairs of scan and sensor */
+    /* second pass: claimed bearings are left out, and crossings need no third sensor */
+    int is_second;
     uint16_t theta_cells, rho_cells;
     float cosine[RHO_PASSIVE_THETA_CELLS], sine[RHO_PASSIVE_THETA_CELLS];
-    uint8_t row_votes[RHO_PASSIVE_THETA_CELLS]; /* largest number of votes in a row of cells */
-    uint32_t worst_point;        /* the least certain crossing; num_points: not known */
-    uint16_t candidates_removed; /* so far */
+    /* largest number of votes of a cell in each row of theta */
+    uint8_t row_votes[RHO_PASSIVE_THETA_CELLS];
+    uint32_t worst_point; /* index of the least certain crossing; num_points: not known */
+    /* number of candidates removed from the list so far in this search */
+    uint16_t candidates_removed;
 };
 
-/* Fills the search from the batch. */
+/* Computes the values of *search that follow from the batch: geometry, times, likelihood ratios. */
 void rho_passive_prepare(struct rho_passive_search *search);
 
-/* Fills passive->start_mnat from the number of crossings of the first pass. */
+/*
+ * Sets passive->start_mnat, the score at which false tracks have the allowed rate, from the number
+ * of crossings of the first pass.
+ */
 void rho_passive_set_start_score(const struct rho_passive_search *search);
 
 /* ---- phase 1: crossings ---- */
 
-/* Crossings of all pairs of sensors into passive->points. */
+/* Crosses the bearings of all pairs of sensors, scan by scan, into passive->points. */
 void rho_passive_find_crossings(struct rho_passive_search *search);
 
-/* Trace of a crossing's covariance. */
+/* Uncertainty of a crossing: the trace of its covariance. */
 static inline float rho_passive_uncertainty_m2(const struct rho_passive_point *point)
 {
     return point->xx_m2 + point->yy_m2;
 }
 
-/* Standard deviation of a crossing's rho in a row of theta. */
+/* Standard deviation of a crossing's rho, for the line normal (cosine, sine). */
 static inline float rho_passive_rho_sigma_m(const struct rho_passive_point *point, float cosine,
                                             float sine)
 {
@@ -85,7 +95,7 @@ static inline float rho_passive_rho_sigma_m(const struct rho_passive_point *poin
 
 /* ---- phase 2: lines ---- */
 
-/* All crossings vote. */
+/* All crossings vote for the lines (rho, theta) through them, into passive->cells. */
 void rho_passive_vote_for_lines(struct rho_passive_search *search);
 
 struct rho_passive_line {
@@ -93,20 +103,24 @@ struct rho_passive_line {
 };
 
 /*
- * The line with the most votes, at least votes_min; its neighbours lose theirs. 0: there is none.
+ * Takes the line with the most votes, if it has votes_min, and clears the votes of the line and its
+ * neighbours. Returns 0 where no line has so many.
  */
 int rho_passive_next_line(struct rho_passive_search *search, unsigned votes_min,
                           struct rho_passive_line *line);
 
 /* ---- phase 3: hypotheses ---- */
 
-/* Constant velocities through pairs of the line's crossings: the best are fitted and offered. */
+/*
+ * Tries constant velocities through pairs of crossings on the line: those that agree best with the
+ * bearings are fitted and offered as candidates.
+ */
 void rho_passive_fit_hypotheses(struct rho_passive_search *search,
                                 const struct rho_passive_line *line);
 
 /* ---- bearings that match a state ---- */
 
-/* From a sensor to the position of a state at a scan. */
+/* Vector from a sensor to the position of a state at the time of a scan. */
 struct rho_passive_offset {
     float x_m, y_m;
 };
@@ -114,78 +128,98 @@ struct rho_passive_offset rho_passive_offset_from_sensor(const struct rho_passiv
                                                          unsigned scan, unsigned sensor,
                                                          const float state_m[RHO_PASSIVE_STATES]);
 
-/* A bearing compared with a state. */
+/* A bearing of a look compared with the position of a state. */
 struct rho_passive_match {
-    int bearing; /* index among the bearings held, from 0; -1: none within nine sigmas */
+    /* index among the bearings of the look, from 0; -1: no bearing within nine sigmas */
+    int bearing;
     struct rho_passive_offset offset;
-    float cross_range_m; /* distance of the position from the bearing's ray */
+    float cross_range_m; /* distance of the state's position from the ray of the bearing, signed */
     float sigma_rad;
 };
 
-/* The nearest bearing of a look. include_claimed 0: claimed bearings are left out. */
+/*
+ * Matches a state with the nearest bearing of a look, without claimed bearings if include_claimed
+ * is 0.
+ */
 struct rho_passive_match rho_passive_match_nearest(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    int include_claimed);
 
-/* The claimed bearing (from 1) at any distance; bearing -1 for claim 0. */
+/*
+ * Matches a state with the bearing `claim` (index from 1) of a look at any distance; claim 0: no
+ * bearing, -1.
+ */
 struct rho_passive_match rho_passive_match_claimed(const struct rho_passive_search *search,
                                                    unsigned scan, unsigned sensor,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    unsigned claim);
 
-/* Measured minus predicted bearing, in sigmas. */
+/* Measured minus predicted bearing of a match, divided by the bearing's sigma. */
 float rho_passive_normalised_residual(const struct rho_passive_match *match);
 
-/* Marks the directions that have a bearing nearby; all functions below need it. */
+/*
+ * Marks, for each look, the directions within nine sigmas of a bearing, for a quick test. Needed
+ * before states are matched with nearest bearings.
+ */
 void rho_passive_mark_directions(struct rho_passive_search *search);
 
 /*
- * Sum over all looks of 1 - (residual / 9 sigmas)^2 of the nearest bearing, 0 beyond nine sigmas.
- * Stops and returns a value of at most `least` as soon as the sum cannot exceed it.
+ * Agreement of a state with the bearings: sum over all looks of 1 - (residual / 9 sigmas)^2 of the
+ * nearest bearing, or 0 beyond nine sigmas. Stops early, with a value of at most `least`, once the
+ * sum cannot exceed `least`.
  */
 float rho_passive_agreement(const struct rho_passive_search *search,
                             const float state_m[RHO_PASSIVE_STATES], float least);
 
-/* A row of claims: for each sensor of a scan the bearing's index from 1; 0: none. */
+/* The bearings that a track claims in one scan: for each sensor an index from 1; 0: no bearing. */
 typedef uint8_t rho_passive_claim[RHO_MAX_PASSIVE_SENSORS];
 typedef const uint8_t rho_passive_const_claim[RHO_MAX_PASSIVE_SENSORS];
 
 /* ---- fit and score of a state ---- */
 
-/* Four Gauss-Newton steps to the nearest bearings, within 8, 5, 3.5 and 3.5 sigmas. */
+/*
+ * Fits a state to the nearest bearings: four Gauss-Newton steps, with gates of 8, 5, 3.5 and 3.5
+ * sigmas.
+ */
 void rho_passive_fit_nearest(const struct rho_passive_search *search,
                              float state_m[RHO_PASSIVE_STATES], int include_claimed);
 
-/* One Gauss-Newton step to the claimed bearings. */
+/* Improves a state by one Gauss-Newton step towards the claimed bearings. */
 void rho_passive_fit_claimed(const struct rho_passive_search *search,
                              float state_m[RHO_PASSIVE_STATES], rho_passive_const_claim *claim);
 
 struct rho_passive_score {
     float score_nat, chi2;
     uint16_t hits;
-    uint16_t looks_out_of_view; /* looks of sensors whose sector did not contain the position */
-    int is_track;               /* hits, chi2, speed and score are within a track's limits */
+    /* looks of sensors whose sector did not contain the state's position */
+    uint16_t looks_out_of_view;
+    int is_track; /* hits, chi2, speed, observability and score satisfy the conditions of a track */
 };
 
-/* Claims the nearest bearings within 3.5 sigmas, and scores the state with them. */
+/*
+ * Claims for a state the nearest bearing of each look within 3.5 sigmas, and scores the state with
+ * these claims.
+ */
 struct rho_passive_score rho_passive_score_nearest(const struct rho_passive_search *search,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    int include_claimed, rho_passive_claim *claim);
 
-/* The score with given claims. */
+/* Scores a state with given claims: log-likelihood ratio, chi-square, hits, test of a track. */
 struct rho_passive_score rho_passive_score_claimed(const struct rho_passive_search *search,
                                                    const float state_m[RHO_PASSIVE_STATES],
                                                    rho_passive_const_claim *claim);
 
-/* Score of a look with the bearing `claim` (from 1) minus that of a miss; 0 beyond 3.5 sigmas. */
+/*
+ * Score of a look with the bearing `claim` (from 1) minus the score of a miss; 0 beyond 3.5 sigmas.
+ */
 float rho_passive_score_gain(const struct rho_passive_search *search,
                              const float state_m[RHO_PASSIVE_STATES], unsigned scan,
                              unsigned sensor, unsigned claim);
 
 /*
- * Position and velocity at the newest scan, with their covariance, from a track's claims. 0: the
- * normal equations are singular.
+ * Fills the position and velocity at the newest scan of a track, and their covariance, from a state
+ * and the track's claims. Returns 0 where the normal equations are singular.
  */
 int rho_passive_estimate_track(const struct rho_passive_search *search,
                                const float state_m[RHO_PASSIVE_STATES],
@@ -193,66 +227,74 @@ int rho_passive_estimate_track(const struct rho_passive_search *search,
 
 /* ---- candidates ---- */
 
-/* Indices of the candidates, best score first. */
+/* Sorts the indices of the candidates by score, best first, into order[]. */
 void rho_passive_rank_candidates(const struct rho_passive *passive,
                                  uint8_t order[RHO_MAX_PASSIVE_CANDIDATES]);
 
 /*
- * A fitted state becomes a candidate, unless it is no track or has a better duplicate. Returns
- * whether it is a track.
+ * Scores a fitted state, and adds it to the candidates if it passes the tests of a track and has no
+ * better duplicate. Returns whether it passes the tests.
  */
 int rho_passive_offer_candidate(struct rho_passive_search *search,
                                 const float state_m[RHO_PASSIVE_STATES]);
 
-/* Number of bearings that both claim. */
+/* Number of bearings that two candidates both claim. */
 unsigned rho_passive_count_shared(const struct rho_passive_search *search,
                                   const struct rho_passive_candidate *a,
                                   const struct rho_passive_candidate *b);
 
-/* Candidates from pairs of candidates that have swapped their bearings. */
+/*
+ * Offers candidates for targets whose bearings two ghost candidates share: one sensor's bearings of
+ * one candidate with another sensor's bearings of the other (bearing_swap.c).
+ */
 void rho_passive_swap_bearings(struct rho_passive_search *search);
 
 /* ---- the choice of candidates ---- */
 
 struct rho_passive_choice {
     const struct rho_passive_search *search;
-    unsigned count; /* of candidates */
+    unsigned count; /* number of candidates */
     uint8_t is_in[RHO_MAX_PASSIVE_CANDIDATES];
-    uint8_t is_out[RHO_MAX_PASSIVE_CANDIDATES]; /* excluded: may not be added */
-    /* score of each less the penalties for the bearings it shares with the chosen ones */
+    uint8_t is_out[RHO_MAX_PASSIVE_CANDIDATES]; /* excluded: must not be added to the choice */
+    /*
+     * score of each candidate less the penalties for bearings that it shares with chosen candidates
+     */
     float gain_nat[RHO_MAX_PASSIVE_CANDIDATES];
     float total_nat;
 };
 
-/* The choice with the highest total that the starts find. */
+/* Finds the choice of candidates with the highest total, by greedy search from several starts. */
 void rho_passive_choose_candidates(const struct rho_passive_search *search,
                                    struct rho_passive_choice *best);
 
-/* Excludes a candidate and all other candidates of the same target. */
+/* Excludes from a choice a candidate and all other candidates of the same target. */
 void rho_passive_exclude_target(struct rho_passive_choice *choice, unsigned which);
 
-/* Adds a candidate (count: none), then further ones while the total grows. */
+/*
+ * Adds a candidate to a choice (which = count: none), then further candidates while the total
+ * grows.
+ */
 void rho_passive_include_candidate(struct rho_passive_choice *choice, unsigned which);
 
-/* Leaves one out and adds others instead, as long as the total grows. */
+/* Replaces candidates of a choice, one at a time, by others, as long as the total grows. */
 void rho_passive_improve_choice(struct rho_passive_choice *choice);
 
 /* ---- tracks fitted together ---- */
 
-/* Sets or clears is_claimed of the claimed bearings. */
+/* Sets is_claimed of all bearings in `claims` to the given value, 0 or 1. */
 void rho_passive_mark_claims(struct rho_passive *passive, rho_passive_const_claim *claims,
                              uint8_t is_claimed);
 
 /*
- * The chosen candidates as a set: bearings are assigned anew, one to one, and each track is fitted
- * to its own bearings. Members that are no tracks then are dropped.
+ * Fits the chosen candidates as a set of tracks: bearings are assigned anew, one to one, each track
+ * is fitted to its own bearings, and members that fail the tests of a track are dropped.
  */
 void rho_passive_fit_jointly(const struct rho_passive_search *search,
                              const struct rho_passive_choice *choice, struct rho_passive_set *set);
 
 /*
- * The total of passive->best minus that of the best set without each of its tracks. A set with
- * a higher total becomes passive->best.
+ * Margin of each track: total score of passive->best minus that of the best set without the track's
+ * target. A set with a higher total that is found becomes passive->best.
  */
 void rho_passive_find_margins(const struct rho_passive_search *search,
                               struct rho_passive_choice *choice,
@@ -260,10 +302,12 @@ void rho_passive_find_margins(const struct rho_passive_search *search,
 
 /* ---- phases 4 and 5: selection ---- */
 
-/* Claims the bearings of the best set of candidates. */
+/* Marks the bearings of the best set of candidates as claimed, for the second pass. */
 void rho_passive_claim_best_set(struct rho_passive_search *search);
 
-/* The best set of candidates becomes passive->tracks. */
+/*
+ * Turns the best set of candidates into the tracks of the search, with margins, best score first.
+ */
 void rho_passive_select_tracks(struct rho_passive_search *search);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_selection: the best set of candidates claims its bearings after the first pass, and
- * becomes the tracks after the second.
+ * passive_selection: after the first pass the best set of candidates claims its bearings; after the
+ * second pass the best set becomes the tracks of the search.
  */
 #include <string.h>
 
@@ -20,7 +20,8 @@ void rho_passive_claim_best_set(struct rho_passive_search *search)
     }
 }
 
-static void set_scans_of_claims(const struct rho_passive *passive, struct rho_passive_track *track)
+static void set_mask_of_claimed_scans(const struct rho_passive *passive,
+                                      struct rho_passive_track *track)
 {
     track->scans = 0;
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
@@ -32,7 +33,7 @@ static void set_scans_of_claims(const struct rho_passive *passive, struct rho_pa
     }
 }
 
-static int32_t mnat_of(float nat)
+static int32_t nat_to_mnat(float nat)
 {
     return (int32_t)(1000.0f * nat);
 }
@@ -46,15 +47,15 @@ static void add_track(struct rho_passive_search *search, unsigned number, float 
     if (!rho_passive_estimate_track(search, from->state_m, track)) {
         return;
     }
-    track->score_mnat = mnat_of(from->score_nat);
-    track->margin_mnat = mnat_of(margin_nat);
+    track->score_mnat = nat_to_mnat(from->score_nat);
+    track->margin_mnat = nat_to_mnat(margin_nat);
     track->chi2 = passive->best.chi2[number];
     track->hits = (uint16_t)from->hits;
-    set_scans_of_claims(passive, track);
+    set_mask_of_claimed_scans(passive, track);
     passive->num_tracks++;
 }
 
-/* The joint fit changes the scores, and so the order. */
+/* Sorts the tracks by score, best first: the joint fit has changed the order of the scores. */
 static void sort_tracks(struct rho_passive *passive)
 {
     for (unsigned i = 1; i < passive->num_tracks; i++) {

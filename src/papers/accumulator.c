@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * accumulator: checks of the points, and the choice between the ways to fill and search the rows:
- * all of them (accumulator_rows.c), or only rows and points that can reach a peak
- * (accumulator_prune.c).
+ * accumulator: public calls of the accumulator: set-up, checks of the points, and the choice
+ * between two searches: all rows of theta (accumulator_rows.c), or only rows and points that can
+ * reach a peak (accumulator_prune.c).
  */
 #include "rhotrack/detail/accumulator.h"
 
@@ -11,16 +11,18 @@
 #include "accumulator_pass.h"
 #include "rhotrack/types.h"
 
-#define ACCUMULATOR_MAGIC 0x41434355u /* "ACCU" */
+#define ACCUMULATOR_MAGIC 0x41434355u /* "ACCU" in ASCII */
 
 /*
- * Up to so many points, clearing the touched cells is cheaper than the whole row; measured, with
- * and without pruning.
+ * With at most this many points (rho cells / 8 + 64), clearing only the touched cells is faster
+ * than clearing the whole row, as measured with and without pruning.
  */
 #define SPARSE_CELLS 8u
 #define SPARSE_POINTS 64u
-#define PRUNED_VOTES 3u /* with two votes by chance nearly every row has a cell */
-#define NARROW_SCANS (8u * sizeof(uint8_t)) /* a narrow cell's bits */
+/* smallest min_votes with pruning: with two votes by chance nearly every row has a cell */
+#define PRUNED_VOTES 3u
+/* scans that the bits of a narrow (8-bit) cell can hold */
+#define NARROW_SCANS (8u * sizeof(uint8_t))
 #define NARROW_POINTS UINT8_MAX
 
 /* The build fails where the RAM formula of config.h is no longer an upper bound. */
@@ -48,7 +50,7 @@ enum rho_status rho_accumulator_init(struct rho_accumulator *accumulator, size_t
     return RHO_OK;
 }
 
-static int are_valid(const struct rho_accumulator_points *points, unsigned num_points)
+static int are_coordinates_valid(const struct rho_accumulator_points *points, unsigned num_points)
 {
     for (unsigned i = 0; i < num_points; i++) {
         if (!rho_is_coordinate(points->x_m[i]) || !rho_is_coordinate(points->y_m[i])) {
@@ -58,7 +60,7 @@ static int are_valid(const struct rho_accumulator_points *points, unsigned num_p
     return 1;
 }
 
-static int are_in_order(const struct rho_accumulator_points *points)
+static int are_scan_ends_in_order(const struct rho_accumulator_points *points)
 {
     if (points->num_scans > RHO_ACCUMULATOR_SCANS_MAX) {
         return 0;
@@ -81,18 +83,19 @@ enum rho_status rho_accumulator_check(const struct rho_accumulator_points *point
     if (!points || (points->num_scans > 0 && !points->scan_end)) {
         return RHO_ERROR_NULL;
     }
-    if (!are_in_order(points)) {
+    if (!are_scan_ends_in_order(points)) {
         return RHO_ERROR_VALUE;
     }
     unsigned num_points = count_points(points);
     if (num_points > 0 && (!points->x_m || !points->y_m)) {
         return RHO_ERROR_NULL;
     }
-    return are_valid(points, num_points) ? RHO_OK : RHO_ERROR_VALUE;
+    return are_coordinates_valid(points, num_points) ? RHO_OK : RHO_ERROR_VALUE;
 }
 
 /*
- * Square of the distance from the origin within which points are inside all rows; 0: there is none.
+ * Square of the distance from the origin within which points lie inside the cells of rho in all
+ * rows; 0: no such distance.
  */
 static float inner_radius2_m2(const struct rho_accumulator *accumulator)
 {
@@ -103,8 +106,8 @@ static float inner_radius2_m2(const struct rho_accumulator *accumulator)
     return inside_m > 0.0f ? inside_m * inside_m : 0.0f;
 }
 
-/* Bit m: scan m has points that may lie beyond rho_max_m. */
-static unsigned scans_outside(const struct rho_accumulator_pass *pass)
+/* Mask of the scans that have points that may lie beyond rho_max_m: bit m for scan m. */
+static unsigned find_scans_outside(const struct rho_accumulator_pass *pass)
 {
     const struct rho_accumulator_points *points = pass->points;
     float inside2 = inner_radius2_m2(pass->accumulator);
@@ -120,7 +123,7 @@ static unsigned scans_outside(const struct rho_accumulator_pass *pass)
     return scans;
 }
 
-static void choose_rows(struct rho_accumulator_pass *pass)
+static void choose_row_format(struct rho_accumulator_pass *pass)
 {
     const struct rho_accumulator_config *config = &pass->accumulator->config;
     pass->counts_points = config->votes == RHO_VOTES_POINTS;
@@ -129,13 +132,13 @@ static void choose_rows(struct rho_accumulator_pass *pass)
     pass->is_sparse =
         pass->num_points <= RHO_ACCUMULATOR_SPARSE_MAX &&
         pass->num_points <= pass->accumulator->rho_cells / SPARSE_CELLS + SPARSE_POINTS;
-    pass->scans_outside = scans_outside(pass);
+    pass->scans_outside = find_scans_outside(pass);
     pass->is_pruned = pass->is_sparse && pass->scans_outside == 0 && !config->no_pruning &&
                       config->min_votes >= PRUNED_VOTES;
 }
 
-/* Sparse rows are cleared by the list of touched cells, which is empty at first. */
-static void empty_rows(struct rho_accumulator_pass *pass)
+/* Clears the three rows and their lists of touched and reached cells. */
+static void clear_rows(struct rho_accumulator_pass *pass)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     size_t cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
@@ -161,7 +164,7 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
         return status;
     }
     unsigned num_points = count_points(points);
-    if (num_points == 0) { /* the arrays may be NULL */
+    if (num_points == 0) { /* without points the arrays may be NULL, so that nothing is searched */
         memset(result, 0, sizeof *result);
         return RHO_OK;
     }
@@ -173,9 +176,9 @@ enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
                                                  .min_share = accumulator->config.min_share},
                                         .num_points = num_points,
                                         .neighbours = accumulator->config.neighbours};
-    choose_rows(&pass);
+    choose_row_format(&pass);
     if (pass.is_sparse) {
-        empty_rows(&pass);
+        clear_rows(&pass);
     } else {
         memset(accumulator->room.scan, 0, sizeof accumulator->room.scan);
     }

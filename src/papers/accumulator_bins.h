@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * accumulator_bins: bins of rho for pruning, with votes of one size: included twice by
- * accumulator_prune.c, with CELL an unsigned type and NAME(f) the functions' names. The bins are a
- * ring: rho values a whole turn apart share a bin.
+ * accumulator_bins: votes of points in coarse bins of rho, by which pruning drops points. A
+ * template: accumulator_prune.c includes it twice, with CELL an unsigned type and NAME(f) adding
+ * its suffix to f. The bins are a ring: rho values that differ by its whole length share a bin.
  */
 
-static void NAME(vote)(const struct rho_accumulator_pass *pass, CELL *restrict votes,
-                       const int32_t *restrict bins, const uint16_t *restrict bits, unsigned n)
+static void NAME(vote_in_bins)(const struct rho_accumulator_pass *pass, CELL *restrict votes,
+                               const int32_t *restrict bins, const uint16_t *restrict bits,
+                               unsigned n)
 {
     if (pass->counts_points) {
         for (unsigned i = 0; i < n; i++) {
@@ -20,11 +21,11 @@ static void NAME(vote)(const struct rho_accumulator_pass *pass, CELL *restrict v
 }
 
 /*
- * Sets are_enough[b] if the points in bins b .. b + 2 have min_votes. Returns whether any bin is
- * set.
+ * Sets are_enough[b] if the points in bins b .. b + 2 number min_votes or more. Returns whether any
+ * bin is set.
  */
-static int NAME(find_points)(const CELL *restrict votes, CELL *restrict are_enough,
-                             unsigned num_bins, CELL min_votes)
+static int NAME(mark_bins_by_points)(const CELL *restrict votes, CELL *restrict are_enough,
+                                     unsigned num_bins, CELL min_votes)
 {
     CELL any = 0;
     for (unsigned i = 0; i < num_bins; i++) {
@@ -34,8 +35,8 @@ static int NAME(find_points)(const CELL *restrict votes, CELL *restrict are_enou
     return any;
 }
 
-static int NAME(find_scans)(const CELL *restrict votes, CELL *restrict are_enough,
-                            unsigned num_bins, CELL min_votes)
+static int NAME(mark_bins_by_scans)(const CELL *restrict votes, CELL *restrict are_enough,
+                                    unsigned num_bins, CELL min_votes)
 {
     CELL any = 0, add = (CELL)(0x80u - min_votes);
     for (unsigned i = 0; i < num_bins; i++) {
@@ -50,8 +51,11 @@ static int NAME(find_scans)(const CELL *restrict votes, CELL *restrict are_enoug
     return any;
 }
 
-/* Indices of the points with are_enough in one of their three bins, in bins[]. Returns how many. */
-static unsigned NAME(list_kept)(int32_t *bins, unsigned n, const CELL *are_enough)
+/*
+ * Lists in bins[] the indices of the points that have are_enough set in one of their three bins.
+ * Returns their number.
+ */
+static unsigned NAME(list_points_in_marked_bins)(int32_t *bins, unsigned n, const CELL *are_enough)
 {
     unsigned num_kept = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -62,8 +66,12 @@ static unsigned NAME(list_kept)(int32_t *bins, unsigned n, const CELL *are_enoug
     return num_kept;
 }
 
-/* Points of the bins in room.few that may reach min_votes: listed in bins[]. */
-static unsigned NAME(choose)(struct rho_accumulator_pass *pass, unsigned n, unsigned num_bins)
+/*
+ * Lists in bins[] the points of room.few that may reach min_votes, by the votes in their bins.
+ * Returns their number.
+ */
+static unsigned NAME(choose_points)(struct rho_accumulator_pass *pass, unsigned n,
+                                    unsigned num_bins)
 {
     struct rho_accumulator *accumulator = pass->accumulator;
     CELL *votes = (CELL *)accumulator->room.few.votes;
@@ -71,14 +79,14 @@ static unsigned NAME(choose)(struct rho_accumulator_pass *pass, unsigned n, unsi
     int32_t *bins = accumulator->room.few.bins;
     CELL least = (CELL)pass->list.min_votes;
     memset(votes, 0, num_bins * sizeof *votes);
-    NAME(vote)(pass, votes, bins, accumulator->room.few.bits, n);
+    NAME(vote_in_bins)(pass, votes, bins, accumulator->room.few.bits, n);
     votes[num_bins] = votes[0];
     votes[num_bins + 1u] = votes[1];
-    if (!(pass->counts_points ? NAME(find_points)(votes, are_enough + 2, num_bins, least)
-                              : NAME(find_scans)(votes, are_enough + 2, num_bins, least))) {
+    if (!(pass->counts_points ? NAME(mark_bins_by_points)(votes, are_enough + 2, num_bins, least)
+                              : NAME(mark_bins_by_scans)(votes, are_enough + 2, num_bins, least))) {
         return 0;
     }
     are_enough[0] = are_enough[num_bins];
     are_enough[1] = are_enough[num_bins + 1u];
-    return NAME(list_kept)(bins, n, are_enough);
+    return NAME(list_points_in_marked_bins)(bins, n, are_enough);
 }

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * accumulator_cells: rows with cells of one size: included twice by accumulator_rows.c, with CELL
- * an unsigned type and NAME(f) the functions' names. These are the hot loops, written so that gcc
- * -O3 vectorises them.
+ * accumulator_cells: votes and peaks in rows of accumulator cells. A template: accumulator_rows.c
+ * includes it twice, with CELL an unsigned type and NAME(f) adding its suffix to f. These hot loops
+ * are written so that gcc -O3 vectorises them.
  */
 
-/* Sets the scan's bit in the points' cells, four at a time: stores are the limit. */
+/*
+ * Votes of one scan: sets its bit in the cells of its points, four at a time, as stores are the
+ * limit.
+ */
 static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, unsigned n, CELL bit)
 {
     unsigned i = 0;
@@ -21,11 +24,12 @@ static void NAME(vote_scan)(CELL *restrict row, const int32_t *restrict cells, u
 }
 
 /*
- * Many points of one scan: written to a row of their own, where stores do not depend on each other,
- * then merged. That row is empty before and after.
+ * Votes of a scan with many points: its bits are set in a scratch row, where stores do not depend
+ * on each other, and then merged. The scratch row is empty before and after.
  */
-static void NAME(vote_scan_apart)(CELL *restrict row, CELL *restrict apart, unsigned num_cells,
-                                  const int32_t *restrict cells, unsigned n, CELL bit)
+static void NAME(vote_scan_via_scratch)(CELL *restrict row, CELL *restrict apart,
+                                        unsigned num_cells, const int32_t *restrict cells,
+                                        unsigned n, CELL bit)
 {
     for (unsigned i = 0; i < n; i++) {
         apart[(uint32_t)cells[i]] = bit;
@@ -38,9 +42,13 @@ static void NAME(vote_scan_apart)(CELL *restrict row, CELL *restrict apart, unsi
 
 /* ---- sparse rows: only touched cells are searched ---- */
 
-/* Votes of one scan (bit 0: of points). Notes the cells that reach min_votes; returns how many. */
-static unsigned NAME(vote_few)(const struct rho_accumulator_pass *pass, CELL *row,
-                               const int32_t *cells, unsigned n, CELL bit, uint16_t *reached)
+/*
+ * Votes of n points of one scan (its bit; 0: points are counted). Lists the cells that reach
+ * min_votes by these votes in reached[]; returns their number.
+ */
+static unsigned NAME(vote_and_list_reached)(const struct rho_accumulator_pass *pass, CELL *row,
+                                            const int32_t *cells, unsigned n, CELL bit,
+                                            uint16_t *reached)
 {
     unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -48,65 +56,73 @@ static unsigned NAME(vote_few)(const struct rho_accumulator_pass *pass, CELL *ro
         CELL after = (CELL)(bit ? before | bit : before + 1u);
         *cell = after;
         reached[num_reached] = (uint16_t)cells[i];
-        num_reached += after != before && NAME(votes)(pass, after) == pass->list.min_votes;
+        num_reached += after != before && NAME(votes_of_cell)(pass, after) == pass->list.min_votes;
     }
     return num_reached;
 }
 
-/* Votes of points of all scans; a bit each, or 0. */
-static unsigned NAME(vote_kept)(const struct rho_accumulator_pass *pass, CELL *row,
-                                const int32_t *cells, const uint16_t *bits, unsigned n,
-                                uint16_t *reached)
+/*
+ * Votes of n points of several scans, with the bit of each point's scan, or 0 where points are
+ * counted. Lists cells that reach min_votes; returns their number.
+ */
+static unsigned NAME(vote_kept_points)(const struct rho_accumulator_pass *pass, CELL *row,
+                                       const int32_t *cells, const uint16_t *bits, unsigned n,
+                                       uint16_t *reached)
 {
     unsigned num_reached = 0;
     for (unsigned i = 0; i < n; i++) {
-        num_reached +=
-            NAME(vote_few)(pass, row, cells + i, 1, (CELL)bits[i], reached + num_reached);
+        num_reached += NAME(vote_and_list_reached)(pass, row, cells + i, 1, (CELL)bits[i],
+                                                   reached + num_reached);
     }
     return num_reached;
 }
 
-static unsigned NAME(most_around)(const struct rho_accumulator_pass *pass, const CELL *row,
-                                  unsigned cell)
+static unsigned NAME(max_votes_around)(const struct rho_accumulator_pass *pass, const CELL *row,
+                                       unsigned cell)
 {
-    unsigned most = NAME(votes)(pass, row[cell]);
+    unsigned most = NAME(votes_of_cell)(pass, row[cell]);
     if (pass->neighbours == 8) {
-        unsigned left = NAME(votes)(pass, row[cell - 1u]);
-        unsigned right = NAME(votes)(pass, row[cell + 1u]);
+        unsigned left = NAME(votes_of_cell)(pass, row[cell - 1u]);
+        unsigned right = NAME(votes_of_cell)(pass, row[cell + 1u]);
         most = left > most ? left : most;
         most = right > most ? right : most;
     }
     return most;
 }
 
-/* The first of equal neighbours, by theta, then rho, is the peak. */
+/*
+ * Whether a cell has no fewer votes than its neighbours; among equal ones only the first by theta,
+ * then by rho, is a peak.
+ */
 static int NAME(is_peak)(const struct rho_accumulator_pass *pass, unsigned cell, unsigned votes)
 {
     const CELL *row = pass->rows[1];
     if (pass->neighbours == 0) {
         return 1;
     }
-    unsigned above = NAME(most_around)(pass, pass->rows[0], cell);
-    unsigned below = NAME(most_around)(pass, pass->rows[2], cell);
-    return NAME(votes)(pass, row[cell - 1u]) < votes &&
-           NAME(votes)(pass, row[cell + 1u]) <= votes && above + pass->above_is_first <= votes &&
-           below + pass->below_is_first <= votes;
+    unsigned above = NAME(max_votes_around)(pass, pass->rows[0], cell);
+    unsigned below = NAME(max_votes_around)(pass, pass->rows[2], cell);
+    return NAME(votes_of_cell)(pass, row[cell - 1u]) < votes &&
+           NAME(votes_of_cell)(pass, row[cell + 1u]) <= votes &&
+           above + pass->above_is_first <= votes && below + pass->below_is_first <= votes;
 }
 
-static void NAME(find_peaks_sparse)(struct rho_accumulator_pass *pass, const uint16_t *reached,
-                                    unsigned num_reached)
+static void NAME(find_peaks_in_reached)(struct rho_accumulator_pass *pass, const uint16_t *reached,
+                                        unsigned num_reached)
 {
     for (unsigned i = 0; i < num_reached; i++) {
         CELL value = ((const CELL *)pass->rows[1])[reached[i]];
-        unsigned votes = NAME(votes)(pass, value);
-        /* not a guard cell; min_votes may have risen since */
+        unsigned votes = NAME(votes_of_cell)(pass, value);
+        /*
+         * drops guard cells, which are empty, and cells below min_votes, which may have risen since
+         */
         if (votes >= pass->list.min_votes && NAME(is_peak)(pass, reached[i], votes)) {
             add_peak(pass, reached[i], votes, value);
         }
     }
 }
 
-/* The row with rho reversed: the same lines from the other end of theta. */
+/* Reverses a row in place: rho changes its sign where theta continues beyond its ends. */
 static void NAME(reverse_row)(CELL *row, unsigned num_cells)
 {
     for (unsigned i = 1; i < num_cells + 1u - i; i++) {
@@ -126,8 +142,8 @@ static void NAME(vote_points)(CELL *restrict row, const int32_t *restrict cells,
     }
 }
 
-/* Number of scans in a mask. */
-static CELL NAME(scans)(CELL mask)
+/* Number of scans in a cell's mask of scans. */
+static CELL NAME(count_scans)(CELL mask)
 {
     CELL v = (CELL)(mask - ((mask >> 1) & (CELL)0x5555u));
     v = (CELL)((v & (CELL)0x3333u) + ((v >> 2) & (CELL)0x3333u));
@@ -140,8 +156,8 @@ static CELL NAME(larger)(CELL a, CELL b)
     return a > b ? a : b;
 }
 
-/* Whether a cell of n, a multiple of BLOCK, may have min_votes: of scans, or of points. */
-static int NAME(may_have_points)(const CELL *restrict row, unsigned n, unsigned min_votes)
+/* Whether any of n cells, which count points, has min_votes. */
+static int NAME(may_reach_min_points)(const CELL *restrict row, unsigned n, unsigned min_votes)
 {
     CELL most = 0;
     for (unsigned i = 0; i < n; i++) {
@@ -150,26 +166,30 @@ static int NAME(may_have_points)(const CELL *restrict row, unsigned n, unsigned 
     return most >= min_votes;
 }
 
-static int NAME(may_have)(const struct rho_accumulator_pass *pass, const CELL *row, unsigned n)
+static int NAME(may_reach_min_votes)(const struct rho_accumulator_pass *pass, const CELL *row,
+                                     unsigned n)
 {
-    return pass->counts_points ? NAME(may_have_points)(row, n, pass->list.min_votes)
-                               : NAME(may_have_scans)(row, n, pass->list.min_votes);
+    return pass->counts_points ? NAME(may_reach_min_points)(row, n, pass->list.min_votes)
+                               : NAME(may_reach_min_scans)(row, n, pass->list.min_votes);
 }
 
-/* Numbers of votes of a block and its neighbours on both sides. */
-static void NAME(count)(const struct rho_accumulator_pass *pass, const CELL *restrict block,
-                        CELL *restrict votes)
+/* Counts the votes of the cells of a block and of its neighbours on both sides. */
+static void NAME(count_votes_in_block)(const struct rho_accumulator_pass *pass,
+                                       const CELL *restrict block, CELL *restrict votes)
 {
     if (pass->counts_points) {
         memcpy(votes, block - 1, AROUND * sizeof *votes);
         return;
     }
     for (int i = 0; i < AROUND; i++) {
-        votes[i] = NAME(scans)(block[i - 1]);
+        votes[i] = NAME(count_scans)(block[i - 1]);
     }
 }
 
-/* Marks the cells of a block that have min_votes and more than their four or eight neighbours. */
+/*
+ * Marks the peaks of a block: cells that have min_votes and more votes than their four or eight
+ * neighbours; of equal neighbours the first one is marked.
+ */
 static void NAME(mark_peaks)(const struct rho_accumulator_pass *pass, const CELL *restrict above,
                              const CELL *restrict row, const CELL *restrict below,
                              uint8_t *restrict is_peak)
@@ -188,8 +208,8 @@ static void NAME(mark_peaks)(const struct rho_accumulator_pass *pass, const CELL
     }
 }
 
-static void NAME(mark_all)(const struct rho_accumulator_pass *pass, const CELL *restrict row,
-                           uint8_t *restrict is_peak)
+static void NAME(mark_cells_with_min_votes)(const struct rho_accumulator_pass *pass,
+                                            const CELL *restrict row, uint8_t *restrict is_peak)
 {
     for (int i = 0; i < BLOCK; i++) {
         is_peak[i] = row[i] >= pass->list.min_votes;
@@ -201,13 +221,13 @@ static void NAME(find_peaks_in_block)(struct rho_accumulator_pass *pass, unsigne
     CELL votes[3][AROUND];
     uint8_t is_peak[BLOCK], found[BLOCK];
     const CELL *row = pass->rows[1];
-    NAME(count)(pass, row + first, votes[1]);
+    NAME(count_votes_in_block)(pass, row + first, votes[1]);
     if (pass->neighbours > 0) {
-        NAME(count)(pass, (const CELL *)pass->rows[0] + first, votes[0]);
-        NAME(count)(pass, (const CELL *)pass->rows[2] + first, votes[2]);
+        NAME(count_votes_in_block)(pass, (const CELL *)pass->rows[0] + first, votes[0]);
+        NAME(count_votes_in_block)(pass, (const CELL *)pass->rows[2] + first, votes[2]);
         NAME(mark_peaks)(pass, votes[0] + 1, votes[1] + 1, votes[2] + 1, is_peak);
     } else {
-        NAME(mark_all)(pass, votes[1] + 1, is_peak);
+        NAME(mark_cells_with_min_votes)(pass, votes[1] + 1, is_peak);
     }
     unsigned num_found = 0;
     for (unsigned i = 0; i < BLOCK; i++) {
@@ -220,19 +240,19 @@ static void NAME(find_peaks_in_block)(struct rho_accumulator_pass *pass, unsigne
 }
 
 /*
- * Cells behind the last one are 0. After several blocks without candidates, the next ones are
- * tested together.
+ * Finds the peaks of a row where all cells are tested; cells behind the last one are 0. After
+ * several blocks without min_votes, the next BLOCKS blocks are tested together.
  */
-static void NAME(find_peaks_dense)(struct rho_accumulator_pass *pass)
+static void NAME(find_dense_row_peaks)(struct rho_accumulator_pass *pass)
 {
     unsigned cells = (pass->accumulator->rho_cells + BLOCK - 1u) / BLOCK * BLOCK, num_passed = 0;
     for (unsigned first = 1; first <= cells;) {
         unsigned left = cells + 1u - first, most = num_passed < BLOCKS ? BLOCK : BLOCKS * BLOCK;
         unsigned n = most < left ? most : left;
-        int may_have = NAME(may_have)(pass, (const CELL *)pass->rows[1] + first, n);
+        int may_have = NAME(may_reach_min_votes)(pass, (const CELL *)pass->rows[1] + first, n);
         num_passed = may_have ? 0u : num_passed + 1u;
         if (may_have && n > BLOCK) {
-            continue; /* then block by block */
+            continue; /* test the blocks one by one now */
         }
         if (may_have) {
             NAME(find_peaks_in_block)(pass, first);

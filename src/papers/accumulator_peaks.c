@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* accumulator_peaks: the list of the best peaks, and suppression of those near a better one. */
+/*
+ * accumulator_peaks: the list of the best peaks, kept in a heap, and suppression of peaks near a
+ * better one.
+ */
 #include "rhotrack/detail/accumulator.h"
 
 #include <string.h>
@@ -8,8 +11,9 @@
 
 /* ---- the list of peaks ----------------------------------------------------------------------- */
 
-/* More votes, then the lower theta, then the lower rho. */
-static int is_better(const struct rho_accumulator_peak *a, const struct rho_accumulator_peak *b)
+/* Order of peaks: more votes, then the lower theta cell, then the lower rho cell. */
+static int is_better_peak(const struct rho_accumulator_peak *a,
+                          const struct rho_accumulator_peak *b)
 {
     if (a->votes != b->votes) {
         return a->votes > b->votes;
@@ -18,13 +22,16 @@ static int is_better(const struct rho_accumulator_peak *a, const struct rho_accu
                                           : a->rho_cell < b->rho_cell;
 }
 
-/* Lets the peak at `place` of a heap of n sink below those that are lower. */
+/*
+ * Moves the peak at `place` of a heap of n peaks down, until all peaks below it are better. The
+ * worst peak is at the top.
+ */
 static void sink_peak(struct rho_accumulator_peak *heap, uint32_t n, uint32_t place)
 {
     struct rho_accumulator_peak peak = heap[place];
     for (uint32_t child = 2u * place + 1u; child < n; child = 2u * place + 1u) {
-        child += child + 1u < n && is_better(&heap[child], &heap[child + 1u]);
-        if (!is_better(&peak, &heap[child])) {
+        child += child + 1u < n && is_better_peak(&heap[child], &heap[child + 1u]);
+        if (!is_better_peak(&peak, &heap[child])) {
             break;
         }
         heap[place] = heap[child];
@@ -36,7 +43,7 @@ static void sink_peak(struct rho_accumulator_peak *heap, uint32_t n, uint32_t pl
 static void raise_peak(struct rho_accumulator_peak *heap, uint32_t place)
 {
     struct rho_accumulator_peak peak = heap[place];
-    while (place > 0 && is_better(&heap[(place - 1u) / 2u], &peak)) {
+    while (place > 0 && is_better_peak(&heap[(place - 1u) / 2u], &peak)) {
         heap[place] = heap[(place - 1u) / 2u];
         place = (place - 1u) / 2u;
     }
@@ -44,10 +51,10 @@ static void raise_peak(struct rho_accumulator_peak *heap, uint32_t place)
 }
 
 /*
- * Smallest whole number of votes that is at least min_share of votes_max; limited to votes_max, as
+ * Smallest whole number of votes that is at least min_share of votes_max; at most votes_max, as
  * float may round up.
  */
-static uint32_t least_votes(const struct rho_peak_list *list)
+static uint32_t min_votes_by_share(const struct rho_peak_list *list)
 {
     float share = list->min_share * (float)list->votes_max;
     uint32_t least = share < 4294967296.0f ? (uint32_t)share : list->votes_max;
@@ -55,10 +62,10 @@ static uint32_t least_votes(const struct rho_peak_list *list)
     return least < list->votes_max ? least : list->votes_max;
 }
 
-static void note_most_votes(struct rho_peak_list *list, uint32_t votes)
+static void update_vote_limits(struct rho_peak_list *list, uint32_t votes)
 {
     list->votes_max = votes;
-    uint32_t least = least_votes(list);
+    uint32_t least = min_votes_by_share(list);
     list->min_votes = least > list->min_votes ? least : list->min_votes;
 }
 
@@ -68,7 +75,7 @@ void rho_peak_list_add(struct rho_peak_list *list, struct rho_accumulator_peak p
         return;
     }
     if (peak.votes > list->votes_max) {
-        note_most_votes(list, peak.votes);
+        update_vote_limits(list, peak.votes);
     }
     if (list->num_peaks < list->max_peaks) {
         list->peaks[list->num_peaks] = peak;
@@ -76,13 +83,15 @@ void rho_peak_list_add(struct rho_peak_list *list, struct rho_accumulator_peak p
         return;
     }
     list->peaks_dropped = rho_count(list->peaks_dropped, 1);
-    if (list->max_peaks > 0 && is_better(&peak, &list->peaks[0])) {
+    if (list->max_peaks > 0 && is_better_peak(&peak, &list->peaks[0])) {
         list->peaks[0] = peak;
         sink_peak(list->peaks, list->num_peaks, 0);
     }
 }
 
-/* Drops the peaks below the final threshold. Returns how many stay, no longer a heap. */
+/*
+ * Removes the peaks with fewer than the final min_votes. Returns the number left, no longer a heap.
+ */
 static uint32_t drop_below_threshold(const struct rho_peak_list *list)
 {
     uint32_t n = 0;
@@ -94,7 +103,7 @@ static uint32_t drop_below_threshold(const struct rho_peak_list *list)
     return n;
 }
 
-/* Heap sort, best first. */
+/* Sorts a heap of peaks, best first. */
 static void sort_peaks(struct rho_accumulator_peak *heap, uint32_t n)
 {
     while (n > 1) {
@@ -110,7 +119,8 @@ void rho_peak_list_finish(struct rho_peak_list *list)
     uint32_t n = drop_below_threshold(list);
     if (n < list->num_peaks) {
         list->num_peaks = n;
-        list->peaks_dropped = 0; /* all dropped peaks are below the threshold */
+        /* peaks dropped for lack of room were worse, and so below the threshold too */
+        list->peaks_dropped = 0;
         for (uint32_t i = n / 2u; i > 0; i--) {
             sink_peak(list->peaks, n, i - 1u);
         }
@@ -121,22 +131,23 @@ void rho_peak_list_finish(struct rho_peak_list *list)
 /* ---- suppression ----------------------------------------------------------------------------- */
 
 /*
- * Kept peaks by block: two peaks in one block are always near each other, hence a block keeps one
- * at most, and peaks near a given one are in its block or the eight around.
+ * Kept peaks, hashed by blocks of the plane: two peaks in one block are always near each other,
+ * hence a block has one kept peak at most, and kept peaks near a cell are in its block or the eight
+ * blocks around it.
  */
 struct kept {
     struct rho_accumulator_peak *peaks;
     const struct rho_peak_distance *distance;
-    uint32_t *table; /* open addressing: number of a kept peak, from 1; 0: free */
+    uint32_t *table; /* hash table with open addressing: number of a kept peak, from 1; 0: free */
     uint32_t size, num_peaks, num_listed;
 };
 
-/* A cell of the plane; row may lie beyond the ends of theta. */
+/* A cell of the plane; theta may lie beyond its ends. */
 struct place {
     int32_t theta, rho;
 };
 
-static int32_t block_of(int32_t cell, unsigned reach)
+static int32_t block_of_cell(int32_t cell, unsigned reach)
 {
     int32_t size = (int32_t)reach + 1;
     return cell >= 0 ? cell / size : -1;
@@ -157,12 +168,12 @@ static int is_peak_near(const struct rho_accumulator_peak *peak, struct place pl
            (rho < 0 ? -rho : rho) <= distance->rho;
 }
 
-static int is_in_block(const struct kept *kept, uint32_t number, int32_t theta_block,
-                       int32_t rho_block)
+static int is_kept_peak_in_block(const struct kept *kept, uint32_t number, int32_t theta_block,
+                                 int32_t rho_block)
 {
     const struct rho_accumulator_peak *peak = &kept->peaks[number - 1u];
-    return block_of(peak->theta_cell, kept->distance->theta) == theta_block &&
-           block_of(peak->rho_cell, kept->distance->rho) == rho_block;
+    return block_of_cell(peak->theta_cell, kept->distance->theta) == theta_block &&
+           block_of_cell(peak->rho_cell, kept->distance->rho) == rho_block;
 }
 
 static int has_peak_near_in_block(const struct kept *kept, struct place place, int32_t theta_block,
@@ -170,7 +181,7 @@ static int has_peak_near_in_block(const struct kept *kept, struct place place, i
 {
     uint32_t at = hash_block(theta_block, rho_block), number;
     while ((number = kept->table[at & (kept->size - 1u)]) != 0) {
-        if (is_in_block(kept, number, theta_block, rho_block)) {
+        if (is_kept_peak_in_block(kept, number, theta_block, rho_block)) {
             return is_peak_near(&kept->peaks[number - 1u], place, kept->distance);
         }
         at++;
@@ -178,13 +189,13 @@ static int has_peak_near_in_block(const struct kept *kept, struct place place, i
     return 0;
 }
 
-static int has_listed_peak_near(const struct kept *kept, struct place place)
+static int has_hashed_peak_near(const struct kept *kept, struct place place)
 {
     const struct rho_peak_distance *distance = kept->distance;
-    int32_t theta_last = block_of(place.theta + distance->theta, distance->theta);
-    int32_t rho_last = block_of(place.rho + distance->rho, distance->rho);
-    int32_t theta_first = block_of(place.theta - distance->theta, distance->theta);
-    int32_t rho_first = block_of(place.rho - distance->rho, distance->rho);
+    int32_t theta_last = block_of_cell(place.theta + distance->theta, distance->theta);
+    int32_t rho_last = block_of_cell(place.rho + distance->rho, distance->rho);
+    int32_t theta_first = block_of_cell(place.theta - distance->theta, distance->theta);
+    int32_t rho_first = block_of_cell(place.rho - distance->rho, distance->rho);
     for (int32_t theta = theta_first < 0 ? 0 : theta_first; theta <= theta_last; theta++) {
         for (int32_t rho = rho_first < 0 ? 0 : rho_first; rho <= rho_last; rho++) {
             if (has_peak_near_in_block(kept, place, theta, rho)) {
@@ -197,7 +208,7 @@ static int has_listed_peak_near(const struct kept *kept, struct place place)
 
 static int has_kept_peak_near(const struct kept *kept, struct place place)
 {
-    if (kept->size > 0 && has_listed_peak_near(kept, place)) {
+    if (kept->size > 0 && has_hashed_peak_near(kept, place)) {
         return 1;
     }
     for (uint32_t i = kept->num_listed; i < kept->num_peaks; i++) {
@@ -208,7 +219,7 @@ static int has_kept_peak_near(const struct kept *kept, struct place place)
     return 0;
 }
 
-/* Whether a better peak that is kept is near, also across the ends of theta. */
+/* Whether a kept peak, which is better, is near this peak, also across the ends of theta. */
 static int is_suppressed(const struct kept *kept, const struct rho_accumulator_peak *peak)
 {
     int32_t theta = peak->theta_cell, num_theta = kept->distance->theta_cells;
@@ -220,15 +231,18 @@ static int is_suppressed(const struct kept *kept, const struct rho_accumulator_p
             has_kept_peak_near(kept, (struct place){theta - num_theta, turned}));
 }
 
-/* A third of the table stays free, so that searches are short. */
-static void list_last_kept(struct kept *kept)
+/*
+ * Adds the last kept peak to the hash table, unless an earlier one was left out or the table is two
+ * thirds full: a third stays free, so that searches are short.
+ */
+static void hash_last_kept_peak(struct kept *kept)
 {
     const struct rho_accumulator_peak *peak = &kept->peaks[kept->num_peaks - 1u];
     if (kept->num_listed + 1u < kept->num_peaks || 3u * (kept->num_listed + 1u) > 2u * kept->size) {
         return;
     }
-    uint32_t at = hash_block(block_of(peak->theta_cell, kept->distance->theta),
-                             block_of(peak->rho_cell, kept->distance->rho));
+    uint32_t at = hash_block(block_of_cell(peak->theta_cell, kept->distance->theta),
+                             block_of_cell(peak->rho_cell, kept->distance->rho));
     while (kept->table[at & (kept->size - 1u)] != 0) {
         at++;
     }
@@ -248,7 +262,7 @@ uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num
     for (uint32_t i = 0; i < num_peaks; i++) {
         if (!is_suppressed(&kept, &peaks[i])) {
             peaks[kept.num_peaks++] = peaks[i];
-            list_last_kept(&kept);
+            hash_last_kept_peak(&kept);
         }
     }
     return kept.num_peaks;

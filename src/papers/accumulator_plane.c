@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * accumulator_plane: the cells of the plane (rho, theta): their number, their centres, and the cell
- * of each point in a row of theta. The loops over points are the hot loops of each row.
+ * accumulator_plane: geometry of the plane (rho, theta): number of cells, values at their centres,
+ * and the cell of each point in a row of theta. The loops over points are the hot loops of each
+ * row.
  */
 #include "accumulator_pass.h"
 #include "rhotrack/detail/angle.h"
@@ -18,7 +19,7 @@ static int is_usable(const struct rho_accumulator_config *config)
            rho_is_within(config->rho_max_m, 0.5f * config->rho_cell_m,
                          config->rho_cell_m * 0.5f * (float)RHO_MAX_RHO_CELLS) &&
            rho_is_within(config->theta_cell_rad, THETA_CELL_MIN_RAD, RHO_PI) &&
-           /* the neighbours of a single row would be itself */
+           /* a plane with a single row of theta would have that row as its own neighbour */
            (config->neighbours == 0 || config->theta_cell_rad < RHO_PI) &&
            (config->votes == RHO_VOTES_SCANS || config->votes == RHO_VOTES_POINTS) &&
            config->min_votes >= 1 && rho_is_within(config->min_share, 0.0f, 1.0f) &&

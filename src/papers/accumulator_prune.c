@@ -9,9 +9,9 @@
  *                     |----|-----|
  *                          |r r r|                               (3)
  *
- * (1) If no bin of rho has min_votes, the 64 rows are skipped. (2) Otherwise both halves are
- * searched with the points of the bins that have. (3) In a few rows, the points that are left vote
- * as usual.
+ * (1) If no bin of rho has min_votes, all 64 rows are skipped. (2) Otherwise each half of the rows
+ * is searched, with the points of those bins that have min_votes. (3) When few rows are left, the
+ * remaining points vote in each row.
  */
 #include <string.h>
 
@@ -19,29 +19,31 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define ROWS_START 16u /* length of the first interval */
+#define ROWS_START 16u /* rows of theta in the first interval */
 #define ROWS_MAX 1024u
-#define ROWS_LEAST 2u     /* shortest interval that is pruned */
-#define ROWS_UNPRUNED 32u /* rows without pruning, doubled each time */
+#define ROWS_LEAST 2u /* rows of the shortest interval that is pruned */
+/* first number of rows searched without pruning, when it does not pay; doubled each time */
+#define ROWS_UNPRUNED 32u
 #define BINS_MIN 64u
-#define ROWS_WHOLE 2u /* not halved any more */
-/* An interval of at most so many rows is not halved if it keeps more than 3/4 of its points. */
+#define ROWS_WHOLE 2u /* intervals of at most this many rows are not halved */
+/* Intervals of at most this many rows are not halved if they keep more than 3/4 of their points. */
 #define ROWS_BLUNT 16u
 /*
- * Intervals are shortened if more than a third of all points is kept, lengthened at a sixteenth or
- * less.
+ * Intervals are made shorter if they keep more than 1/3 of all points, longer if they keep at most
+ * 1/16.
  */
 #define SHRINK_KEPT 3u
 #define GROW_KEPT 16u
 /*
- * Cost model, about nanoseconds on a workstation: per interval and per point for bins; per row and
- * per kept point for votes.
+ * Cost model of pruning, in units of about a nanosecond on a workstation: for bins, per interval
+ * and per point; for votes, per row and per kept point.
  */
 #define WORK_BINS 50u
 #define WORK_BIN 2u
 #define WORK_ROW 50u
 #define WORK_POINT 2u
-#define HALVINGS_MAX 11 /* log2 of ROWS_MAX, plus 1 */
+/* largest depth to which an interval is halved: log2 of ROWS_MAX, plus 1 */
+#define HALVINGS_MAX 11
 
 #define CELL uint8_t
 #define NAME(f) f##_narrow
@@ -55,24 +57,28 @@
 #undef NAME
 
 struct interval {
-    unsigned first, num_rows, num_points; /* num_points: the first ones of room.few */
+    /* rows of theta, and the points that are left: the first num_points of room.few */
+    unsigned first, num_rows, num_points;
 };
 
 struct prune {
     struct rho_accumulator_pass *pass;
-    float centre_x_m, centre_y_m, radius_cells; /* a circle around all points */
-    unsigned next_row;                          /* the first row of the next interval */
-    unsigned last_filled;                       /* filled, but not searched yet; or NONE */
-    unsigned num_rows;     /* length of the next interval; 1: pruning does not pay */
-    unsigned num_unpruned; /* rows without pruning in that case */
-    unsigned work;         /* of this interval, see work_unpruned() */
+    /* circle around all points, its radius in rho cells */
+    float centre_x_m, centre_y_m, radius_cells;
+    unsigned next_row; /* first row of the next interval */
+    /* row that is filled, but not searched for peaks yet; NONE: there is none */
+    unsigned last_filled;
+    unsigned num_rows;     /* rows of the next interval; 1: pruning does not pay */
+    unsigned num_unpruned; /* rows to search without pruning when it does not pay */
+    /* cost of the current interval with pruning, compared with cost_of_unpruned_rows() */
+    unsigned work;
 };
 
 #define NONE UINT32_MAX
 
 /* ---- points ---------------------------------------------------------------------------------- */
 
-/* Copies the points with their scans' bits; each interval reorders the copy. */
+/* Copies the points to room.few, with the bits of their scans; each interval reorders the copy. */
 static void copy_points(struct prune *prune)
 {
     const struct rho_accumulator_points *points = prune->pass->points;
@@ -88,7 +94,7 @@ static void copy_points(struct prune *prune)
     }
 }
 
-static void middle_and_half(const float *values, unsigned n, float *middle, float *half)
+static void find_middle_and_half_width(const float *values, unsigned n, float *middle, float *half)
 {
     float low = values[0], high = values[0];
     for (unsigned i = 1; i < n; i++) {
@@ -104,8 +110,8 @@ static void enclose_points(struct prune *prune)
     const struct rho_accumulator_points *points = prune->pass->points;
     unsigned n = prune->pass->num_points;
     float half_x_m, half_y_m, farthest2 = 0.0f;
-    middle_and_half(points->x_m, n, &prune->centre_x_m, &half_x_m);
-    middle_and_half(points->y_m, n, &prune->centre_y_m, &half_y_m);
+    find_middle_and_half_width(points->x_m, n, &prune->centre_x_m, &half_x_m);
+    find_middle_and_half_width(points->y_m, n, &prune->centre_y_m, &half_y_m);
     for (unsigned i = 0; i < n; i++) {
         float x_m = points->x_m[i] - prune->centre_x_m, y_m = points->y_m[i] - prune->centre_y_m;
         float range2 = x_m * x_m + y_m * y_m;
@@ -114,8 +120,8 @@ static void enclose_points(struct prune *prune)
     prune->radius_cells = rho_sqrt(farthest2) * prune->pass->accumulator->cells_per_m;
 }
 
-/* Swaps the listed points to the front. */
-static void move_to_front(struct rho_accumulator *accumulator, unsigned num_kept)
+/* Moves the points that are listed in room.few.bins to the front of room.few. */
+static void move_kept_to_front(struct rho_accumulator *accumulator, unsigned num_kept)
 {
     float *x_m = accumulator->room.few.x_m, *y_m = accumulator->room.few.y_m;
     uint16_t *bits = accumulator->room.few.bits;
@@ -134,8 +140,8 @@ static void move_to_front(struct rho_accumulator *accumulator, unsigned num_kept
 
 /* ---- bins ------------------------------------------------------------------------------------ */
 
-/* At least four bins per point, so that few points share one by chance. */
-static unsigned bins_for(unsigned num_points)
+/* Number of bins for pruning: at least four per point, so that few points share one by chance. */
+static unsigned num_bins_for(unsigned num_points)
 {
     unsigned num_bins = BINS_MIN;
     while (num_bins < 4u * num_points && num_bins < RHO_ACCUMULATOR_BINS) {
@@ -144,9 +150,9 @@ static unsigned bins_for(unsigned num_points)
     return num_bins;
 }
 
-static void find_bins(const float *restrict x_m, const float *restrict y_m, unsigned n,
-                      struct rho_accumulator_projection place, unsigned num_bins,
-                      int32_t *restrict bins)
+static void bins_of_points(const float *restrict x_m, const float *restrict y_m, unsigned n,
+                           struct rho_accumulator_projection place, unsigned num_bins,
+                           int32_t *restrict bins)
 {
     int32_t ring = (int32_t)num_bins - 1;
     for (unsigned i = 0; i < n; i++) {
@@ -155,11 +161,11 @@ static void find_bins(const float *restrict x_m, const float *restrict y_m, unsi
 }
 
 /*
- * Bins at the middle row of the interval. All points that vote for one cell in any row of the
- * interval lie within two bin widths.
+ * Projection of points to bins of rho at the middle row of an interval. All points that vote for
+ * one cell in any row of the interval lie within two bin widths.
  */
-static struct rho_accumulator_projection place_of_bins(const struct prune *prune,
-                                                       struct interval of)
+static struct rho_accumulator_projection bin_projection(const struct prune *prune,
+                                                        struct interval of)
 {
     const struct rho_accumulator *accumulator = prune->pass->accumulator;
     float theta_cell_rad = accumulator->config.theta_cell_rad;
@@ -174,29 +180,34 @@ static struct rho_accumulator_projection place_of_bins(const struct prune *prune
                                                    prune->centre_y_m * by_y};
 }
 
-/* Drops the interval's points that cannot reach min_votes. */
-static void drop_points(const struct prune *prune, struct interval *of)
+/*
+ * Drops the points of an interval that cannot be part of a cell with min_votes in any of its rows.
+ */
+static void drop_hopeless_points(const struct prune *prune, struct interval *of)
 {
     struct rho_accumulator_pass *pass = prune->pass;
     struct rho_accumulator *accumulator = pass->accumulator;
-    unsigned n = of->num_points, num_bins = bins_for(n), least = pass->list.min_votes;
+    unsigned n = of->num_points, num_bins = num_bins_for(n), least = pass->list.min_votes;
     if (n < least || (!pass->counts_points && pass->points->num_scans < least)) {
         of->num_points = 0;
         return;
     }
-    find_bins(accumulator->room.few.x_m, accumulator->room.few.y_m, n, place_of_bins(prune, *of),
-              num_bins, accumulator->room.few.bins);
-    of->num_points =
-        pass->is_narrow ? choose_narrow(pass, n, num_bins) : choose_wide(pass, n, num_bins);
+    bins_of_points(accumulator->room.few.x_m, accumulator->room.few.y_m, n,
+                   bin_projection(prune, *of), num_bins, accumulator->room.few.bins);
+    of->num_points = pass->is_narrow ? choose_points_narrow(pass, n, num_bins)
+                                     : choose_points_wide(pass, n, num_bins);
     if (of->num_points < n) {
-        move_to_front(accumulator, of->num_points);
+        move_kept_to_front(accumulator, of->num_points);
     }
 }
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
-/* Searches the row filled last, when its next neighbour is known. */
-static void search_last_filled(struct prune *prune, unsigned next)
+/*
+ * Lists the peaks of the row filled last, once the row after it is filled: rows that are skipped
+ * are cleared, and after the last row comes the first one, reversed.
+ */
+static void search_last_filled_row(struct prune *prune, unsigned next)
 {
     struct rho_accumulator_pass *pass = prune->pass;
     unsigned row = prune->last_filled, slot = (row + 1u) % 3u;
@@ -211,11 +222,14 @@ static void search_last_filled(struct prune *prune, unsigned next)
     rho_accumulator_find_row_peaks(pass, row);
 }
 
-/* Rows come in ascending order; rows that were skipped have no votes. */
-static void prepare_row(struct prune *prune, unsigned row)
+/*
+ * Before the first row after a gap: searches the row filled last, and sets the row above to its
+ * votes: none, as it was skipped, or for row 0 those of the last row, reversed.
+ */
+static void start_run_at_row(struct prune *prune, unsigned row)
 {
     if (prune->last_filled == NONE || prune->last_filled + 1u != row) {
-        search_last_filled(prune, row);
+        search_last_filled_row(prune, row);
         prune->last_filled = NONE;
         if (row == 0) {
             rho_accumulator_fill_row(prune->pass, 2, prune->pass->accumulator->theta_cells - 1u, 1);
@@ -225,35 +239,38 @@ static void prepare_row(struct prune *prune, unsigned row)
     }
 }
 
-static void fill_row(struct prune *prune, unsigned row, unsigned num_points)
+static void fill_row_and_search_previous(struct prune *prune, unsigned row, unsigned num_points)
 {
-    prepare_row(prune, row);
+    start_run_at_row(prune, row);
     if (num_points == prune->pass->num_points) {
         rho_accumulator_fill_row(prune->pass, row % 3u, row, 0);
     } else {
         rho_accumulator_fill_row_with_kept(prune->pass, row % 3u, row, num_points);
     }
-    search_last_filled(prune, row);
+    search_last_filled_row(prune, row);
     prune->last_filled = row;
 }
 
 /* ---- intervals ------------------------------------------------------------------------------- */
 
-/* Cost of rows where all points vote in their order: half a unit per point less. */
-static unsigned work_unpruned(const struct prune *prune, unsigned num_rows)
+/*
+ * Cost of searching rows with the votes of all points, half a unit per point less than with kept
+ * points.
+ */
+static unsigned cost_of_unpruned_rows(const struct prune *prune, unsigned num_rows)
 {
     return num_rows * (WORK_ROW + prune->pass->num_points * 3u / 2u);
 }
 
-static void fill_rows(struct prune *prune, struct interval of)
+static void fill_interval_rows(struct prune *prune, struct interval of)
 {
     prune->work += of.num_rows * (WORK_ROW + WORK_POINT * of.num_points);
     for (unsigned row = of.first; row < of.first + of.num_rows; row++) {
-        fill_row(prune, row, of.num_points);
+        fill_row_and_search_previous(prune, row, of.num_points);
     }
 }
 
-/* Whether halving can save more than the bins of the halves cost. */
+/* Whether halving an interval can save more than the bins of its halves cost. */
 static int is_worth_halving(struct interval of, unsigned num_before)
 {
     return of.num_rows > ROWS_WHOLE &&
@@ -261,9 +278,10 @@ static int is_worth_halving(struct interval of, unsigned num_before)
 }
 
 /*
- * Depth-first search of an interval by halving. Returns how many points the whole interval keeps.
+ * Searches an interval depth-first by halving it. Returns the number of points that the whole
+ * interval keeps.
  */
-static unsigned search_halves(struct prune *prune, struct interval whole)
+static unsigned search_interval_by_halving(struct prune *prune, struct interval whole)
 {
     struct interval stack[HALVINGS_MAX + 1];
     unsigned depth = 0, num_kept = 0;
@@ -272,26 +290,26 @@ static unsigned search_halves(struct prune *prune, struct interval whole)
         struct interval of = stack[--depth];
         unsigned num_before = of.num_points, num_left = of.num_rows / 2u;
         prune->work += WORK_BINS + WORK_BIN * num_before;
-        drop_points(prune, &of);
+        drop_hopeless_points(prune, &of);
         num_kept = of.num_rows == whole.num_rows ? of.num_points : num_kept;
         if (of.num_points > 0 && is_worth_halving(of, num_before)) {
             stack[depth++] =
                 (struct interval){of.first + num_left, of.num_rows - num_left, of.num_points};
             stack[depth++] = (struct interval){of.first, num_left, of.num_points};
         } else if (of.num_points > 0) {
-            fill_rows(prune, of);
+            fill_interval_rows(prune, of);
         }
     }
     return num_kept;
 }
 
 /*
- * The next interval. Its length is doubled while nearly all points are dropped, and halved if few
- * are: at the best length an interval costs about as much as its halves. If an interval cost more
- * than its rows without pruning, or even ROWS_LEAST rows keep many points, all points vote in the
- * next rows before pruning is tried again.
+ * Searches the next interval of rows. Its length is doubled while nearly all points are dropped,
+ * and halved if few are: at the best length an interval costs about as much as its halves. If an
+ * interval cost more than its rows without pruning, or even ROWS_LEAST rows keep many points, all
+ * points vote in the next rows before pruning is tried again.
  */
-static void search_next(struct prune *prune, unsigned rows_left)
+static void search_next_interval(struct prune *prune, unsigned rows_left)
 {
     unsigned n = prune->pass->num_points, num_rows = prune->num_rows;
     int is_pruned = num_rows >= ROWS_LEAST;
@@ -300,14 +318,14 @@ static void search_next(struct prune *prune, unsigned rows_left)
     struct interval of = {prune->next_row, num_rows, n};
     prune->next_row += num_rows;
     if (!is_pruned) {
-        fill_rows(prune, of);
+        fill_interval_rows(prune, of);
         prune->num_rows = ROWS_LEAST;
         prune->num_unpruned += prune->num_unpruned < ROWS_MAX ? prune->num_unpruned : 0u;
         return;
     }
     prune->work = 0;
-    unsigned num_kept = search_halves(prune, of);
-    if (prune->work > work_unpruned(prune, num_rows)) {
+    unsigned num_kept = search_interval_by_halving(prune, of);
+    if (prune->work > cost_of_unpruned_rows(prune, num_rows)) {
         prune->num_rows = 1;
         return;
     }
@@ -332,8 +350,9 @@ void rho_accumulator_search_pruned(struct rho_accumulator_pass *pass)
     copy_points(&prune);
     enclose_points(&prune);
     while (prune.next_row < num_rows) {
-        search_next(&prune, num_rows - prune.next_row);
+        search_next_interval(&prune, num_rows - prune.next_row);
     }
-    search_last_filled(&prune, NONE);
-    pass->votes = pass->num_points * num_rows; /* all are within rho_max_m */
+    search_last_filled_row(&prune, NONE);
+    /* all points are within rho_max_m where rows are pruned */
+    pass->votes = pass->num_points * num_rows;
 }

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* accumulator_rows: votes of the points in a row of theta, and the peaks of the row. */
+/* accumulator_rows: votes of the points in each row of theta, and the peaks of the row. */
 #include <string.h>
 
 #include "accumulator_pass.h"
 #include "rhotrack/types.h"
 
-#define BLOCK 64  /* cells tested together */
-#define BLOCKS 4u /* blocks tested together */
-#define AROUND 80 /* a block with both neighbours, in whole vectors */
-#define CROWDED                                                                                    \
-    4 /* cells per point of a scan; with fewer, stores to the same cell would wait for each other */
+#define BLOCK 64  /* cells of a dense row that are tested together */
+#define BLOCKS 4u /* blocks that are tested together where peaks are rare */
+#define AROUND 80 /* cells of a block and its neighbours on both sides, in whole vector registers */
+/*
+ * a scan with fewer cells per point than this votes via the scratch row: stores to one cell would
+ * wait for each other
+ */
+#define CROWDED 4
 
 /* ---- votes ----------------------------------------------------------------------------------- */
 
@@ -19,12 +22,12 @@ static const uint8_t bits_of_byte[256] = {
 #define SIX(n) FOUR(n), FOUR((n) + 1), FOUR((n) + 1), FOUR((n) + 2)
     SIX(0), SIX(1), SIX(1), SIX(2)};
 
-static unsigned votes_narrow(const struct rho_accumulator_pass *pass, uint8_t cell)
+static unsigned votes_of_cell_narrow(const struct rho_accumulator_pass *pass, uint8_t cell)
 {
     return pass->counts_points ? cell : bits_of_byte[cell];
 }
 
-static unsigned votes_wide(const struct rho_accumulator_pass *pass, uint16_t cell)
+static unsigned votes_of_cell_wide(const struct rho_accumulator_pass *pass, uint16_t cell)
 {
     return pass->counts_points ? cell
                                : (unsigned)bits_of_byte[cell & 255u] + bits_of_byte[cell >> 8];
@@ -41,11 +44,11 @@ static void add_peak(struct rho_accumulator_pass *pass, unsigned cell, unsigned 
 }
 
 /*
- * Whether one of n bytes, a multiple of BLOCK, has min_votes bits: eight bytes at a time, in words
- * that a compiler vectorises. The bit count of a byte ends in its upper half; what the shift moves
- * into the lower half stays there.
+ * Whether one of n cells of 8 bits has min_votes bits set; n is a multiple of BLOCK. Eight cells at
+ * a time, in words that a compiler vectorises: the bit count of each byte ends in its upper half,
+ * and bits that the shift moves into the lower half stay there.
  */
-static int may_have_scans_narrow(const uint8_t *row, unsigned n, unsigned min_votes)
+static int may_reach_min_scans_narrow(const uint8_t *row, unsigned n, unsigned min_votes)
 {
     const uint64_t ones = UINT64_C(0x0101010101010101);
     uint64_t reached = 0, add = ones * (0x80u - 16u * (min_votes < 8u ? min_votes : 8u));
@@ -59,13 +62,13 @@ static int may_have_scans_narrow(const uint8_t *row, unsigned n, unsigned min_vo
     return (reached & ones * 0x80u) != 0;
 }
 
-static uint16_t scans_wide(uint16_t mask);
+static uint16_t count_scans_wide(uint16_t mask);
 
-static int may_have_scans_wide(const uint16_t *row, unsigned n, unsigned min_votes)
+static int may_reach_min_scans_wide(const uint16_t *row, unsigned n, unsigned min_votes)
 {
     uint16_t most = 0;
     for (unsigned i = 0; i < n; i++) {
-        uint16_t v = scans_wide(row[i]);
+        uint16_t v = count_scans_wide(row[i]);
         most = v > most ? v : most;
     }
     return most >= min_votes;
@@ -85,8 +88,8 @@ static int may_have_scans_wide(const uint16_t *row, unsigned n, unsigned min_vot
 #undef NAME
 
 /*
- * Projects points from .. from + n - 1 of these scans; points outside of the plane do not count as
- * votes.
+ * Computes the cells of points from .. from + n - 1, which are of the scans in the mask `scans`.
+ * Points outside the plane are not added to pass->votes.
  */
 static void project_points(struct rho_accumulator_pass *pass, unsigned scans, unsigned from,
                            unsigned n, struct rho_accumulator_projection place, int32_t *cells)
@@ -102,13 +105,13 @@ static void project_points(struct rho_accumulator_pass *pass, unsigned scans, un
     pass->votes = rho_count(pass->votes, n - outside);
 }
 
-static unsigned scan_start(const struct rho_accumulator_pass *pass, unsigned scan)
+static unsigned first_point_of_scan(const struct rho_accumulator_pass *pass, unsigned scan)
 {
     return scan > 0 ? pass->points->scan_end[scan - 1u] : 0u;
 }
 
-/* Guard cells have no votes, so that they never are larger neighbours. */
-static void empty_guards(const struct rho_accumulator_pass *pass, void *row)
+/* Clears the two guard cells of a row, so that they never exceed their neighbours. */
+static void clear_guard_cells(const struct rho_accumulator_pass *pass, void *row)
 {
     unsigned last = pass->accumulator->rho_cells + 1u;
     if (pass->is_narrow) {
@@ -135,7 +138,7 @@ static unsigned vote_in_sparse_row(const struct rho_accumulator_pass *pass, void
 {
     unsigned bit = pass->counts_points ? 0u : 1u << scan;
     if (bit && scan + 1u < pass->list.min_votes) {
-        /* the scans so far cannot reach min_votes */
+        /* the scans up to this one are too few to reach min_votes */
         if (pass->is_narrow) {
             vote_scan_narrow(row, cells, n, (uint8_t)bit);
         } else {
@@ -143,8 +146,9 @@ static unsigned vote_in_sparse_row(const struct rho_accumulator_pass *pass, void
         }
         return 0;
     }
-    return pass->is_narrow ? vote_few_narrow(pass, row, cells, n, (uint8_t)bit, reached)
-                           : vote_few_wide(pass, row, cells, n, (uint16_t)bit, reached);
+    return pass->is_narrow
+               ? vote_and_list_reached_narrow(pass, row, cells, n, (uint8_t)bit, reached)
+               : vote_and_list_reached_wide(pass, row, cells, n, (uint16_t)bit, reached);
 }
 
 static void clear_sparse_row(struct rho_accumulator_pass *pass, unsigned slot)
@@ -171,13 +175,13 @@ static void fill_sparse_row(struct rho_accumulator_pass *pass, unsigned slot,
     clear_sparse_row(pass, slot);
     project_points(pass, ~0u, 0, pass->num_points, place, cells);
     for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
-        unsigned from = scan_start(pass, scan), n = pass->points->scan_end[scan] - from;
+        unsigned from = first_point_of_scan(pass, scan), n = pass->points->scan_end[scan] - from;
         num_reached += vote_in_sparse_row(pass, row, cells + from, n, scan,
                                           accumulator->reached[slot] + num_reached);
     }
     accumulator->num_touched[slot] = (uint16_t)pass->num_points;
     accumulator->num_reached[slot] = (uint16_t)num_reached;
-    empty_guards(pass, row);
+    clear_guard_cells(pass, row);
     if (is_turned) {
         reverse_row(pass, row);
         for (unsigned i = 0; i < pass->num_points; i++) {
@@ -198,8 +202,8 @@ void rho_accumulator_fill_row_with_kept(struct rho_accumulator_pass *pass, unsig
     rho_accumulator_project(accumulator->room.few.x_m, accumulator->room.few.y_m, num_kept,
                             rho_accumulator_projection(accumulator, theta_cell), cells);
     unsigned num_reached = pass->is_narrow
-                               ? vote_kept_narrow(pass, row, cells, bits, num_kept, reached)
-                               : vote_kept_wide(pass, row, cells, bits, num_kept, reached);
+                               ? vote_kept_points_narrow(pass, row, cells, bits, num_kept, reached)
+                               : vote_kept_points_wide(pass, row, cells, bits, num_kept, reached);
     accumulator->num_touched[slot] = (uint16_t)num_kept;
     accumulator->num_reached[slot] = (uint16_t)num_reached;
 }
@@ -223,22 +227,23 @@ static void vote_in_dense_row(const struct rho_accumulator_pass *pass, void *row
     } else if (pass->counts_points) {
         vote_points_wide(row, cells, n);
     } else if (pass->is_narrow && is_crowded) {
-        vote_scan_apart_narrow(row, apart, num_cells, cells, n, (uint8_t)(1u << scan));
+        vote_scan_via_scratch_narrow(row, apart, num_cells, cells, n, (uint8_t)(1u << scan));
     } else if (pass->is_narrow) {
         vote_scan_narrow(row, cells, n, (uint8_t)(1u << scan));
     } else if (is_crowded) {
-        vote_scan_apart_wide(row, apart, num_cells, cells, n, (uint16_t)(1u << scan));
+        vote_scan_via_scratch_wide(row, apart, num_cells, cells, n, (uint16_t)(1u << scan));
     } else {
         vote_scan_wide(row, cells, n, (uint16_t)(1u << scan));
     }
 }
 
-static void vote_chunks(struct rho_accumulator_pass *pass, void *row,
-                        struct rho_accumulator_projection place, unsigned scan)
+static void vote_scan_in_chunks(struct rho_accumulator_pass *pass, void *row,
+                                struct rho_accumulator_projection place, unsigned scan)
 {
-    int32_t *cells = pass->accumulator->touched[0]; /* it is free: only sparse rows use it */
+    /* used as scratch: dense rows have no list of touched cells */
+    int32_t *cells = pass->accumulator->touched[0];
     unsigned end = pass->points->scan_end[scan], most = RHO_ACCUMULATOR_SPARSE_MAX;
-    for (unsigned from = scan_start(pass, scan); from < end; from += most) {
+    for (unsigned from = first_point_of_scan(pass, scan); from < end; from += most) {
         unsigned n = end - from < most ? end - from : most;
         project_points(pass, 1u << scan, from, n, place, cells);
         vote_in_dense_row(pass, row, cells, n, scan);
@@ -253,9 +258,9 @@ static void fill_dense_row(struct rho_accumulator_pass *pass, unsigned slot,
     unsigned cells = accumulator->rho_cells + RHO_ACCUMULATOR_PADDING;
     memset(row, 0, cells * (pass->is_narrow ? 1u : 2u));
     for (unsigned scan = 0; scan < pass->points->num_scans; scan++) {
-        vote_chunks(pass, row, place, scan);
+        vote_scan_in_chunks(pass, row, place, scan);
     }
-    empty_guards(pass, row);
+    clear_guard_cells(pass, row);
     if (is_turned) {
         reverse_row(pass, row);
     }
@@ -275,17 +280,19 @@ void rho_accumulator_fill_row(struct rho_accumulator_pass *pass, unsigned slot, 
         fill_dense_row(pass, slot, place, is_turned);
     }
     if (is_turned) {
-        pass->votes = votes; /* the row is filled twice, and counts once */
+        pass->votes = votes; /* a reversed row is filled a second time, and its votes count once */
     }
 }
 
-static void find_peaks_sparse(struct rho_accumulator_pass *pass, unsigned slot)
+static void find_sparse_row_peaks(struct rho_accumulator_pass *pass, unsigned slot)
 {
     const struct rho_accumulator *accumulator = pass->accumulator;
     if (pass->is_narrow) {
-        find_peaks_sparse_narrow(pass, accumulator->reached[slot], accumulator->num_reached[slot]);
+        find_peaks_in_reached_narrow(pass, accumulator->reached[slot],
+                                     accumulator->num_reached[slot]);
     } else {
-        find_peaks_sparse_wide(pass, accumulator->reached[slot], accumulator->num_reached[slot]);
+        find_peaks_in_reached_wide(pass, accumulator->reached[slot],
+                                   accumulator->num_reached[slot]);
     }
 }
 
@@ -299,15 +306,18 @@ void rho_accumulator_find_row_peaks(struct rho_accumulator_pass *pass, unsigned 
     pass->above_is_first = theta_cell > 0;
     pass->below_is_first = theta_cell + 1u == pass->accumulator->theta_cells;
     if (pass->is_sparse) {
-        find_peaks_sparse(pass, slot);
+        find_sparse_row_peaks(pass, slot);
     } else if (pass->is_narrow) {
-        find_peaks_dense_narrow(pass);
+        find_dense_row_peaks_narrow(pass);
     } else {
-        find_peaks_dense_wide(pass);
+        find_dense_row_peaks_wide(pass);
     }
 }
 
-/* Rows -1 (the last one reversed), 0, 1, ..., and after the last row the first one reversed. */
+/*
+ * Fills each row and searches the row before it; before row 0 comes the last row, reversed, and
+ * after the last row comes row 0, reversed.
+ */
 void rho_accumulator_search_all_rows(struct rho_accumulator_pass *pass)
 {
     unsigned last = pass->accumulator->theta_cells - 1u;

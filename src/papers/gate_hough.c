@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * gate_hough: Hough clutter elimination: the lines in velocity space on which a target that flies
- * straight lies.
+ * gate_hough: Hough gate of the paper: in each plane of velocity space, the line (rho, theta) on
+ * which the velocity of a target that flies straight stays; plots are gated by their distance from
+ * it.
  */
 #include <float.h>
 #include <stddef.h>
@@ -13,13 +14,13 @@
 #define CELL_MIN_RAD 1.0e-3f
 #define PLANES_ALL (RHO_GATE_PLANE_XY | RHO_GATE_PLANE_XZ | RHO_GATE_PLANE_YZ)
 
-/* Angles this close to the border of two cells count as on it; the lower cell is taken. */
+/* Angles within this of the border of two cells count as on the border, and get the lower cell. */
 #define TIE_RAD 1.0e-6f
 
-/* The two axes of a plane, by the plane's bit. */
+/* the two velocity components that span each plane */
 static const uint8_t axes_of[RHO_GATE_PLANES][2] = {{0, 1}, {0, 2}, {1, 2}};
 
-/* False for NaN. */
+/* Whether a number is neither infinite nor NaN. */
 static int is_finite(float v)
 {
     return v >= -FLT_MAX && v <= FLT_MAX;
@@ -30,24 +31,25 @@ static float magnitude(float v)
     return v < 0.0f ? -v : v;
 }
 
-static float centre_rad(int32_t cell, float theta_cell_rad)
+static float cell_centre_rad(int32_t cell, float theta_cell_rad)
 {
     return ((float)cell + 0.5f) * theta_cell_rad;
 }
 
-/* Number of cells whose centre is below pi. */
-static int32_t count_cells(float theta_cell_rad)
+/* Number of theta cells whose centre is below pi. */
+static int32_t count_theta_cells(float theta_cell_rad)
 {
     const int32_t num = (int32_t)(RHO_PI / theta_cell_rad + 0.5f);
 
-    return centre_rad(num - 1, theta_cell_rad) < RHO_PI ? num : num - 1;
+    return cell_centre_rad(num - 1, theta_cell_rad) < RHO_PI ? num : num - 1;
 }
 
 /*
- * The cell with the centre nearest to theta in [0, pi), on a circle of length pi: the last cell and
- * the first are neighbours. A theta between two borders belongs to the cell it lies in.
+ * The theta cell with the centre nearest to an angle in [0, pi); theta is a circle of length pi, so
+ * that the last cell and the first are neighbours. An angle on the border of two cells gets the
+ * lower one.
  */
-static int32_t nearest_cell(float theta_rad, float theta_cell_rad, int32_t num)
+static int32_t nearest_theta_cell(float theta_rad, float theta_cell_rad, int32_t num)
 {
     int32_t cell = (int32_t)(theta_rad / theta_cell_rad);
 
@@ -56,9 +58,9 @@ static int32_t nearest_cell(float theta_rad, float theta_cell_rad, int32_t num)
     } else if (cell > 0 && theta_rad - (float)cell * theta_cell_rad < TIE_RAD) {
         cell -= 1;
     }
-    const float off_rad = magnitude(centre_rad(cell, theta_cell_rad) - theta_rad);
-    const float first_rad = centre_rad(0, theta_cell_rad) + RHO_PI - theta_rad;
-    const float last_rad = theta_rad + RHO_PI - centre_rad(num - 1, theta_cell_rad);
+    const float off_rad = magnitude(cell_centre_rad(cell, theta_cell_rad) - theta_rad);
+    const float first_rad = cell_centre_rad(0, theta_cell_rad) + RHO_PI - theta_rad;
+    const float last_rad = theta_rad + RHO_PI - cell_centre_rad(num - 1, theta_cell_rad);
     if (first_rad < off_rad + TIE_RAD) {
         return 0;
     }
@@ -66,15 +68,16 @@ static int32_t nearest_cell(float theta_rad, float theta_cell_rad, int32_t num)
 }
 
 /*
- * A change d of the velocity in the direction phi changes rho by |d| |cos(theta - phi)|, which is
- * smallest at right angles to phi. All angles are equal without a change.
+ * The cell centre theta at which a change (da, db) of the velocity changes rho least: rho changes
+ * by |d| |cos(theta - phi)|, phi the direction of the change, so that theta is at right angles to
+ * phi. Without a change the first cell is taken.
  */
-static float best_theta(float da, float db, float theta_cell_rad, int32_t num_cells)
+static float theta_of_least_rho_change(float da, float db, float theta_cell_rad, int32_t num_cells)
 {
     float theta_rad;
 
     if (!(da < 0.0f || da > 0.0f || db < 0.0f || db > 0.0f)) {
-        return centre_rad(0, theta_cell_rad);
+        return cell_centre_rad(0, theta_cell_rad);
     }
     theta_rad = rho_atan2(da, -db);
     if (theta_rad < 0.0f) {
@@ -83,7 +86,8 @@ static float best_theta(float da, float db, float theta_cell_rad, int32_t num_ce
     if (theta_rad >= RHO_PI) {
         theta_rad = 0.0f;
     }
-    return centre_rad(nearest_cell(theta_rad, theta_cell_rad, num_cells), theta_cell_rad);
+    return cell_centre_rad(nearest_theta_cell(theta_rad, theta_cell_rad, num_cells),
+                           theta_cell_rad);
 }
 
 enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes,
@@ -105,14 +109,14 @@ enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes
             return RHO_ERROR_VALUE;
         }
     }
-    const int32_t num_cells = count_cells(theta_cell_rad);
+    const int32_t num_cells = count_theta_cells(theta_cell_rad);
     *hough = (struct rho_gate_hough){.planes = planes,
                                      .newest_mps = {newest_mps[0], newest_mps[1], newest_mps[2]}};
     for (int plane = 0; plane < RHO_GATE_PLANES; plane++) {
         if (planes & (1u << plane)) {
             const uint8_t *axes = axes_of[plane];
-            float theta_rad =
-                best_theta(change_mps[axes[0]], change_mps[axes[1]], theta_cell_rad, num_cells);
+            float theta_rad = theta_of_least_rho_change(change_mps[axes[0]], change_mps[axes[1]],
+                                                        theta_cell_rad, num_cells);
             hough->cos_theta[plane] = rho_cos(theta_rad);
             hough->sin_theta[plane] = rho_sin(theta_rad);
         }
@@ -120,8 +124,12 @@ enum rho_status rho_gate_hough_open(struct rho_gate_hough *hough, uint8_t planes
     return RHO_OK;
 }
 
-/* A plane that is not used has cosine and sine 0. */
-static float off_in_plane(const struct rho_gate_hough *hough, int plane, float a_mps, float b_mps)
+/*
+ * Distance of a velocity change from the line in one plane; 0 in planes that are not used, whose
+ * cosine and sine are 0.
+ */
+static float line_distance_in_plane(const struct rho_gate_hough *hough, int plane, float a_mps,
+                                    float b_mps)
 {
     return magnitude(a_mps * hough->cos_theta[plane] + b_mps * hough->sin_theta[plane]);
 }
@@ -132,6 +140,7 @@ float rho_gate_hough_residual_mps(const struct rho_gate_hough *hough, const floa
     const float y_mps = velocity_mps[1] - hough->newest_mps[1];
     const float z_mps = velocity_mps[2] - hough->newest_mps[2];
 
-    return off_in_plane(hough, 0, x_mps, y_mps) + off_in_plane(hough, 1, x_mps, z_mps) +
-           off_in_plane(hough, 2, y_mps, z_mps);
+    return line_distance_in_plane(hough, 0, x_mps, y_mps) +
+           line_distance_in_plane(hough, 1, x_mps, z_mps) +
+           line_distance_in_plane(hough, 2, y_mps, z_mps);
 }

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* hough: configuration, passes over the rows of theta, thresholds and suppression. */
+/*
+ * hough: configuration of the Hough methods, passes over the rows of theta, thresholds,
+ * suppression.
+ */
 #include "rhotrack/hough.h"
 
 #include <string.h>
@@ -8,7 +11,7 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define HOUGH_MAGIC 0x434c4153u /* "CLAS" */
+#define HOUGH_MAGIC 0x434c4153u /* "CLAS" in ASCII */
 
 #define SCAN_POINTS_MAX 65535u
 #define EPS_RHO_MIN_M 0.001f
@@ -39,7 +42,7 @@ void rho_hough_config_default(struct rho_hough_config *config, enum rho_hough_me
                                         .tau = 0.5f};
 }
 
-static struct rho_accumulator_config plane_config_of(const struct rho_hough_config *config)
+static struct rho_accumulator_config accumulator_config_of(const struct rho_hough_config *config)
 {
     return (struct rho_accumulator_config){.rho_max_m = config->rho_max_m,
                                            .rho_cell_m = config->rho_cell_m,
@@ -49,7 +52,7 @@ static struct rho_accumulator_config plane_config_of(const struct rho_hough_conf
                                            .min_share = config->tau};
 }
 
-/* Number of cells within 2 eps, with 1/100 for rounding. */
+/* Cells within 2 eps, with 1/100 of a cell for rounding. */
 static float reach_in_cells(float eps, float cell)
 {
     return 2.0f * eps / cell + 0.01f;
@@ -85,7 +88,7 @@ enum rho_status rho_hough_init(struct rho_hough *hough, size_t size,
     if (size != sizeof *hough) {
         return RHO_ERROR_SIZE;
     }
-    struct rho_accumulator_config plane = plane_config_of(config);
+    struct rho_accumulator_config plane = accumulator_config_of(config);
     uint16_t theta_cells, rho_cells;
     if (rho_accumulator_plane(&plane, &theta_cells, &rho_cells) != RHO_OK || !is_usable(config)) {
         return RHO_ERROR_CONFIG;
@@ -164,8 +167,8 @@ void rho_hough_count_pairs(const struct rho_hough *hough, const struct rho_hough
     }
 }
 
-/* Whole number of votes, rounded up, at least 1. */
-static uint32_t whole_votes(float votes)
+/* Number of votes rounded up to a whole number, at least 1. */
+static uint32_t round_up_votes(float votes)
 {
     uint32_t below = (uint32_t)votes;
     uint32_t whole = (float)below < votes ? below + 1u : below;
@@ -174,21 +177,21 @@ static uint32_t whole_votes(float votes)
 
 /* ---- HT -------------------------------------------------------------------------------------- */
 
-static enum rho_status start_accumulator(struct rho_hough *hough)
+static enum rho_status init_accumulator(struct rho_hough *hough)
 {
-    struct rho_accumulator_config plane = plane_config_of(&hough->config);
-    plane.min_votes = (uint16_t)whole_votes(hough->config.votes_min);
+    struct rho_accumulator_config plane = accumulator_config_of(&hough->config);
+    plane.min_votes = (uint16_t)round_up_votes(hough->config.votes_min);
     return rho_accumulator_init(&hough->work.accumulator, sizeof hough->work.accumulator, &plane);
 }
 
-/* HT: every plot votes, which the accumulator does. */
-static enum rho_status find_lines(struct rho_hough *hough, const struct rho_hough_points *points,
-                                  struct rho_accumulator_peak *peaks, uint32_t max_peaks,
-                                  struct rho_hough_result *result)
+/* Method HT: the accumulator lets every plot vote, and finds the peaks. */
+static enum rho_status find_ht_peaks(struct rho_hough *hough, const struct rho_hough_points *points,
+                                     struct rho_accumulator_peak *peaks, uint32_t max_peaks,
+                                     struct rho_hough_result *result)
 {
     struct rho_accumulator *accumulator = &hough->work.accumulator;
     struct rho_accumulator_result found;
-    enum rho_status status = start_accumulator(hough);
+    enum rho_status status = init_accumulator(hough);
     if (status == RHO_OK) {
         status = rho_accumulator_find(accumulator, &points->at, peaks, max_peaks, &found);
     }
@@ -218,14 +221,14 @@ static struct rho_hough_rows widened_rows(const struct rho_hough *hough, struct 
     return (struct rho_hough_rows){first < 0 ? first + all : first, rows.count + 2 * by};
 }
 
-/* Normals of the lines at the borders of the held rows, with one row of margin. */
-static void set_borders(struct rho_hough_pass *pass)
+/* Sets the normals of lines at the borders of the held rows, widened by one row at either end. */
+static void set_border_normals(struct rho_hough_pass *pass)
 {
     float cell_rad = pass->hough->config.theta_cell_rad;
     float from_rad = (float)(pass->held.first - 1) * cell_rad;
     float to_rad = (float)(pass->held.first + pass->held.count + 1) * cell_rad;
     /*
-     * (rho, theta + pi) is another name of the lines at theta: the sector must be less than half a
+     * lines at theta + pi are lines at theta: rejection works only for sectors of less than half a
      * turn
      */
     pass->can_reject = to_rad - from_rad < RHO_PI;
@@ -236,9 +239,10 @@ static void set_borders(struct rho_hough_pass *pass)
 }
 
 /*
- * A hash table with twice as many slots as entries is enough, and faster to clear than the largest.
+ * Slots of a hash table for a number of entries: at least twice as many, a power of two. A small
+ * table is cleared faster.
  */
-static uint32_t table_size(uint32_t entries)
+static uint32_t hash_size_for(uint32_t entries)
 {
     uint32_t size = 256;
     while (size < RHO_MAX_HOUGH_CELLS && size / 2u < entries) {
@@ -247,55 +251,56 @@ static uint32_t table_size(uint32_t entries)
     return size;
 }
 
-static struct rho_hough_pass pass_over(struct rho_hough *hough,
-                                       const struct rho_hough_points *points,
-                                       enum rho_hough_component component, int32_t first,
-                                       int32_t count)
+static struct rho_hough_pass make_pass_over_rows(struct rho_hough *hough,
+                                                 const struct rho_hough_points *points,
+                                                 enum rho_hough_component component, int32_t first,
+                                                 int32_t count)
 {
     struct rho_hough_pass pass = {.hough = hough,
                                   .points = points,
                                   .wanted = {first, count},
                                   .component = component,
-                                  .table_size = table_size(count_all_pairs(points)),
+                                  .table_size = hash_size_for(count_all_pairs(points)),
                                   .stops_when_full = count > 1};
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     pass.voting = widened_rows(hough, pass.wanted, is_spread ? hough->theta_reach : 0);
-    /*
-     * two rows more: for a part of a cell in 2 eps, and for the last row, which is not a whole one
-     */
+    /* two rows more: one for the part of a cell in 2 eps, one as the last row may be narrower */
     pass.held = widened_rows(hough, pass.voting,
                              rho_hough_uses_kernels(hough) ? hough->theta_reach + 2 : 0);
-    set_borders(&pass);
+    set_border_normals(&pass);
     return pass;
 }
 
 static void add_pass_results(struct rho_hough_result *result, const struct rho_hough_result *pass)
 {
-    result->candidates = pass->candidates; /* the same in every pass */
+    result->candidates = pass->candidates; /* all passes count the same candidates */
     result->votes = rho_count(result->votes, pass->votes);
     result->cells = rho_count(result->cells, pass->cells);
     result->votes_dropped = rho_count(result->votes_dropped, pass->votes_dropped);
     result->kernels_dropped = rho_count(result->kernels_dropped, pass->kernels_dropped);
 }
 
-/* Rows of the next pass: more if this pass left most of the tables free. */
-static int32_t rows_after(const struct rho_hough_pass *pass, int32_t rows)
+/* Number of rows of the next pass: doubled if this pass left two thirds of its tables free. */
+static int32_t rows_of_next_pass(const struct rho_hough_pass *pass, int32_t rows)
 {
     int has_room = pass->num_cells < RHO_MAX_HOUGH_CELLS / 3u &&
                    pass->most_kernels < RHO_MAX_HOUGH_KERNELS / 3u;
     return has_room && rows < pass->hough->theta_cells ? 2 * rows : rows;
 }
 
-/* Votes of all rows, into the list of peaks, or without one into the plane. */
-static void vote_all_rows(struct rho_hough *hough, const struct rho_hough_points *points,
-                          enum rho_hough_component component, struct rho_plane *plane,
-                          struct rho_peak_list *list, struct rho_hough_result *result)
+/*
+ * Votes of all rows, in as many passes as the tables need, into the list of peaks, or into the
+ * plane where list is NULL. A pass that overflows is repeated with half its rows.
+ */
+static void run_all_passes(struct rho_hough *hough, const struct rho_hough_points *points,
+                           enum rho_hough_component component, struct rho_plane *plane,
+                           struct rho_peak_list *list, struct rho_hough_result *result)
 {
     int32_t all = hough->theta_cells, rows = all;
     *result = (struct rho_hough_result){.pairs = count_all_pairs(points)};
     for (int32_t first = 0; first < all;) {
         int32_t count = all - first < rows ? all - first : rows;
-        struct rho_hough_pass pass = pass_over(hough, points, component, first, count);
+        struct rho_hough_pass pass = make_pass_over_rows(hough, points, component, first, count);
         pass.plane = plane;
         rho_hough_vote_pairs(&pass);
         if (pass.is_full && count > 1) {
@@ -306,14 +311,14 @@ static void vote_all_rows(struct rho_hough *hough, const struct rho_hough_points
         add_pass_results(result, &pass.found);
         result->passes++;
         first += count;
-        rows = rows_after(&pass, rows);
+        rows = rows_of_next_pass(&pass, rows);
     }
 }
 
-static void find_pairs(struct rho_hough *hough, const struct rho_hough_points *points,
-                       struct rho_peak_list *list, struct rho_hough_result *result)
+static void find_pair_peaks(struct rho_hough *hough, const struct rho_hough_points *points,
+                            struct rho_peak_list *list, struct rho_hough_result *result)
 {
-    vote_all_rows(hough, points, RHO_HOUGH_VOTES, NULL, list, result);
+    run_all_passes(hough, points, RHO_HOUGH_VOTES, NULL, list, result);
     rho_peak_list_finish(list);
     result->num_peaks = list->num_peaks;
     result->cells_dropped = list->peaks_dropped;
@@ -330,7 +335,7 @@ static uint32_t suppress_near_peaks(struct rho_hough *hough, struct rho_accumula
                                                .theta = hough->theta_reach,
                                                .rho = hough->rho_reach};
     return rho_peak_list_suppress(peaks, num_peaks, &distance, hough->work.kept,
-                                  table_size(num_peaks));
+                                  hash_size_for(num_peaks));
 }
 
 enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_points *points,
@@ -345,14 +350,14 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
         return RHO_ERROR_NULL;
     }
     if (hough->config.method == RHO_HOUGH_HT) {
-        status = find_lines(hough, points, peaks, max_peaks, result);
+        status = find_ht_peaks(hough, points, peaks, max_peaks, result);
     } else {
         struct rho_peak_list list = {
             .peaks = peaks,
             .max_peaks = max_peaks,
-            .min_votes = whole_votes(hough->config.votes_min * (float)RHO_HOUGH_VOTE),
+            .min_votes = round_up_votes(hough->config.votes_min * (float)RHO_HOUGH_VOTE),
             .min_share = hough->config.tau};
-        find_pairs(hough, points, &list, result);
+        find_pair_peaks(hough, points, &list, result);
     }
     if (status == RHO_OK && !hough->config.keeps_all_cells) {
         result->num_peaks = suppress_near_peaks(hough, peaks, result->num_peaks);
@@ -360,9 +365,11 @@ enum rho_status rho_hough_find(struct rho_hough *hough, const struct rho_hough_p
     return status;
 }
 
-/* A row of theta: bits of scans, or points. */
-static void vote_row(const struct rho_hough *hough, const struct rho_hough_points *points,
-                     unsigned theta, uint16_t *row)
+/*
+ * Method HT: fills a row of theta with the votes of all plots: a mask of scans a cell, or a count.
+ */
+static void fill_ht_row(const struct rho_hough *hough, const struct rho_hough_points *points,
+                        unsigned theta, uint16_t *row)
 {
     const int has_scans = hough->config.votes == RHO_VOTES_SCANS;
     memset(row, 0, hough->rho_cells * sizeof row[0]);
@@ -378,14 +385,14 @@ static void vote_row(const struct rho_hough *hough, const struct rho_hough_point
     }
 }
 
-/* HT: notes the votes of each row of theta in the plane. */
-static enum rho_status note_lines(struct rho_hough *hough, const struct rho_hough_points *points,
-                                  struct rho_plane *plane)
+/* Method HT: notes the votes of all rows of theta in the plane. */
+static enum rho_status note_ht_votes(struct rho_hough *hough, const struct rho_hough_points *points,
+                                     struct rho_plane *plane)
 {
-    const enum rho_status status = start_accumulator(hough);
+    const enum rho_status status = init_accumulator(hough);
     uint16_t *row = hough->work.accumulator.rows[0];
     for (unsigned theta = 0; status == RHO_OK && theta < hough->theta_cells; theta++) {
-        vote_row(hough, points, theta, row);
+        fill_ht_row(hough, points, theta, row);
         for (unsigned cell = 0; cell < hough->rho_cells; cell++) {
             const uint32_t votes =
                 hough->config.votes == RHO_VOTES_SCANS ? rho_count_bits(row[cell]) : row[cell];
@@ -409,15 +416,15 @@ enum rho_status rho_hough_plane(struct rho_hough *hough, const struct rho_hough_
     }
     status = rho_plane_open(plane, hough->theta_cells, hough->rho_cells);
     if (status == RHO_OK && hough->config.method == RHO_HOUGH_HT) {
-        status = note_lines(hough, points, plane);
+        status = note_ht_votes(hough, points, plane);
     } else if (status == RHO_OK) {
-        vote_all_rows(hough, points, component, plane, NULL, &result);
+        run_all_passes(hough, points, component, plane, NULL, &result);
     }
     return status;
 }
 
-/* The scan of a plot; num_scans: none. */
-static unsigned scan_of(const struct rho_hough_points *points, uint32_t plot)
+/* Index of the scan that a plot belongs to; num_scans: no scan. */
+static unsigned scan_of_plot(const struct rho_hough_points *points, uint32_t plot)
 {
     unsigned scan = 0;
     while (scan < points->at.num_scans && plot >= points->at.scan_end[scan]) {
@@ -437,8 +444,8 @@ enum rho_status rho_hough_vote(const struct rho_hough *hough, const struct rho_h
     if (!memberships) {
         return RHO_ERROR_NULL;
     }
-    const unsigned scan = scan_of(points, second);
-    if (scan == points->at.num_scans || scan_of(points, first) + 1u != scan) {
+    const unsigned scan = scan_of_plot(points, second);
+    if (scan == points->at.num_scans || scan_of_plot(points, first) + 1u != scan) {
         return RHO_ERROR_VALUE;
     }
     *memberships =
@@ -462,7 +469,7 @@ enum rho_status rho_hough_track(struct rho_hough *hough, const struct rho_hough_
         return RHO_ERROR_VALUE;
     }
     if (hough->config.method == RHO_HOUGH_HT) {
-        status = start_accumulator(hough);
+        status = init_accumulator(hough);
     }
     if (status == RHO_OK) {
         rho_hough_find_voters(hough, points, theta_cell, rho_cell, at_s, track);

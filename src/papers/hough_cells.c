@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* hough_cells: the hash of cells with votes, and the spread of NHT_C over their neighbours. */
+/*
+ * hough_cells: hash table of the cells with votes, and the spread of votes over neighbouring cells
+ * (NHT_C).
+ */
 #include "hough_votes.h"
 
 #include <string.h>
@@ -9,7 +12,7 @@
 
 /* ---- the hash -------------------------------------------------------------------------------- */
 
-static uint32_t key_of(int32_t row, int32_t column)
+static uint32_t cell_key(int32_t row, int32_t column)
 {
     return (uint32_t)row << 16 | (uint32_t)column;
 }
@@ -31,8 +34,8 @@ void rho_hough_clear_cells(struct rho_hough_pass *pass)
     memset(cells, 0, pass->table_size * sizeof *cells);
 }
 
-/* The cell of a key, or the free slot where it is inserted. */
-static struct rho_hough_cell *cell_of_key(struct rho_hough_pass *pass, uint32_t key)
+/* The slot of the hash table that holds a cell's key, or the free slot to insert it. */
+static struct rho_hough_cell *find_cell_or_free_slot(struct rho_hough_pass *pass, uint32_t key)
 {
     struct rho_hough_cell *cells = pass->hough->work.sparse.cells;
     uint32_t hash = key * 0x9e3779b1u, at = (hash ^ hash >> 15) & (pass->table_size - 1u);
@@ -42,8 +45,8 @@ static struct rho_hough_cell *cell_of_key(struct rho_hough_pass *pass, uint32_t 
     return &cells[at];
 }
 
-/* Number of cells of the wanted rows that a vote is spread over. */
-static uint32_t count_spread(const struct rho_hough_pass *pass, int32_t row, int32_t column)
+/* Number of cells of the wanted rows that the votes of one cell are spread over. */
+static uint32_t count_spread_cells(const struct rho_hough_pass *pass, int32_t row, int32_t column)
 {
     const struct rho_hough *hough = pass->hough;
     int32_t reach = hough->rho_reach, last = hough->rho_cells - 1;
@@ -64,7 +67,7 @@ void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint
     if (column < 0) {
         return;
     }
-    struct rho_hough_cell *cell = cell_of_key(pass, key_of(row, column));
+    struct rho_hough_cell *cell = find_cell_or_free_slot(pass, cell_key(row, column));
     int is_new = cell->votes == 0;
     if (is_new && pass->num_cells >= pass->table_size - pass->table_size / 8u) {
         pass->found.votes_dropped = rho_count(pass->found.votes_dropped, 1);
@@ -73,15 +76,15 @@ void rho_hough_add_votes(struct rho_hough_pass *pass, struct rho_line line, uint
     }
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     pass->num_cells += (uint32_t)is_new;
-    cell->key = key_of(row, column);
+    cell->key = cell_key(row, column);
     cell->votes = rho_count(cell->votes, votes);
     pass->found.votes =
-        rho_count(pass->found.votes, is_spread ? count_spread(pass, row, column) : 1u);
+        rho_count(pass->found.votes, is_spread ? count_spread_cells(pass, row, column) : 1u);
 }
 
 /* ---- order ----------------------------------------------------------------------------------- */
 
-/* Moves the cells with votes to the front of the table. Returns how many. */
+/* Moves the cells with votes to the front of the hash table. Returns their number. */
 static uint32_t gather_voted_cells(struct rho_hough_cell *cells, uint32_t size)
 {
     uint32_t n = 0;
@@ -107,7 +110,7 @@ static void sink_cell(struct rho_hough_cell *heap, uint32_t n, uint32_t place)
     heap[place] = cell;
 }
 
-/* Heap sort by theta, then rho: it needs no memory. */
+/* Heap sort of cells by theta, then rho, in place. */
 static void sort_cells(struct rho_hough_cell *cells, uint32_t n)
 {
     for (uint32_t i = n / 2u; i > 0; i--) {
@@ -124,34 +127,40 @@ static void sort_cells(struct rho_hough_cell *cells, uint32_t n)
 /* ---- reading C: votes spread ----------------------------------------------------------------- */
 
 /*
- * All votes are spread with the same weights, so the sums of the cells can be spread instead of the
- * single votes. This is done row by row of theta: a window over the sorted cells holds those within
- * reach of the row.
+ * Spread of votes in NHT reading C. All votes have the same spread weights, so that each cell's sum
+ * is spread at once instead of single votes, row by row of theta: the band is a window over the
+ * sorted cells, with those within reach of the row.
  */
 struct band {
     struct rho_hough_pass *pass;
     const struct rho_hough_cell *cells;
     uint32_t theta_shares[RHO_HOUGH_REACH_MAX + 1], rho_shares[RHO_HOUGH_REACH_MAX + 1];
     int32_t length;
-    /* window of cells within reach; indices below 0 and from length on: laps before and after */
+    /*
+     * cells within reach of the row: from first to end - 1; indices below 0 and from length on are
+     * cells across the ends of theta
+     */
     int32_t first, end;
 };
 
-/* A cell of the band in the coordinates of the row: beyond the ends of theta rho is reversed. */
-struct passing {
+/*
+ * A cell within the band. Across the ends of theta its row lies outside the plane, and its column
+ * is reversed.
+ */
+struct band_cell {
     int32_t row, column;
     uint32_t votes;
 };
 
-static struct passing passing_at(const struct band *band, int32_t place)
+static struct band_cell band_cell_at(const struct band *band, int32_t place)
 {
     const struct rho_hough *hough = band->pass->hough;
     int32_t lap = place < 0 ? -1 : place >= band->length ? 1 : 0;
     const struct rho_hough_cell *cell = &band->cells[place - lap * band->length];
     int32_t column = column_of_key(cell->key);
-    return (struct passing){.row = row_of_key(cell->key) + lap * hough->theta_cells,
-                            .column = lap == 0 ? column : hough->rho_cells - 1 - column,
-                            .votes = cell->votes};
+    return (struct band_cell){.row = row_of_key(cell->key) + lap * hough->theta_cells,
+                              .column = lap == 0 ? column : hough->rho_cells - 1 - column,
+                              .votes = cell->votes};
 }
 
 void rho_hough_spread_weights(uint32_t shares[RHO_HOUGH_REACH_MAX + 1], unsigned reach, float cell,
@@ -168,14 +177,14 @@ uint32_t rho_hough_scale_votes(uint32_t votes, uint32_t share)
     return (uint32_t)(((uint64_t)votes * share + RHO_HOUGH_VOTE / 2u) / RHO_HOUGH_VOTE);
 }
 
-/* Moves the band of sorted cells within reach to the next row of theta. */
-static void move_band_to(struct band *band, int32_t row)
+/* Moves the band, the window of sorted cells within reach, to a row of theta. */
+static void move_band_to_row(struct band *band, int32_t row)
 {
     int32_t reach = band->pass->hough->theta_reach;
-    while (band->end < 2 * band->length && passing_at(band, band->end).row <= row + reach) {
+    while (band->end < 2 * band->length && band_cell_at(band, band->end).row <= row + reach) {
         band->end++;
     }
-    while (band->first < band->end && passing_at(band, band->first).row < row - reach) {
+    while (band->first < band->end && band_cell_at(band, band->first).row < row - reach) {
         band->first++;
     }
 }
@@ -184,14 +193,15 @@ struct columns {
     int32_t from, to;
 };
 
-static struct columns reached_columns(const struct band *band, struct passing cell)
+static struct columns reached_columns(const struct band *band, struct band_cell cell)
 {
     int32_t reach = band->pass->hough->rho_reach, last = band->pass->hough->rho_cells - 1;
     return (struct columns){cell.column > reach ? cell.column - reach : 0,
                             cell.column + reach < last ? cell.column + reach : last};
 }
 
-static void spread_cell(const struct band *band, int32_t row, struct passing cell, uint32_t *sums)
+static void spread_cell_over_row(const struct band *band, int32_t row, struct band_cell cell,
+                                 uint32_t *sums)
 {
     struct columns columns = reached_columns(band, cell);
     int32_t away = row < cell.row ? cell.row - row : row - cell.row;
@@ -203,8 +213,8 @@ static void spread_cell(const struct band *band, int32_t row, struct passing cel
     }
 }
 
-static void list_cell(const struct rho_hough_pass *pass, struct rho_peak_list *list, int32_t row,
-                      int32_t column, uint32_t votes)
+static void list_or_note_cell(const struct rho_hough_pass *pass, struct rho_peak_list *list,
+                              int32_t row, int32_t column, uint32_t votes)
 {
     if (!list) {
         rho_plane_note(pass->plane, (unsigned)row, (unsigned)column, votes);
@@ -215,34 +225,34 @@ static void list_cell(const struct rho_hough_pass *pass, struct rho_peak_list *l
     }
 }
 
-/* Lists the sums in the neighbourhood of a cell, and clears them. */
-static void collect_spread(const struct band *band, int32_t row, struct passing cell,
-                           uint32_t *sums, struct rho_peak_list *list)
+/* Lists the sums around a cell of the band, and clears them. */
+static void collect_and_clear_sums(const struct band *band, int32_t row, struct band_cell cell,
+                                   uint32_t *sums, struct rho_peak_list *list)
 {
     struct columns columns = reached_columns(band, cell);
     for (int32_t i = columns.from; i <= columns.to; i++) {
         if (sums[i] > 0) {
             band->pass->found.cells = rho_count(band->pass->found.cells, 1);
-            list_cell(band->pass, list, row, i, sums[i]);
+            list_or_note_cell(band->pass, list, row, i, sums[i]);
             sums[i] = 0;
         }
     }
 }
 
-static void collect_row(struct band *band, int32_t row, struct rho_peak_list *list)
+static void spread_and_collect_row(struct band *band, int32_t row, struct rho_peak_list *list)
 {
     uint32_t *sums = band->pass->hough->work.sparse.step.row;
-    move_band_to(band, row);
+    move_band_to_row(band, row);
     for (int32_t place = band->first; place < band->end; place++) {
-        spread_cell(band, row, passing_at(band, place), sums);
+        spread_cell_over_row(band, row, band_cell_at(band, place), sums);
     }
     for (int32_t place = band->first; place < band->end; place++) {
-        collect_spread(band, row, passing_at(band, place), sums, list);
+        collect_and_clear_sums(band, row, band_cell_at(band, place), sums, list);
     }
 }
 
-static void collect_rows(struct rho_hough_pass *pass, uint32_t num_cells,
-                         struct rho_peak_list *list)
+static void spread_and_collect_rows(struct rho_hough_pass *pass, uint32_t num_cells,
+                                    struct rho_peak_list *list)
 {
     struct rho_hough *hough = pass->hough;
     const struct rho_hough_config *config = &hough->config;
@@ -258,7 +268,7 @@ static void collect_rows(struct rho_hough_pass *pass, uint32_t num_cells,
                              config->eps_rho_m);
     memset(hough->work.sparse.step.row, 0, sizeof hough->work.sparse.step.row);
     for (int32_t i = 0; i < pass->wanted.count; i++) {
-        collect_row(&band, pass->wanted.first + i, list);
+        spread_and_collect_row(&band, pass->wanted.first + i, list);
     }
 }
 
@@ -270,12 +280,12 @@ void rho_hough_collect_cells(struct rho_hough_pass *pass, struct rho_peak_list *
     uint32_t num_cells = gather_voted_cells(cells, pass->table_size);
     if (pass->hough->config.method == RHO_HOUGH_NHT_C) {
         sort_cells(cells, num_cells);
-        collect_rows(pass, num_cells, list);
+        spread_and_collect_rows(pass, num_cells, list);
         return;
     }
     for (uint32_t i = 0; i < num_cells; i++) {
-        list_cell(pass, list, row_of_key(cells[i].key), column_of_key(cells[i].key),
-                  cells[i].votes);
+        list_or_note_cell(pass, list, row_of_key(cells[i].key), column_of_key(cells[i].key),
+                          cells[i].votes);
     }
     pass->found.cells = num_cells;
 }

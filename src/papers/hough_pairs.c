@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* hough_pairs: pairs of plots, their lines, and the votes that the kernels of NHT give them. */
+/*
+ * hough_pairs: pairs of plots of successive scans, the lines through them, and their votes, which
+ * in NHT depend on kernels, the pairs of the two scans before.
+ */
 #include "hough_votes.h"
 
 #include <string.h>
@@ -40,12 +43,15 @@ struct rho_line rho_hough_line(const struct rho_hough_points *points, struct rho
 
 /* ---- memberships ----------------------------------------------------------------------------- */
 
-/* (drho / eps)^2 + (dtheta / eps)^2; negative if either is more than 2 eps. */
+/*
+ * Squared distance of two lines in units of eps, (drho / eps)^2 + (dtheta / eps)^2; negative where
+ * either difference is more than 2 eps.
+ */
 static float line_distance2(const struct rho_hough *hough, struct rho_line a, struct rho_line b)
 {
     float drho_m = a.rho_m - b.rho_m, dtheta_rad = a.theta_rad - b.theta_rad;
     if (dtheta_rad > RHO_HALF_PI ||
-        dtheta_rad < -RHO_HALF_PI) { /* the nearer name of one line is (-rho, theta +- pi) */
+        dtheta_rad < -RHO_HALF_PI) { /* (-rho, theta +- pi) is the same line, and nearer */
         dtheta_rad += dtheta_rad > 0.0f ? -RHO_PI : RHO_PI;
         drho_m = a.rho_m + b.rho_m;
     }
@@ -54,7 +60,10 @@ static float line_distance2(const struct rho_hough *hough, struct rho_line a, st
     return rho * rho <= 4.0f && theta * theta <= 4.0f ? rho * rho + theta * theta : -1.0f;
 }
 
-/* Smaller distance; of equal ones the lower first plot, then the lower second plot. */
+/*
+ * Whether a pair is nearer than another; at equal distances the pair with the lower first plot,
+ * then the lower second plot, is.
+ */
 static int is_nearer_pair(float distance2, struct rho_hough_pair pair, float other_distance2,
                           struct rho_hough_pair other)
 {
@@ -88,7 +97,10 @@ void rho_hough_compare_kernel(const struct rho_hough *hough, struct rho_line lin
     }
 }
 
-/* Membership of a line at the line between the two best kernels; 0: there are not two. */
+/*
+ * Indeterminacy of a line: Gaussian of its distance from the line midway between the two nearest
+ * kernels; 0 where there are not two kernels or they are farther than 2 eps.
+ */
 static float indeterminacy(const struct rho_hough *hough, const struct rho_hough_points *points,
                            struct rho_line line, const struct rho_hough_nearest *nearest)
 {
@@ -106,7 +118,7 @@ static float indeterminacy(const struct rho_hough *hough, const struct rho_hough
     return distance2 < 0.0f ? 0.0f : rho_exp(-0.5f * distance2);
 }
 
-static uint32_t membership_parts(float membership)
+static uint32_t to_vote_parts(float membership)
 {
     return (uint32_t)(membership * (float)RHO_HOUGH_VOTE + 0.5f);
 }
@@ -123,9 +135,9 @@ struct rho_hough_memberships rho_hough_memberships_of(const struct rho_hough *ho
 {
     const float f = falsity(hough);
     return (struct rho_hough_memberships){
-        .truth = nearest->count > 0 ? membership_parts(rho_exp(-0.5f * nearest->distance2[0])) : 0,
-        .indeterminacy = membership_parts(indeterminacy(hough, points, line, nearest)),
-        .falsity = membership_parts(f < 1.0f ? f : 1.0f)};
+        .truth = nearest->count > 0 ? to_vote_parts(rho_exp(-0.5f * nearest->distance2[0])) : 0,
+        .indeterminacy = to_vote_parts(indeterminacy(hough, points, line, nearest)),
+        .falsity = to_vote_parts(f < 1.0f ? f : 1.0f)};
 }
 
 uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_hough_points *points,
@@ -140,46 +152,46 @@ uint32_t rho_hough_vote_weight(const struct rho_hough *hough, const struct rho_h
         float i = indeterminacy(hough, points, line, nearest);
         vote = i > vote ? i : vote;
     }
-    return falsity(hough) > vote ? 0 : membership_parts(vote);
+    return falsity(hough) > vote ? 0 : to_vote_parts(vote);
 }
 
 /* ---- kernels --------------------------------------------------------------------------------- */
 
 /*
- * Kernels lie in bins of rho and theta at least 2 eps wide, a whole number of them over [0, pi), so
- * that all kernels near a line are in its bin or the eight around it, also across the ends of
- * theta. The bins share a fixed number of hash chains.
+ * Bin of a kernel's line. Bins are at least 2 eps wide in rho and theta, with a whole number over
+ * [0, pi), so that all kernels near a line are in its bin or the eight bins around it, also across
+ * the ends of theta. The bins share a fixed number of hash chains.
  */
 struct bin {
     int32_t theta, rho;
 };
 
-static int32_t theta_bins(const struct rho_hough *hough)
+static int32_t count_theta_bins(const struct rho_hough *hough)
 {
     return (int32_t)(RHO_PI / (2.0f * hough->config.eps_theta_rad));
 }
 
-static int32_t rho_bin(const struct rho_hough *hough, float rho_m)
+static int32_t bin_of_rho(const struct rho_hough *hough, float rho_m)
 {
     float place = rho_m / (2.0f * hough->config.eps_rho_m);
     int32_t bin = (int32_t)place;
     return (float)bin > place ? bin - 1 : bin;
 }
 
-static struct bin bin_of(const struct rho_hough *hough, struct rho_line line)
+static struct bin bin_of_line(const struct rho_hough *hough, struct rho_line line)
 {
-    return (struct bin){rho_angle_theta_cell(line.theta_rad, theta_bins(hough)),
-                        rho_bin(hough, line.rho_m)};
+    return (struct bin){rho_angle_theta_cell(line.theta_rad, count_theta_bins(hough)),
+                        bin_of_rho(hough, line.rho_m)};
 }
 
-static uint16_t *chain_of(struct rho_hough *hough, struct bin bin)
+static uint16_t *chain_head_of_bin(struct rho_hough *hough, struct bin bin)
 {
     uint32_t key = (uint32_t)bin.theta * 0x9e3779b1u ^ (uint32_t)bin.rho * 0x85ebca77u;
     return &hough->work.sparse.step.kernels.heads[(key ^ key >> 16) % RHO_HOUGH_CHAINS];
 }
 
-static void hold_kernel(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
-                        struct rho_hough_pair pair)
+static void store_kernel(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
+                         struct rho_hough_pair pair)
 {
     uint32_t *count = &pass->num_kernels[scan & 1u];
     if (*count == RHO_MAX_HOUGH_KERNELS) {
@@ -198,10 +210,10 @@ static void hold_kernel(struct rho_hough_pass *pass, unsigned scan, struct rho_l
 }
 
 /*
- * The pairs of the two scans before become kernels. They are chained from the last to the first, so
- * that each chain is in the order of the plots.
+ * Makes the pairs of the two scans before into kernels, in hash chains by bin. They are chained
+ * from last to first, so that each chain is in the order of the plots.
  */
-static void chain_kernels(struct rho_hough_pass *pass, unsigned scan)
+static void chain_previous_kernels(struct rho_hough_pass *pass, unsigned scan)
 {
     struct rho_hough *hough = pass->hough;
     struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
@@ -211,13 +223,13 @@ static void chain_kernels(struct rho_hough_pass *pass, unsigned scan)
     memset(hough->work.sparse.step.kernels.heads, 0, sizeof hough->work.sparse.step.kernels.heads);
     for (uint32_t i = count; i > 0; i--) {
         struct rho_line line = {list[i - 1u].rho_m, list[i - 1u].theta_rad};
-        uint16_t *head = chain_of(hough, bin_of(hough, line));
+        uint16_t *head = chain_head_of_bin(hough, bin_of_line(hough, line));
         list[i - 1u].next = *head;
         *head = (uint16_t)i;
     }
 }
 
-/* Compares the kernels of one bin; the chain may hold kernels of other bins too. */
+/* Compares a line with the kernels of one bin; the chain may hold kernels of other bins too. */
 static void compare_kernels_in_bin(const struct rho_hough_pass *pass, unsigned scan,
                                    struct rho_line line, struct bin bin,
                                    struct rho_hough_nearest *nearest)
@@ -226,10 +238,10 @@ static void compare_kernels_in_bin(const struct rho_hough_pass *pass, unsigned s
     const struct rho_hough_kernel *list = hough->work.sparse.step.kernels.list[(scan - 1u) & 1u];
     uint32_t first = rho_hough_scan_start(pass->points, scan - 2u);
     uint32_t second = rho_hough_scan_start(pass->points, scan - 1u);
-    for (uint16_t i = *chain_of(hough, bin); i > 0; i = list[i - 1u].next) {
+    for (uint16_t i = *chain_head_of_bin(hough, bin); i > 0; i = list[i - 1u].next) {
         const struct rho_hough_kernel *kernel = &list[i - 1u];
         struct rho_line at = {kernel->rho_m, kernel->theta_rad};
-        struct bin in = bin_of(hough, at);
+        struct bin in = bin_of_line(hough, at);
         if (in.theta == bin.theta && in.rho == bin.rho) {
             struct rho_hough_pair pair = {first + kernel->first, second + kernel->second};
             rho_hough_compare_kernel(hough, line, at, pair, nearest);
@@ -237,15 +249,15 @@ static void compare_kernels_in_bin(const struct rho_hough_pass *pass, unsigned s
     }
 }
 
-static struct rho_hough_nearest nearest_kernels(const struct rho_hough_pass *pass, unsigned scan,
-                                                struct rho_line line)
+static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough_pass *pass,
+                                                     unsigned scan, struct rho_line line)
 {
     struct rho_hough_nearest nearest = {.count = 0};
-    int32_t bins = theta_bins(pass->hough);
+    int32_t bins = count_theta_bins(pass->hough);
     int32_t middle = rho_angle_theta_cell(line.theta_rad, bins);
     for (int32_t theta = middle - 1; theta <= middle + 1; theta++) {
         int is_turned = theta < 0 || theta >= bins;
-        int32_t rho = rho_bin(pass->hough, is_turned ? -line.rho_m : line.rho_m);
+        int32_t rho = bin_of_rho(pass->hough, is_turned ? -line.rho_m : line.rho_m);
         for (int32_t i = rho - 1; i <= rho + 1; i++) {
             struct bin bin = {theta < 0 ? bins - 1 : theta < bins ? theta : 0, i};
             compare_kernels_in_bin(pass, scan, line, bin, &nearest);
@@ -256,7 +268,7 @@ static struct rho_hough_nearest nearest_kernels(const struct rho_hough_pass *pas
 
 /* ---- votes ----------------------------------------------------------------------------------- */
 
-static int may_cross_held_rows(const struct rho_hough_pass *pass, float dx_m, float dy_m)
+static int may_line_be_in_held_rows(const struct rho_hough_pass *pass, float dx_m, float dy_m)
 {
     float from = pass->from_x * dx_m + pass->from_y * dy_m;
     float to = pass->to_x * dx_m + pass->to_y * dy_m;
@@ -268,9 +280,12 @@ static uint32_t larger(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-/* What the pair adds to its cell. */
-static uint32_t component_of(const struct rho_hough_pass *pass, struct rho_line line,
-                             const struct rho_hough_nearest *nearest)
+/*
+ * The amount that a pair adds to the sum of the pass' component in its cell: its vote, or one of
+ * its memberships.
+ */
+static uint32_t component_of_vote(const struct rho_hough_pass *pass, struct rho_line line,
+                                  const struct rho_hough_nearest *nearest)
 {
     if (pass->component == RHO_HOUGH_VOTES) {
         return rho_hough_vote_weight(pass->hough, pass->points, line, nearest);
@@ -284,20 +299,20 @@ static uint32_t component_of(const struct rho_hough_pass *pass, struct rho_line 
                : larger(of.truth, larger(of.indeterminacy, of.falsity));
 }
 
-static void vote_kernels(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
-                         struct rho_hough_pair pair)
+static void vote_pair_by_kernels(struct rho_hough_pass *pass, unsigned scan, struct rho_line line,
+                                 struct rho_hough_pair pair)
 {
     const struct rho_hough *hough = pass->hough;
     int32_t row = rho_hough_row(hough, line.theta_rad);
     if (scan > 1 && rho_hough_has_row(hough, pass->voting, row)) {
-        struct rho_hough_nearest nearest = nearest_kernels(pass, scan, line);
-        uint32_t votes = component_of(pass, line, &nearest);
+        struct rho_hough_nearest nearest = find_nearest_kernels(pass, scan, line);
+        uint32_t votes = component_of_vote(pass, line, &nearest);
         if (votes > 0) {
             rho_hough_add_votes(pass, line, votes);
         }
     }
     if (scan + 1u < pass->points->at.num_scans && rho_hough_has_row(hough, pass->held, row)) {
-        hold_kernel(pass, scan, line, pair);
+        store_kernel(pass, scan, line, pair);
     }
 }
 
@@ -306,19 +321,22 @@ static void vote_pair(struct rho_hough_pass *pass, unsigned scan, struct rho_hou
     const struct rho_hough_points *points = pass->points;
     float dx_m = points->at.x_m[pair.second] - points->at.x_m[pair.first];
     float dy_m = points->at.y_m[pair.second] - points->at.y_m[pair.first];
-    if (!may_cross_held_rows(pass, dx_m, dy_m)) {
+    if (!may_line_be_in_held_rows(pass, dx_m, dy_m)) {
         return;
     }
     struct rho_line line = rho_hough_line(points, pair);
     if (rho_hough_uses_kernels(pass->hough)) {
-        vote_kernels(pass, scan, line, pair);
+        vote_pair_by_kernels(pass, scan, line, pair);
     } else if (rho_hough_has_row(pass->hough, pass->wanted,
                                  rho_hough_row(pass->hough, line.theta_rad))) {
         rho_hough_add_votes(pass, line, RHO_HOUGH_VOTE);
     }
 }
 
-/* Pairs of one plot with all plots of the next scan. */
+/*
+ * Lets one plot of the scan before vote with each plot of this scan, where the method takes the
+ * pair.
+ */
 static void vote_pairs_of_plot(struct rho_hough_pass *pass, unsigned scan, uint32_t first)
 {
     const struct rho_hough *hough = pass->hough;
@@ -342,7 +360,7 @@ void rho_hough_vote_pairs(struct rho_hough_pass *pass)
     for (unsigned scan = 1; scan < points->at.num_scans; scan++) {
         uint32_t end = points->at.scan_end[scan - 1u];
         if (rho_hough_uses_kernels(pass->hough)) {
-            chain_kernels(pass, scan);
+            chain_previous_kernels(pass, scan);
         }
         for (uint32_t i = rho_hough_scan_start(points, scan - 1u); i < end; i++) {
             vote_pairs_of_plot(pass, scan, i);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hough_plane: rows and columns of the plane (rho, theta), and where the points of a scan begin.
+ * hough_plane: conversion between (rho, theta) and rows and columns of the plane, and where the
+ * points of a scan begin.
  */
 #include "hough_votes.h"
 

@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hough_track: the plots that voted for a cell, and the track fitted through them; the memberships
- * of a vote.
+ * hough_track: finds the plots that voted for a cell, and fits a track through them; memberships of
+ * a pair's vote.
  */
 #include "hough_votes.h"
 
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-/* Tolerance for rounding. */
+/* Tolerance for rounding, as a factor, in the test of a plot near a line. */
 #define SLACK 1.01f
 
-/* A cell with votes, and the range of lines that vote for it. */
-struct target {
+/* The cell whose voters are wanted, and the range of lines that vote for it. */
+struct cell_query {
     struct rho_hough *hough;
     const struct rho_hough_points *points;
     int32_t row, column;
-    struct rho_line line;   /* through the centre of the cell */
-    float rho_m, theta_rad; /* largest differences of a line that votes for it */
+    struct rho_line line; /* line through the centre of the cell */
+    /* largest differences in rho and theta of a line that votes for the cell */
+    float rho_m, theta_rad;
     uint32_t theta_shares[RHO_HOUGH_REACH_MAX + 1], rho_shares[RHO_HOUGH_REACH_MAX + 1];
 };
 
 /*
- * Whether a line within rho_m and theta_rad of the given one can go through a plot: the plot is at
- * most rho_m off, plus the effect of the angle at its range.
+ * Whether a line within rho_m and theta_rad of `line` can go through plot i: the plot's distance
+ * from `line` is at most rho_m plus the effect of the angle at the plot's range.
  */
 static int may_be_on_line(const struct rho_hough_points *points, uint32_t i, struct rho_line line,
                           float rho_m, float theta_rad)
@@ -35,17 +36,17 @@ static int may_be_on_line(const struct rho_hough_points *points, uint32_t i, str
     return off_m <= most_m && -off_m <= most_m;
 }
 
-static int is_on_target(const struct target *target, uint32_t i)
+static int may_plot_vote(const struct cell_query *query, uint32_t i)
 {
-    return may_be_on_line(target->points, i, target->line, target->rho_m, target->theta_rad);
+    return may_be_on_line(query->points, i, query->line, query->rho_m, query->theta_rad);
 }
 
 /* ---- votes of a pair for the cell ------------------------------------------------------------ */
 
-/* The nearest kernels of a line between a scan and the scan before. */
-static struct rho_hough_nearest nearest_kernels_of(const struct rho_hough *hough,
-                                                   const struct rho_hough_points *points,
-                                                   unsigned scan, struct rho_line line)
+/* Finds the two nearest kernels of a line: pairs of plots of the two scans before `scan`. */
+static struct rho_hough_nearest find_nearest_kernels(const struct rho_hough *hough,
+                                                     const struct rho_hough_points *points,
+                                                     unsigned scan, struct rho_line line)
 {
     float rho_m = 2.0f * hough->config.eps_rho_m, theta_rad = 2.0f * hough->config.eps_theta_rad;
     struct rho_hough_nearest nearest = {.count = 0};
@@ -63,22 +64,22 @@ static struct rho_hough_nearest nearest_kernels_of(const struct rho_hough *hough
     return nearest;
 }
 
-/* The vote of a candidate pair. */
+/* The vote of a pair of plots. */
 struct vote {
-    uint32_t weight; /* what the method counts */
+    uint32_t weight; /* the vote that the method counts, in parts of a vote */
     struct rho_hough_memberships of;
 };
 
-static struct vote own_vote(const struct target *target, unsigned scan, struct rho_line line)
+static struct vote vote_of_line(const struct cell_query *query, unsigned scan, struct rho_line line)
 {
     struct vote vote = {.weight = 0};
-    if (!rho_hough_uses_kernels(target->hough)) {
+    if (!rho_hough_uses_kernels(query->hough)) {
         vote.weight = RHO_HOUGH_VOTE;
     } else if (scan >= 2) {
         struct rho_hough_nearest nearest =
-            nearest_kernels_of(target->hough, target->points, scan, line);
-        vote.weight = rho_hough_vote_weight(target->hough, target->points, line, &nearest);
-        vote.of = rho_hough_memberships_of(target->hough, target->points, line, &nearest);
+            find_nearest_kernels(query->hough, query->points, scan, line);
+        vote.weight = rho_hough_vote_weight(query->hough, query->points, line, &nearest);
+        vote.of = rho_hough_memberships_of(query->hough, query->points, line, &nearest);
     }
     return vote;
 }
@@ -92,60 +93,61 @@ struct rho_hough_memberships rho_hough_pair_memberships(const struct rho_hough *
         return (struct rho_hough_memberships){0};
     }
     struct rho_line line = rho_hough_line(points, pair);
-    struct rho_hough_nearest nearest = nearest_kernels_of(hough, points, scan, line);
+    struct rho_hough_nearest nearest = find_nearest_kernels(hough, points, scan, line);
     return rho_hough_memberships_of(hough, points, line, &nearest);
 }
 
 /*
- * Rows between the cell of the pair and the target, also across the ends of theta, where *column is
- * reversed.
+ * Number of rows between a pair's cell and the queried cell; across the ends of theta, where rho is
+ * reversed, *column is reversed too.
  */
-static int32_t rows_away(const struct target *target, int32_t row, int32_t *column)
+static int32_t row_distance_to_cell(const struct cell_query *query, int32_t row, int32_t *column)
 {
-    int32_t away = row - target->row, all = target->hough->theta_cells;
+    int32_t away = row - query->row, all = query->hough->theta_cells;
     if (2 * away > all || 2 * away < -all) {
         away += away > 0 ? -all : all;
-        *column = target->hough->rho_cells - 1 - *column;
+        *column = query->hough->rho_cells - 1 - *column;
     }
     return away < 0 ? -away : away;
 }
 
-static void scale_vote(const struct target *target, int32_t rows, int32_t columns,
-                       struct vote *vote)
+static void scale_vote_by_distance(const struct cell_query *query, int32_t rows, int32_t columns,
+                                   struct vote *vote)
 {
     uint32_t *parts[] = {&vote->weight, &vote->of.truth, &vote->of.indeterminacy,
                          &vote->of.falsity};
     for (unsigned i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         *parts[i] =
-            rho_hough_scale_votes(rho_hough_scale_votes(*parts[i], target->theta_shares[rows]),
-                                  target->rho_shares[columns]);
+            rho_hough_scale_votes(rho_hough_scale_votes(*parts[i], query->theta_shares[rows]),
+                                  query->rho_shares[columns]);
     }
 }
 
-static struct vote pair_vote(const struct target *target, unsigned scan, struct rho_hough_pair pair)
+static struct vote pair_vote_for_cell(const struct cell_query *query, unsigned scan,
+                                      struct rho_hough_pair pair)
 {
-    const struct rho_hough *hough = target->hough;
+    const struct rho_hough *hough = query->hough;
     const struct vote none = {.weight = 0};
-    enum rho_hough_speed speed = rho_hough_speed(hough, target->points, pair);
+    enum rho_hough_speed speed = rho_hough_speed(hough, query->points, pair);
     int takes_all = hough->config.method == RHO_HOUGH_MHT;
     if (speed == RHO_SPEED_NO_LINE || (speed == RHO_SPEED_OUTSIDE && !takes_all)) {
         return none;
     }
-    struct rho_line line = rho_hough_line(target->points, pair);
+    struct rho_line line = rho_hough_line(query->points, pair);
     int32_t column = rho_hough_column(hough, line.rho_m);
     int is_spread = hough->config.method == RHO_HOUGH_NHT_C;
     if (column < 0) {
         return none;
     }
-    int32_t rows = rows_away(target, rho_hough_row(hough, line.theta_rad), &column);
-    int32_t columns = column < target->column ? target->column - column : column - target->column;
+    int32_t rows = row_distance_to_cell(query, rho_hough_row(hough, line.theta_rad), &column);
+    int32_t columns = column < query->column ? query->column - column : column - query->column;
     if (rows > (is_spread ? hough->theta_reach : 0) ||
         columns > (is_spread ? hough->rho_reach : 0)) {
         return none;
     }
-    struct vote vote = own_vote(target, scan, line);
+    struct vote vote = vote_of_line(query, scan, line);
     if (is_spread) {
-        scale_vote(target, rows, columns, &vote);
+        scale_vote_by_distance(query, rows, columns, &vote);
     }
     return vote;
 }
@@ -158,17 +160,20 @@ static void add_memberships(struct rho_hough_memberships *sums,
     sums->falsity = rho_count(sums->falsity, of->falsity);
 }
 
-/* Votes of the pairs of a plot with the plots of the next scan (is_behind) or the previous one. */
-static uint32_t votes_with(const struct target *target, unsigned scan, uint32_t i, int is_behind,
-                           struct rho_hough_memberships *sums)
+/*
+ * Sum of the votes for the queried cell of plot i paired with each plot of the next scan
+ * (is_behind) or of the previous one; adds their memberships to *sums.
+ */
+static uint32_t votes_of_plot_pairs(const struct cell_query *query, unsigned scan, uint32_t i,
+                                    int is_behind, struct rho_hough_memberships *sums)
 {
-    const struct rho_hough_points *points = target->points;
+    const struct rho_hough_points *points = query->points;
     unsigned other = is_behind ? scan + 1u : scan - 1u;
     uint32_t votes = 0;
     for (uint32_t j = rho_hough_scan_start(points, other); j < points->at.scan_end[other]; j++) {
-        if (is_on_target(target, j)) {
+        if (may_plot_vote(query, j)) {
             struct rho_hough_pair pair = {is_behind ? i : j, is_behind ? j : i};
-            struct vote vote = pair_vote(target, is_behind ? other : scan, pair);
+            struct vote vote = pair_vote_for_cell(query, is_behind ? other : scan, pair);
             votes = rho_count(votes, vote.weight);
             add_memberships(sums, &vote.of);
         }
@@ -178,21 +183,21 @@ static uint32_t votes_with(const struct target *target, unsigned scan, uint32_t 
 
 /* ---- the fit --------------------------------------------------------------------------------- */
 
-/* Sums of the least-squares fit, relative to the position and time of the first plot. */
+/* Sums of the least-squares fit of position over time, relative to the first plot. */
 struct sums {
     float x0_m, y0_m, t0_s, n, t, tt, x, tx, y, ty;
 };
 
-static void add_plot(const struct target *target, unsigned scan, uint32_t i, struct sums *sums,
-                     struct rho_hough_track *track)
+static void add_plot_to_fit(const struct cell_query *query, unsigned scan, uint32_t i,
+                            struct sums *sums, struct rho_hough_track *track)
 {
-    const struct rho_accumulator_points *at = &target->points->at;
+    const struct rho_accumulator_points *at = &query->points->at;
     if (track->num_plots == 0) {
         sums->x0_m = at->x_m[i];
         sums->y0_m = at->y_m[i];
-        sums->t0_s = target->points->t_s[i];
+        sums->t0_s = query->points->t_s[i];
     }
-    float t = target->points->t_s[i] - sums->t0_s, x = at->x_m[i] - sums->x0_m,
+    float t = query->points->t_s[i] - sums->t0_s, x = at->x_m[i] - sums->x0_m,
           y = at->y_m[i] - sums->y0_m;
     sums->n += 1.0f;
     sums->t += t;
@@ -221,48 +226,52 @@ static void fit_motion(const struct sums *sums, float at_s, struct rho_hough_tra
 
 /* ---- voters ---------------------------------------------------------------------------------- */
 
-/* HT: the plots whose line in the target's row is in its column. */
-static int votes_alone(const struct target *target, unsigned scan, uint32_t i,
-                       struct rho_hough_track *track)
+/* Method HT: whether plot i voted for the queried cell; if so, adds its vote to the track. */
+static int add_ht_vote_of_plot(const struct cell_query *query, unsigned scan, uint32_t i,
+                               struct rho_hough_track *track)
 {
-    const struct rho_hough *hough = target->hough;
-    const struct rho_accumulator_points *at = &target->points->at;
-    int column = rho_accumulator_cell(&hough->work.accumulator, (unsigned)target->row, at->x_m[i],
+    const struct rho_hough *hough = query->hough;
+    const struct rho_accumulator_points *at = &query->points->at;
+    int column = rho_accumulator_cell(&hough->work.accumulator, (unsigned)query->row, at->x_m[i],
                                       at->y_m[i]);
     int is_again = hough->config.votes == RHO_VOTES_SCANS && (track->mask >> scan & 1u);
-    if (column != target->column) {
+    if (column != query->column) {
         return 0;
     }
     track->votes = rho_count(track->votes, is_again ? 0u : RHO_HOUGH_VOTE);
     return 1;
 }
 
-/* Pair methods: the plots of pairs that voted; a pair counts with its second plot. */
-static int votes_in_pair(const struct target *target, unsigned scan, uint32_t i,
-                         struct rho_hough_track *track)
+/*
+ * Pair methods: whether plot i is in a pair that voted for the queried cell. The pair's votes are
+ * added to the track with its second plot.
+ */
+static int add_pair_votes_of_plot(const struct cell_query *query, unsigned scan, uint32_t i,
+                                  struct rho_hough_track *track)
 {
-    if (!is_on_target(target, i)) {
+    if (!may_plot_vote(query, i)) {
         return 0;
     }
-    struct rho_hough_memberships behind = {0}; /* they count with those plots */
-    uint32_t before = scan > 0 ? votes_with(target, scan, i, 0, &track->sums) : 0;
+    /* not added to the track here: these votes count with the plots of the next scan */
+    struct rho_hough_memberships behind = {0};
+    uint32_t before = scan > 0 ? votes_of_plot_pairs(query, scan, i, 0, &track->sums) : 0;
     track->votes = rho_count(track->votes, before);
-    return before > 0 || (scan + 1u < target->points->at.num_scans &&
-                          votes_with(target, scan, i, 1, &behind) > 0);
+    return before > 0 || (scan + 1u < query->points->at.num_scans &&
+                          votes_of_plot_pairs(query, scan, i, 1, &behind) > 0);
 }
 
-static void find_voting_plots(const struct target *target, float at_s,
-                              struct rho_hough_track *track)
+static void fit_track_to_voting_plots(const struct cell_query *query, float at_s,
+                                      struct rho_hough_track *track)
 {
-    const struct rho_hough_points *points = target->points;
-    int is_alone = target->hough->config.method == RHO_HOUGH_HT;
+    const struct rho_hough_points *points = query->points;
+    int is_alone = query->hough->config.method == RHO_HOUGH_HT;
     struct sums sums = {.n = 0.0f};
     for (unsigned scan = 0; scan < points->at.num_scans; scan++) {
         uint32_t end = points->at.scan_end[scan];
         for (uint32_t i = rho_hough_scan_start(points, scan); i < end; i++) {
-            if (is_alone ? votes_alone(target, scan, i, track)
-                         : votes_in_pair(target, scan, i, track)) {
-                add_plot(target, scan, i, &sums, track);
+            if (is_alone ? add_ht_vote_of_plot(query, scan, i, track)
+                         : add_pair_votes_of_plot(query, scan, i, track)) {
+                add_plot_to_fit(query, scan, i, &sums, track);
             }
         }
     }
@@ -277,7 +286,7 @@ void rho_hough_find_voters(struct rho_hough *hough, const struct rho_hough_point
     int is_spread = config->method == RHO_HOUGH_NHT_C;
     float rows = is_spread ? hough->theta_reach : 0.0f;
     float columns = is_spread ? hough->rho_reach : 0.0f;
-    struct target target = {
+    struct cell_query query = {
         .hough = hough,
         .points = points,
         .row = (int32_t)theta_cell,
@@ -287,10 +296,10 @@ void rho_hough_find_voters(struct rho_hough *hough, const struct rho_hough_point
         .theta_rad = (rows + 1.0f) * config->theta_cell_rad};
     *track = (struct rho_hough_track){.votes = 0};
     if (is_spread) {
-        rho_hough_spread_weights(target.theta_shares, hough->theta_reach, config->theta_cell_rad,
+        rho_hough_spread_weights(query.theta_shares, hough->theta_reach, config->theta_cell_rad,
                                  config->eps_theta_rad);
-        rho_hough_spread_weights(target.rho_shares, hough->rho_reach, config->rho_cell_m,
+        rho_hough_spread_weights(query.rho_shares, hough->rho_reach, config->rho_cell_m,
                                  config->eps_rho_m);
     }
-    find_voting_plots(&target, at_s, track);
+    fit_track_to_voting_plots(&query, at_s, track);
 }

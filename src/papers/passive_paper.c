@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* passive_paper: configuration, frames, and the plan of a search. */
+/* passive_paper: configuration, frames, and the sequence of steps of a search. */
 #include "rhotrack/passive_paper.h"
 
 #include <string.h>
@@ -12,9 +12,9 @@
 #define VOTES_MAX 255u
 
 /*
- * A crossing is within range_max of two sensors, and so at most range_max plus this share of the
- * largest sensor distance from the centroid: one half with two to four sensors, (n - 2) / n with
- * more.
+ * A crossing is within range_max of two sensors, and so it is from the centroid at most range_max
+ * plus this share of the largest distance of two sensors: one half with two to four sensors, (n -
+ * 2) / n with more.
  */
 #define APART_SHARE (RHO_MAX_PASSIVE_SENSORS > 4 ? 0.75f : 0.5f)
 
@@ -47,7 +47,9 @@ static int is_usable(const struct rho_passive_paper_config *config)
            (unsigned)config->votes <= RHO_VOTES_POINTS && (unsigned)config->rule <= RHO_GHOST_SAFE;
 }
 
-/* Farther apart, and lines through crossings could lie outside of the cells of rho. */
+/*
+ * Largest distance of two sensors at which all lines through crossings lie within the cells of rho.
+ */
 static float max_sensor_distance_m(const struct rho_passive_paper_config *config)
 {
     float reach_m = 0.5f * config->rho_cell_m * (float)RHO_PAPER_RHO_CELLS - config->range_max_m;
@@ -68,7 +70,8 @@ enum rho_status rho_passive_paper_init(struct rho_passive_paper *paper, size_t s
     if (!is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
-    struct rho_passive_paper_config kept = *config; /* it may lie within *paper */
+    /* the caller's config may lie within *paper, which is cleared */
+    struct rho_passive_paper_config kept = *config;
     memset(paper, 0, sizeof *paper);
     paper->config = kept;
     paper->magic = RHO_PASSIVE_PAPER_MAGIC;
@@ -95,7 +98,7 @@ enum rho_status rho_passive_paper_push(struct rho_passive_paper *paper,
 
 /* ---- a search -------------------------------------------------------------------------------- */
 
-static int has_looked(const struct rho_batch *batch, unsigned sensor)
+static int has_scan_in_batch(const struct rho_batch *batch, unsigned sensor)
 {
     unsigned looks = 0;
     for (unsigned k = 0; k < batch->num_scans; k++) {
@@ -108,7 +111,7 @@ void rho_passive_paper_set_sensors(const struct rho_batch *batch,
                                    struct rho_passive_paper_search *search)
 {
     for (unsigned s = 0; s < batch->num_sensors; s++) {
-        if (has_looked(batch, s)) {
+        if (has_scan_in_batch(batch, s)) {
             search->sensors[search->num_sensors++] = (uint8_t)s;
         }
     }
@@ -120,7 +123,7 @@ void rho_passive_paper_set_sensors(const struct rho_batch *batch,
     search->near = search->num_sensors > 2 ? 1 : 0;
 }
 
-static void set_times(struct rho_passive_paper_search *search)
+static void set_scan_times(struct rho_passive_paper_search *search)
 {
     const struct rho_batch *batch = &search->paper->batch;
     int64_t first_us = batch->time_us[0], last_us = batch->time_us[batch->num_scans - 1];
@@ -157,7 +160,7 @@ enum rho_status rho_passive_paper_search(struct rho_passive_paper *paper)
     if (!rho_passive_paper_set_cells(&search)) {
         return RHO_OK;
     }
-    set_times(&search);
+    set_scan_times(&search);
     rho_passive_paper_vote_for_cells(&search);
     rho_passive_paper_choose_lines(&search);
     rho_passive_paper_fit_lines(&search);

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* passive_paper_lines: the choice of the lines, and the fits through their crossings. */
+/*
+ * passive_paper_lines: chooses lines from the cells with the most votes, and fits a position and
+ * velocity through the crossings that voted for each line.
+ */
 #include <string.h>
 
 #include "passive_paper_search.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/types.h"
 
-#define SPREAD_MIN 1.0e-6f /* smallest spread of u that is not rounding */
+#define SPREAD_MIN 1.0e-6f /* smallest spread of the scans' times u that is more than rounding */
 
 struct cell {
     int row, column;
@@ -14,7 +17,7 @@ struct cell {
 
 /* ---- which cells are lines ------------------------------------------------------------------- */
 
-/* Maps a row beyond the ends of theta to the other end, where rho is reversed. */
+/* Maps a cell of a row beyond the ends of theta to the other end, where rho is reversed. */
 static struct cell wrapped_cell(const struct rho_passive_paper_search *search, int row, int column)
 {
     struct cell cell = {row, column};
@@ -32,7 +35,7 @@ static unsigned votes_at(const struct rho_passive_paper_search *search, int row,
                                                    : 0u;
 }
 
-/* The first cell with the most votes; 0: no cell is left. */
+/* Finds the first cell with the most votes. Returns its votes; 0: no cell has votes. */
 static unsigned find_peak(const struct rho_passive_paper_search *search, struct cell *at)
 {
     unsigned most = 0;
@@ -47,9 +50,12 @@ static unsigned find_peak(const struct rho_passive_paper_search *search, struct 
     return most;
 }
 
-/* Of the neighbours with equal votes, the one nearest to their mean. */
-static struct cell plateau_middle(const struct rho_passive_paper_search *search, struct cell from,
-                                  unsigned height)
+/*
+ * The middle of a plateau: of the cells around `from` with the same votes, the one nearest to their
+ * mean.
+ */
+static struct cell find_plateau_middle(const struct rho_passive_paper_search *search,
+                                       struct cell from, unsigned height)
 {
     int sum_row = 0, sum_column = 0, count = 0, least = INT32_MAX;
     struct cell best = from;
@@ -77,7 +83,7 @@ static struct cell plateau_middle(const struct rho_passive_paper_search *search,
     return best;
 }
 
-static void clear_neighbours(struct rho_passive_paper_search *search, struct cell at)
+static void clear_cells_around(struct rho_passive_paper_search *search, struct cell at)
 {
     for (int row = at.row - RHO_PASSIVE_PAPER_NEAR_ROWS;
          row <= at.row + RHO_PASSIVE_PAPER_NEAR_ROWS; row++) {
@@ -110,7 +116,7 @@ static void add_line(struct rho_passive_paper_search *search, struct cell at, un
         .votes_sum = (uint16_t)(height - 1u)};
 }
 
-static void count_cells(struct rho_passive_paper_search *search)
+static void count_confirmed_cells(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper *paper = search->paper;
     for (int row = 0; row < search->rows; row++) {
@@ -124,18 +130,18 @@ void rho_passive_paper_choose_lines(struct rho_passive_paper_search *search)
 {
     struct cell at = {0, 0};
     unsigned height;
-    count_cells(search);
+    count_confirmed_cells(search);
     while ((height = find_peak(search, &at)) > 0) {
-        at = plateau_middle(search, at, height);
-        clear_neighbours(search, at);
+        at = find_plateau_middle(search, at, height);
+        clear_cells_around(search, at);
         add_line(search, at, height);
     }
 }
 
 /* ---- states ---------------------------------------------------------------------------------- */
 
-static void add_point(const struct rho_passive_paper_search *search, unsigned line, unsigned scan,
-                      const struct rho_passive_paper_point *point)
+static void add_crossing_to_fit(const struct rho_passive_paper_search *search, unsigned line,
+                                unsigned scan, const struct rho_passive_paper_point *point)
 {
     struct rho_passive_paper_fit *fit = &search->paper->fits[line];
     float u = search->step[scan];
@@ -156,11 +162,12 @@ static void add_point(const struct rho_passive_paper_search *search, unsigned li
 }
 
 /*
- * The cell with the most votes of a pair among the cell of the line and the neighbours that confirm
- * it, and their number.
+ * Among the cell of a line and the neighbours that may confirm it, finds the cell with the most
+ * votes of the current pair of sensors. Returns its votes.
  */
-static unsigned find_voted_cell(const struct rho_passive_paper_search *search,
-                                const struct rho_passive_paper_fit *fit, struct cell *best)
+static unsigned find_most_voted_neighbour(const struct rho_passive_paper_search *search,
+                                          const struct rho_passive_paper_fit *fit,
+                                          struct cell *best)
 {
     uint8_t *counts = search->paper->rows[0];
     *best = (struct cell){fit->row, fit->column};
@@ -179,32 +186,36 @@ static unsigned find_voted_cell(const struct rho_passive_paper_search *search,
     return most;
 }
 
-static void add_pair(struct rho_passive_paper_search *search, unsigned number)
+static void add_pair_crossings_to_fit(struct rho_passive_paper_search *search, unsigned number)
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_passive_paper_line *line = &search->paper->lines[number];
     struct cell cell;
-    unsigned votes = find_voted_cell(search, &paper->fits[number], &cell);
+    unsigned votes = find_most_voted_neighbour(search, &paper->fits[number], &cell);
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, cell.row);
     line->votes = votes < line->votes ? (uint16_t)votes : line->votes;
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
         for (; i < paper->scan_end[scan]; i++) {
             if (rho_passive_paper_column(search, direction, &paper->points[i]) == cell.column) {
-                add_point(search, number, scan, &paper->points[i]);
+                add_crossing_to_fit(search, number, scan, &paper->points[i]);
             }
         }
     }
 }
 
-/* Variance of a place that is anywhere within a cell. */
-static float paper_cell_m2(const struct rho_passive_paper *paper)
+/* Variance, in each axis, of a position that is anywhere within a cell of rho. */
+static float cell_variance_m2(const struct rho_passive_paper *paper)
 {
     return paper->config.rho_cell_m * paper->config.rho_cell_m / 12.0f;
 }
 
-/* Least squares of position = p + u d. */
-static void finish_fit(const struct rho_passive_paper_search *search,
-                       const struct rho_passive_paper_fit *fit, struct rho_passive_paper_line *line)
+/*
+ * Solves the least-squares fit of position = p + u d, u the time of the scan, and fills the line's
+ * position, velocity and covariance at the newest scan.
+ */
+static void solve_line_fit(const struct rho_passive_paper_search *search,
+                           const struct rho_passive_paper_fit *fit,
+                           struct rho_passive_paper_line *line)
 {
     float n = (float)fit->count, spread = fit->uu - fit->u * fit->u / n;
     line->crossings = (uint16_t)(fit->count < UINT16_MAX ? fit->count : UINT16_MAX);
@@ -213,7 +224,7 @@ static void finish_fit(const struct rho_passive_paper_search *search,
     }
     float dx_m = (fit->ux_m - fit->u * fit->x_m / n) / spread;
     float dy_m = (fit->uy_m - fit->u * fit->y_m / n) / spread;
-    float ahead = 1.0f - fit->u / n; /* from the crossings' mean time to the newest scan */
+    float ahead = 1.0f - fit->u / n; /* time u from the mean of the crossings to the newest scan */
     line->has_state = 1;
     line->x_m = search->middle_x_m + fit->first_x_m + fit->x_m / n + ahead * dx_m;
     line->y_m = search->middle_y_m + fit->first_y_m + fit->y_m / n + ahead * dy_m;
@@ -221,7 +232,7 @@ static void finish_fit(const struct rho_passive_paper_search *search,
     line->vy_mps = dy_m / search->half_s;
     float left_m2 = fit->rr_m2 - (fit->x_m * fit->x_m + fit->y_m * fit->y_m) / n -
                     spread * (dx_m * dx_m + dy_m * dy_m);
-    float axis_m2 = left_m2 / (2.0f * n), cell_m2 = paper_cell_m2(search->paper);
+    float axis_m2 = left_m2 / (2.0f * n), cell_m2 = cell_variance_m2(search->paper);
     axis_m2 = axis_m2 > cell_m2 ? axis_m2 : cell_m2;
     line->place_m2 = axis_m2 * (1.0f / n + ahead * ahead / spread);
     line->place_velocity_m2ps = axis_m2 * ahead / (spread * search->half_s);
@@ -235,11 +246,11 @@ void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search)
         for (unsigned j = i + 1u; j < search->num_sensors; j++) {
             rho_passive_paper_cross_sensors(search, search->sensors[i], search->sensors[j]);
             for (unsigned line = 0; line < paper->num_lines; line++) {
-                add_pair(search, line);
+                add_pair_crossings_to_fit(search, line);
             }
         }
     }
     for (unsigned line = 0; line < paper->num_lines; line++) {
-        finish_fit(search, &paper->fits[line], &paper->lines[line]);
+        solve_line_fit(search, &paper->fits[line], &paper->lines[line]);
     }
 }

@@ -1,34 +1,36 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_paper_search: one search by the paper's method, as its files share it.
+ * passive_paper_search: state of one search by the paper's passive Hough transform, and the
+ * functions that its files share.
  *
  *   passive_paper_votes.c  crossings, votes in rows of theta, confirmation by all pairs
  *   passive_paper_lines.c  the choice of the lines, and the fits through their crossings
- *   passive_paper.c        configuration, frames, the plan of a search
- *   passive_paper_view.c   what a search had: ghost matrices, planes
+ *   passive_paper.c        configuration, frames, the sequence of steps of a search
+ *   passive_paper_view.c   intermediate results of a search: ghost matrices, planes of votes
  */
 #ifndef RHOTRACK_PASSIVE_PAPER_SEARCH_H
 #define RHOTRACK_PASSIVE_PAPER_SEARCH_H
 
 #include "rhotrack/passive_paper.h"
 
-#define RHO_PASSIVE_PAPER_MAGIC 0x50504150u /* "PPAP" */
+#define RHO_PASSIVE_PAPER_MAGIC 0x50504150u /* "PPAP" in ASCII */
 
-/* Neighbouring cells that are not chosen as another line. */
+/* cells of theta and of rho on either side of a chosen line in which no other line is chosen */
 #define RHO_PASSIVE_PAPER_NEAR_ROWS 4
 #define RHO_PASSIVE_PAPER_NEAR_COLUMNS 3
 
-/* Values computed once for a search. The origin is the sensors' centroid. */
+/* Values computed once for a search. Positions are relative to the sensors' centroid. */
 struct rho_passive_paper_search {
     struct rho_passive_paper *paper;
     float middle_x_m, middle_y_m;
-    unsigned num_sensors; /* with a scan in the batch */
+    unsigned num_sensors; /* number of sensors with a scan in the batch */
     uint8_t sensors[RHO_MAX_PASSIVE_SENSORS];
-    int rows, columns;                      /* cells of theta and of rho */
-    int near;                               /* neighbours that confirm a cell: 0 or 1 */
-    float half_s;                           /* half the time from the first scan to the last */
-    float step[RHO_MAX_PASSIVE_SCANS];      /* -1 .. 1 */
-    struct rho_passive_paper_work per_pair; /* counters of the last pair */
+    int rows, columns; /* number of cells of theta and of rho */
+    int near;          /* distance at which neighbouring cells confirm a cell: 0 or 1 */
+    float half_s;      /* half the time from the first scan to the last */
+    /* time of each scan, from -1 for the first to 1 for the last */
+    float step[RHO_MAX_PASSIVE_SCANS];
+    struct rho_passive_paper_work per_pair; /* counters of the pair of sensors crossed last */
 };
 
 struct rho_passive_paper_direction {
@@ -36,29 +38,36 @@ struct rho_passive_paper_direction {
 };
 
 /*
- * The direction of the centre of a row. Rows before the first and after the last continue theta,
- * with the sign of rho that continues it.
+ * Normal of the lines at the centre of a row of theta. Rows before the first and after the last
+ * continue theta, and rho with the sign that goes with it.
  */
 struct rho_passive_paper_direction
 rho_passive_paper_direction(const struct rho_passive_paper_search *search, int row);
 
-/* The sensors with scans in the batch, and their centroid. */
+/* Sets the search's sensors, those with scans in the batch, and their centroid. */
 void rho_passive_paper_set_sensors(const struct rho_batch *batch,
                                    struct rho_passive_paper_search *search);
 
-/* The cells, and T. Returns 0 where there is too little to search. */
+/*
+ * Sets the number of cells, and T, the votes that a cell needs. Returns 0 where the batch has too
+ * few scans or sensors to search.
+ */
 int rho_passive_paper_set_cells(struct rho_passive_paper_search *search);
 unsigned rho_passive_paper_rows(const struct rho_passive_paper_config *config);
 
-/* Base of two sensors about the centroid; 0: there is none. */
+/* Sets the baseline of two sensors, relative to the centroid. Returns 0 where they are too near. */
 int rho_passive_paper_set_base(const struct rho_passive_paper_search *search,
                                const struct rho_batch *batch, unsigned a, unsigned b,
                                struct rho_crossing_base *base);
 
-/* The pruned ghost matrix of two sensors' bearings in a scan, which it collects. */
+/* Bearings of two sensors in one scan. */
 struct rho_passive_paper_bearings {
     float a_rad[RHO_MAX_BEARINGS], b_rad[RHO_MAX_BEARINGS];
 };
+/*
+ * Collects the bearings of two sensors in a scan, fills their ghost matrix and prunes it. Returns 0
+ * on an error.
+ */
 int rho_passive_paper_prune_ghosts(const struct rho_passive_paper_config *config,
                                    const struct rho_batch *batch,
                                    const struct rho_crossing_base *base, unsigned scan,
@@ -66,23 +75,31 @@ int rho_passive_paper_prune_ghosts(const struct rho_passive_paper_config *config
                                    struct rho_passive_paper_bearings *bearings,
                                    struct rho_ghost_matrix *matrix);
 
-/* Crossings of two sensors, pruned, into paper->points. */
+/*
+ * Crosses the bearings of two sensors in all scans, prunes ghosts, and stores the rest in
+ * paper->points.
+ */
 void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, unsigned a,
                                      unsigned b);
 
-/* The column in which a crossing votes, or -1. */
+/* Column (cell of rho) in which a crossing votes for lines of a direction; -1: outside. */
 int rho_passive_paper_column(const struct rho_passive_paper_search *search,
                              struct rho_passive_paper_direction direction,
                              const struct rho_passive_paper_point *point);
 
-/* Votes of the crossings for the cells of a row of theta. */
+/* Counts the votes of the stored crossings for each cell of a row of theta. */
 void rho_passive_paper_vote_row(const struct rho_passive_paper_search *search, int row,
                                 uint8_t counts[RHO_PAPER_RHO_CELLS]);
 
-/* Votes of all pairs into paper->cells. */
+/*
+ * Crosses and votes with all pairs of sensors: sums of votes into paper->cells, 0 where not all
+ * pairs confirm the cell.
+ */
 void rho_passive_paper_vote_for_cells(struct rho_passive_paper_search *search);
 
-/* Chooses lines from the cells, and fits their states. */
+/*
+ * Chooses lines from the cells, most votes first; then fits a position and velocity to each line.
+ */
 void rho_passive_paper_choose_lines(struct rho_passive_paper_search *search);
 void rho_passive_paper_fit_lines(struct rho_passive_paper_search *search);
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_paper_view: what the last search had, made again from the batch, which stays until the
- * next frame: ghost matrices, and the planes of votes.
+ * passive_paper_view: shows intermediate results of the last search: ghost matrices, and planes of
+ * votes. They are computed again from the batch, which is unchanged until the next frame.
  */
 #include "passive_paper_search.h"
 #include "rhotrack/types.h"
 
-static int is_ready(const struct rho_passive_paper *paper)
+static int is_initialised(const struct rho_passive_paper *paper)
 {
     return paper->magic == RHO_PASSIVE_PAPER_MAGIC;
 }
@@ -17,7 +17,7 @@ int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned numbe
                            struct rho_passive_paper_pair *pair)
 {
     struct rho_passive_paper_search search = {.num_sensors = 0};
-    if (!paper || !pair || !is_ready(paper)) {
+    if (!paper || !pair || !is_initialised(paper)) {
         return 0;
     }
     rho_passive_paper_set_sensors(&paper->batch, &search);
@@ -33,7 +33,8 @@ int rho_passive_paper_pair(const struct rho_passive_paper *paper, unsigned numbe
     return 0;
 }
 
-static int is_pair(const struct rho_passive_paper *paper, const struct rho_passive_paper_pair *pair)
+static int is_pair_of_search(const struct rho_passive_paper *paper,
+                             const struct rho_passive_paper_pair *pair)
 {
     struct rho_passive_paper_pair one;
     for (unsigned number = 0; rho_passive_paper_pair(paper, number, &one); number++) {
@@ -56,10 +57,10 @@ enum rho_status rho_passive_paper_ghosts(const struct rho_passive_paper *paper,
     if (!paper || !pair || !matrix) {
         return RHO_ERROR_NULL;
     }
-    if (!is_ready(paper)) {
+    if (!is_initialised(paper)) {
         return RHO_ERROR_STATE;
     }
-    if (scan >= paper->batch.num_scans || !is_pair(paper, pair)) {
+    if (scan >= paper->batch.num_scans || !is_pair_of_search(paper, pair)) {
         return RHO_ERROR_VALUE;
     }
     rho_passive_paper_set_sensors(&paper->batch, &search);
@@ -79,7 +80,7 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
     if (!paper || !space) {
         return RHO_ERROR_NULL;
     }
-    if (is_ready(paper)) {
+    if (is_initialised(paper)) {
         rho_passive_paper_set_sensors(&paper->batch, &search);
     }
     if (search.num_sensors == 0) {
@@ -94,9 +95,12 @@ enum rho_status rho_passive_paper_space(const struct rho_passive_paper *paper,
     return RHO_OK;
 }
 
-/* Of a cell of all pairs the votes are counted from 1: 0 is a cell that is not confirmed. */
-static void note_row(const struct rho_passive_paper_search *search, int row, const uint8_t *cells,
-                     unsigned first, struct rho_plane *plane)
+/*
+ * Notes the votes of a row in the plane: `first` is subtracted from each cell, 1 for the sums of
+ * all pairs, which count from 1 where 0 is a cell that is not confirmed.
+ */
+static void note_row_votes(const struct rho_passive_paper_search *search, int row,
+                           const uint8_t *cells, unsigned first, struct rho_plane *plane)
 {
     for (int column = 0; column < search->columns; column++) {
         if (cells[column] > first) {
@@ -105,41 +109,45 @@ static void note_row(const struct rho_passive_paper_search *search, int row, con
     }
 }
 
-static void note_pair(struct rho_passive_paper_search *search,
-                      const struct rho_passive_paper_pair *pair, struct rho_plane *plane)
+static void note_pair_votes(struct rho_passive_paper_search *search,
+                            const struct rho_passive_paper_pair *pair, struct rho_plane *plane)
 {
     uint8_t *counts = search->paper->rows[0];
     rho_passive_paper_cross_sensors(search, pair->a, pair->b);
     for (int row = 0; row < search->rows; row++) {
         rho_passive_paper_vote_row(search, row, counts);
-        note_row(search, row, counts, 0, plane);
+        note_row_votes(search, row, counts, 0, plane);
     }
 }
 
-static void note_all_pairs(struct rho_passive_paper_search *search, struct rho_plane *plane)
+static void note_votes_of_all_pairs(struct rho_passive_paper_search *search,
+                                    struct rho_plane *plane)
 {
     const struct rho_passive_paper_work work = search->paper->work;
     rho_passive_paper_vote_for_cells(search);
     search->paper->work = work;
     for (int row = 0; row < search->rows; row++) {
-        note_row(search, row, search->paper->cells[row], 1, plane);
+        note_row_votes(search, row, search->paper->cells[row], 1, plane);
     }
 }
 
-/* The search of a batch; STATE: there is too little to search. */
-static enum rho_status open_search(struct rho_passive_paper *paper,
-                                   const struct rho_passive_paper_pair *pair,
-                                   struct rho_passive_paper_search *search)
+/*
+ * Prepares a search of the batch. STATE: the batch has too few scans or sensors; VALUE: no such
+ * pair.
+ */
+static enum rho_status prepare_search(struct rho_passive_paper *paper,
+                                      const struct rho_passive_paper_pair *pair,
+                                      struct rho_passive_paper_search *search)
 {
     *search = (struct rho_passive_paper_search){.paper = paper};
-    if (!is_ready(paper)) {
+    if (!is_initialised(paper)) {
         return RHO_ERROR_STATE;
     }
     rho_passive_paper_set_sensors(&paper->batch, search);
     if (!rho_passive_paper_set_cells(search)) {
         return RHO_ERROR_STATE;
     }
-    return !pair || is_pair(paper, pair) ? RHO_OK : RHO_ERROR_VALUE;
+    return !pair || is_pair_of_search(paper, pair) ? RHO_OK : RHO_ERROR_VALUE;
 }
 
 enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
@@ -150,22 +158,23 @@ enum rho_status rho_passive_paper_plane(struct rho_passive_paper *paper,
     if (!paper) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = open_search(paper, pair, &search);
+    enum rho_status status = prepare_search(paper, pair, &search);
     if (status == RHO_OK) {
         status = rho_plane_open(plane, (unsigned)search.rows, (unsigned)search.columns);
     }
     if (status == RHO_OK && pair) {
-        note_pair(&search, pair, plane);
+        note_pair_votes(&search, pair, plane);
     } else if (status == RHO_OK) {
-        note_all_pairs(&search, plane);
+        note_votes_of_all_pairs(&search, plane);
     }
     return status;
 }
 
 /* ---- cells of a pair ------------------------------------------------------------------------- */
 
-/* Bit mask of the scans whose crossings voted for a cell. */
-static uint32_t scans_voting_for(const struct rho_passive_paper_search *search, int row, int column)
+/* Mask of the scans whose crossings voted for a cell. */
+static uint32_t scans_voting_for_cell(const struct rho_passive_paper_search *search, int row,
+                                      int column)
 {
     const struct rho_passive_paper *paper = search->paper;
     const struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
@@ -180,7 +189,8 @@ static uint32_t scans_voting_for(const struct rho_passive_paper_search *search, 
     return mask;
 }
 
-static void list_cells(const struct rho_passive_paper_search *search, struct rho_peak_list *list)
+static void list_pair_cells(const struct rho_passive_paper_search *search,
+                            struct rho_peak_list *list)
 {
     uint8_t *counts = search->paper->rows[0];
     for (int row = 0; row < search->rows; row++) {
@@ -203,7 +213,7 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
     if (!paper || !pair || !peaks || !num_peaks) {
         return RHO_ERROR_NULL;
     }
-    const enum rho_status status = open_search(paper, pair, &search);
+    const enum rho_status status = prepare_search(paper, pair, &search);
     if (status != RHO_OK) {
         return status;
     }
@@ -214,10 +224,10 @@ enum rho_status rho_passive_paper_cells(struct rho_passive_paper *paper,
                                            .theta = RHO_PASSIVE_PAPER_NEAR_ROWS,
                                            .rho = RHO_PASSIVE_PAPER_NEAR_COLUMNS};
     rho_passive_paper_cross_sensors(&search, pair->a, pair->b);
-    list_cells(&search, &list);
+    list_pair_cells(&search, &list);
     *num_peaks = rho_peak_list_suppress(peaks, list.num_peaks, &near, NULL, 0);
     for (uint32_t i = 0; i < *num_peaks; i++) {
-        peaks[i].mask = scans_voting_for(&search, peaks[i].theta_cell, peaks[i].rho_cell);
+        peaks[i].mask = scans_voting_for_cell(&search, peaks[i].theta_cell, peaks[i].rho_cell);
     }
     return RHO_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * passive_paper_votes: crossings of each pair of sensors, their votes, confirmation by all pairs.
+ * passive_paper_votes: crossings of each pair of sensors, their votes for cells, and confirmation
+ * of cells by all pairs.
  */
 #include <string.h>
 
@@ -20,8 +21,8 @@ static unsigned collect_bearings(const struct rho_batch *batch, unsigned scan, u
     return batch->num_bearings[scan][sensor];
 }
 
-static void add_point(struct rho_passive_paper_search *search, unsigned scan,
-                      const struct rho_crossing *crossing)
+static void store_crossing(struct rho_passive_paper_search *search, unsigned scan,
+                           const struct rho_crossing *crossing)
 {
     struct rho_passive_paper *paper = search->paper;
     if (paper->scan_end[scan] == RHO_MAX_PAPER_CROSSINGS) {
@@ -44,7 +45,7 @@ int rho_passive_paper_prune_ghosts(const struct rho_passive_paper_config *config
     unsigned num_b = collect_bearings(batch, scan, pair.b, bearings->b_rad);
     if (rho_ghost_fill(matrix, base, bearings->a_rad, num_a, bearings->b_rad, num_b,
                        config->range_max_m) != RHO_OK) {
-        return 0; /* cannot be: frames were checked */
+        return 0; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
     rho_ghost_prune(matrix, config->rule);
     return 1;
@@ -71,7 +72,7 @@ static void cross_scan(struct rho_passive_paper_search *search,
             search->per_pair.crossings++;
             search->per_pair.ghosts += !is_left;
             if (is_left) {
-                add_point(search, scan, &crossing);
+                store_crossing(search, scan, &crossing);
             }
         }
     }
@@ -97,7 +98,7 @@ void rho_passive_paper_cross_sensors(struct rho_passive_paper_search *search, un
     memset(&search->per_pair, 0, sizeof search->per_pair);
     memset(paper->scan_end, 0, sizeof paper->scan_end);
     if (!rho_passive_paper_set_base(search, &paper->batch, a, b, &base)) {
-        return; /* cannot be: frames were checked */
+        return; /* cannot fail: sensor positions were checked when the frame was pushed */
     }
     for (unsigned scan = 0; scan < paper->batch.num_scans; scan++) {
         paper->scan_end[scan] = scan > 0 ? paper->scan_end[scan - 1u] : 0;
@@ -121,7 +122,10 @@ rho_passive_paper_direction(const struct rho_passive_paper_search *search, int r
     return (struct rho_passive_paper_direction){rho_cos(theta_rad), rho_sin(theta_rad)};
 }
 
-/* Eq. (3) for a known position: multiplied out it is x cos(theta) + y sin(theta). */
+/*
+ * Eq. (3) for a crossing with known position: multiplied out it is rho = x cos(theta) + y
+ * sin(theta).
+ */
 int rho_passive_paper_column(const struct rho_passive_paper_search *search,
                              struct rho_passive_paper_direction direction,
                              const struct rho_passive_paper_point *point)
@@ -138,7 +142,7 @@ void rho_passive_paper_vote_row(const struct rho_passive_paper_search *search, i
 {
     const struct rho_passive_paper *paper = search->paper;
     struct rho_passive_paper_direction direction = rho_passive_paper_direction(search, row);
-    uint8_t voted[RHO_PAPER_RHO_CELLS] = {0}; /* the last scan that voted, from 1 */
+    uint8_t voted[RHO_PAPER_RHO_CELLS] = {0}; /* last scan that voted for each cell, from 1 */
     memset(counts, 0, RHO_PAPER_RHO_CELLS);
     for (unsigned scan = 0, i = 0; scan < paper->batch.num_scans; scan++) {
         for (; i < paper->scan_end[scan]; i++) {
@@ -152,7 +156,7 @@ void rho_passive_paper_vote_row(const struct rho_passive_paper_search *search, i
     }
 }
 
-/* The most votes of a cell and its neighbours, in three rows. */
+/* Most votes of a cell and its eight neighbours, in three rows of theta. */
 static unsigned max_votes_near(const uint8_t *const rows[3], int column, int columns)
 {
     unsigned most = 0;
@@ -166,9 +170,12 @@ static unsigned max_votes_near(const uint8_t *const rows[3], int column, int col
     return most;
 }
 
-/* A cell that all pairs confirm gets 1 plus their votes. */
-static void confirm_row(struct rho_passive_paper_search *search, int row,
-                        const uint8_t *const rows[3], int is_first)
+/*
+ * Adds the votes of a pair of sensors to each cell of a row, plus 1 with the first pair; cells that
+ * the pair does not confirm become 0, and stay 0.
+ */
+static void confirm_cells_of_row(struct rho_passive_paper_search *search, int row,
+                                 const uint8_t *const rows[3], int is_first)
 {
     uint8_t *cells = search->paper->cells[row];
     for (int column = 0; column < search->columns; column++) {
@@ -189,11 +196,11 @@ static void vote_pair(struct rho_passive_paper_search *search, int is_first)
     for (int row = 0; row < search->rows; row++) {
         const uint8_t *const rows[3] = {kept[row % 3], kept[(row + 1) % 3], kept[(row + 2) % 3]};
         rho_passive_paper_vote_row(search, row + 1, kept[(row + 2) % 3]);
-        confirm_row(search, row, rows, is_first);
+        confirm_cells_of_row(search, row, rows, is_first);
     }
 }
 
-static void count_work(struct rho_passive_paper_search *search)
+static void add_pair_counters(struct rho_passive_paper_search *search)
 {
     struct rho_passive_paper_work *work = &search->paper->work;
     const struct rho_passive_paper_work *more = &search->per_pair;
@@ -210,7 +217,7 @@ void rho_passive_paper_vote_for_cells(struct rho_passive_paper_search *search)
     for (unsigned i = 0; i + 1u < search->num_sensors; i++) {
         for (unsigned j = i + 1u; j < search->num_sensors; j++) {
             rho_passive_paper_cross_sensors(search, search->sensors[i], search->sensors[j]);
-            count_work(search);
+            add_pair_counters(search);
             vote_pair(search, is_first);
             is_first = 0;
         }

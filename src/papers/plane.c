@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static int is_within(unsigned first, unsigned count, unsigned size, unsigned all)
+static int is_window_valid(unsigned first, unsigned count, unsigned size, unsigned all)
 {
     return count > 0 && first + count <= all && size > 0 && size <= count;
 }
@@ -22,8 +22,8 @@ enum rho_status rho_plane_open(struct rho_plane *plane, unsigned theta_cells, un
         whole.first_rho = 0;
         whole.rho_cells = (uint16_t)rho_cells;
     }
-    if (!is_within(whole.first_theta, whole.theta_cells, whole.height, theta_cells) ||
-        !is_within(whole.first_rho, whole.rho_cells, whole.width, rho_cells)) {
+    if (!is_window_valid(whole.first_theta, whole.theta_cells, whole.height, theta_cells) ||
+        !is_window_valid(whole.first_rho, whole.rho_cells, whole.width, rho_cells)) {
         return RHO_ERROR_VALUE;
     }
     *plane = whole;
@@ -35,7 +35,7 @@ void rho_plane_note(struct rho_plane *plane, unsigned theta_cell, unsigned rho_c
 {
     const unsigned row = theta_cell - plane->first_theta, column = rho_cell - plane->first_rho;
     if (row >= plane->theta_cells || column >= plane->rho_cells) {
-        return; /* cells before the window, too: they wrap */
+        return; /* cells before the window wrap to large numbers, and are left out too */
     }
     const unsigned y = row * plane->height / plane->theta_cells;
     const unsigned x = column * plane->width / plane->rho_cells;

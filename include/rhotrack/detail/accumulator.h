@@ -37,111 +37,132 @@
 extern "C" {
 #endif
 
-/* Largest number of scans. */
+/* largest number of scans, each of which has a bit in a cell */
 #define RHO_ACCUMULATOR_SCANS_MAX 16u
 
 enum rho_accumulator_votes {
-    RHO_VOTES_SCANS, /* distinct scans */
-    RHO_VOTES_POINTS /* points; the count stops at 65535 */
+    RHO_VOTES_SCANS, /* votes of a cell are the distinct scans with a point on its line */
+    RHO_VOTES_POINTS /* votes of a cell are the points on its line; the count stops at 65535 */
 };
 
 struct rho_accumulator_config {
-    float rho_max_m;  /* cells of rho from -rho_max_m to rho_max_m; points outside do not vote */
-    float rho_cell_m; /* 2 rho_max_m / rho_cell_m, rounded, is 1 .. RHO_MAX_RHO_CELLS */
+    /* the plane has cells of rho from -rho_max_m to rho_max_m; points outside do not vote */
+    float rho_max_m;
+    /* size of the cells of rho; 2 rho_max_m / rho_cell_m, rounded, is 1 .. RHO_MAX_RHO_CELLS */
+    float rho_cell_m;
     /*
-     * 1e-4 .. pi, below pi with neighbours; cell i is at (i + 1/2) theta_cell_rad; the last one may
-     * reach beyond pi
+     * size of the cells of theta: 1e-4 .. pi, below pi with neighbours; cell i is at (i + 1/2)
+     * theta_cell_rad; the last cell may reach beyond pi
      */
     float theta_cell_rad;
     enum rho_accumulator_votes votes;
-    uint16_t min_votes; /* of a peak; at least 1 */
-    /* 0 .. 1: smallest share of the most votes that a peak has */
+    uint16_t min_votes; /* smallest number of votes of a peak; at least 1 */
+    /* smallest votes of a peak as a share of the most votes of all cells: 0 .. 1 */
     float min_share;
-    /* neighbours that a peak is compared with: 0 (every cell with min_votes is a peak), 4 or 8 */
+    /*
+     * number of neighbours that a peak is compared with: 4, 8, or 0: every cell with min_votes is a
+     * peak
+     */
     uint8_t neighbours;
-    /* 0 or 1; 1: every point votes in every row: the same result, but slower */
+    /*
+     * 1: every point votes in every row, with the same result, but slower; 0: rows without peaks
+     * are skipped
+     */
     uint8_t no_pruning;
 };
 
 /* Points in the order of their scans. The arrays stay the caller's. */
 struct rho_accumulator_points {
     const float *x_m, *y_m;
-    unsigned num_scans; /* 0 .. RHO_ACCUMULATOR_SCANS_MAX */
-    /* points of scan m: scan_end[m - 1] .. scan_end[m] - 1, scan 0 from 0; must not fall */
+    unsigned num_scans; /* number of scans: 0 .. RHO_ACCUMULATOR_SCANS_MAX */
+    /*
+     * end of each scan's points: scan m has points scan_end[m - 1] .. scan_end[m] - 1, scan 0 from
+     * 0; must not fall
+     */
     const uint32_t *scan_end;
 };
 
 struct rho_accumulator_peak {
     uint32_t votes;
     uint16_t theta_cell, rho_cell;
-    uint32_t mask; /* bit m: scan m voted; 0 with RHO_VOTES_POINTS */
+    uint32_t mask; /* scans that voted: bit m for scan m; 0 with RHO_VOTES_POINTS */
 };
 
 struct rho_accumulator_result {
     uint32_t num_peaks;
-    /* lowest peaks beyond the caller's capacity; with min_share an upper bound; saturates */
+    /*
+     * number of peaks beyond the caller's capacity, the lowest ones; with min_share an upper bound;
+     * saturates
+     */
     uint32_t peaks_dropped;
-    uint32_t votes;     /* points times rows of theta, without those beyond rho_max_m; saturates */
-    uint32_t votes_max; /* of the cells with at least min_votes; 0: there is none */
-};
-
-/*
- * The best peaks of a search, in an array of the caller. They are added in any order; a heap keeps
- * the best by votes, then lower theta_cell, then lower rho_cell. Set the first four fields, and the
- * others to 0.
- */
-struct rho_peak_list {
-    struct rho_accumulator_peak *peaks;
-    uint32_t max_peaks; /* room */
-    uint32_t min_votes; /* of a peak; rises with votes_max */
-    float min_share;    /* of votes_max */
-    uint32_t num_peaks;
-    uint32_t peaks_dropped; /* as above */
+    /* votes cast: points times rows of theta, without points beyond rho_max_m; saturates */
+    uint32_t votes;
+    /* most votes of a cell, among cells with at least min_votes; 0: no such cell */
     uint32_t votes_max;
 };
 
-/* The plane, and the largest distance of peaks that suppress each other. */
+/*
+ * The best peaks of a search, in an array of the caller. Peaks are added in any order; a heap keeps
+ * the best by votes, then lower theta_cell, then lower rho_cell. The user sets the first four
+ * fields, and the others to 0.
+ */
+struct rho_peak_list {
+    struct rho_accumulator_peak *peaks;
+    uint32_t max_peaks; /* capacity of peaks[] */
+    uint32_t min_votes; /* smallest votes of a peak; rises with votes_max by min_share */
+    float min_share;    /* smallest votes of a peak as a share of votes_max */
+    uint32_t num_peaks;
+    uint32_t peaks_dropped; /* number of peaks that were added beyond max_peaks; saturates */
+    uint32_t votes_max;
+};
+
+/* Size of the plane, and the largest distance at which a peak suppresses a worse one. */
 struct rho_peak_distance {
-    uint16_t theta_cells, rho_cells; /* of the plane */
-    uint16_t theta, rho;             /* within both distances only the better peak stays */
+    uint16_t theta_cells, rho_cells; /* number of cells of the plane */
+    /* peaks within both distances of a better peak, in cells, are suppressed */
+    uint16_t theta, rho;
 };
 
 struct rho_accumulator {
     uint32_t magic;
     uint16_t theta_cells, rho_cells;
     struct rho_accumulator_config config;
-    /* cell of rho: first_cell + rho cells_per_m, after a guard cell */
+    /* the cell of rho_m, after a guard cell, is first_cell + rho_m cells_per_m */
     float cells_per_m, first_cell;
     /*
-     * Three rows of bytes, or of 16 bits for more than 8 scans or 255 points, a guard cell at each
-     * end.
+     * Three rows of cells of 8 bits, or of 16 bits for more than 8 scans or 255 points, with a
+     * guard cell at each end.
      */
     uint16_t rows[3][RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
-    /* sparse rows: the cells that were touched, and those that reached min_votes */
+    /* sparse rows: the cells that were touched, and the cells that reached min_votes */
     int32_t touched[3][RHO_ACCUMULATOR_SPARSE_MAX];
     uint16_t reached[3][RHO_ACCUMULATOR_SPARSE_MAX + 1];
     uint16_t num_touched[3], num_reached[3];
-    /* dense rows need `scan`, sparse ones `few` */
+    /* scratch: `scan` for dense rows, `few` for sparse rows */
     union {
-        uint16_t scan[RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING]; /* votes of one scan */
+        /* scratch row for the votes of one scan */
+        uint16_t scan[RHO_MAX_RHO_CELLS + RHO_ACCUMULATOR_PADDING];
         struct {
             float x_m[RHO_ACCUMULATOR_SPARSE_MAX], y_m[RHO_ACCUMULATOR_SPARSE_MAX];
             int32_t bins[RHO_ACCUMULATOR_SPARSE_MAX];
-            uint16_t bits[RHO_ACCUMULATOR_SPARSE_MAX]; /* of their scans */
+            uint16_t bits[RHO_ACCUMULATOR_SPARSE_MAX]; /* bit of each point's scan in a cell */
             uint16_t votes[RHO_ACCUMULATOR_BINS + 2], are_enough[RHO_ACCUMULATOR_BINS + 2];
         } few;
     } room;
 };
 
-/* Rows of theta and cells of rho of a config's plane. Errors: CONFIG. Constant cost. */
+/*
+ * Number of rows of theta and of cells of rho in the plane of a config. Errors: CONFIG. Constant
+ * cost.
+ */
 RHO_MUST_CHECK enum rho_status rho_accumulator_plane(const struct rho_accumulator_config *config,
                                                      uint16_t *theta_cells, uint16_t *rho_cells);
 
-/* Whether rho_accumulator_find takes these points: its errors NULL and VALUE. Cost: the points. */
+/* Checks points as rho_accumulator_find does: its errors NULL and VALUE. Cost: the points. */
 RHO_MUST_CHECK enum rho_status rho_accumulator_check(const struct rho_accumulator_points *points);
 
 /*
- * Prepares an accumulator; the config is copied.
+ * Initialises an accumulator; the config is copied.
  *   size   sizeof(struct rho_accumulator) of the caller
  * Errors: NULL, SIZE, CONFIG (any field outside its range). Cost: constant.
  */
@@ -150,18 +171,18 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_init(struct rho_accumulator *accu
                                                     const struct rho_accumulator_config *config);
 
 /*
- * Votes, and finds the peaks.
- *   peaks   room for max_peaks; the best by votes, then lower theta_cell, then lower rho_cell, in
- *           that order
- *   result  filled whole
+ * Lets all points vote, and finds the peaks.
+ *   peaks   room for max_peaks; gets the best peaks, best first: by votes, then lower theta_cell,
+ *           then lower rho_cell
+ *   result  all fields are filled
  * A cell is a peak if it has at least min_votes, no neighbour has more votes, and no neighbour
  * before it (by theta_cell, then rho_cell) has as many.
  * Errors: NULL, STATE (not initialised), VALUE (num_scans, scan_end, a point not finite or beyond
  * RHO_LIMIT_POSITION_M); nothing but *accumulator's scratch is changed. Cost: theta cells times
  * (points, and the rho cells where there are more than RHO_ACCUMULATOR_SPARSE_MAX points), and
  * max_peaks' logarithm for each peak. With at most RHO_ACCUMULATOR_SPARSE_MAX points, all
- * within rho_max_m, and min_votes of 3 or more, rows that cannot have a peak are skipped: few
- * points cost down to a thirtieth of that. Stack: 1.4 KB.
+ * within rho_max_m, and min_votes of 3 or more, rows that cannot have a peak are skipped: with few
+ * points this saves up to 29/30 of the cost. Stack: 1.4 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_accumulator_find(struct rho_accumulator *accumulator,
                                                     const struct rho_accumulator_points *points,
@@ -170,33 +191,34 @@ RHO_MUST_CHECK enum rho_status rho_accumulator_find(struct rho_accumulator *accu
                                                     struct rho_accumulator_result *result);
 
 /*
- * Adds a cell, unless it has fewer votes than min_votes. Cost: the logarithm of max_peaks.
- * Stack: 120 bytes.
+ * Adds a peak to the list, unless it has fewer votes than min_votes; a full list drops its worst
+ * peak. Cost: the logarithm of max_peaks. Stack: 120 bytes.
  */
 void rho_peak_list_add(struct rho_peak_list *list, struct rho_accumulator_peak peak);
 
 /*
- * Sorts the list, best first, and drops the peaks below the final min_share. Cost: n log n.
+ * Sorts the peaks, best first, and drops those with less than min_share of the final votes_max.
+ * Cost: n log n.
  */
 void rho_peak_list_finish(struct rho_peak_list *list);
 
 /*
- * Greedy suppression of peaks in the order best first: each kept peak drops all worse ones near it,
- * also across the ends of theta.
- * Returns how many are kept, at the head of the list.
- *   scratch  num_scratch words, a power of two; NULL and 0: none
- * Cost: a few look-ups a peak while scratch holds half as many words again as peaks are kept; kept
- * peaks beyond are compared one by one. Stack: 180 bytes.
+ * Suppresses peaks near a better one. The list is sorted, best first: each peak that is kept drops
+ * all worse peaks near it, also across the ends of theta. Returns the number of peaks kept, which
+ * are moved to the front.
+ *   scratch  num_scratch words for a hash table, a power of two; NULL and 0: no table
+ * Cost: a few look-ups a peak while scratch has 3/2 words for each peak kept; peaks kept beyond
+ * that are compared one by one. Stack: 180 bytes.
  */
 uint32_t rho_peak_list_suppress(struct rho_accumulator_peak *peaks, uint32_t num_peaks,
                                 const struct rho_peak_distance *distance, uint32_t *scratch,
                                 uint32_t num_scratch);
 
-/* The cell of rho in which a point votes in a row of theta; -1: beyond rho_max_m. */
+/* Cell of rho in which a point votes in a row of theta; -1: the point is beyond rho_max_m there. */
 int rho_accumulator_cell(const struct rho_accumulator *accumulator, unsigned theta_cell, float x_m,
                          float y_m);
 
-/* The line through the centre of a cell. Constant cost. */
+/* theta and rho of the line through the centre of a cell. Constant cost. */
 float rho_accumulator_theta_rad(const struct rho_accumulator *accumulator, unsigned theta_cell);
 float rho_accumulator_rho_m(const struct rho_accumulator *accumulator, unsigned rho_cell);
 

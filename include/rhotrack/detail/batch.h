@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * batch: the bearings of the last N frames, by scan and sensor.
+ * batch: the bearings of the last N frames, by scan and sensor, in which the passive initiators
+ * search for tracks.
  *
- * The passive initiators search it. A frame has the scans of several sensors at one time. A sensor
- * is known from its first scan on, does not move, and keeps its index. Embedded in the initiators;
- * usable alone.
+ * A frame has the scans of several sensors at one time. A sensor is known from its first scan on,
+ * must not move, and keeps its index. Embedded in the initiators; usable alone.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -26,23 +26,24 @@ struct rho_batch_sensor {
     float x_m, y_m;
 };
 
-/* One held bearing. */
+/* One bearing held in the batch, with its direction as cosine and sine. */
 struct rho_batch_bearing {
     float cosine, sine, bearing_rad;
     float sigma_rad;
 };
 
 struct rho_batch {
-    uint16_t scans_max; /* N */
+    uint16_t scans_max; /* capacity in scans (frames): N */
     uint16_t num_sensors, num_scans;
-    float apart_max_m; /* largest distance of two sensors */
-    uint32_t num_left; /* bearings that the last push dropped with the oldest frame */
+    float apart_max_m; /* largest distance of two sensors that is accepted */
+    uint32_t num_left; /* number of bearings that the last push dropped with the oldest frame */
     struct rho_batch_sensor sensors[RHO_MAX_PASSIVE_SENSORS];
-    /* the last scans, oldest first */
+    /* times of the held scans, oldest first */
     int64_t time_us[RHO_MAX_PASSIVE_SCANS];
     uint8_t num_bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
-    uint8_t was_seen[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]; /* the sensor reported */
-    /* of each look, counter-clockwise from .. to; equal: the whole circle */
+    /* 1: the sensor reported in this scan, also without bearings */
+    uint8_t was_seen[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
+    /* sector of each look, counter-clockwise from .. to; equal: the whole circle */
     float sector_from_rad[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     float sector_to_rad[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS];
     struct rho_batch_bearing bearings[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]
@@ -58,37 +59,39 @@ RHO_MUST_CHECK enum rho_status rho_batch_init(struct rho_batch *batch, unsigned 
                                               float apart_max_m);
 
 /*
- * Whether rho_batch_push takes the frame: its errors, but for fates. Cost: sensors squared.
- * Stack: 100 bytes.
+ * Tells whether rho_batch_push would take the frame. Errors: those of rho_batch_push, except NULL
+ * for fates. Cost: sensors squared. Stack: 100 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_accepts(const struct rho_batch *batch,
                                                  const struct rho_frame *frame);
 
 /*
- * Takes a frame; the oldest leaves when the batch is full.
- *   frame  its time counts for all its bearings, offsets do not
- *   fates  one a bearing, in the order of the frame's scans; HELD ones are taken; INVALID
- *          (rho_measurement_is_bearing) and NO_ROOM (beyond RHO_MAX_BEARINGS) ones are not
+ * Adds a frame to the batch; a full batch drops its oldest frame.
+ *   frame  its time is taken for all its bearings; their offsets are ignored
+ *   fates  one for each bearing, in the order of the frame's scans; bearings with HELD are stored,
+ *          or get INVALID (rho_measurement_is_bearing) or NO_ROOM (beyond RHO_MAX_BEARINGS)
  * Errors: NULL, STATE (the frame is not newer than the newest), CAPACITY (more sensors than
- * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, a sensor that has moved,
- * nearer than RHO_CROSSING_BASE_MIN_M or farther than apart_max_m from another, its place not a
- * coordinate, a sector beyond one turn either way); nothing is changed. Cost: the bearings, and the
- * batch moved by a frame.
- * Stack: 150 bytes.
+ * RHO_MAX_PASSIVE_SENSORS), VALUE (a sensor twice in the frame, a sensor that has moved, is nearer
+ * than RHO_CROSSING_BASE_MIN_M to another or farther than apart_max_m from it, or whose position is
+ * not a coordinate, a sector beyond one turn either way); nothing is changed. Cost: the bearings,
+ * and moving the batch by a frame. Stack: 150 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_batch_push(struct rho_batch *batch,
                                               const struct rho_frame *frame, uint8_t *fates);
 
 /*
- * Removes bearings.
- *   claim  by scan and sensor: index of the bearing among those held, from 1; 0: none
- * Indices stay valid until rho_batch_compact, so that several claims can be removed; until then a
- * removed bearing has a sigma_rad of 0. Returns how many were removed. Cost: scans times sensors.
+ * Removes the bearings that a track claims from the batch. Returns the number of bearings removed.
+ *   claim  for each scan and sensor the index of a bearing in the batch, from 1; 0: no bearing
+ * Indices stay valid until rho_batch_compact, so that bearings of several tracks can be removed;
+ * until then a removed bearing has a sigma_rad of 0. Cost: scans times sensors.
  */
 uint32_t rho_batch_remove(struct rho_batch *batch,
                           const uint8_t claim[RHO_MAX_PASSIVE_SCANS][RHO_MAX_PASSIVE_SENSORS]);
 
-/* Closes the gaps that removed bearings left. Cost: the bearings. */
+/*
+ * Closes the gaps that rho_batch_remove has left in the arrays of bearings. Cost: all bearings
+ * held.
+ */
 void rho_batch_compact(struct rho_batch *batch);
 
 /*

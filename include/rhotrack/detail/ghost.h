@@ -13,11 +13,11 @@
  *
  * The literal rule assumes one target on a beam at most, and is right if both sensors see every
  * target and nothing else. After a false alarm or a miss, the only crossing of a beam may be a
- * ghost, which then removes a target. The safe rule acts only where nothing contradicts
- * that: as many bearings from a as from b, and a complete matching, each bearing with one of the
- * other sensor's. Then a crossing that is in no complete matching is a ghost. That removes what the
- * literal rule removes, and more: where two beams of a meet the same two of b and nothing else, no
- * third one has its target there.
+ * ghost, which then removes a target. The safe rule acts only where the bearings do not contradict
+ * this assumption: a has as many bearings as b, and there is a complete matching, which pairs each
+ * bearing with one of the other sensor. Then a crossing that is in no complete matching is a ghost.
+ * This removes all that the literal rule removes, and more: where two beams of a meet the same two
+ * beams of b and no others, a third beam of a has no target on those beams of b.
  *
  * Source: passive Hough transform paper (see crossing.h), section 3, steps 1 to 2.6.
  *
@@ -36,34 +36,38 @@
 extern "C" {
 #endif
 
-/* Fate of a crossing. */
+/* Why a crossing of two bearings is kept as a possible target, or eliminated as a ghost. */
 enum rho_ghost_reason {
     RHO_GHOST_KEPT = 0,
-    RHO_GHOST_SIDES,     /* the bearings look to different sides of the base */
-    RHO_GHOST_APART,     /* they diverge: delta <= 0 (step 1.1) */
-    RHO_GHOST_RANGE,     /* they meet beyond range_max (step 1.2.1) */
-    RHO_GHOST_ROW,       /* the bearing of b is another bearing of a's only one (step 2.3) */
-    RHO_GHOST_COLUMN,    /* the bearing of a is another bearing of b's only one (step 2.5) */
-    RHO_GHOST_UNMATCHED, /* the safe rule: in no complete matching */
+    RHO_GHOST_SIDES, /* the bearings point to different sides of the base */
+    RHO_GHOST_APART, /* the bearings diverge: delta <= 0 (step 1.1) */
+    RHO_GHOST_RANGE, /* the bearings meet beyond range_max (step 1.2.1) */
+    /* the bearing of b belongs to another bearing of a, which has no other crossing (step 2.3) */
+    RHO_GHOST_ROW,
+    /* the bearing of a belongs to another bearing of b, which has no other crossing (step 2.5) */
+    RHO_GHOST_COLUMN,
+    RHO_GHOST_UNMATCHED, /* safe rule: the crossing is in no complete matching */
     RHO_NUM_GHOST_REASONS
 };
 
 enum rho_ghost_rule {
-    RHO_GHOST_NO_RULE, /* elimination by side and range alone */
-    RHO_GHOST_LITERAL, /* steps 2 to 2.6 of the paper */
-    RHO_GHOST_SAFE     /* complete matchings, where there are some */
+    RHO_GHOST_NO_RULE, /* no pruning: crossings are eliminated by side and range alone */
+    RHO_GHOST_LITERAL, /* pruning by steps 2 to 2.6 of the paper */
+    RHO_GHOST_SAFE     /* pruning by complete matchings, where the bearings have one */
 };
 
 struct rho_ghost_matrix {
-    uint16_t rows, columns;                              /* bearings of a and of b */
-    float delta_rad[RHO_MAX_BEARINGS][RHO_MAX_BEARINGS]; /* M(i, j); 0 for ghosts */
-    uint8_t reason[RHO_MAX_BEARINGS][RHO_MAX_BEARINGS];  /* enum rho_ghost_reason */
+    uint16_t rows, columns; /* number of bearings of sensor a (rows) and of sensor b (columns) */
+    /* M(i, j), the angle between bearing i of a and bearing j of b; 0: ghost */
+    float delta_rad[RHO_MAX_BEARINGS][RHO_MAX_BEARINGS];
+    uint8_t reason[RHO_MAX_BEARINGS][RHO_MAX_BEARINGS]; /* enum rho_ghost_reason of each crossing */
 };
 
 /*
- * Fills the matrix and eliminates by side and range.
- *   bearings_a_rad, bearings_b_rad  num_a and num_b of them, one scan of each sensor
- *   range_max_m  > 0: neither sensor sees farther
+ * Fills the matrix with the crossings of two sensors' bearings, and eliminates crossings by side
+ * and range.
+ *   bearings_a_rad, bearings_b_rad  num_a and num_b bearings, one scan of each sensor
+ *   range_max_m  largest range of either sensor, > 0
  * Errors: NULL, CAPACITY (more than RHO_MAX_BEARINGS), VALUE (a bearing not finite, range_max_m not
  * positive); *matrix is unchanged. Cost: num_a num_b crossings. Stack: 190 bytes.
  */
@@ -74,7 +78,7 @@ RHO_MUST_CHECK enum rho_status rho_ghost_fill(struct rho_ghost_matrix *matrix,
                                               float range_max_m);
 
 /*
- * Prunes a filled matrix. Returns how many crossings that removed.
+ * Prunes ghosts from a filled matrix by a rule. Returns the number of crossings removed.
  * Cost: RHO_MAX_BEARINGS^3 at most. Stack: 300 bytes.
  */
 unsigned rho_ghost_prune(struct rho_ghost_matrix *matrix, enum rho_ghost_rule rule);
