@@ -305,11 +305,13 @@
 #ifndef RHO_BODIES
 #define RHO_BODIES RHO_CONFIG_PICK(0, 1)
 #endif
-/* Plots and tracks that there is room for in groups and bodies. */
+/* Numbers of plots and tracks for which objects have room in groups and bodies. */
 #define RHO_BODY_PLOTS (RHO_BODIES ? RHO_MAX_PLOTS : 1)
 #define RHO_BODY_TRACKS (RHO_BODIES ? RHO_MAX_TRACKS : 1)
 
-/* Sensors' noise is learned by hypotheses alone, and sensor health raises it. */
+/*
+ * 1: plots' sigmas are scaled, by the noise that hypotheses learn of a sensor, or by sensor health.
+ */
 #define RHO_SIGMAS_VARY ((RHO_SECTORS) || ((RHO_FILTERS)&4) != 0)
 
 /* ---- Passive sensors ---- */
@@ -343,12 +345,15 @@
 #define RHO_MAX_PASSIVE_CANDIDATES RHO_CONFIG_PICK(64, 96)
 #endif
 
-/* Tracks of a batch. 1 .. 64. */
+/* Most tracks that a batch of bearings starts. 1 .. 64. */
 #ifndef RHO_MAX_PASSIVE_TRACKS
 #define RHO_MAX_PASSIVE_TRACKS RHO_CONFIG_PICK(8, 16)
 #endif
 
-/* Cells of the passive Hough transform. RAM: 2 bytes a cell. 7 .. 255; 8 .. 4096. */
+/*
+ * Cells of the passive Hough transform in theta, 7 .. 255, and in rho, 8 .. 4096. RAM: 2 bytes a
+ * cell.
+ */
 #ifndef RHO_PASSIVE_THETA_CELLS
 #define RHO_PASSIVE_THETA_CELLS 36
 #endif
@@ -396,7 +401,10 @@
 #define RHO_ACCUMULATOR_BINS RHO_CONFIG_PICK(1024, 4096)
 #endif
 
-/* Rows are searched in blocks of 64 cells, read as 80 with their margins; a multiple of 4 bytes. */
+/*
+ * Bytes behind a row of the accumulator: rows are searched in blocks of 64 cells, read as 80 with
+ * their margins. A multiple of 4.
+ */
 #define RHO_ACCUMULATOR_PADDING 84
 
 /*
@@ -415,7 +423,7 @@
 #define RHO_MAX_HOUGH_KERNELS RHO_CONFIG_PICK(256, 16384)
 #endif
 
-/* Chains in which these pairs are found by their line. RAM: 2 bytes each. */
+/* Hash chains by which the papers' methods find pairs of plots on a line. RAM: 2 bytes each. */
 #define RHO_HOUGH_CHAINS RHO_CONFIG_PICK(256, 16384)
 
 /*
@@ -610,7 +618,7 @@
     (6 * RHO_MAX_RHO_CELLS + 18 * RHO_ACCUMULATOR_SPARSE_MAX + 1024 +                              \
      RHO_RAM_LARGER(2 * RHO_MAX_RHO_CELLS,                                                         \
                     14 * RHO_ACCUMULATOR_SPARSE_MAX + 4 * RHO_ACCUMULATOR_BINS))
-/* the larger of the accumulator, and cells with pairs or a row */
+/* Hough transform: the larger of the accumulator, and of vote cells with pairs of plots or a row */
 #define RHO_RAM_HOUGH_BYTES                                                                        \
     (RHO_RAM_LARGER(RHO_RAM_ACCUMULATOR_BYTES,                                                     \
                     8 * RHO_MAX_HOUGH_CELLS +                                                      \

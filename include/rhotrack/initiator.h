@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * initiator: the default track initiation: finds the plots of the last scans that are tracks.
+ * initiator: the default track initiation: finds tracks among the plots of the last scans.
  *
  * A kernel-centric, time-aware Hough transform. Every pair of plots far apart in time is a kernel:
- * a line with a speed and a sense, a point in the space of straight tracks. Each scan between votes
- * for it with the plot nearest to the place that the kernel predicts for that scan, if one lies in
- * the gate of the plots' noise. Votes are a bit mask of scans, so that no scan counts twice.
+ * a straight track with a direction and a speed. Each scan between votes for the kernel with the
+ * plot nearest to the place that the kernel predicts for that scan, if one lies in the gate of the
+ * plots' noise. Votes are a bit mask of scans, so that no scan counts twice.
  * Kernels with enough votes are fitted (weighted least squares), every scan is associated again
  * with the fitted track, and the candidate is scored: the logarithm of the likelihood that these
  * plots are one target's over the likelihood that they are clutter of the local density. Candidates
@@ -38,24 +38,24 @@ extern "C" {
 #endif
 
 struct rho_initiator_config {
-    uint16_t scans; /* N, the window: 3 .. RHO_MAX_SCANS */
+    uint16_t scans; /* N, scans in the window: 3 .. RHO_MAX_SCANS */
     /*
-     * M, scans that must vote: 3 .. N; 0: chosen from the clutter, by positions alone: for a batch
-     * with range rates it may be larger than necessary
+     * M, scans that must vote for a track: 3 .. N; 0: chosen from the clutter, by positions alone,
+     * so that for a batch with range rates it may be larger than necessary
      */
     uint16_t min_scans;
     /* speeds of targets, 0 <= v_min < v_max, 0.01 <= v_max <= RHO_LIMIT_SPEED_MPS */
     float v_min_mps, v_max_mps;
     float pd; /* probability that a scan sees the target: 0.01 .. 0.999 */
     /*
-     * wanted false-track rate, 1e-6 .. 1e6, of searches after every scan: thresholds and M follow
+     * wanted false-track rate of searches after every scan, 1e-6 .. 1e6: thresholds and M follow
      * from it; 0: score_min_nat is the threshold
      */
     float false_tracks_per_hour;
     float score_min_nat; /* least score of a candidate; always used for a batch */
     /*
-     * acceleration, constant within a scan interval, in the gates and scores of positions; 0: none.
-     * Range rates are gated and scored without it
+     * standard deviation of accelerations that are constant within a scan interval, in the gates
+     * and scores of positions; 0: none. Range rates are gated and scored without it
      */
     float process_noise_mps2;
     /*
@@ -66,35 +66,37 @@ struct rho_initiator_config {
     float turn_mps2;
     /* limit of the work of a search, up to 1e8 units; in a batch for each last scan; 0: none */
     uint32_t work_max;
-    int area_is_fixed;      /* use `area`; else the extent of recent plots */
-    struct rho_extent area; /* of clutter and births */
+    int area_is_fixed;      /* 1: `area` is used; 0: the extent of recent plots */
+    struct rho_extent area; /* rectangle over which clutter and births are spread */
 };
 
-/* A track found: the plots that voted, and the fit at the newest scan's time. */
+/* A candidate track: the plots that voted for it, and their fit at the newest scan's time. */
 struct rho_candidate {
     uint16_t mask; /* bit m: the scan of age order m voted */
     uint16_t hits; /* number of votes */
     /*
-     * by age order: index into that scan's plots where the bit is set, else 0; an odd number, so
-     * that nothing is padded
+     * by age order of the scans: index of the scan's plot where the mask's bit is set, else 0. The
+     * length is odd, so that nothing is padded
      */
     uint16_t plot[RHO_MAX_SCANS / 2 * 2 + 1];
-    uint8_t has_z;      /* two plots or more have heights */
-    uint8_t is_turning; /* x .. vy are of a fit with an acceleration */
+    uint8_t has_z;      /* 1: z_m and vz_mps are fitted, as two plots or more have heights */
+    uint8_t is_turning; /* 1: the fit has an acceleration; x_m .. vy_mps are from it */
     int32_t score_mnat;
     float x_m, y_m, vx_mps, vy_mps;
-    float z_m, vz_mps; /* 0 unless has_z */
+    float z_m, vz_mps; /* fitted height and climb rate; 0 unless has_z */
 };
 
-/* Work of the last search, and its losses by capacities. All saturate. */
+/*
+ * Work of the last search, and candidates dropped for lack of room or work. All counters saturate.
+ */
 struct rho_initiator_work {
     uint32_t seeds; /* kernels tried */
     struct rho_window_work window;
     uint32_t fits;               /* least-squares fits */
-    uint32_t candidates_dropped; /* beyond RHO_MAX_CANDIDATES, or beyond work_max */
+    uint32_t candidates_dropped; /* candidates beyond RHO_MAX_CANDIDATES, or beyond work_max */
 };
 
-/* Where a search begins among the newest plots: their class of near plots, then their index. */
+/* Plot of the newest scan with which a search begins: its cost class, then its index. */
 struct rho_initiator_resume {
     uint16_t cost_class, plot;
 };
@@ -111,10 +113,10 @@ struct rho_initiator_resume {
 #define RHO_INITIATOR_WORK_BEYOND                                                                  \
     ((16u + 30u * RHO_MAX_SCANS) * (RHO_MAX_PLOTS + RHO_MAX_BINS) + 4000u * RHO_MAX_SCANS)
 struct rho_initiator_budget {
-    uint32_t work, work_worst; /* units of the last search, of the worst one */
+    uint32_t work, work_worst; /* units of work of the last search, and of the worst one */
     uint32_t partial_steps;   /* searches that left out plots, or candidates (candidates_dropped) */
     uint32_t plots_not_tried; /* newest plots whose kernels were not all tried */
-    struct rho_initiator_resume resume; /* where the next search begins */
+    struct rho_initiator_resume resume; /* plot with which the next search begins */
 };
 
 /*
@@ -123,26 +125,34 @@ struct rho_initiator_budget {
  * plots are spread evenly in range rather than on the ground.
  */
 struct rho_density_map {
-    float mean;        /* plots a scan and unit of content */
+    float mean;        /* mean density: plots a scan and unit of `content` */
     float prior_plots; /* weight of the mean against the count of a cell */
-    float scans;       /* counted; a revolution that has only begun counts by its share */
-    float content;     /* of the whole map: m^2, or m rad */
-    float sensor_x_m, sensor_y_m, middle_rad; /* azimuths count from middle_rad */
+    /* scans that the map counts; a revolution that has only begun counts by its share */
+    float scans;
+    float content; /* content of the whole map: m^2, or m rad */
+    /* place of the radar; azimuth from which azimuths of the map count */
+    float sensor_x_m, sensor_y_m, middle_rad;
     float u0, v0, width, height;
     uint8_t is_polar, columns, rows;
-    int32_t sensor_id; /* of the plots, where there are several maps */
-    /* plots in the window, saturating; cell row * columns + column, u along the columns */
+    int32_t sensor_id; /* sensor whose plots the map counts, where there are several maps */
+    /*
+     * plots of the window in each cell, saturating; cell row * columns + column, u along the
+     * columns
+     */
     uint16_t count[RHO_MAX_DENSITY_CELLS * RHO_MAX_DENSITY_CELLS];
 };
 
 #define RHO_CLUTTER_MEMORY_CELLS                                                                   \
     (RHO_MAX_CLUTTER_CELLS > 0 ? RHO_MAX_CLUTTER_CELLS * RHO_MAX_CLUTTER_CELLS : 1)
 
-/* Plots that left the window unused over the last hundred scans; without cells it is not used. */
+/*
+ * Clutter memory: plots of the last hundred scans that left the window without starting a track, by
+ * cells. Not used in a build without RHO_MAX_CLUTTER_CELLS.
+ */
 struct rho_clutter_memory {
     float x_min_m, y_min_m, columns_per_m, rows_per_m;
-    uint32_t num_scans;                       /* 0: nothing has left yet */
-    uint16_t count[RHO_CLUTTER_MEMORY_CELLS]; /* row * cells a side + column */
+    uint32_t num_scans;                       /* scans counted; 0: none has left the window yet */
+    uint16_t count[RHO_CLUTTER_MEMORY_CELLS]; /* plots by cell: row * cells a side + column */
 };
 
 enum rho_search {
@@ -152,25 +162,37 @@ enum rho_search {
 
 struct rho_initiator {
     uint32_t magic;
-    uint16_t num_candidates; /* found by the last search, best first */
+    uint16_t num_candidates; /* candidates found by the last search, best first */
     uint16_t min_scans;      /* M in use at the last search */
     /* scores that started and confirmed a track in the last search */
     int32_t start_mnat, confirm_mnat;
     struct rho_initiator_config config;
     struct rho_initiator_work work;
-    float density_per_m2; /* plots a scan, mean over the area, of the last search */
-    uint16_t num_maps; /* 1: of all sensors; several: one a sensor; 0: nothing was searched yet */
-    uint16_t has_revolution; /* map and thresholds belong to the revolution of the newest scan */
+    float density_per_m2; /* clutter density in the last search, plots a scan: mean over the area */
+    /*
+     * density maps in use. 1: one for all sensors; several: one a sensor; 0: nothing was searched
+     * yet
+     */
+    uint16_t num_maps;
+    /* density map and thresholds are those of the newest scan's revolution */
+    uint16_t has_revolution;
     struct rho_density_map density[RHO_MAX_DENSITY_MAPS];
-    /* by age order: plots a scan of the scan's sensor over the mean of all sensors; 0: no scan */
+    /*
+     * by age order of the scans: plots a scan of the sensor over the mean of all sensors; 0: no
+     * scan
+     */
     float sensor_ratio[RHO_MAX_SCANS];
     int32_t sensor_id[RHO_MAX_SCANS];
     struct rho_clutter_memory memory;
     struct rho_initiator_budget budget;
-    float thin_clutter; /* plots in a plot's noise where it is least, but for a tenth */
-    /* by the first scan of a set: hits that it needs where clutter is no thinner */
+    /*
+     * limit of thin clutter: 0.9 times the fewest clutter plots in a plot's noise at sampled places
+     */
+    float thin_clutter;
+    /* by a set's first scan: hits that it needs where clutter is not thin */
     uint8_t span_hits[RHO_MAX_SCANS];
-    uint8_t cost_class[RHO_MAX_PLOTS]; /* scratch of the search */
+    /* by plots of the scan that is searched: classes of near plots, used during a search alone */
+    uint8_t cost_class[RHO_MAX_PLOTS];
     struct rho_candidate candidates[RHO_MAX_CANDIDATES];
     struct rho_window window;
 };
@@ -201,8 +223,8 @@ RHO_MUST_CHECK enum rho_status rho_initiator_reconfigure(struct rho_initiator *i
                                                          const struct rho_initiator_config *config);
 
 /*
- * True where a scan of this time can be pushed: the initiator is initialised, and holds no newer
- * scan. Constant cost.
+ * True where a scan of this time can be pushed: the initiator is initialised, and no scan that it
+ * holds is newer. Constant cost.
  */
 int rho_initiator_accepts(const struct rho_initiator *initiator, int64_t time_us);
 
@@ -231,7 +253,8 @@ RHO_MUST_CHECK enum rho_status rho_initiator_search(struct rho_initiator *initia
                                                     enum rho_search search);
 
 /*
- * The same with work_max instead of the config's: the work that a step has left.
+ * As rho_initiator_search, with work_max instead of the configuration's: the work that a step has
+ * left.
  * Stack: 3.3 KB (embedded profile).
  */
 RHO_MUST_CHECK enum rho_status rho_initiator_search_within(struct rho_initiator *initiator,

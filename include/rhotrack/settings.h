@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * settings: what a radar is and what its targets do, said once for all objects.
+ * settings: the properties of a radar and of its targets, set once for tracker and initiators.
  *
  *     struct rho_settings settings;
  *     struct rho_tracker_config track;
@@ -79,41 +79,48 @@ extern "C" {
 
 struct rho_settings {
     /* ---- targets ---- */
-    float v_min_mps;      /* [step] slowest: 0 .. v_max_mps, exclusive; 0: targets may stand */
-    float v_max_mps;      /* [step] fastest: 1 .. RHO_LIMIT_SPEED_MPS */
+    /* [step] lowest speed of targets: 0 .. v_max_mps, exclusive; 0: targets may stand */
+    float v_min_mps;
+    float v_max_mps;      /* [step] highest speed of targets: 1 .. RHO_LIMIT_SPEED_MPS */
     float accel_max_mps2; /* [step] strongest manoeuvre that tracks follow: 0 .. 1000 */
 
     /* ---- the sensor ---- */
     /* [step, sensor] probability that a look sees the target: 0.01 .. 0.999 */
     float pd;
-    float scan_interval_s; /* [step] from a look at a place to the next, a turn: 1e-3 .. 3600 */
+    /* [step] time from a look at a place to the next, a turn of the antenna: 1e-3 .. 3600 */
+    float scan_interval_s;
     /* [plot] standard deviations of a plot: 1e-3 .. 1e5 m and m/s, 1e-6 .. 0.5 rad */
     float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
-    float sigma_rad; /* [plot] of a passive sensor's bearing, likewise */
-    /* [sensor] coverage: 0 .. range_max_m, exclusive; 1 .. 2 RHO_LIMIT_POSITION_M */
+    float sigma_rad; /* [plot] standard deviation of a passive sensor's bearing: 1e-6 .. 0.5 */
+    /* [sensor] range limits: 0 .. range_max_m, exclusive; 1 .. 2 RHO_LIMIT_POSITION_M */
     float range_min_m, range_max_m;
-    /* [window] min below max, each within RHO_LIMIT_POSITION_M either way */
+    /* [window] watched rectangle: min below max, each within RHO_LIMIT_POSITION_M either way */
     struct rho_extent area;
-    /* [window] 1: clutter and new targets are spread over `area`; 0: over the extent of the plots
-     * seen */
+    /*
+     * [window] 1: clutter and new targets are spread over `area`; 0: over the extent of plots seen
+     */
     uint16_t area_is_fixed;
 
     /* ---- decisions ---- */
-    uint16_t scans; /* [window] of the initiation window: 3 .. RHO_MAX_SCANS */
-    /* [step] of these, with a plot of the target: 3 .. scans; 0: from the clutter */
+    uint16_t scans; /* [window] scans in the initiation window: 3 .. RHO_MAX_SCANS */
+    /* [step] scans of the window in which a target needs a plot: 3 .. scans; 0: from the clutter */
     uint16_t min_scans;
     uint16_t coast_scans_max; /* [step] misses in a row that end a track: 1 .. 255 */
-    /* [step] tracks of clutter alone that are put up with: 1e-6 .. 1e6 */
+    /* [step] tracks of clutter alone that are accepted: 1e-6 .. 1e6 */
     float false_tracks_per_hour;
-    /* [step] work of a step, units (struct rho_tracker_work): .. RHO_LIMIT_WORK; 0: no limit */
+    /*
+     * [step] limit of the work of a step, units (struct rho_tracker_work): 0 .. RHO_LIMIT_WORK; 0:
+     * none
+     */
     uint32_t work_max;
 };
 
-/* The field that rho_settings_check refuses. */
+/* The first field that rho_settings_check refuses. */
 struct rho_settings_fault {
     const char *field; /* its name in struct rho_settings, as "v_max_mps" or "area.x_min_m" */
-    float value;       /* as it is set */
-    float min, max;    /* allowed; of v_min_mps, range_min_m and area's minima max is excluded */
+    float value;       /* the refused value */
+    /* allowed range; max itself is refused for v_min_mps, range_min_m and the area's minima */
+    float min, max;
 };
 
 /*
@@ -187,7 +194,7 @@ enum rho_preset {
      * ten an hour are few among a thousand. Coasting: 20 looks are 1 s behind a lorry.
      */
     RHO_PRESET_TRAFFIC,
-    RHO_NUM_PRESETS /* count of the values above, not a preset */
+    RHO_NUM_PRESETS /* number of kinds, not a kind */
 };
 
 /*
@@ -198,20 +205,23 @@ enum rho_preset {
  */
 void rho_settings_default(struct rho_settings *settings);
 
-/* The settings of a kind of radar; of another value rho_settings_default. Constant cost. */
+/*
+ * Fills in the settings of a kind of radar, or for any other value those of rho_settings_default.
+ * Constant cost.
+ */
 void rho_settings_preset(struct rho_settings *settings, enum rho_preset preset);
 
 /*
- * Looks whether all fields are finite and within their ranges.
- *   fault  filled with the first field that is not; unchanged where all are; may be NULL
+ * Checks that all fields of the settings are finite and within their ranges.
+ *   fault  filled with the first field that is refused; unchanged where none is; may be NULL
  * Errors: NULL (settings), CONFIG. Constant cost.
  */
 RHO_MUST_CHECK enum rho_status rho_settings_check(const struct rho_settings *settings,
                                                   struct rho_settings_fault *fault);
 
 /*
- * Puts the settings into configs that their rho_..._config_default has filled; NULL: that config is
- * not wanted. The settings are not checked.
+ * Puts the settings into the configs of tracker and initiators, which their
+ * rho_..._config_default has filled; a config may be NULL. The settings are not checked.
  *   tracker    v_min, v_max, accel_max, pd, coast_scans_max, work_max; late_max_s becomes two scan
  *              intervals, at most 60 s
  *   initiator  v_min, v_max, pd, false_tracks_per_hour, scans, min_scans, work_max, area; turn_mps2
@@ -230,7 +240,7 @@ void rho_settings_apply(const struct rho_settings *settings, struct rho_tracker_
  */
 void rho_settings_apply_sensor(const struct rho_settings *settings, struct rho_sensor *sensor);
 
-/* Puts the four sigmas into a polar plot; its other fields are the caller's. Constant cost. */
+/* Puts the four sigmas of the settings into a polar plot; its other fields stay. Constant cost. */
 void rho_settings_apply_noise(const struct rho_settings *settings, struct rho_polar_plot *plot);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * snapshot: objects as one image of bytes, and back: a node that restarts goes on with its tracks
- * and with all that it has learned.
+ * snapshot: saves objects as one image of bytes, and loads them again: a node that restarts goes on
+ * with its tracks and with all that it has learned.
  *
  *     struct rho_snapshot_part parts[] = {
  *         {.kind = RHO_SNAPSHOT_TRACKER, .object = &tracker, .size = sizeof tracker},
@@ -33,18 +33,18 @@
  * be initialised before it is loaded. It is taken between any two steps; later steps give the same
  * bytes as without it. Scan assembly is not part of it: scans that were still open are lost.
  *
- *   header    magic, format's version, layout, size of the image, number of parts; each part's
+ *   header    magic, version of the format, layout, size of the image, number of parts; each part's
  *             kind, id and size
- *   objects   as they are in memory, each on 8 bytes
- *   checksum  CRC-32 of all before
+ *   objects   as they are in memory, each aligned to 8 bytes
+ *   checksum  CRC-32 of all bytes before it
  *
  * `layout` stands for everything that two builds must agree on: byte order, capacities, options,
  * sizes and places of fields. An image of another build is refused, and so is an image that was not
- * written to its end, or between whose pieces a step was made: two areas, written in turn, survive
- * a power cut. The checksum finds damage, not intent: whoever can write the flash can write any
- * image. So an image's objects are checked (rho_tracker_is_sound and its like) before they are
- * used: none leads outside of its objects or into an endless loop. Whether their numbers are true
- * is not checked.
+ * written to its end, or was written in pieces with a step between: two areas of flash, written in
+ * turn, survive a power cut. The checksum finds damage, not intent: whoever can write the flash can
+ * write any image. So an image's objects are checked (rho_tracker_is_sound and its like) before
+ * they are used: no index leads outside of them, and no loop is endless. Whether their numbers are
+ * right is not checked.
  *
  * Stack: 130 bytes at most where nothing else is said.
  */
@@ -60,32 +60,41 @@
 extern "C" {
 #endif
 
-/* Goes up where fields of the objects change their meaning and not their place. */
+/*
+ * Version of the image's contents: goes up where fields of the objects change their meaning and not
+ * their place.
+ */
 #define RHO_SNAPSHOT_VERSION 1
 
-/* The image that is loaded begins on a multiple of so many bytes. */
+/* Alignment in memory, in bytes, of an image that rho_snapshot_load reads. */
 #define RHO_SNAPSHOT_ALIGNMENT 8
 
 enum rho_snapshot_kind {
     RHO_SNAPSHOT_TRACKER = 1, /* struct rho_tracker */
-    RHO_SNAPSHOT_INITIATOR,   /* struct rho_initiator: with its window and its maps of clutter */
+    RHO_SNAPSHOT_INITIATOR,   /* struct rho_initiator, with its window and density maps */
     RHO_SNAPSHOT_PASSIVE,     /* struct rho_passive */
-    RHO_SNAPSHOT_SETTINGS,    /* struct rho_settings: sound where rho_settings_check accepts them */
-    /* struct rho_clutter_map, of a tracker: the places that it has learned; not with RHO_MAX_ECHOES
-     * 0 */
+    /* struct rho_settings: consistent where rho_settings_check accepts them */
+    RHO_SNAPSHOT_SETTINGS,
+    /* struct rho_clutter_map of a tracker, with the echoes learned; not with RHO_MAX_ECHOES 0 */
     RHO_SNAPSHOT_CLUTTER_MAP,
     RHO_SNAPSHOT_REFLECTORS, /* struct rho_reflector_learning; not with RHO_MAX_REFLECTORS 0 */
 };
 
-/* An object of the caller. */
+/* A part of an image: an object of the caller. */
 struct rho_snapshot_part {
     enum rho_snapshot_kind kind;
-    int32_t id; /* the caller's: distinguishes objects of a kind, as an initiator's sensor_id */
+    /*
+     * chosen by the caller, to tell objects of a kind apart: an initiator's sensor_id, for example
+     */
+    int32_t id;
     void *object;
     size_t size; /* sizeof(object) of the caller */
 };
 
-/* Bytes of the image of such parts; 0: some are not to be had (kind, size). Cost: num_parts. */
+/*
+ * Size in bytes of an image of these parts; 0 where a part's kind or size is not the library's.
+ * Cost: num_parts.
+ */
 size_t rho_snapshot_size(const struct rho_snapshot_part *parts, unsigned num_parts);
 
 /*
@@ -102,10 +111,10 @@ RHO_MUST_CHECK enum rho_status rho_snapshot_save(const struct rho_snapshot_part 
                                                  size_t size, size_t *length);
 
 /*
- * Takes an image over into the parts' objects, which may hold anything. The parts are those of the
- * image: as many, in their order, with the same kinds and ids (rho_snapshot_list tells them).
- *   image  in memory that can be read as any other, on RHO_SNAPSHOT_ALIGNMENT; bytes behind the
- *          image are ignored
+ * Loads an image into the parts' objects, whatever these held before. Number, order, kinds and ids
+ * of the parts must be the image's (rho_snapshot_list tells them).
+ *   image  in addressable memory, aligned to RHO_SNAPSHOT_ALIGNMENT; bytes behind the image are
+ *          ignored
  * Errors: NULL, SIZE (of another build; or a part's size is not the library's), VALUE (the image is
  * not aligned; the checksum; contents that are no object's), SHORT (it ends too early), TYPE (no
  * image, or of another version), COUNT (other parts than the image's). Nothing is changed. Cost: as
@@ -115,28 +124,28 @@ RHO_MUST_CHECK enum rho_status rho_snapshot_load(const struct rho_snapshot_part 
                                                  unsigned num_parts, const void *image,
                                                  size_t size);
 
-/* An image that comes in pieces. */
+/* A loader of an image that comes in pieces, and goes by RHO_SNAPSHOT_PASSES times. */
 #define RHO_SNAPSHOT_PASSES 2
 struct rho_snapshot_loader {
     const struct rho_snapshot_part *parts;
     unsigned num_parts;
-    uint32_t at; /* bytes of the image that this pass has taken */
+    uint32_t at; /* bytes of the image taken in this pass */
     uint32_t crc;
-    uint32_t
-        passes; /* so far; RHO_SNAPSHOT_PASSES: the parts are loaded. More: the image was refused */
+    /* passes ended. RHO_SNAPSHOT_PASSES: the parts are loaded. More: the image was refused */
+    uint32_t passes;
 };
 
 /*
- * Begins to load; the parts are kept by their address. Errors: NULL, SIZE, VALUE, as
- * rho_snapshot_save.
+ * Begins to load an image in pieces. The loader keeps the address of `parts`. Errors: NULL, SIZE,
+ * VALUE, as rho_snapshot_save.
  */
 RHO_MUST_CHECK enum rho_status rho_snapshot_begin(struct rho_snapshot_loader *loader,
                                                   const struct rho_snapshot_part *parts,
                                                   unsigned num_parts);
 
 /*
- * Takes the image's next bytes, from memory that is not read as other memory is. All of the image
- * goes by twice: first it is checked, then taken over.
+ * Takes the next bytes of an image in memory that cannot be addressed (NVRAM, a file). The whole
+ * image goes by twice: the first pass checks it, the second one copies it to the parts.
  *
  *     for (pass = 0; pass < RHO_SNAPSHOT_PASSES; pass++) {
  *         for (at = 0; at < all && status == RHO_OK; at += sizeof page) {
@@ -145,8 +154,7 @@ RHO_MUST_CHECK enum rho_status rho_snapshot_begin(struct rho_snapshot_loader *lo
  *         }
  *     }
  *
- * With the last byte of a pass the next one begins; the rest of the piece is ignored. The
- * pieces may have any size.
+ * The last byte of a pass ends it; the rest of that piece is ignored. Pieces may have any size.
  * Errors: NULL, STATE (not begun, loaded, or refused before), and those of rho_snapshot_load. An
  * error in the first pass, which finds all damage, changes nothing. An error that only the second
  * can find (contents that are no object's, bytes that are others when they are read again) leaves
@@ -157,9 +165,9 @@ RHO_MUST_CHECK enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loa
                                                  const uint8_t *bytes, size_t size);
 
 /*
- * Says what an image holds: fills kind, id and size of up to max_parts parts, their objects are
- * left alone. *num_parts: how many the image has. Errors: those of rho_snapshot_load up to the
- * checksum. Cost: the checksum.
+ * Lists the parts of an image: fills kind, id and size of up to max_parts parts; their pointers
+ * stay. Sets *num_parts to the number of parts in the image. Errors: those of rho_snapshot_load up
+ * to the checksum. Cost: the checksum.
  */
 RHO_MUST_CHECK enum rho_status rho_snapshot_list(const void *image, size_t size,
                                                  struct rho_snapshot_part *parts,

@@ -79,17 +79,17 @@ enum rho_status {
     RHO_ERROR_NULL, /* a pointer that must point somewhere is NULL */
     /* sizeof(object) differs: library and caller were built with other capacities */
     RHO_ERROR_SIZE,
-    RHO_ERROR_CONFIG,   /* a parameter is outside its range */
-    RHO_ERROR_VALUE,    /* a number is not finite or outside its range */
-    RHO_ERROR_CAPACITY, /* more than a RHO_MAX_... allows */
-    RHO_ERROR_SINGULAR, /* a matrix is not positive definite */
+    RHO_ERROR_CONFIG,   /* a parameter of a configuration is outside its range */
+    RHO_ERROR_VALUE,    /* a number of an input is not finite or outside its range */
+    RHO_ERROR_CAPACITY, /* an input has more elements than a RHO_MAX_... of the build holds */
+    RHO_ERROR_SINGULAR, /* a matrix that must be positive definite is not */
     RHO_ERROR_STATE,    /* the object was never initialised, or does not have the thing asked for */
-    /* decoding of a message: */
+    /* errors of decoding a message: */
     RHO_ERROR_SHORT,    /* the bytes end too early */
     RHO_ERROR_TYPE,     /* the fingerprint differs: another message, or another version of it */
     RHO_ERROR_COUNT,    /* the count of a list is negative, or more than the message may hold */
     RHO_ERROR_TRAILING, /* bytes follow the end of the message */
-    RHO_NUM_STATUS      /* count of the values above, not an outcome */
+    RHO_NUM_STATUS      /* number of outcomes, not an outcome */
 };
 
 /*
@@ -103,16 +103,16 @@ const char *rho_status_name(enum rho_status status);
 #define RHO_LIMIT_SPEED_MPS 2.0e4f
 #define RHO_LIMIT_SIGMA_MIN 1.0e-3f
 #define RHO_LIMIT_SIGMA_MAX 1.0e5f
-#define RHO_LIMIT_SIGMA_RAD_MIN 1.0e-6f /* of an angle */
+#define RHO_LIMIT_SIGMA_RAD_MIN 1.0e-6f /* standard deviation of an angle */
 #define RHO_LIMIT_SIGMA_RAD_MAX 0.5f
-#define RHO_LIMIT_WORK 100000000 /* of a step, units */
-#define RHO_LIMIT_BIAS_M 1.0e4f  /* of a sensor, either way */
+#define RHO_LIMIT_WORK 100000000 /* limit of the work of a step, units */
+#define RHO_LIMIT_BIAS_M 1.0e4f  /* bias of a sensor, either way */
 #define RHO_LIMIT_BIAS_RAD 0.5f
 #define RHO_LIMIT_BIAS_S 10.0f
-#define RHO_LIMIT_SPAN_MIN_MPS 1.0f /* of ambiguous range rates */
+#define RHO_LIMIT_SPAN_MIN_MPS 1.0f /* span of ambiguous range rates */
 #define RHO_LIMIT_SPAN_MAX_MPS (2.0f * RHO_LIMIT_SPEED_MPS)
-#define RHO_LIMIT_OFFSET_US 60000000 /* a plot's own time from its scan's */
-/* either side of 0; differences then fit 64 bits */
+#define RHO_LIMIT_OFFSET_US 60000000 /* time of a plot before or after its scan's */
+/* times either side of 0; their differences fit 64 bits */
 #define RHO_LIMIT_TIME_US INT64_C(4000000000000000000)
 
 /* Quantities that plots of a scan measure besides x_m and y_m; values to be or-ed. */
@@ -131,11 +131,12 @@ struct rho_plot {
     int32_t offset_us; /* time of this plot after the scan's time: a rotating antenna's delay */
     float x_m, y_m, z_m;
     float vx_mps, vy_mps, vz_mps;
-    float range_rate_mps; /* positive: receding; its sensor's span says whether it is ambiguous */
+    /* positive: receding. Ambiguous where the sensor's range_rate_span_mps is not 0 */
+    float range_rate_mps;
     float sigma_range_m, sigma_cross_m, sigma_up_m;
-    float sigma_mps; /* of each velocity component */
+    float sigma_mps; /* standard deviation of each velocity component */
     float sigma_range_rate_mps;
-    float snr_db; /* 0 where unknown; passed on, not used */
+    float snr_db; /* signal-to-noise ratio, 0 where unknown; passed on, not used */
 };
 
 /*
@@ -143,7 +144,7 @@ struct rho_plot {
  * the scan does not measure are ignored and may hold anything.
  */
 struct rho_polar_plot {
-    int32_t offset_us;   /* as above */
+    int32_t offset_us;   /* time of this plot after the scan's time: a rotating antenna's delay */
     float range_m;       /* slant range; without elevation it is taken as ground range */
     float azimuth_rad;   /* counter-clockwise from +x, -pi .. pi */
     float elevation_rad; /* with RHO_MEASURES_Z: up from the horizontal, -pi/2 .. pi/2 */
@@ -159,19 +160,19 @@ struct rho_polar_plot {
 struct rho_scan {
     int64_t time_us;
     int32_t sensor_id;
-    uint32_t measures; /* RHO_MEASURES_... */
-    /* counter-clockwise from .. to; equal: the whole circle */
+    uint32_t measures; /* quantities measured besides x_m and y_m: RHO_MEASURES_... or-ed */
+    /* covered sector, counter-clockwise from .. to; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
     uint32_t num_plots;
-    const struct rho_plot *plots; /* num_plots of them; may be NULL for 0 */
+    const struct rho_plot *plots; /* num_plots plots; may be NULL for 0 */
 };
 
 /* One bearing of a sensor that measures nothing else. */
 struct rho_bearing {
     int32_t offset_us; /* time of this bearing after the scan's time */
     float bearing_rad; /* from the sensor to the target, -pi .. pi */
-    float sigma_rad;   /* RHO_LIMIT_SIGMA_RAD_MIN .. RHO_LIMIT_SIGMA_RAD_MAX */
-    float snr_db;      /* 0 where unknown; passed on, not used */
+    float sigma_rad;   /* standard deviation, RHO_LIMIT_SIGMA_RAD_MIN .. RHO_LIMIT_SIGMA_RAD_MAX */
+    float snr_db;      /* signal-to-noise ratio, 0 where unknown; passed on, not used */
 };
 
 /* One look of one passive sensor. The bearings belong to the caller and are only read. */
@@ -179,17 +180,17 @@ struct rho_bearing_scan {
     int64_t time_us;
     int32_t sensor_id;
     float x_m, y_m; /* position of the sensor, the same at every look */
-    /* counter-clockwise from .. to; equal: the whole circle */
+    /* covered sector, counter-clockwise from .. to; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
     uint32_t num_bearings;
-    const struct rho_bearing *bearings; /* num_bearings of them; may be NULL for 0 */
+    const struct rho_bearing *bearings; /* num_bearings bearings; may be NULL for 0 */
 };
 
 /* Scans of several passive sensors at one time. */
 struct rho_frame {
     int64_t time_us;
     uint32_t num_scans;
-    const struct rho_bearing_scan *scans; /* one a sensor at most */
+    const struct rho_bearing_scan *scans; /* num_scans scans, one a sensor at most */
 };
 
 /*
@@ -201,10 +202,10 @@ struct rho_sensor {
     /* probability that a target in the coverage yields a plot, 0 < pd < 1 */
     float pd;
     /*
-     * plots more than 4 standard deviations outside of these limits are INVALID; targets outside
-     * are neither seen nor missed
+     * range limits: plots more than 4 standard deviations outside are INVALID; targets outside are
+     * neither seen nor missed
      */
-    float range_min_m; /* 0: none */
+    float range_min_m; /* 0: no lower limit */
     float range_max_m;
     /* azimuths of the coverage; equal: the whole circle */
     float sector_from_rad, sector_to_rad;
@@ -216,26 +217,27 @@ struct rho_sensor {
     float range_bias_m, azimuth_bias_rad, time_bias_s;
     /*
      * per cent of the plots' sigmas that count, along the line of sight and across it; 0 counts as
-     * 100. The tracker overwrites both: by the noise that it has learned, and by sensor health. A
-     * build with neither (RHO_SIGMAS_VARY) does not read them
+     * 100. The tracker overwrites both by the noise that it has learned, and by sensor health. A
+     * build without RHO_SIGMAS_VARY does not read them
      */
     uint16_t sigma_range_percent, sigma_cross_percent;
     /*
-     * range rates are known up to multiples of this, within +-span/2 or anywhere; 0: they are not
-     * ambiguous, and no other value is accepted without RHO_AMBIGUOUS_RANGE_RATES
+     * ambiguity span: range rates are known up to multiples of it, within +-span/2 or anywhere. 0:
+     * they are not ambiguous, the only value that a build without RHO_AMBIGUOUS_RANGE_RATES accepts
      */
     float range_rate_span_mps;
     /*
-     * the sensor is blind to targets whose range rate over ground is within notch_mps of 0, or of a
-     * multiple of blind_speed_mps (more than twice notch_mps, or 0: of 0 alone), as a filter
-     * against clutter makes it: misses there say little. 0: it is not. A build without
-     * RHO_DOPPLER_NOTCH does not read them
+     * blind range rates of a clutter filter: a target whose range rate over ground is within
+     * notch_mps of 0, or of a multiple of blind_speed_mps, is not seen, and its misses there say
+     * little. blind_speed_mps is more than twice notch_mps, or 0: only the notch at 0. notch_mps 0:
+     * no blind range rates. A build without RHO_DOPPLER_NOTCH does not read them
      */
     float notch_mps, blind_speed_mps;
     /*
-     * its resolution cell: two targets that are nearer than that in all three give one plot. Those
-     * in range and azimuth are learned where they are 0 (gate best); with a range rate of 0 that
-     * does not tell targets apart. A build without RHO_SHARES_PLOTS does not read them
+     * resolution cell of the sensor: two targets nearer to each other than this in range, azimuth
+     * and range rate give one plot. Range and azimuth resolution are learned where they are 0 (gate
+     * best); with 0 the range rate does not tell targets apart. A build without RHO_SHARES_PLOTS
+     * does not read them
      */
     float resolution_range_m, resolution_azimuth_rad, resolution_range_rate_mps;
 };
@@ -245,16 +247,16 @@ enum rho_fate {
     RHO_FATE_CLAIMED = 0, /* updated a track */
     RHO_FATE_HELD,        /* kept for initiation; may start a track now or later */
     /*
-     * a bearing with false crossings alone; kept, as the other sensors may have missed its target.
-     * Or a plot where a wall would show the image of a track (reflectors.h), or in an excluded
-     * area (operator.h)
+     * a bearing whose crossings are all false; kept, as the other sensors may have missed its
+     * target. Or a plot that starts no track: where a wall would show the image of a track
+     * (reflectors.h), or in an excluded area (operator.h)
      */
     RHO_FATE_GHOST,
     RHO_FATE_STALE, /* its scan is older than the scans that were already processed */
-    /* not finite, or outside the limits above, the range limits or the sector of its sensor */
+    /* not finite, or outside the RHO_LIMIT_..., or the range limits or the sector of its sensor */
     RHO_FATE_INVALID,
-    RHO_FATE_NO_ROOM, /* beyond a capacity */
-    RHO_NUM_FATES     /* count of the values above, not a fate */
+    RHO_FATE_NO_ROOM, /* beyond a capacity of the build */
+    RHO_NUM_FATES     /* number of fates, not a fate */
 };
 
 /*
@@ -263,7 +265,9 @@ enum rho_fate {
  */
 const char *rho_fate_name(enum rho_fate fate);
 
-/* One number for a plot's noise: the larger of its horizontal sigmas. Constant cost. */
+/*
+ * The larger of a plot's horizontal sigmas, where one number must do for its noise. Constant cost.
+ */
 float rho_plot_sigma_m(const struct rho_plot *plot);
 
 /*
@@ -285,32 +289,37 @@ RHO_MUST_CHECK enum rho_status rho_measurement_from_polar(const struct rho_polar
                                                           const struct rho_sensor *sensor,
                                                           struct rho_plot *plot);
 
-/* a + n, saturating at UINT32_MAX, as every counter of the library does. Constant cost. */
+/*
+ * The sum of a counter and n, saturating at UINT32_MAX, as every counter of the library does.
+ * Constant cost.
+ */
 static inline uint32_t rho_count(uint32_t counter, uint32_t n)
 {
     uint32_t sum = counter + n;
     return sum < n ? UINT32_MAX : sum;
 }
 
-/* Bits that are set in a mask of scans. */
+/* Number of bits that are set in a mask of scans. */
 unsigned rho_count_bits(uint32_t mask);
 
 /*
- * Seconds from one time to another, any two. Spans up to 2^24 us are rounded once; beyond, the
+ * Seconds from from_us to to_us, any two times. Spans up to 2^24 us are rounded once; beyond, the
  * relative error is 1.2e-7.
  */
 float rho_seconds_between(int64_t from_us, int64_t to_us);
 
-/* Microseconds from then to now, any two times; 0 where then is not before now. */
+/* Microseconds from then_us to now_us, any two times; 0 where then_us is not before now_us. */
 uint64_t rho_elapsed_us(int64_t now_us, int64_t then_us);
 
 /* True where v is finite and lo <= v <= hi; false for NaN. */
 int rho_is_within(float v, float lo, float hi);
 
-/* True where `count` numbers are finite. */
+/* True where all `count` values are finite. */
 int rho_are_finite(const float *values, size_t count);
 
-/* True where an object may hold this time: within RHO_LIMIT_TIME_US, plus offsets of plots. */
+/*
+ * True where an object may hold this time: within RHO_LIMIT_TIME_US, or beyond by a plot's offset.
+ */
 int rho_is_stored_time(int64_t time_us);
 
 /* True where a coordinate is finite and within RHO_LIMIT_POSITION_M either way. */

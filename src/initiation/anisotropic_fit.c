@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * anisotropic_fit: a straight or turning track through plots with their own covariances, heights
- * and range rates, the plot nearest to it, and the likelihood of the set.
+ * anisotropic_fit: least-squares fit of a straight or turning track to plots that have covariances,
+ * heights and range rates of their own; the plot of a scan nearest to the track; and the likelihood
+ * of a set of plots.
  */
 #include <float.h>
 #include <string.h>
@@ -10,10 +11,15 @@
 #include "rhotrack/detail/linalg.h"
 #include "search.h"
 
-#define ROWS_MAX (3 + 1)         /* along, cross, up, range rate */
-#define UNKNOWNS_MAX (3 + 3 + 2) /* place and velocity, acceleration in the plane */
+/* most equations of a plot: position along, across and above the line of sight; range rate */
+#define ROWS_MAX (3 + 1)
+/* most unknowns of a fit: position and velocity in x, y, z; acceleration in x, y */
+#define UNKNOWNS_MAX (3 + 3 + 2)
 
-/* The plot of scan m nearest to a fitted track; -1: none. factor widens the gate's covariance. */
+/*
+ * Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none. `factor`
+ * widens the gate's covariance.
+ */
 int rho_initiator_nearest_anisotropic(struct search *search, const struct line_fit *fit,
                                       float factor, unsigned m)
 {
@@ -41,46 +47,47 @@ int rho_initiator_nearest_anisotropic(struct search *search, const struct line_f
 /* ---- regression ------------------------------------------------------------------------------ */
 
 /*
- * A track through a set of plots. Position and velocity are the unknowns, and the acceleration of
- * turning targets. Each plot gives a row along every axis of its noise, and one for its range rate,
- * linearised at the fit of the positions alone. Times count from the middle in units of `unit_s`,
- * positions from the middle plot, so that the unknowns have similar sizes.
+ * Regression of a track through a set of plots. Position and velocity are the unknowns, and the
+ * acceleration of turning targets. Each plot gives an equation for every axis of its noise, and one
+ * for its range rate, linearised at the fit of the positions alone. Times count from the middle of
+ * the set in units of `unit_s`, positions from the middle plot, so that the unknowns have similar
+ * sizes.
  */
 struct regression {
     const struct search *search;
     const struct plot_set *set;
-    int axes; /* 2, or 3 where heights count */
+    int axes; /* dimensions of position: 2, or 3 where two plots or more have heights */
     int unknowns;
     float middle_s, unit_s;
     float origin_m[3];
-    int has_point; /* the unknowns below were found: range rates can be linearised there */
+    int has_point; /* `unknown` holds a solution, at which range rates can be linearised */
     /*
-     * position, then velocity times unit_s, `axes` each; then acceleration times unit_s^2, 2 where
-     * sets turn
+     * solution: position in `axes` components; velocity times unit_s in as many; and for turning
+     * sets the acceleration times unit_s^2 in x and y
      */
     float unknown[UNKNOWNS_MAX];
     float factor[RHO_TRIANGLE(UNKNOWNS_MAX)]; /* Cholesky factor of the normal equations */
 };
 
-/* One scalar equation: row . unknown = value + noise. */
+/* One scalar equation of the regression: row . unknown = value + noise. */
 struct equation {
     float row[UNKNOWNS_MAX];
     float value, variance;
 };
 
-static const struct rho_window_scan *scan_of(const struct regression *of, unsigned m)
+static const struct rho_window_scan *scan_of_regression(const struct regression *of, unsigned m)
 {
     return rho_window_scan_at(&of->search->initiator->window, m);
 }
 
-static float time_of(const struct regression *of, unsigned m)
+static float scaled_plot_time(const struct regression *of, unsigned m)
 {
     float t_s = rho_initiator_plot_time_s(of->search, of->set, m);
     return (t_s - of->middle_s) / of->unit_s;
 }
 
-static void add_axis(const struct regression *of, const float axis[3], float time,
-                     const float place_m[3], float variance, struct equation *equation)
+static void make_axis_equation(const struct regression *of, const float axis[3], float time,
+                               const float place_m[3], float variance, struct equation *equation)
 {
     *equation = (struct equation){.variance = variance + of->search->fit_process_m2};
     for (int i = 0; i < of->axes; i++) {
@@ -93,9 +100,10 @@ static void add_axis(const struct regression *of, const float axis[3], float tim
     }
 }
 
-static int place_equations(const struct regression *of, unsigned m, struct equation *equations)
+static int make_position_equations(const struct regression *of, unsigned m,
+                                   struct equation *equations)
 {
-    const struct rho_window_scan *scan = scan_of(of, m);
+    const struct rho_window_scan *scan = scan_of_regression(of, m);
     struct rho_plot plot = rho_window_plot_of(scan, of->set->plot[m]);
     struct rho_measurement seen;
     rho_measurement_open(&plot, of->axes == 3 ? scan->measures : 0u, &scan->sensor, &seen);
@@ -104,16 +112,18 @@ static int place_equations(const struct regression *of, unsigned m, struct equat
     const float axes[3][3] = {{ce * ca, ce * sa, se}, {-sa, ca, 0.0f}, {-se * ca, -se * sa, ce}};
     int count = seen.has_z ? 3 : 2;
     for (int i = 0; i < count; i++) {
-        add_axis(of, axes[i], time_of(of, m), seen.place_m, seen.variance_m2[i], &equations[i]);
+        make_axis_equation(of, axes[i], scaled_plot_time(of, m), seen.place_m, seen.variance_m2[i],
+                           &equations[i]);
     }
     return count;
 }
 
-static int range_rate_equation(const struct regression *of, unsigned m, struct equation *equation)
+static int make_range_rate_equation(const struct regression *of, unsigned m,
+                                    struct equation *equation)
 {
-    const struct rho_window_scan *scan = scan_of(of, m);
+    const struct rho_window_scan *scan = scan_of_regression(of, m);
     const struct rho_window_plot *plot = &scan->plots[of->set->plot[m]];
-    float state[6] = {0.0f}, derivative[6], rate_mps, time = time_of(of, m);
+    float state[6] = {0.0f}, derivative[6], rate_mps, time = scaled_plot_time(of, m);
     if (!of->has_point || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 0;
     }
@@ -145,13 +155,14 @@ static int range_rate_equation(const struct regression *of, unsigned m, struct e
     return 1;
 }
 
-static int equations_of(const struct regression *of, unsigned m, struct equation *equations)
+static int make_plot_equations(const struct regression *of, unsigned m, struct equation *equations)
 {
-    int count = place_equations(of, m, equations);
-    return count + range_rate_equation(of, m, &equations[count]);
+    int count = make_position_equations(of, m, equations);
+    return count + make_range_rate_equation(of, m, &equations[count]);
 }
 
-static void add_equation(const struct equation *equation, int unknowns, float *normal, float *right)
+static void add_to_normal_equations(const struct equation *equation, int unknowns, float *normal,
+                                    float *right)
 {
     float weight = 1.0f / equation->variance;
     for (int i = 0; i < unknowns; i++) {
@@ -163,36 +174,39 @@ static void add_equation(const struct equation *equation, int unknowns, float *n
     }
 }
 
-/* Prior variance of an acceleration, in the units of the unknowns. */
-static float acceleration_variance(const struct regression *of)
+/* Prior variance of an acceleration component, in the units of the regression's unknowns. */
+static float acceleration_prior_variance(const struct regression *of)
 {
     float turn_m = of->search->turn_mps2 * of->unit_s * of->unit_s;
     return turn_m * turn_m;
 }
 
-/* Units of a regression for each of its plots, beyond those of an isotropic fit. */
+/* Units of work that a regression charges for each plot, beyond those of an isotropic fit. */
 #define SOLVE_UNITS 50u
 
-/* Solves for the unknowns. 0 where the plots do not determine them. */
+/*
+ * Solves the normal equations of the set's plots. Returns 0 where the plots do not determine the
+ * unknowns.
+ */
 static int solve_unknowns(struct regression *of)
 {
     rho_initiator_charge(of->search, SOLVE_UNITS * rho_count_bits(of->set->mask));
-    float *normal = of->factor, right[UNKNOWNS_MAX] = {0.0f}; /* the factor takes its place */
+    float *normal = of->factor, right[UNKNOWNS_MAX] = {0.0f}; /* `normal` is factorised in place */
     const int unknowns = of->unknowns;
     for (int i = 0; i < RHO_TRIANGLE(UNKNOWNS_MAX); i++) {
         normal[i] = 0.0f;
     }
     for (int i = 2 * of->axes; i < unknowns; i++) {
-        normal[RHO_AT(i, i)] = 1.0f / acceleration_variance(of);
+        normal[RHO_AT(i, i)] = 1.0f / acceleration_prior_variance(of);
     }
     for (unsigned m = 0; m < of->search->num_scans; m++) {
         struct equation equations[ROWS_MAX];
         if (!(of->set->mask >> m & 1u)) {
             continue;
         }
-        int count = equations_of(of, m, equations);
+        int count = make_plot_equations(of, m, equations);
         for (int i = 0; i < count; i++) {
-            add_equation(&equations[i], unknowns, normal, right);
+            add_to_normal_equations(&equations[i], unknowns, normal, right);
         }
     }
     if (rho_linalg_cholesky(unknowns, normal, normal) != RHO_OK) {
@@ -207,10 +221,10 @@ static int solve_unknowns(struct regression *of)
 }
 
 /*
- * Sets the unknowns and their units. Returns the rounds: 2 with range rates; 0 where all plots have
- * one time.
+ * Sets the number of unknowns, the origin and the units of a regression. Returns the number of
+ * solutions to make: 2 with range rates, 1 without, 0 where all plots have one time.
  */
-static int choose_unknowns(struct regression *of)
+static int set_up_regression(struct regression *of)
 {
     const struct search *search = of->search;
     float first_s = 0.0f, last_s = 0.0f;
@@ -222,10 +236,11 @@ static int choose_unknowns(struct regression *of)
         float t_s = rho_initiator_plot_time_s(search, of->set, m);
         first_s = seen == 0 || t_s < first_s ? t_s : first_s;
         last_s = seen == 0 || t_s > last_s ? t_s : last_s;
-        heights += (scan_of(of, m)->measures & RHO_MEASURES_Z) != 0;
-        range_rates += (scan_of(of, m)->measures & RHO_MEASURES_RANGE_RATE) != 0;
+        heights += (scan_of_regression(of, m)->measures & RHO_MEASURES_Z) != 0;
+        range_rates += (scan_of_regression(of, m)->measures & RHO_MEASURES_RANGE_RATE) != 0;
         if (seen++ <= of->set->hits / 2u) {
-            const struct rho_window_plot *plot = &scan_of(of, m)->plots[of->set->plot[m]];
+            const struct rho_window_plot *plot =
+                &scan_of_regression(of, m)->plots[of->set->plot[m]];
             of->origin_m[0] = plot->x_m;
             of->origin_m[1] = plot->y_m;
             of->origin_m[2] = plot->z_m;
@@ -238,7 +253,7 @@ static int choose_unknowns(struct regression *of)
     return of->unit_s > 0.0f ? range_rates > 0 ? 2 : 1 : 0;
 }
 
-static float residual2(const struct regression *of, const struct equation *equation)
+static float normalised_residual2(const struct regression *of, const struct equation *equation)
 {
     float residual = equation->value;
     for (int i = 0; i < of->unknowns; i++) {
@@ -247,26 +262,29 @@ static float residual2(const struct regression *of, const struct equation *equat
     return residual * residual / equation->variance;
 }
 
-/* chi2 of the fitted acceleration against its prior. */
+/* Chi-square of the fitted acceleration against its prior. */
 static float acceleration_chi2(const struct regression *of)
 {
     float sum = 0.0f;
     for (int i = 2 * of->axes; i < of->unknowns; i++) {
-        sum += of->unknown[i] * of->unknown[i] / acceleration_variance(of);
+        sum += of->unknown[i] * of->unknown[i] / acceleration_prior_variance(of);
     }
     return sum;
 }
 
 /* ---- ambiguous range rates ------------------------------------------------------------------- */
 
-/* The scan whose range rate has the fewest aliases; RHO_MAX_SCANS where none is ambiguous. */
-static unsigned scan_with_widest_span(const struct regression *of)
+/*
+ * The scan of the set whose range rate has the widest ambiguity span, so the fewest aliases;
+ * RHO_MAX_SCANS where no range rate is ambiguous.
+ */
+static unsigned scan_with_widest_ambiguity_span(const struct regression *of)
 {
     unsigned widest = RHO_MAX_SCANS;
     float most_mps = 0.0f;
     int is_ambiguous = 0;
     for (unsigned m = 0; m < of->search->num_scans; m++) {
-        const struct rho_window_scan *scan = scan_of(of, m);
+        const struct rho_window_scan *scan = scan_of_regression(of, m);
         if (!(of->set->mask >> m & 1u) || !(scan->measures & RHO_MEASURES_RANGE_RATE)) {
             continue;
         }
@@ -281,20 +299,24 @@ static unsigned scan_with_widest_span(const struct regression *of)
     return is_ambiguous ? widest : RHO_MAX_SCANS;
 }
 
-/* One range rate against the fit of the positions: innovation, its variance, and its gain. */
+/*
+ * One range rate against the fit of the positions: innovation, ambiguity span, variance of the
+ * innovation, and Kalman gain.
+ */
 struct first_rate {
     float error_mps, span_mps, variance;
     float gain[UNKNOWNS_MAX];
 };
 
-static int predict_rate(const struct regression *of, unsigned m, struct first_rate *first)
+static int predict_range_rate_innovation(const struct regression *of, unsigned m,
+                                         struct first_rate *first)
 {
     struct equation equation = {.variance = 0.0f};
     const int unknowns = of->unknowns;
-    if (!range_rate_equation(of, m, &equation)) {
+    if (!make_range_rate_equation(of, m, &equation)) {
         return 0;
     }
-    const struct rho_sensor *sensor = &scan_of(of, m)->sensor;
+    const struct rho_sensor *sensor = &scan_of_regression(of, m)->sensor;
     first->span_mps =
         rho_measurement_has_span(sensor) ? sensor->range_rate_span_mps : RHO_LIMIT_SPAN_MAX_MPS;
     first->error_mps = equation.value;
@@ -311,30 +333,33 @@ static int predict_rate(const struct regression *of, unsigned m, struct first_ra
     return 1;
 }
 
-static float chi2_of(const struct regression *of)
+static float chi2_of_fit(const struct regression *of)
 {
     struct equation equations[ROWS_MAX];
     float chi2 = acceleration_chi2(of);
     for (unsigned m = 0; m < of->search->num_scans; m++) {
-        int count = of->set->mask >> m & 1u ? equations_of(of, m, equations) : 0;
+        int count = of->set->mask >> m & 1u ? make_plot_equations(of, m, equations) : 0;
         for (int i = 0; i < count; i++) {
-            chi2 += residual2(of, &equations[i]);
+            chi2 += normalised_residual2(of, &equations[i]);
         }
     }
     return chi2;
 }
 
-/* True where the speed is within v_max. */
-static int is_slow_enough(const struct regression *of)
+/* True where the fitted speed is within v_max. */
+static int is_within_speed_limit(const struct regression *of)
 {
     float v_max_mps = of->search->initiator->config.v_max_mps * of->unit_s;
     const float *v = &of->unknown[of->axes];
     return v[0] * v[0] + v[1] * v[1] <= v_max_mps * v_max_mps;
 }
 
-/* Solves from the fit of the positions, with this innovation of the first range rate. */
-static int solve_with_rate(struct regression *of, const float *places,
-                           const struct first_rate *first, float error_mps)
+/*
+ * Moves the fit of the positions by the gain times this innovation of a range rate, and solves with
+ * all range rates linearised there.
+ */
+static int solve_with_range_rate_alias(struct regression *of, const float *places,
+                                       const struct first_rate *first, float error_mps)
 {
     for (int k = 0; k < of->unknowns; k++) {
         of->unknown[k] = places[k] + first->gain[k] * (error_mps / first->variance);
@@ -343,16 +368,17 @@ static int solve_with_rate(struct regression *of, const float *places,
 }
 
 /*
- * Positions alone leave several aliases. With one alias of one range rate those of the others
- * follow. The fit with the least chi2 is kept; all aliases are equally likely beforehand.
+ * The positions alone leave several aliases of the range rates. An alias of one range rate
+ * determines those of the others. The fit with the least chi-square is kept, as all aliases are
+ * equally likely a priori.
  */
-static int solve_aliases(struct regression *of, unsigned widest)
+static int solve_with_best_alias(struct regression *of, unsigned widest)
 {
     float places[UNKNOWNS_MAX];
     struct first_rate first;
     float least = FLT_MAX, best_mps = 0.0f;
     of->has_point = 1;
-    if (!predict_rate(of, widest, &first)) {
+    if (!predict_range_rate_innovation(of, widest, &first)) {
         return solve_unknowns(of);
     }
     float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * first.variance);
@@ -366,26 +392,31 @@ static int solve_aliases(struct regression *of, unsigned widest)
         if (i != 0 && !(error_mps <= reach_mps && error_mps >= -reach_mps)) {
             continue;
         }
-        if (solve_with_rate(of, places, &first, error_mps) && is_slow_enough(of)) {
-            float chi2 = chi2_of(of);
+        if (solve_with_range_rate_alias(of, places, &first, error_mps) &&
+            is_within_speed_limit(of)) {
+            float chi2 = chi2_of_fit(of);
             if (chi2 < least) {
                 least = chi2;
                 best_mps = error_mps;
             }
         }
     }
-    /* solved once more: to keep the fit of each alias would take half of the stack */
-    return least < FLT_MAX && solve_with_rate(of, places, &first, best_mps);
+    /* the best fit is solved again: keeping the fit of each alias would take half of the stack */
+    return least < FLT_MAX && solve_with_range_rate_alias(of, places, &first, best_mps);
 }
 
-/* Fits the positions first, and where there are range rates again with them. */
-static int regress(struct regression *of)
+/*
+ * Fits the positions, and then positions and range rates together. Returns 0 where the plots do not
+ * determine a track.
+ */
+static int run_regression(struct regression *of)
 {
-    int rounds = choose_unknowns(of);
-    const unsigned widest =
-        RHO_AMBIGUOUS_RANGE_RATES && rounds > 1 ? scan_with_widest_span(of) : RHO_MAX_SCANS;
+    int rounds = set_up_regression(of);
+    const unsigned widest = RHO_AMBIGUOUS_RANGE_RATES && rounds > 1
+                                ? scan_with_widest_ambiguity_span(of)
+                                : RHO_MAX_SCANS;
     if (widest < RHO_MAX_SCANS) {
-        return solve_unknowns(of) && solve_aliases(of, widest);
+        return solve_unknowns(of) && solve_with_best_alias(of, widest);
     }
     for (int i = 0; i < rounds; i++) {
         if (!solve_unknowns(of)) {
@@ -401,7 +432,7 @@ int rho_initiator_fit_anisotropic(const struct search *search, const struct plot
 {
     struct regression of = {.search = search, .set = set};
     float place_m[3] = {0.0f}, velocity_mps[3] = {0.0f}, accel_mps2[2] = {0.0f};
-    if (!regress(&of)) {
+    if (!run_regression(&of)) {
         return 0;
     }
     for (int i = 2 * of.axes; i < of.unknowns; i++) {
@@ -431,8 +462,9 @@ int rho_initiator_fit_anisotropic(const struct search *search, const struct plot
 /* ---- likelihood ------------------------------------------------------------------------------ */
 
 /*
- * ln of the joint density of a set's plots with position and velocity integrated out; heights and
- * range rates over their densities as clutter.
+ * Sets *nat to ln of the joint density of a set's plots, with position and velocity integrated out,
+ * and heights and range rates relative to their density as clutter. Also sets the residual's
+ * chi-square and dimensions. Returns 0 where the plots do not determine a track.
  */
 int rho_initiator_likelihood_anisotropic(const struct search *search, const struct plot_set *set,
                                          struct set_score *score, float *nat)
@@ -440,30 +472,31 @@ int rho_initiator_likelihood_anisotropic(const struct search *search, const stru
     struct regression of = {.search = search, .set = set};
     unsigned rows = 0, heights = 0, range_rates = 0;
     float log_noise = 0.0f, log_aliases = 0.0f;
-    if (!regress(&of)) {
+    if (!run_regression(&of)) {
         return 0;
     }
     score->chi2 = acceleration_chi2(&of);
     for (int i = 2 * of.axes; i < of.unknowns; i++) {
-        log_noise += rho_log(acceleration_variance(&of));
+        log_noise += rho_log(acceleration_prior_variance(&of));
     }
     for (unsigned m = 0; m < search->num_scans; m++) {
         struct equation equations[ROWS_MAX];
         if (!(set->mask >> m & 1u)) {
             continue;
         }
-        unsigned count = (unsigned)equations_of(&of, m, equations);
+        unsigned count = (unsigned)make_plot_equations(&of, m, equations);
         for (unsigned i = 0; i < count; i++) {
-            score->chi2 += residual2(&of, &equations[i]);
+            score->chi2 += normalised_residual2(&of, &equations[i]);
             log_noise += rho_log(equations[i].variance);
         }
         rows += count;
-        unsigned has_z = of.axes == 3 && (scan_of(&of, m)->measures & RHO_MEASURES_Z) ? 1u : 0u;
+        unsigned has_z =
+            of.axes == 3 && (scan_of_regression(&of, m)->measures & RHO_MEASURES_Z) ? 1u : 0u;
         heights += has_z;
         range_rates += count - 2u - has_z;
-        if (rho_measurement_has_span(&scan_of(&of, m)->sensor)) {
+        if (rho_measurement_has_span(&scan_of_regression(&of, m)->sensor)) {
             log_aliases += (float)(count - 2u - has_z) *
-                           rho_measurement_log_aliases(&scan_of(&of, m)->sensor,
+                           rho_measurement_log_aliases(&scan_of_regression(&of, m)->sensor,
                                                        search->initiator->config.v_max_mps);
         }
     }

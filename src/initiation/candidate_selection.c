@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * candidate_selection: the choice among candidates that share plots, and the scores of the chosen
- * ones against clutter without the plots of likely targets.
+ * candidate_selection: chooses among candidate tracks that share plots, and scores the chosen
+ * candidates against clutter that is measured without the plots of likely targets.
  */
 #include "search.h"
 
-/* Plots that two tracks may share: one where they cross. */
+/* Most plots that two accepted candidates may share: one where their tracks cross. */
 #define SHARED_PLOTS_MAX 1u
 
 /* Score from which a candidate is more likely a target than clutter. */
 #define LIKELY_MNAT 0
 
 /*
- * Gate of the second association, when better tracks have taken their plots. It is wider than the
- * gate of the fit, which a neighbour's plots may have biased.
+ * Factor of the gate's variance when a candidate is associated with the plots that better
+ * candidates have left. It is wider than the gate of the fit, as a neighbour's plots may have
+ * biased the fit.
  */
 #define SECOND_GATE_FACTOR 2.5f
 
-/* Units kept for an accepted candidate: a second score, and its place in two sorted lists. */
+/*
+ * Units of work charged for each accepted candidate: its second score, and its moves in two sorts.
+ */
 #define RESCORED_UNITS 100u
 #define SORTED_IN_UNIT 2u
 
@@ -43,7 +46,7 @@ static int conflicts_with_accepted(const struct rho_initiator *initiator, unsign
     return 0;
 }
 
-static void mark_taken_plots(struct search *search, const struct rho_candidate *candidate)
+static void mark_plots_as_taken(struct search *search, const struct rho_candidate *candidate)
 {
     for (unsigned m = 0; m < search->num_scans; m++) {
         if ((unsigned)candidate->mask >> m & 1u) {
@@ -53,7 +56,7 @@ static void mark_taken_plots(struct search *search, const struct rho_candidate *
     }
 }
 
-static void clear_taken_plots(struct search *search)
+static void clear_taken_marks(struct search *search)
 {
     for (unsigned i = 0; i < search->initiator->num_candidates; i++) {
         const struct rho_candidate *candidate = &search->initiator->candidates[i];
@@ -66,8 +69,11 @@ static void clear_taken_plots(struct search *search)
     }
 }
 
-/* Associates a candidate again after better ones have taken their plots. 0: too few are left. */
-static int associate_rest(struct search *search, struct rho_candidate *candidate)
+/*
+ * Associates a candidate with the plots that better candidates have left, and scores it again.
+ * Returns 0 where too few plots are left.
+ */
+static int associate_with_untaken_plots(struct search *search, struct rho_candidate *candidate)
 {
     struct line_fit fit;
     struct plot_set set;
@@ -83,7 +89,7 @@ static int associate_rest(struct search *search, struct rho_candidate *candidate
     return found;
 }
 
-static void bring_best_forward(struct rho_initiator *initiator, unsigned accepted)
+static void move_best_remaining_first(struct rho_initiator *initiator, unsigned accepted)
 {
     struct rho_candidate *list = initiator->candidates;
     unsigned best = accepted;
@@ -97,8 +103,8 @@ static void bring_best_forward(struct rho_initiator *initiator, unsigned accepte
     list[best] = first;
 }
 
-/* Best first; equal scores keep their order. */
-static void sort_candidates(struct rho_initiator *initiator)
+/* Sorts the candidates by descending score; equal scores keep their order. */
+static void sort_candidates_by_score(struct rho_initiator *initiator)
 {
     struct rho_candidate *list = initiator->candidates;
     for (unsigned i = 1; i < initiator->num_candidates; i++) {
@@ -113,9 +119,10 @@ static void sort_candidates(struct rho_initiator *initiator)
 }
 
 /*
- * Charges the least cost of the next choice. Drops the rest and returns 0 where the work is spent.
+ * Charges the least work of the next choice. Where the work is spent, drops all candidates that are
+ * not accepted yet and returns 0.
  */
-static int charge_choice(struct search *search, unsigned accepted)
+static int charge_choice_or_drop_rest(struct search *search, unsigned accepted)
 {
     struct rho_initiator *initiator = search->initiator;
     if (rho_initiator_is_spent(search)) {
@@ -132,44 +139,45 @@ static int charge_choice(struct search *search, unsigned accepted)
 }
 
 /*
- * Best first. Accepted candidates are at the head of the list, by their scores when accepted. The
- * worst are dropped where the work ends.
+ * Accepts candidates in the order of their scores, so that no two share more than one plot. Where
+ * the work ends, the candidates with the lowest scores are dropped.
  */
 void rho_initiator_select_candidates(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     unsigned accepted = 0;
-    while (accepted < initiator->num_candidates && charge_choice(search, accepted)) {
-        bring_best_forward(initiator, accepted);
+    while (accepted < initiator->num_candidates && charge_choice_or_drop_rest(search, accepted)) {
+        move_best_remaining_first(initiator, accepted);
         struct rho_candidate candidate = initiator->candidates[accepted];
         if (!conflicts_with_accepted(initiator, accepted, &candidate)) {
-            mark_taken_plots(search, &candidate);
+            mark_plots_as_taken(search, &candidate);
             accepted++;
-        } else if (associate_rest(search, &candidate)) {
+        } else if (associate_with_untaken_plots(search, &candidate)) {
             initiator->candidates[accepted] = candidate;
         } else {
             initiator->num_candidates--;
             initiator->candidates[accepted] = initiator->candidates[initiator->num_candidates];
         }
     }
-    clear_taken_plots(search);
-    sort_candidates(initiator); /* a second association may have raised a score */
+    clear_taken_marks(search);
+    /* association with the plots left may have raised a score */
+    sort_candidates_by_score(initiator);
     rho_initiator_assume_turns(search, 0);
 }
 
 /* ---- judgement ------------------------------------------------------------------------------- */
 
 /*
- * Marks the plots of likely targets, which are not clutter. Returns their mean number of plots: one
- * of the targets may be clutter nevertheless, and is counted back.
+ * Marks the plots of likely targets as taken, as they are not clutter. Returns the mean number of
+ * plots of a likely target: one of these targets may be clutter nevertheless, and its plots count.
  */
-static float mark_likely_targets(struct search *search)
+static float mark_plots_of_likely_targets(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     unsigned likely = 0, hits = 0;
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
         if (initiator->candidates[i].score_mnat >= LIKELY_MNAT) {
-            mark_taken_plots(search, &initiator->candidates[i]);
+            mark_plots_as_taken(search, &initiator->candidates[i]);
             hits += initiator->candidates[i].hits;
             likely++;
         }
@@ -191,16 +199,19 @@ static int rescore_candidate(struct search *search, struct rho_candidate *candid
     return rho_initiator_is_good_enough(search, &score);
 }
 
-/* Scores the accepted candidates again, against clutter without the likely targets. */
+/*
+ * Scores the accepted candidates again, with thresholds and clutter density measured without the
+ * plots of likely targets, and drops those below the threshold.
+ */
 void rho_initiator_rescore_candidates(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
-    float more_plots = mark_likely_targets(search);
+    float more_plots = mark_plots_of_likely_targets(search);
     if (more_plots <= 0.0f) {
-        return; /* nothing that would not count as clutter: the scores stand */
+        return; /* without likely targets every plot counts as clutter already: the scores stand */
     }
     rho_initiator_measure_density(search, RHO_WINDOW_INITIATED | RHO_WINDOW_TAKEN, more_plots);
-    clear_taken_plots(search);
+    clear_taken_marks(search);
     rho_initiator_update_thresholds(search);
     unsigned kept = 0;
     for (unsigned i = 0; i < initiator->num_candidates; i++) {
@@ -210,5 +221,5 @@ void rho_initiator_rescore_candidates(struct search *search)
         }
     }
     initiator->num_candidates = (uint16_t)kept;
-    sort_candidates(initiator);
+    sort_candidates_by_score(initiator);
 }

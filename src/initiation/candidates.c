@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* candidates: the initiator's bounded list of sets of plots that may be tracks. */
+/*
+ * candidates: the initiator's bounded list of candidate tracks, each a set of plots with a fit and
+ * a score.
+ */
 #include "search.h"
 
-static int is_listed(struct search *search, const struct rho_candidate *candidate)
+static int merge_into_listed_twin(struct search *search, const struct rho_candidate *candidate)
 {
     struct rho_initiator *initiator = search->initiator;
     rho_initiator_charge(search, initiator->num_candidates / COMPARED_IN_UNIT);
@@ -32,7 +35,10 @@ int rho_initiator_is_good_enough(const struct search *search, const struct set_s
             score->chi2 <= rho_initiator_chi2_limit(score->dimensions, SIGMAS_99_9));
 }
 
-/* Refines and scores a set of plots. 0 where it is no candidate, or one that is already listed. */
+/*
+ * Makes a candidate of a set of plots: fits, associates and scores it. Returns 0 where its score or
+ * its fit is not good enough, or where a listed candidate has the same plots.
+ */
 int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
                                  struct rho_candidate *candidate)
 {
@@ -59,10 +65,10 @@ int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
     for (unsigned m = 0; m < search->num_scans; m++) {
         candidate->plot[m] = set->plot[m];
     }
-    return !is_listed(search, candidate);
+    return !merge_into_listed_twin(search, candidate);
 }
 
-static unsigned lowest_candidate(const struct rho_initiator *initiator)
+static unsigned lowest_score_candidate(const struct rho_initiator *initiator)
 {
     unsigned low = 0;
     for (unsigned i = 1; i < initiator->num_candidates; i++) {
@@ -85,7 +91,7 @@ void rho_initiator_add_candidate(struct search *search, struct plot_set *set)
         return;
     }
     initiator->work.candidates_dropped = rho_count(initiator->work.candidates_dropped, 1);
-    unsigned low = lowest_candidate(initiator);
+    unsigned low = lowest_score_candidate(initiator);
     rho_initiator_charge(search, initiator->num_candidates / PASSED_IN_UNIT);
     if (initiator->candidates[low].score_mnat < candidate.score_mnat) {
         initiator->candidates[low] = candidate;
@@ -93,8 +99,8 @@ void rho_initiator_add_candidate(struct search *search, struct plot_set *set)
 }
 
 /*
- * The plots and the track of a candidate. Searches and scores assume turns from here on where the
- * candidate turns. 0 where its plots do not determine a track.
+ * Unpacks the plots and the track of a candidate. The search then assumes turning targets where the
+ * candidate turns, and straight ones where not. Returns 0 where the plots do not determine a track.
  */
 int rho_initiator_open_candidate(struct search *search, const struct rho_candidate *candidate,
                                  struct plot_set *set, struct line_fit *fit)

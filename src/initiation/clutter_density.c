@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * clutter_density: the density of clutter at a place, on average, and for each sensor.
+ * clutter_density: the density of clutter at a place, on average over all sensors and for each
+ * sensor.
  *
- * The map has square cells over the area, or cells of range and azimuth about a radar: false alarms
- * are often spread evenly over a radar's resolution cells rather than over the ground, and end at
- * its range. The likelihood of the plots decides. Several radars have a map each where all have
- * cells of range and azimuth.
+ * A density map has square cells over the area, or cells of range and azimuth about a radar: false
+ * alarms are often spread evenly over a radar's resolution cells rather than over the ground, and
+ * end at the radar's range. The kind of cells under which the plots are likelier is taken. Several
+ * radars have a map each where all have cells of range and azimuth.
  */
 #include <string.h>
 
@@ -13,23 +14,23 @@
 #include "rhotrack/detail/approx.h"
 #include "search.h"
 
-/* Mean number of plots in a cell. */
+/* Mean number of plots in a cell of a density map. */
 #define PLOTS_PER_CELL 32u
 
-/* Largest weight of the mean in a cell, in plots: the map is flat. */
+/* Largest weight of the mean density against a cell's count, in plots: the map is then flat. */
 #define PRIOR_PLOTS_MAX 1.0e6f
 
 /*
- * The density of a batch is at least one plot in the area and scan. Searches after every scan must
- * tell clear skies from cluttered ones: half a plot in the area and window is expected where none
- * was seen (the median of a density without prior knowledge).
+ * Plots expected where none was seen, in searches after every scan: half a plot in area and window,
+ * the median of a density without prior knowledge, so that clear skies differ from cluttered ones.
+ * The density of a batch is at least one plot in the area and scan.
  */
 #define PLOTS_UNSEEN 0.5f
 
-/* Below this share of the range, density on the ground rises no further. */
+/* Share of a radar's range below which the density per square metre rises no further. */
 #define NEAR_SHARE 0.01f
 
-/* Fewer plots do not determine the sector of a radar. */
+/* Least number of plots that determine the sector of a radar for a map of range and azimuth. */
 #define POLAR_PLOTS_MIN 16.0f
 
 #define ALL_ROUND_RAD 5.0f
@@ -43,7 +44,7 @@ float rho_initiator_area_m2(const struct rho_initiator *initiator)
 
 /* ---- cells ----------------------------------------------------------------------------------- */
 
-static unsigned clamp_cells(float cells)
+static unsigned clamp_cell_count(float cells)
 {
     if (!(cells >= 1.0f)) {
         return 1;
@@ -51,7 +52,7 @@ static unsigned clamp_cells(float cells)
     return cells < (float)RHO_MAX_DENSITY_CELLS ? (unsigned)cells : RHO_MAX_DENSITY_CELLS;
 }
 
-static unsigned cell_at(float v, float min, float side, unsigned cells)
+static unsigned cell_index_at(float v, float min, float side, unsigned cells)
 {
     float cell = (v - min) * (float)cells / side;
     if (!(cell > 0.0f)) {
@@ -65,8 +66,11 @@ static float distance_m(float dx_m, float dy_m)
     return rho_sqrt(dx_m * dx_m + dy_m * dy_m);
 }
 
-/* The cell of a place. per_m2: content of the map per square metre there. */
-static unsigned map_cell(const struct rho_density_map *map, float x_m, float y_m, float *per_m2)
+/*
+ * Index of the map's cell at a place. Sets *per_m2 to the map's content (m^2, or m rad) per square
+ * metre there.
+ */
+static unsigned map_cell_at(const struct rho_density_map *map, float x_m, float y_m, float *per_m2)
 {
     float u = x_m, v = y_m;
     *per_m2 = 1.0f;
@@ -77,21 +81,21 @@ static unsigned map_cell(const struct rho_density_map *map, float x_m, float y_m
         v = rho_angle_difference(rho_atan2(dy_m, dx_m), map->middle_rad);
         *per_m2 = 1.0f / (u > near_m ? u : near_m);
     }
-    return cell_at(v, map->v0, map->height, map->rows) * map->columns +
-           cell_at(u, map->u0, map->width, map->columns);
+    return cell_index_at(v, map->v0, map->height, map->rows) * map->columns +
+           cell_index_at(u, map->u0, map->width, map->columns);
 }
 
-/* Whether radars have a density map each; constant 0 in a build with one map. */
-static int has_several_maps(const struct rho_initiator *initiator)
+/* True where each radar has a density map of its own; constant 0 in a build with one map. */
+static int has_map_per_radar(const struct rho_initiator *initiator)
 {
     return RHO_MAX_DENSITY_MAPS > 1 && initiator->num_maps > 1;
 }
 
-/* The map with a sensor's plots: its own, or the common one. */
-static const struct rho_density_map *map_of(const struct rho_initiator *initiator,
-                                            int32_t sensor_id)
+/* The density map that counts a sensor's plots: its own, or the common one. */
+static const struct rho_density_map *map_of_sensor(const struct rho_initiator *initiator,
+                                                   int32_t sensor_id)
 {
-    for (unsigned i = 1; has_several_maps(initiator) && i < initiator->num_maps; i++) {
+    for (unsigned i = 1; has_map_per_radar(initiator) && i < initiator->num_maps; i++) {
         if (initiator->density[i].sensor_id == sensor_id) {
             return &initiator->density[i];
         }
@@ -101,23 +105,23 @@ static const struct rho_density_map *map_of(const struct rho_initiator *initiato
 
 /* ---- laying it out --------------------------------------------------------------------------- */
 
-static int is_same_place(const struct rho_sensor *a, const struct rho_sensor *b)
+static int is_same_unmoved_radar(const struct rho_sensor *a, const struct rho_sensor *b)
 {
     float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
     return a->sensor_id == b->sensor_id && dx_m * dx_m + dy_m * dy_m < 1.0f;
 }
 
-/* The radars of the window's scans. */
+/* Radars of the window's scans that did not move. */
 struct radars {
     const struct rho_sensor *of[RHO_MAX_DENSITY_MAPS];
     unsigned count;
 };
 
-static int add_radar(struct radars *radars, const struct rho_sensor *sensor)
+static int add_fixed_radar(struct radars *radars, const struct rho_sensor *sensor)
 {
     for (unsigned i = 0; i < radars->count; i++) {
         if (radars->of[i]->sensor_id == sensor->sensor_id) {
-            return is_same_place(radars->of[i], sensor);
+            return is_same_unmoved_radar(radars->of[i], sensor);
         }
     }
     if (radars->count == RHO_MAX_DENSITY_MAPS) {
@@ -128,10 +132,10 @@ static int add_radar(struct radars *radars, const struct rho_sensor *sensor)
 }
 
 /*
- * True where the scans are of radars that did not move, no more of them than there are maps, and
- * the noise of plots is anisotropic.
+ * Lists the radars of the window's scans. Returns 1 where none of them moved, there is a density
+ * map for each, and the noise of plots is anisotropic.
  */
-static int are_fixed_radars(const struct search *search, struct radars *radars)
+static int list_fixed_radars(const struct search *search, struct radars *radars)
 {
     struct rho_window *window = &search->initiator->window;
     int is_radar = 0;
@@ -139,80 +143,85 @@ static int are_fixed_radars(const struct search *search, struct radars *radars)
     for (unsigned m = 0; m < window->num_scans && !rho_initiator_is_isotropic(search); m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         is_radar |= !scan->is_isotropic;
-        if (!add_radar(radars, &scan->sensor)) {
+        if (!add_fixed_radar(radars, &scan->sensor)) {
             return 0;
         }
     }
     return is_radar;
 }
 
-/* Statistics of the window's plots in the coordinates of a radar. */
-struct view {
-    float plots, sum_x, sum_y; /* of unit vectors */
+/* Spread of one radar's plots in the window, in range and azimuth. */
+struct polar_spread {
+    float plots, sum_x, sum_y; /* number of plots; sum of their unit vectors from the radar */
     float nearest_m, farthest_m, sum_log_range;
-    float middle_rad, left_rad, right_rad; /* a sector that holds all, from its middle */
+    /* mean azimuth; ends of the sector that holds all plots, relative to the mean azimuth */
+    float middle_rad, left_rad, right_rad;
     struct rho_extent extent;
 };
 
-static void add_to_polar_view(struct view *view, float dx_m, float dy_m, int has_middle)
+static void add_plot_to_polar_spread(struct polar_spread *spread, float dx_m, float dy_m,
+                                     int has_middle)
 {
     if (has_middle) {
-        float off_rad = rho_angle_difference(rho_atan2(dy_m, dx_m), view->middle_rad);
-        view->left_rad = off_rad > view->left_rad ? off_rad : view->left_rad;
-        view->right_rad = off_rad < view->right_rad ? off_rad : view->right_rad;
+        float off_rad = rho_angle_difference(rho_atan2(dy_m, dx_m), spread->middle_rad);
+        spread->left_rad = off_rad > spread->left_rad ? off_rad : spread->left_rad;
+        spread->right_rad = off_rad < spread->right_rad ? off_rad : spread->right_rad;
         return;
     }
     float range_m = distance_m(dx_m, dy_m);
     if (!(range_m >= 1.0f)) {
         range_m = 1.0f;
     }
-    view->nearest_m = view->plots < 1.0f || range_m < view->nearest_m ? range_m : view->nearest_m;
-    view->farthest_m = range_m > view->farthest_m ? range_m : view->farthest_m;
-    view->sum_log_range += rho_log(range_m);
-    view->sum_x += dx_m / range_m;
-    view->sum_y += dy_m / range_m;
-    view->plots += 1.0f;
+    spread->nearest_m =
+        spread->plots < 1.0f || range_m < spread->nearest_m ? range_m : spread->nearest_m;
+    spread->farthest_m = range_m > spread->farthest_m ? range_m : spread->farthest_m;
+    spread->sum_log_range += rho_log(range_m);
+    spread->sum_x += dx_m / range_m;
+    spread->sum_y += dy_m / range_m;
+    spread->plots += 1.0f;
 }
 
-static struct view polar_view_of(const struct search *search, const struct rho_sensor *radar)
+static struct polar_spread polar_spread_of_plots(const struct search *search,
+                                                 const struct rho_sensor *radar)
 {
     struct rho_window *window = &search->initiator->window;
-    struct view view = {.plots = 0.0f, .extent = {1.0f, 0.0f, 1.0f, 0.0f}};
+    struct polar_spread spread = {.plots = 0.0f, .extent = {1.0f, 0.0f, 1.0f, 0.0f}};
     for (int has_middle = 0; has_middle < 2; has_middle++) {
-        view.middle_rad = has_middle ? rho_atan2(view.sum_y, view.sum_x) : 0.0f;
+        spread.middle_rad = has_middle ? rho_atan2(spread.sum_y, spread.sum_x) : 0.0f;
         for (unsigned m = 0; m < window->num_scans; m++) {
             const struct rho_window_scan *scan = rho_window_scan_at(window, m);
             for (unsigned i = 0; i < scan->num_plots && scan->sensor.sensor_id == radar->sensor_id;
                  i++) {
                 const struct rho_window_plot *plot = &scan->plots[i];
-                add_to_polar_view(&view, plot->x_m - radar->x_m, plot->y_m - radar->y_m,
-                                  has_middle);
-                rho_extent_add(&view.extent, plot->x_m, plot->y_m);
+                add_plot_to_polar_spread(&spread, plot->x_m - radar->x_m, plot->y_m - radar->y_m,
+                                         has_middle);
+                rho_extent_add(&spread.extent, plot->x_m, plot->y_m);
             }
         }
     }
-    return view;
+    return spread;
 }
 
 /*
- * The extremes of n evenly spread places fall short of the ends of the coverage by a share 1 / (n +
- * 1) each on average. Almost all round counts as all round.
+ * Lays out a map over the range and azimuth of a radar's plots, a little wider: the extremes of n
+ * evenly spread plots fall short of each end of the coverage by a share 1 / (n + 1) on average. A
+ * sector of more than ALL_ROUND_RAD becomes the whole circle.
  */
-static void lay_over_sector(const struct rho_sensor *radar, const struct view *view,
-                            struct rho_density_map *map)
+static void lay_out_polar_map(const struct rho_sensor *radar, const struct polar_spread *spread,
+                              struct rho_density_map *map)
 {
-    float wider = (view->plots + 1.0f) / (view->plots - 1.0f);
-    float sector_rad = wider * (view->left_rad - view->right_rad);
-    float depth_m = wider * (view->farthest_m - view->nearest_m);
+    float wider = (spread->plots + 1.0f) / (spread->plots - 1.0f);
+    float sector_rad = wider * (spread->left_rad - spread->right_rad);
+    float depth_m = wider * (spread->farthest_m - spread->nearest_m);
     map->is_polar = 1;
     map->sensor_x_m = radar->x_m;
     map->sensor_y_m = radar->y_m;
-    map->u0 = 0.5f * (view->farthest_m + view->nearest_m - depth_m);
+    map->u0 = 0.5f * (spread->farthest_m + spread->nearest_m - depth_m);
     map->width = depth_m > 1.0f ? depth_m : 1.0f;
     map->v0 = -RHO_PI;
     map->height = RHO_TWO_PI;
     if (sector_rad < ALL_ROUND_RAD) {
-        map->middle_rad = view->middle_rad + 0.5f * (view->left_rad + view->right_rad);
+        map->middle_rad = spread->middle_rad + 0.5f * (spread->left_rad + spread->right_rad);
         map->height = sector_rad > SECTOR_MIN_RAD ? sector_rad : SECTOR_MIN_RAD;
         map->v0 = -0.5f * map->height;
     }
@@ -220,23 +229,26 @@ static void lay_over_sector(const struct rho_sensor *radar, const struct view *v
 }
 
 /*
- * Lays the map in range and azimuth. Returns 0 where the plots are likelier with an even density
- * over the area than in range and azimuth, 1 / (content range) a square metre.
+ * Lays out a map in range and azimuth. Returns 0 where the plots are too few, or likelier under an
+ * even density over the area than under one in range and azimuth, 1 / (content range) a square
+ * metre.
  */
-static int lay_polar(const struct search *search, const struct rho_sensor *radar, int is_alone,
-                     struct rho_density_map *map)
+static int try_polar_map(const struct search *search, const struct rho_sensor *radar, int is_alone,
+                         struct rho_density_map *map)
 {
-    struct view view = polar_view_of(search, radar);
+    struct polar_spread spread = polar_spread_of_plots(search, radar);
     float area_m2 = is_alone ? rho_initiator_area_m2(search->initiator)
-                             : rho_extent_area_m2(&view.extent, 1.0f);
-    if (view.plots < POLAR_PLOTS_MIN) {
+                             : rho_extent_area_m2(&spread.extent, 1.0f);
+    if (spread.plots < POLAR_PLOTS_MIN) {
         return 0;
     }
-    lay_over_sector(radar, &view, map);
-    return view.sum_log_range + view.plots * rho_log(map->content) < view.plots * rho_log(area_m2);
+    lay_out_polar_map(radar, &spread, map);
+    return spread.sum_log_range + spread.plots * rho_log(map->content) <
+           spread.plots * rho_log(area_m2);
 }
 
-static void lay_cartesian(const struct rho_initiator *initiator, struct rho_density_map *map)
+static void lay_out_cartesian_map(const struct rho_initiator *initiator,
+                                  struct rho_density_map *map)
 {
     const struct rho_window *window = &initiator->window;
     float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
@@ -249,41 +261,45 @@ static void lay_cartesian(const struct rho_initiator *initiator, struct rho_dens
 }
 
 /*
- * Maps are laid by all plots held, whichever are counted later. Radars with a density even in range
- * have one each; else all share one.
+ * Lays out the density maps by all plots held, also those that are not counted later. Radars whose
+ * clutter is even in range and azimuth have a map each; otherwise all sensors share one map over
+ * the area.
  */
-static void lay_maps(struct search *search)
+static void lay_out_maps(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     struct radars radars = {.count = 0};
-    int is_polar = are_fixed_radars(search, &radars);
+    int is_polar = list_fixed_radars(search, &radars);
     memset(initiator->density, 0, sizeof initiator->density);
     for (unsigned i = 0; i < radars.count && is_polar; i++) {
-        is_polar = lay_polar(search, radars.of[i], radars.count == 1, &initiator->density[i]);
+        is_polar = try_polar_map(search, radars.of[i], radars.count == 1, &initiator->density[i]);
         initiator->density[i].sensor_id = radars.of[i]->sensor_id;
     }
     initiator->num_maps = is_polar ? (uint16_t)radars.count : 1;
     if (!is_polar) {
-        lay_cartesian(initiator, &initiator->density[0]);
+        lay_out_cartesian_map(initiator, &initiator->density[0]);
     }
 }
 
-static void size_cells(struct rho_density_map *map, uint32_t num_plots)
+static void set_grid_and_clear_counts(struct rho_density_map *map, uint32_t num_plots)
 {
     uint32_t wanted = num_plots / PLOTS_PER_CELL + 1u;
     float cells = (float)wanted;
-    /* the arc at half the range over the range */
+    /* ratio of a cell's sides, in range and azimuth: the range over the arc at half the range */
     float aspect = map->is_polar ? 2.0f / map->height : map->width / map->height;
-    map->columns = (uint8_t)clamp_cells(rho_sqrt(cells * aspect));
-    map->rows = (uint8_t)clamp_cells(cells / (float)map->columns);
+    map->columns = (uint8_t)clamp_cell_count(rho_sqrt(cells * aspect));
+    map->rows = (uint8_t)clamp_cell_count(cells / (float)map->columns);
     memset(map->count, 0, sizeof map->count);
 }
 
 /* ---- counting -------------------------------------------------------------------------------- */
 
-/* Number of plots of a scan that are not skipped; counted in the map where it is not NULL. */
-static uint32_t count_plots(struct rho_initiator *initiator, unsigned m, uint16_t skip_flags,
-                            struct rho_density_map *map)
+/*
+ * Number of plots of scan m without a mark of skip_flags. Also counts these plots in the map's
+ * cells where `map` is not NULL.
+ */
+static uint32_t count_plots_of_scan(struct rho_initiator *initiator, unsigned m,
+                                    uint16_t skip_flags, struct rho_density_map *map)
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
     uint32_t plots = 0;
@@ -295,7 +311,7 @@ static uint32_t count_plots(struct rho_initiator *initiator, unsigned m, uint16_
         plots++;
         if (map) {
             float per_m2;
-            uint16_t *count = &map->count[map_cell(map, plot->x_m, plot->y_m, &per_m2)];
+            uint16_t *count = &map->count[map_cell_at(map, plot->x_m, plot->y_m, &per_m2)];
             *count = (uint16_t)(*count < UINT16_MAX ? *count + 1u : UINT16_MAX);
         }
     }
@@ -309,15 +325,16 @@ static float mean_cell_count(const struct rho_density_map *map)
 }
 
 /*
- * Weight of the mean against the count of a cell (empirical Bayes, gamma prior): mean^2 / (variance
- * - mean) over the cells. Poisson counts give the mean all weight, patchy clutter the cells.
+ * Weight of the mean density against the count of a cell (empirical Bayes, gamma prior): mean^2 /
+ * (variance - mean) over the cells. Poisson counts give the mean all weight; patchy clutter gives
+ * the cells weight.
  */
-static float weight_of_mean(const struct rho_density_map *map)
+static float weight_of_mean_density(const struct rho_density_map *map)
 {
     unsigned cells = (unsigned)map->columns * map->rows;
     float mean = mean_cell_count(map), variance = 0.0f;
     if (cells < 2) {
-        return PRIOR_PLOTS_MAX; /* one cell is the mean */
+        return PRIOR_PLOTS_MAX; /* a single cell has the mean density */
     }
     for (unsigned c = 0; c < cells; c++) {
         float excess = (float)map->count[c] - mean;
@@ -335,11 +352,12 @@ static float mean_density(const struct search *search, float plots, float scans,
 }
 
 /*
- * Plots a scan of each scan's sensor over the mean of all sensors. One scan of mean density is
- * added to the sensor's own. 1 where there is one sensor, or each has its map.
+ * Sets, for each scan held, the plots a scan of its sensor over the mean of all sensors, and ln of
+ * this ratio. One scan of mean density is added to the sensor's own. The ratio is 1 where there is
+ * one sensor, or each sensor has a map.
  */
-static void find_sensor_ratios(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
-                               uint32_t plots)
+static void find_sensor_density_ratios(struct search *search, const uint32_t by_scan[RHO_MAX_SCANS],
+                                       uint32_t plots)
 {
     struct rho_initiator *initiator = search->initiator;
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -354,52 +372,58 @@ static void find_sensor_ratios(struct search *search, const uint32_t by_scan[RHO
         float share = plots > 0 ? own * (float)search->num_scans / (float)plots : scans;
         initiator->sensor_id[m] = sensor_id;
         initiator->sensor_ratio[m] =
-            has_several_maps(initiator) ? 1.0f : (share + 1.0f) / (scans + 1.0f);
+            has_map_per_radar(initiator) ? 1.0f : (share + 1.0f) / (scans + 1.0f);
         search->log_ratio[m] = rho_log(initiator->sensor_ratio[m]);
     }
 }
 
-/* Fills a map with the plots of its scans. */
-static void fill_map(struct search *search, struct rho_density_map *map, uint16_t skip_flags,
-                     const uint32_t by_scan[RHO_MAX_SCANS], float more_plots)
+/* Counts the plots of a map's scans in its cells, and sets its mean density. */
+static void fill_density_map(struct search *search, struct rho_density_map *map,
+                             uint16_t skip_flags, const uint32_t by_scan[RHO_MAX_SCANS],
+                             float more_plots)
 {
     struct rho_initiator *initiator = search->initiator;
     float scans = 0.0f, all = (float)search->num_scans;
     uint32_t plots = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        if (map_of(initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) == map) {
+        if (map_of_sensor(initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) ==
+            map) {
             plots += by_scan[m];
             scans += 1.0f;
         }
     }
-    size_cells(map, plots);
+    set_grid_and_clear_counts(map, plots);
     map->scans = search->scans_seen * scans / all;
     map->mean =
         mean_density(search, (float)plots + more_plots * scans / all, map->scans, map->content);
     for (unsigned m = 0; m < search->num_scans; m++) {
-        if (map_of(initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) == map) {
-            (void)count_plots(initiator, m, skip_flags, map);
+        if (map_of_sensor(initiator, rho_window_scan_at(&initiator->window, m)->sensor.sensor_id) ==
+            map) {
+            (void)count_plots_of_scan(initiator, m, skip_flags, map);
         }
     }
-    map->prior_plots = weight_of_mean(map);
+    map->prior_plots = weight_of_mean_density(map);
 }
 
-/* Counts plots that are not skipped, and more_plots besides, in the maps as laid. */
+/*
+ * Measures the clutter density in the maps as they are laid out: counts all plots without a mark of
+ * skip_flags, and adds more_plots to the mean.
+ */
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots)
 {
     struct rho_initiator *initiator = search->initiator;
     uint32_t by_scan[RHO_MAX_SCANS] = {0}, plots = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
-        by_scan[m] = count_plots(initiator, m, skip_flags, 0);
+        by_scan[m] = count_plots_of_scan(initiator, m, skip_flags, 0);
         plots += by_scan[m];
     }
-    search->is_continued = 0; /* all plots are in the map now */
+    search->is_continued = 0; /* the maps now count the newest sector's plots, too */
     initiator->density_per_m2 = mean_density(search, (float)plots + more_plots, search->scans_seen,
                                              rho_initiator_area_m2(initiator));
     for (unsigned i = 0; i < initiator->num_maps; i++) {
-        fill_map(search, &initiator->density[i], skip_flags, by_scan, more_plots);
+        fill_density_map(search, &initiator->density[i], skip_flags, by_scan, more_plots);
     }
-    find_sensor_ratios(search, by_scan, plots);
+    find_sensor_density_ratios(search, by_scan, plots);
 }
 
 void rho_initiator_prepare_density(struct search *search)
@@ -410,44 +434,48 @@ void rho_initiator_prepare_density(struct search *search)
         }
         return;
     }
-    lay_maps(search);
+    lay_out_maps(search);
     rho_initiator_measure_density(search, RHO_WINDOW_INITIATED, 0.0f);
 }
 
 /* ---- asking ---------------------------------------------------------------------------------- */
 
-/* Density of a cell with this count. */
-static float density_of(const struct rho_density_map *map, float count)
+/*
+ * Density of a map's cell with this count of plots, shrunk towards the mean density; per unit of
+ * the map's content (m^2 or m rad).
+ */
+static float density_of_cell_count(const struct rho_density_map *map, float count)
 {
     float prior = map->prior_plots;
     return map->mean * (count + prior) / (mean_cell_count(map) + prior);
 }
 
-/* A radar has no clutter beyond its range. */
-static int is_beyond_range(const struct rho_density_map *map, float x_m, float y_m)
+/* True where a place is beyond the range of a radar's map: a radar has no clutter there. */
+static int is_beyond_radar_range(const struct rho_density_map *map, float x_m, float y_m)
 {
     return map->is_polar &&
            distance_m(x_m - map->sensor_x_m, y_m - map->sensor_y_m) > map->u0 + map->width;
 }
 
-/* Density at a place in the scans of one map. */
+/* Clutter density at a place, per square metre and scan, from one map. */
 static float density_in_map(const struct rho_density_map *map, float x_m, float y_m)
 {
     float per_m2;
-    unsigned cell = map_cell(map, x_m, y_m, &per_m2);
-    return density_of(map, (float)map->count[cell]) * per_m2;
+    unsigned cell = map_cell_at(map, x_m, y_m, &per_m2);
+    return density_of_cell_count(map, (float)map->count[cell]) * per_m2;
 }
 
-/* Density at a place, mean of all scans held, without the memory of clutter. */
-static float held_density(const struct rho_initiator *initiator, float x_m, float y_m)
+/* Clutter density at a place, mean over the scans held, without the clutter memory. */
+static float density_of_held_scans(const struct rho_initiator *initiator, float x_m, float y_m)
 {
     float sum = 0.0f, scans = 0.0f, first = density_in_map(&initiator->density[0], x_m, y_m);
-    if (!has_several_maps(initiator)) {
+    if (!has_map_per_radar(initiator)) {
         return first;
     }
     for (unsigned i = 0; i < initiator->num_maps; i++) {
         const struct rho_density_map *map = &initiator->density[i];
-        sum += is_beyond_range(map, x_m, y_m) ? 0.0f : map->scans * density_in_map(map, x_m, y_m);
+        sum += is_beyond_radar_range(map, x_m, y_m) ? 0.0f
+                                                    : map->scans * density_in_map(map, x_m, y_m);
         scans += map->scans;
     }
     return sum > 0.0f ? sum / scans : first;
@@ -455,17 +483,18 @@ static float held_density(const struct rho_initiator *initiator, float x_m, floa
 
 float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m)
 {
-    return rho_initiator_memory_density(initiator, x_m, y_m, held_density(initiator, x_m, y_m));
+    return rho_initiator_memory_density(initiator, x_m, y_m,
+                                        density_of_held_scans(initiator, x_m, y_m));
 }
 
 /*
- * The memory of clutter is common to all sensors: it raises the density of one of several maps by
- * the same factor as their mean.
+ * Raises a density from one of several maps by the clutter memory. The memory is common to all
+ * sensors, so it raises each sensor's density by the same factor as their mean.
  */
-static float remembered_in_map(const struct rho_initiator *initiator, float x_m, float y_m,
-                               float density_per_m2)
+static float map_density_with_memory(const struct rho_initiator *initiator, float x_m, float y_m,
+                                     float density_per_m2)
 {
-    const float held_per_m2 = held_density(initiator, x_m, y_m);
+    const float held_per_m2 = density_of_held_scans(initiator, x_m, y_m);
     return density_per_m2 *
            (rho_initiator_memory_density(initiator, x_m, y_m, held_per_m2) / held_per_m2);
 }
@@ -473,13 +502,13 @@ static float remembered_in_map(const struct rho_initiator *initiator, float x_m,
 float rho_initiator_density(const struct rho_initiator *initiator, int32_t sensor_id, float x_m,
                             float y_m)
 {
-    const struct rho_density_map *map = map_of(initiator, sensor_id);
+    const struct rho_density_map *map = map_of_sensor(initiator, sensor_id);
     float ratio = 1.0f;
     if (initiator->num_maps == 0) {
         return 0.0f;
     }
-    if (has_several_maps(initiator) && map->sensor_id == sensor_id) {
-        return remembered_in_map(initiator, x_m, y_m, density_in_map(map, x_m, y_m));
+    if (has_map_per_radar(initiator) && map->sensor_id == sensor_id) {
+        return map_density_with_memory(initiator, x_m, y_m, density_in_map(map, x_m, y_m));
     }
     for (unsigned m = 0; m < RHO_MAX_SCANS; m++) {
         if (initiator->sensor_ratio[m] > 0.0f && initiator->sensor_id[m] == sensor_id) {
@@ -490,42 +519,48 @@ float rho_initiator_density(const struct rho_initiator *initiator, int32_t senso
     return rho_initiator_mean_density(initiator, x_m, y_m) * ratio;
 }
 
-/* True where the plots of scan m are in the map: not those of further sectors of a revolution. */
-static int is_in_map(const struct search *search, unsigned m)
+/*
+ * True where the density map counts the plots of scan m: a further sector of a revolution is not
+ * counted.
+ */
+static int is_scan_in_map(const struct search *search, unsigned m)
 {
     return !search->is_continued || m + 1u < search->num_scans;
 }
 
-/* Plots of the set in a cell of the map. */
-static unsigned plots_of_set(const struct search *search, const struct plot_set *set,
-                             const struct rho_density_map *map, unsigned cell)
+/* Number of the set's own plots that a cell of the map counts. */
+static unsigned count_set_plots_in_cell(const struct search *search, const struct plot_set *set,
+                                        const struct rho_density_map *map, unsigned cell)
 {
     unsigned own = 0;
     for (unsigned k = 0; k < search->num_scans && !search->is_left_out; k++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, k);
-        if ((set->mask >> k & 1u) && is_in_map(search, k) &&
-            map_of(search->initiator, scan->sensor.sensor_id) == map) {
+        if ((set->mask >> k & 1u) && is_scan_in_map(search, k) &&
+            map_of_sensor(search->initiator, scan->sensor.sensor_id) == map) {
             const struct rho_window_plot *other = rho_initiator_plot(search, set, k);
             float per_m2;
-            own += map_cell(map, other->x_m, other->y_m, &per_m2) == cell;
+            own += map_cell_at(map, other->x_m, other->y_m, &per_m2) == cell;
         }
     }
     return own;
 }
 
-/* The density that hit m of a set is compared with: without the set's own plots in the cell. */
+/*
+ * ln of the clutter density that hit m of a set is compared with: the set's own plots are taken out
+ * of the cell, and the clutter map's echoes are added.
+ */
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set, unsigned m)
 {
     struct rho_initiator *initiator = search->initiator;
     const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, m);
     const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
-    const struct rho_density_map *map = map_of(initiator, scan->sensor.sensor_id);
+    const struct rho_density_map *map = map_of_sensor(initiator, scan->sensor.sensor_id);
     float per_m2;
-    unsigned cell = map_cell(map, plot->x_m, plot->y_m, &per_m2), count = map->count[cell];
-    unsigned own = plots_of_set(search, set, map, cell);
-    float density = density_of(map, (float)(count > own ? count - own : 0u)) * per_m2;
-    density = has_several_maps(initiator)
-                  ? remembered_in_map(initiator, plot->x_m, plot->y_m, density)
+    unsigned cell = map_cell_at(map, plot->x_m, plot->y_m, &per_m2), count = map->count[cell];
+    unsigned own = count_set_plots_in_cell(search, set, map, cell);
+    float density = density_of_cell_count(map, (float)(count > own ? count - own : 0u)) * per_m2;
+    density = has_map_per_radar(initiator)
+                  ? map_density_with_memory(initiator, plot->x_m, plot->y_m, density)
                   : rho_initiator_memory_density(initiator, plot->x_m, plot->y_m, density);
     float log_density = rho_log(density) + search->log_ratio[m];
     if (RHO_MAX_ECHOES > 0) {

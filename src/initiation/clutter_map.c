@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* clutter_map: echoes, and how often they return. */
+/*
+ * clutter_map: the table of echoes, places that return clutter again and again: their estimated
+ * places, the probabilities of their return, and which of them a full table drops.
+ */
 #include "rhotrack/detail/clutter_map_cells.h"
 
 #include <string.h>
@@ -12,32 +15,34 @@
  */
 #define SPEED_SHARE 0.4f
 /*
- * Share of the plot's variance that each plot adds to the place: a quay or a tree moves within its
- * noise.
+ * Share of a plot's variance that each plot adds to the variance of its echo's place: a quay or a
+ * tree has plots at several places within their noise.
  */
 #define PLACE_NOISE 0.02f
 
-/* Mean age of the counts in the tables, in revolutions. */
+/* Mean age of the counts of looks and returns, in revolutions. */
 #define TURNS_REMEMBERED 200.0f
 /*
- * Counts are used after one to two blocks of this many revolutions. The first plots of a target are
- * counted before its track starts, and removed then.
+ * Revolutions in a block of counts. Counts are used one to two blocks after they were made, as the
+ * first plots of a target are counted before its track starts, and are taken out when it does.
  */
 #define BLOCK_TURNS 4.0f
 
-/*
- * Prior probabilities of a return by class of hits, and their weight in looks; half of them after
- * misses.
- */
+/* Prior probabilities that an echo returns, by its class of hits; half as large after misses. */
 static const float prior_probability[RHO_ECHO_HIT_CLASSES] = {0.004f, 0.04f, 0.12f, 0.2f};
-/* Prior where targets may stand: standing plots are clutter less often. */
+/*
+ * Prior probability of a return where targets may stand: standing plots are then clutter less
+ * often.
+ */
 #define PRIOR_PROBABILITY_STANDING 0.003f
 #define PRIOR_LOOKS 3.0f
-/* Weight of the mean over all regions in one region, in looks. */
+/* Weight of the mean over all regions in the return probability of one region, in looks. */
 #define REGION_LOOKS 2.0f
 #define PROBABILITY_MAX 0.98f
 
-/* Scans of its sensor, by class of hits, after which an unseen echo is forgotten. */
+/*
+ * Scans of an echo's sensor, by the echo's class of hits, after which an unseen echo is forgotten.
+ */
 static const uint8_t scans_kept[RHO_ECHO_HIT_CLASSES] = {12, 16, 30, 100};
 
 #define ALL_REGIONS (RHO_ECHO_TABLES - 1)
@@ -70,7 +75,7 @@ float rho_clutter_map_return_probability(const struct rho_clutter_map *map, unsi
     const float prior =
         (map->v_min_mps > 0.0f ? prior_probability[c] : PRIOR_PROBABILITY_STANDING) *
         (g > 0 ? 0.5f : 1.0f);
-    /* counts may be negative, as tracks remove counts that are not used yet */
+    /* counts may be below 0, as tracks take out counts of blocks that are not used yet */
     const float all_returns = all->returns[c][g] > 0.0f ? all->returns[c][g] : 0.0f;
     const float returns = here->returns[c][g] > 0.0f ? here->returns[c][g] : 0.0f;
     const float mean = (all_returns + PRIOR_LOOKS * prior) / (all->looks[c][g] + PRIOR_LOOKS);
@@ -92,8 +97,11 @@ void rho_clutter_map_count_return(struct rho_clutter_map *map, const struct rho_
     map->tables[1][ALL_REGIONS].returns[c][g] += echo->weight;
 }
 
-/* Removes no more than all counts, used and not yet used. */
-static void remove_returns(struct rho_clutter_map *map, unsigned region, unsigned c, float returns)
+/*
+ * Takes the returns of a target's plots out of a class of hits, at most as many as all blocks have.
+ */
+static void remove_returns_of_class(struct rho_clutter_map *map, unsigned region, unsigned c,
+                                    float returns)
 {
     const float sum = map->tables[0][region].returns[c][0] + map->tables[1][region].returns[c][0] +
                       map->tables[2][region].returns[c][0];
@@ -106,8 +114,8 @@ void rho_clutter_map_remove_returns(struct rho_clutter_map *map, unsigned region
                                     const float returns[RHO_ECHO_HIT_CLASSES])
 {
     for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
-        remove_returns(map, region, c, returns[c]);
-        remove_returns(map, ALL_REGIONS, c, returns[c]);
+        remove_returns_of_class(map, region, c, returns[c]);
+        remove_returns_of_class(map, ALL_REGIONS, c, returns[c]);
     }
 }
 
@@ -116,9 +124,9 @@ float rho_clutter_map_remaining(float share)
     return 1.0f - share / TURNS_REMEMBERED;
 }
 
-/* Adds one table of looks and returns to another: *to = keep *to + *from. */
-static void add_returns_table(struct rho_echo_returns *to, float keep,
-                              const struct rho_echo_returns *from)
+/* Decays a table of looks and returns and adds another one: *to = keep * *to + *from. */
+static void decay_and_add_table(struct rho_echo_returns *to, float keep,
+                                const struct rho_echo_returns *from)
 {
     for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
         for (unsigned g = 0; g < RHO_ECHO_GAP_CLASSES; g++) {
@@ -128,10 +136,10 @@ static void add_returns_table(struct rho_echo_returns *to, float keep,
     }
 }
 
-static void advance_blocks(struct rho_clutter_map *map)
+static void advance_count_blocks(struct rho_clutter_map *map)
 {
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        add_returns_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
+        decay_and_add_table(&map->tables[0][r], 1.0f, &map->tables[2][r]);
     }
     memcpy(map->tables[2], map->tables[1], sizeof map->tables[2]);
     memset(map->tables[1], 0, sizeof map->tables[1]);
@@ -141,13 +149,13 @@ void rho_clutter_map_age(struct rho_clutter_map *map, float share)
 {
     static const struct rho_echo_returns none;
     for (unsigned r = 0; r < RHO_ECHO_TABLES; r++) {
-        add_returns_table(&map->tables[0][r], rho_clutter_map_remaining(share), &none);
+        decay_and_add_table(&map->tables[0][r], rho_clutter_map_remaining(share), &none);
     }
     map->scans_to_blocks -= share;
     if (!(map->scans_to_blocks > 0.0f)) {
-        advance_blocks(map);
+        advance_count_blocks(map);
         if (!(map->tables[0][ALL_REGIONS].looks[0][0] > 0.0f)) {
-            advance_blocks(map); /* the first block is used as soon as it ends */
+            advance_count_blocks(map); /* the first block of a new map is used as soon as it ends */
         }
         map->scans_to_blocks = BLOCK_TURNS;
     }
@@ -186,7 +194,7 @@ uint8_t rho_clutter_map_region(const struct rho_sensor *sensor, float range_max_
                      region_index(rho_sqrt(view.range_m / range_max_m)));
 }
 
-static void predict_axis(float axis[3], float dt_s)
+static void predict_axis_covariance(float axis[3], float dt_s)
 {
     axis[0] += dt_s * (2.0f * axis[1] + dt_s * axis[2]);
     axis[1] += dt_s * axis[2];
@@ -197,19 +205,23 @@ void rho_clutter_map_predict_echo(struct rho_echo *echo, int64_t time_us)
     const float dt_s = rho_seconds_between(echo->time_us, time_us);
     echo->x_m += dt_s * echo->vx_mps;
     echo->y_m += dt_s * echo->vy_mps;
-    predict_axis(echo->along, dt_s);
-    predict_axis(echo->across, dt_s);
+    predict_axis_covariance(echo->along, dt_s);
+    predict_axis_covariance(echo->across, dt_s);
     echo->time_us = time_us;
 }
 
-/* Updates one axis with a plot off_m away; move: corrections of place and speed. */
+/*
+ * Kalman update of an echo's covariance on one axis with a plot that lies off_m from it. Sets
+ * move[] to the corrections of place and speed.
+ */
 static void update_axis(float axis[3], float variance_m2, float off_m, float move[2])
 {
     const float sum = axis[0] + variance_m2, place = axis[0] / sum, speed = axis[1] / sum;
     move[0] = place * off_m;
     move[1] = speed * off_m;
     axis[2] -= speed * axis[1];
-    axis[2] = axis[2] > 0.0f ? axis[2] : 0.0f; /* rounding: the noise may be millimetres */
+    /* rounding: the noise may be as small as millimetres */
+    axis[2] = axis[2] > 0.0f ? axis[2] : 0.0f;
     axis[1] *= 1.0f - place;
     axis[0] = (1.0f - place) * axis[0] + PLACE_NOISE * variance_m2;
 }
@@ -259,11 +271,14 @@ void rho_clutter_map_start_echo(const struct rho_clutter_map *map, struct rho_ec
 #define RANKS 64u
 #define HITS_RANKED 16u
 
-/* An echo that no scan covers counts as missed once in this many seconds. */
+/* Seconds in which an echo that no scan covers counts as missed once. */
 #define MISSED_S 60.0f
 
-/* Echoes with a higher rank are dropped first. */
-static unsigned drop_rank(const struct rho_echo *echo, int64_t time_us)
+/*
+ * Rank of an echo when places are freed, by its misses for its hits: higher ranks are dropped
+ * first.
+ */
+static unsigned echo_drop_rank(const struct rho_echo *echo, int64_t time_us)
 {
     const unsigned hits = echo->hits < HITS_RANKED ? echo->hits : HITS_RANKED;
     unsigned missed = echo->unseen;
@@ -276,8 +291,8 @@ static unsigned drop_rank(const struct rho_echo *echo, int64_t time_us)
     return rank < RANKS ? rank : RANKS - 1u;
 }
 
-/* Echoes that the newest scan saw stay. */
-static int may_be_dropped(const struct rho_echo *echo)
+/* True where an echo may be dropped for another one: the newest scan did not see it. */
+static int may_drop_echo(const struct rho_echo *echo)
 {
     return echo->hits > 0 && (echo->unseen > 0 || !echo->was_looked_at);
 }
@@ -290,20 +305,21 @@ void rho_clutter_map_make_room(struct rho_clutter_map *map, uint32_t num, int64_
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         const struct rho_echo *echo = &map->echoes[i];
         is_free += echo->hits == 0;
-        if (may_be_dropped(echo)) {
-            of_rank[drop_rank(echo, time_us)]++;
+        if (may_drop_echo(echo)) {
+            of_rank[echo_drop_rank(echo, time_us)]++;
         }
     }
     while (rank > 0 && is_free < num) {
         is_free += of_rank[--rank];
     }
-    uint32_t to_spare = is_free > num ? is_free - num : 0; /* of the last rank */
+    /* echoes of the lowest dropped rank that stay, as enough places are free without them */
+    uint32_t to_spare = is_free > num ? is_free - num : 0;
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++) {
         struct rho_echo *echo = &map->echoes[i];
-        if (!may_be_dropped(echo) || drop_rank(echo, time_us) < rank) {
+        if (!may_drop_echo(echo) || echo_drop_rank(echo, time_us) < rank) {
             continue;
         }
-        if (drop_rank(echo, time_us) == rank && to_spare > 0) {
+        if (echo_drop_rank(echo, time_us) == rank && to_spare > 0) {
             to_spare--;
             continue;
         }
@@ -314,7 +330,7 @@ void rho_clutter_map_make_room(struct rho_clutter_map *map, uint32_t num, int64_
 
 /* ---- saved and taught ------------------------------------------------------------------------ */
 
-/* Square of the standard deviations of speed beyond which an echo moves. */
+/* Square of the ratio of speed to its standard deviation above which an echo counts as moving. */
 #define MOVES_SIGMAS2 16.0f
 #define LOOKS_MAX 1e9f
 
@@ -337,11 +353,16 @@ enum rho_status rho_clutter_map_teach(struct rho_clutter_map *map, int32_t senso
                 .sensor_id = sensor_id,
                 .x_m = x_m,
                 .y_m = y_m,
-                .along = {sigma_range_m * sigma_range_m, 0.0f, 0.0f}, /* it stands, at any time */
+                /* a taught echo stands: its speed is 0 */
+                .along = {sigma_range_m * sigma_range_m, 0.0f, 0.0f},
                 .across = {sigma_cross_m * sigma_cross_m, 0.0f, 0.0f},
                 .plot = -1,
                 .hits = hits,
-                .region = UINT8_MAX, /* found at the first look: its sensor may not be known yet */
+                /*
+                 * UINT8_MAX: the region is found at the first look, as the sensor may not be known
+                 * yet
+                 */
+                .region = UINT8_MAX,
             };
             return RHO_OK;
         }
@@ -376,7 +397,8 @@ void rho_clutter_map_learned(const struct rho_clutter_map *map, unsigned region,
         sum_looks += map->tables[part][region].looks[c][g];
         sum_returns += map->tables[part][region].returns[c][g];
     }
-    sum_returns = sum_returns > 0.0f ? sum_returns : 0.0f; /* tracks have taken back more */
+    /* tracks may have taken out more returns than were counted */
+    sum_returns = sum_returns > 0.0f ? sum_returns : 0.0f;
     if (looks) {
         *looks = sum_looks;
     }

@@ -1,32 +1,35 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * clutter_memory: the clutter of the last hundred scans: hot spots that are smaller than the few
- * plots of a window can show, and standing objects.
+ * clutter_memory: the density of clutter over the last hundred scans, which shows standing objects
+ * and hot spots that are too small for the few plots of a window.
  *
- * Plots that leave the window unused were clutter. They are counted in cells much smaller than
- * those of the window's map, and all counts are halved regularly. A cell with significantly more
- * plots than the window's density explains has the density of its own count. So the memory only
- * raises densities: clutter that has ended is forgotten slowly, and the window shows new clutter.
+ * Plots that leave the window without having started a track were clutter. They are counted in
+ * cells much smaller than those of the density map, and all counts are halved regularly. Where a
+ * cell has significantly more plots than the window's density explains, the density of its count is
+ * taken. So the memory only raises densities: clutter that has ended is forgotten slowly, and the
+ * window shows new clutter.
  */
 #include <string.h>
 
 #include "search.h"
 
-/* Scans at which all counts are halved: a memory of 64 to 128 scans. */
+/* Number of remembered scans at which all counts are halved: the memory is 64 to 128 scans long. */
 #define SCANS_MAX 128u
 /*
- * Significance of a cell, in standard deviations of its expected count. Without it, random counts
- * would raise densities everywhere.
+ * Excess of a cell's count over the expected count, in standard deviations, from which the memory
+ * raises the density. With a lower limit random counts would raise it everywhere.
  */
 #define SIGMAS 3.0f
 /*
- * The map is laid anew where the area has outgrown it, with this margin on each side; or has become
- * this much smaller.
+ * The memory's cells are laid out anew, and its counts cleared, where the area has outgrown them or
+ * where they are TOO_WIDE times as wide or high as the area. MARGIN_SHARE of the area's sides is
+ * left as a margin at each border.
  */
 #define MARGIN_SHARE 0.25f
 #define TOO_WIDE 4.0f
 
-static int is_outside(const struct rho_clutter_memory *memory, const struct rho_extent *extent)
+static int must_lay_out_cells(const struct rho_clutter_memory *memory,
+                              const struct rho_extent *extent)
 {
     const float width_m = (float)RHO_MAX_CLUTTER_CELLS / memory->columns_per_m;
     const float height_m = (float)RHO_MAX_CLUTTER_CELLS / memory->rows_per_m;
@@ -37,7 +40,7 @@ static int is_outside(const struct rho_clutter_memory *memory, const struct rho_
            height_m > TOO_WIDE * rho_extent_height_m(extent, 1.0f);
 }
 
-static void lay_cells(struct rho_clutter_memory *memory, const struct rho_extent *extent)
+static void lay_out_empty_cells(struct rho_clutter_memory *memory, const struct rho_extent *extent)
 {
     const float width_m = rho_extent_width_m(extent, 1.0f);
     const float height_m = rho_extent_height_m(extent, 1.0f);
@@ -48,16 +51,16 @@ static void lay_cells(struct rho_clutter_memory *memory, const struct rho_extent
     memory->rows_per_m = (float)RHO_MAX_CLUTTER_CELLS / ((1.0f + 2.0f * MARGIN_SHARE) * height_m);
 }
 
-static int cell_index(float cells)
+static int row_or_column_index(float cells)
 {
     return cells >= 0.0f && cells < (float)RHO_MAX_CLUTTER_CELLS ? (int)cells : -1;
 }
 
-/* Cell of the memory at a place; -1: outside. */
-static int cell_of(const struct rho_clutter_memory *memory, float x_m, float y_m)
+/* Index of the memory's cell at a place; -1 outside of the cells. */
+static int cell_of_place(const struct rho_clutter_memory *memory, float x_m, float y_m)
 {
-    const int column = cell_index((x_m - memory->x_min_m) * memory->columns_per_m);
-    const int row = cell_index((y_m - memory->y_min_m) * memory->rows_per_m);
+    const int column = row_or_column_index((x_m - memory->x_min_m) * memory->columns_per_m);
+    const int row = row_or_column_index((y_m - memory->y_min_m) * memory->rows_per_m);
     return column < 0 || row < 0 ? -1 : row * RHO_MAX_CLUTTER_CELLS + column;
 }
 
@@ -73,20 +76,21 @@ void rho_initiator_add_to_memory(struct rho_initiator *initiator)
 {
     struct rho_clutter_memory *memory = &initiator->memory;
     const struct rho_window_scan *scan = rho_window_scan_at(&initiator->window, 0);
-    if (memory->num_scans == 0 || is_outside(memory, &initiator->window.extent)) {
-        lay_cells(memory, &initiator->window.extent);
+    if (memory->num_scans == 0 || must_lay_out_cells(memory, &initiator->window.extent)) {
+        lay_out_empty_cells(memory, &initiator->window.extent);
     }
     if (memory->num_scans == SCANS_MAX) {
         halve_counts(memory);
     }
     memory->num_scans++;
     for (unsigned i = 0; i < scan->num_plots; i++) {
-        const int cell = cell_of(memory, scan->plots[i].x_m, scan->plots[i].y_m);
+        const int cell = cell_of_place(memory, scan->plots[i].x_m, scan->plots[i].y_m);
         if (cell < 0 || (scan->marks[i] & RHO_WINDOW_INITIATED)) {
             continue;
         }
         if (memory->count[cell] == UINT16_MAX) {
-            halve_counts(memory); /* the others keep their proportion */
+            /* all cells are halved, so that their counts stay in proportion */
+            halve_counts(memory);
         }
         memory->count[cell]++;
     }
@@ -99,12 +103,12 @@ float rho_initiator_memory_density(const struct rho_initiator *initiator, float 
     if (RHO_MAX_CLUTTER_CELLS == 0 || memory->num_scans == 0) {
         return density_per_m2;
     }
-    const int cell = cell_of(memory, x_m, y_m);
+    const int cell = cell_of_place(memory, x_m, y_m);
     if (cell < 0) {
         return density_per_m2;
     }
     const float scans_m2 = (float)memory->num_scans / (memory->columns_per_m * memory->rows_per_m);
-    /* one plot of the window's density is added: few plots weigh little, and no division is by 0 */
+    /* a plot is added to both counts: few plots then weigh little, and the divisor is never 0 */
     const float expected = density_per_m2 * scans_m2 + 1.0f;
     const float count = (float)memory->count[cell] + 1.0f, excess = count - expected;
     return excess > 0.0f && excess * excess > SIGMAS * SIGMAS * expected

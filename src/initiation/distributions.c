@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * distributions: limits of chi-square and factorials.
- */
+/* distributions: quantiles of the chi-square distribution, and logarithms of factorials. */
 #include "rhotrack/detail/approx.h"
 #include "search.h"
 
-/* Wilson and Hilferty's approximation: a normal deviate of `sigmas` as a limit of chi-square. */
+/*
+ * Quantile of chi-square with this number of dimensions, below which it lies as often as a normal
+ * deviate below `sigmas` (Wilson and Hilferty's approximation).
+ */
 float rho_initiator_chi2_limit(unsigned dimensions, float sigmas)
 {
     float f = 2.0f / (9.0f * (float)dimensions);

@@ -6,7 +6,7 @@
 #include "rhotrack/detail/approx.h"
 
 /*
- * Variance of the prediction of a tentative track over that of a plot, as determinants of both
+ * Ratio of the variances of a tentative track's prediction and of a plot, as determinants of both
  * axes.
  */
 #define PREDICTION_SPREAD 4.0f
@@ -14,15 +14,16 @@
 #define NEVER_NAT (-1.0e6f)
 
 /*
- * Scores may be so much above those of the model: votes may be nearer to each other than in the
- * mean, and the set's own plots are not in the density.
+ * Margin by which sets may score higher than the model's perfect fit of their pattern: votes may be
+ * nearer to each other than on average, and the set's own plots are not in the density.
  */
 #define BEST_MARGIN_NAT 2.0f
 
-#define RINGS 8 /* of speeds, for the share of tracks that stay in the area */
+/* rings of speeds over which the share of tracks that stay in the area is averaged */
+#define RINGS 8
 #define SHARE_MIN 1.0e-6f
 
-/* Limit of a number of false sets. */
+/* Largest weight of a pattern: keeps numbers of false sets finite. */
 #define WEIGHT_MAX 1.0e30f
 
 /* ---- places ---------------------------------------------------------------------------------- */
@@ -32,8 +33,8 @@ static float log_of_sigma_code(uint16_t code)
     return rho_log(rho_window_sigma(code));
 }
 
-static struct place_class class_of(const struct false_tracks *model,
-                                   const struct rho_window_scan *scan, unsigned index)
+static struct place_class place_class_of_plot(const struct false_tracks *model,
+                                              const struct rho_window_scan *scan, unsigned index)
 {
     const struct search *search = model->search;
     const struct rho_window_plot *plot = &scan->plots[index];
@@ -48,27 +49,29 @@ static struct place_class class_of(const struct false_tracks *model,
     if (model->has_range_rate) {
         place.log_range_rate = log_of_sigma_code(plot->sigma_range_rate);
     }
-    /* the area that has one such plot */
+    /* the place stands for the area that has one such plot */
     place.share = rho_exp(-place.log_density);
     return place;
 }
 
-static int is_close(float a, float b)
+static int are_logarithms_close(float a, float b)
 {
     return a - b < 0.05f && b - a < 0.05f;
 }
 
-static int are_alike(const struct place_class *a, const struct place_class *b)
+static int are_alike_classes(const struct place_class *a, const struct place_class *b)
 {
-    return is_close(a->log_density, b->log_density) && is_close(a->log_range, b->log_range) &&
-           is_close(a->log_cross, b->log_cross) && is_close(a->log_up, b->log_up) &&
-           is_close(a->log_range_rate, b->log_range_rate);
+    return are_logarithms_close(a->log_density, b->log_density) &&
+           are_logarithms_close(a->log_range, b->log_range) &&
+           are_logarithms_close(a->log_cross, b->log_cross) &&
+           are_logarithms_close(a->log_up, b->log_up) &&
+           are_logarithms_close(a->log_range_rate, b->log_range_rate);
 }
 
-static void add_place_class(struct false_tracks *model, const struct place_class *place)
+static void add_or_merge_place_class(struct false_tracks *model, const struct place_class *place)
 {
     for (unsigned i = 0; i < model->num_classes; i++) {
-        if (are_alike(&model->classes[i], place)) {
+        if (are_alike_classes(&model->classes[i], place)) {
             model->classes[i].share += place->share;
             return;
         }
@@ -76,8 +79,11 @@ static void add_place_class(struct false_tracks *model, const struct place_class
     model->classes[model->num_classes++] = *place;
 }
 
-/* Samples every so many held plots: clutter and noise at places where there are plots. */
-static void sample_places(struct false_tracks *model)
+/*
+ * Samples evenly spaced held plots into at most CLASSES_MAX classes of clutter and noise, each with
+ * its share of the area.
+ */
+static void sample_place_classes(struct false_tracks *model)
 {
     struct rho_window *window = &model->search->initiator->window;
     unsigned total = 0, passed = 0;
@@ -93,8 +99,8 @@ static void sample_places(struct false_tracks *model)
         const struct rho_window_scan *scan = rho_window_scan_at(window, m);
         for (unsigned i = 0; i < scan->num_plots; i++, passed++) {
             if (passed % stride == stride / 2u) {
-                struct place_class place = class_of(model, scan, i);
-                add_place_class(model, &place);
+                struct place_class place = place_class_of_plot(model, scan, i);
+                add_or_merge_place_class(model, &place);
             }
         }
     }
@@ -108,8 +114,8 @@ static void sample_places(struct false_tracks *model)
 
 /* ---- patterns -------------------------------------------------------------------------------- */
 
-/* ln Gamma(k + 1) for k a multiple of a half. */
-static float log_gamma(float k)
+/* ln Gamma(k + 1), where k is a multiple of a half. */
+static float log_gamma_plus_1(float k)
 {
     float sum = 0.0f;
     while (k > 0.75f) {
@@ -120,10 +126,10 @@ static float log_gamma(float k)
 }
 
 /*
- * Mean over the choices of h scans, the first of the span and the newest among them, of h sum (t -
+ * Mean, over all choices of h = `hits` scans that include `first` and the newest, of h sum (t -
  * mean)^2 = sum over pairs of (t_i - t_j)^2.
  */
-static float mean_spread_s2(const struct search *search, unsigned first, unsigned hits)
+static float mean_time_spread_s2(const struct search *search, unsigned first, unsigned hits)
 {
     unsigned last = search->num_scans - 1u, between = last - first - 1u, inner = hits - 2u;
     float both = search->time_s[last] - search->time_s[first];
@@ -143,10 +149,10 @@ static float mean_spread_s2(const struct search *search, unsigned first, unsigne
 }
 
 /*
- * Share of the first points that have the second point, displaced by (dx, dy), in an area of width
- * x height.
+ * Share of the points of a rectangle that are still in the rectangle after a displacement by (dx,
+ * dy).
  */
-static float share_left_by(float width_m, float height_m, float dx_m, float dy_m)
+static float share_inside_after_move(float width_m, float height_m, float dx_m, float dy_m)
 {
     return dx_m < width_m && dy_m < height_m ? (1.0f - dx_m / width_m) * (1.0f - dy_m / height_m)
                                              : 0.0f;
@@ -154,15 +160,16 @@ static float share_left_by(float width_m, float height_m, float dx_m, float dy_m
 
 /*
  * Share of the straight tracks that begin in the area, with any allowed velocity, and are still in
- * it span_s later: there are no plots outside. Mean over rings of equal content and directions of a
- * quadrant.
+ * the area span_s later, where alone there are plots. The mean over rings of speed of equal
+ * content, and over directions of a quadrant.
  */
-static float share_still_inside(const struct search *search, float span_s)
+static float share_of_tracks_inside_after(const struct search *search, float span_s)
 {
     static const float directions[4][2] = {{0.98078528f, 0.19509032f},
                                            {0.83146961f, 0.55557023f},
                                            {0.55557023f, 0.83146961f},
-                                           {0.19509032f, 0.98078528f}}; /* (2 i + 1) pi / 16 */
+                                           /* cosine and sine of (2 i + 1) pi / 16 */
+                                           {0.19509032f, 0.98078528f}};
     const struct rho_window *window = &search->initiator->window;
     const struct rho_initiator_config *config = &search->initiator->config;
     float side_min_m = window->side_min_m > 1.0f ? window->side_min_m : 1.0f;
@@ -174,28 +181,31 @@ static float share_still_inside(const struct search *search, float span_s)
         float part = ((float)ring + 0.5f) / (float)RINGS;
         float travelled_m = span_s * rho_sqrt(least2 + part * (most2 - least2));
         for (int i = 0; i < 4; i++) {
-            share += share_left_by(width_m, height_m, travelled_m * directions[i][0],
-                                   travelled_m * directions[i][1]) /
+            share += share_inside_after_move(width_m, height_m, travelled_m * directions[i][0],
+                                             travelled_m * directions[i][1]) /
                      (float)(4 * RINGS);
         }
     }
     return share > SHARE_MIN ? share : SHARE_MIN;
 }
 
-/* ln of how many aliases this number of ambiguous range rates has. */
-static float log_aliases_of(const struct false_tracks *model, float hits)
+/* ln of the number of alias combinations that this number of ambiguous range rates has. */
+static float log_aliases_of_hits(const struct false_tracks *model, float hits)
 {
     return hits * model->log_aliases;
 }
 
-/* ln det of the normal equations, all axes. */
-static float log_fisher(const struct false_tracks *model, const struct place_class *place,
-                        float hits, float spread_s2)
+/* ln of the determinant of the normal equations of a fit (its Fisher information), all axes. */
+static float log_fisher_determinant(const struct false_tracks *model,
+                                    const struct place_class *place, float hits, float spread_s2)
 {
     float cross = rho_log(spread_s2) - 4.0f * place->log_cross;
     float along = rho_log(spread_s2) - 4.0f * place->log_range;
     if (model->has_range_rate) {
-        /* hits / range^2 (S / range^2 + hits / rate^2), S = spread / hits */
+        /*
+         * determinant along the line of sight: hits / range^2 (S / range^2 + hits / rate^2), S =
+         * spread / hits
+         */
         float slope = rho_log(spread_s2 / hits) - 2.0f * place->log_range;
         float rate = rho_log(hits) - 2.0f * place->log_range_rate;
         float larger = slope > rate ? slope : rate, smaller = slope > rate ? rate : slope;
@@ -205,8 +215,8 @@ static float log_fisher(const struct false_tracks *model, const struct place_cla
     return cross + along + (model->has_z ? rho_log(spread_s2) - 4.0f * place->log_up : 0.0f);
 }
 
-/* Half the log of the determinant of the noise of one hit. */
-static float log_noise(const struct false_tracks *model, const struct place_class *place)
+/* Half the ln of the determinant of one hit's noise covariance. */
+static float log_noise_of_hit(const struct false_tracks *model, const struct place_class *place)
 {
     return place->log_range + place->log_cross + (model->has_z ? place->log_up : 0.0f) +
            (model->has_range_rate ? place->log_range_rate : 0.0f);
@@ -217,35 +227,36 @@ static float dimensions_of_hit(const struct false_tracks *model)
     return 2.0f + (model->has_z ? 1.0f : 0.0f) + (model->has_range_rate ? 1.0f : 0.0f);
 }
 
-static float log_hits_and_misses(const struct search *search, unsigned first, unsigned hits)
+static float log_hit_pattern_probability(const struct search *search, unsigned first, unsigned hits)
 {
     unsigned newest = search->num_scans - 1u;
     return (float)hits * search->log_pd[newest] +
            (float)(newest - first + 1u - hits) * search->log_miss[newest];
 }
 
-static float half_dimensions(const struct false_tracks *model, unsigned hits)
+static float half_residual_dimensions(const struct false_tracks *model, unsigned hits)
 {
     return 0.5f * ((float)hits * dimensions_of_hit(model) - (model->has_z ? 6.0f : 4.0f));
 }
 
-/* The score of a perfect fit: rho_initiator_score_set with chi2 = 0. */
+/* Score of a perfect fit to the hits of a pattern: rho_initiator_score_set with chi-square 0. */
 static float best_score_of_pattern(const struct false_tracks *model,
                                    const struct place_class *place, unsigned first, unsigned hits,
                                    float spread_s2)
 {
     const struct search *search = model->search;
     float h = (float)hits;
-    float fisher = log_fisher(model, place, h, spread_s2);
-    return search->log_prior + log_hits_and_misses(search, first, hits) - h * place->log_density -
-           half_dimensions(model, hits) * LOG_TWO_PI - h * log_noise(model, place) - 0.5f * fisher +
+    float fisher = log_fisher_determinant(model, place, h, spread_s2);
+    return search->log_prior + log_hit_pattern_probability(search, first, hits) -
+           h * place->log_density - half_residual_dimensions(model, hits) * LOG_TWO_PI -
+           h * log_noise_of_hit(model, place) - 0.5f * fisher +
            rho_initiator_log_volume(search, model->has_z, model->has_z ? hits : 0u,
                                     model->has_range_rate ? hits : 0u) -
-           log_aliases_of(model, h);
+           log_aliases_of_hits(model, h);
 }
 
-/* chi2 / 2 of half as many dimensions. */
-static float chi2_half_limit(float half)
+/* Half of the 99.9 % quantile of chi-square with 2 `half` dimensions. */
+static float half_chi2_limit(float half)
 {
     return 0.5f * rho_initiator_chi2_limit((unsigned)(2.0f * half + 0.5f), SIGMAS_99_9);
 }
@@ -254,17 +265,18 @@ static void add_pattern(struct false_tracks *model, unsigned first, unsigned hit
 {
     const struct search *search = model->search;
     unsigned newest = search->num_scans - 1u, between = newest - first - 1u;
-    float half = half_dimensions(model, hits);
+    float half = half_residual_dimensions(model, hits);
     model->patterns[model->num_patterns++] = (struct pattern){
         .first = (uint16_t)first,
         .hits = (uint16_t)hits,
         .log_choices = rho_initiator_log_factorial(between) -
                        rho_initiator_log_factorial(hits - 2u) -
                        rho_initiator_log_factorial(between + 2u - hits),
-        .spread_s2 = mean_spread_s2(search, first, hits),
-        .inside = share_still_inside(search, search->time_s[newest] - search->time_s[first]),
+        .spread_s2 = mean_time_spread_s2(search, first, hits),
+        .inside =
+            share_of_tracks_inside_after(search, search->time_s[newest] - search->time_s[first]),
         .half_dimensions = half,
-        .most = chi2_half_limit(half),
+        .most = half_chi2_limit(half),
     };
 }
 
@@ -274,40 +286,40 @@ static float log_widened_sigma(float log_sigma_m, float bend_m2)
 }
 
 /*
- * Share of a bent track's residual in its j-th mode, as of a free beam; the first one is the
- * longest bow.
+ * Share of mode j in the residual of a track bent by process noise, as of a free beam; mode 1 is
+ * the longest bow.
  */
-static float shape_share(unsigned j)
+static float bend_share_of_mode(unsigned j)
 {
     const float waves = 3.0f / (float)(2u * j + 1u);
     return waves * waves * waves * waves;
 }
 
 /*
- * ln of the sigma with which the plots' determinant equals that of the score. The dimensions of the
- * residual have very different variances, sigma^2 plus their mode's part of the bend, and the
- * determinant is their product (src/DESIGN.md).
+ * ln of the sigma of isotropic noise that gives the same determinant as noise and bend together.
+ * The dimensions of the residual have very different variances, sigma^2 plus the bend of their
+ * mode; the determinant is the product of these (src/DESIGN.md).
  */
-static float log_widened_by_shapes(float log_sigma_m, float bend_m2, unsigned dimensions)
+static float log_sigma_widened_by_modes(float log_sigma_m, float bend_m2, unsigned dimensions)
 {
     float all = 0.0f, sum = 0.0f;
     for (unsigned j = 1; j <= dimensions; j++) {
-        all += shape_share(j);
+        all += bend_share_of_mode(j);
     }
     for (unsigned j = 1; j <= dimensions; j++) {
-        sum += log_widened_sigma(log_sigma_m, bend_m2 * shape_share(j) / all);
+        sum += log_widened_sigma(log_sigma_m, bend_m2 * bend_share_of_mode(j) / all);
     }
     return sum / (float)dimensions;
 }
 
 /*
- * The noise of a plot about a straight track, widened by the bend of tracks with this number of
- * hits from `first` on. For anisotropic noise the score takes process noise as independent from
- * plot to plot: all dimensions are alike.
+ * Noise of a plot about a straight track, widened by the bend that process noise gives tracks with
+ * this number of hits from scan `first` on. For anisotropic noise the score takes process noise as
+ * independent from plot to plot, so all dimensions are widened alike.
  */
-static struct place_class widened_by_bend(const struct false_tracks *model,
-                                          const struct place_class *place, unsigned first,
-                                          unsigned hits)
+static struct place_class noise_widened_by_bend(const struct false_tracks *model,
+                                                const struct place_class *place, unsigned first,
+                                                unsigned hits)
 {
     struct place_class wide = *place;
     if (!(model->search->fit_process_m2 > 0.0f)) {
@@ -317,7 +329,7 @@ static struct place_class widened_by_bend(const struct false_tracks *model,
     const float scans = (float)(model->search->num_scans - first);
     if (rho_initiator_is_isotropic(model->search)) {
         wide.log_range =
-            log_widened_by_shapes(place->log_range, bend_m2 * (float)hits / scans, hits - 2u);
+            log_sigma_widened_by_modes(place->log_range, bend_m2 * (float)hits / scans, hits - 2u);
         wide.log_cross = wide.log_range;
     } else {
         wide.log_range = log_widened_sigma(place->log_range, bend_m2 / (scans - 2.0f));
@@ -333,17 +345,17 @@ static struct pattern_score score_pattern(const struct false_tracks *model,
 {
     const struct search *search = model->search;
     unsigned first = pattern->first, hits = pattern->hits;
-    struct place_class wide = widened_by_bend(model, place, first, hits);
+    struct place_class wide = noise_widened_by_bend(model, place, first, hits);
     struct pattern_score score = {
         .best_nat = best_score_of_pattern(model, &wide, first, hits, pattern->spread_s2)};
     score.weight = 0.5f * place->share * pattern->inside *
-                   rho_exp(log_hits_and_misses(search, first, hits) + pattern->log_choices -
-                           score.best_nat - log_gamma(pattern->half_dimensions));
+                   rho_exp(log_hit_pattern_probability(search, first, hits) + pattern->log_choices -
+                           score.best_nat - log_gamma_plus_1(pattern->half_dimensions));
     score.weight = score.weight < WEIGHT_MAX ? score.weight : WEIGHT_MAX;
     return score;
 }
 
-static void list_patterns(struct false_tracks *model)
+static void list_and_score_patterns(struct false_tracks *model)
 {
     unsigned num_scans = model->search->num_scans;
     model->num_patterns = 0;
@@ -379,36 +391,40 @@ static float mean_log_aliases(const struct search *search)
 void rho_initiator_model_false_tracks(const struct search *search, struct false_tracks *model)
 {
     /*
-     * where only some scans measure heights or range rates, false tracks are assumed to need none:
-     * an upper bound
+     * where only some scans measure heights or range rates, false tracks are assumed to need
+     * neither: an upper bound
      */
     uint32_t measures = ~0u;
     for (unsigned m = 0; m < search->num_scans; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
-        measures &= scan->num_plots > 0 ? scan->measures : ~0u; /* no hit is in an empty one */
+        /* a scan without plots has no hit, whatever it measures */
+        measures &= scan->num_plots > 0 ? scan->measures : ~0u;
     }
     model->search = search;
     model->has_z = (measures & RHO_MEASURES_Z) != 0;
     model->has_range_rate = (measures & RHO_MEASURES_RANGE_RATE) != 0;
     model->log_aliases = model->has_range_rate ? mean_log_aliases(search) : 0.0f;
     model->num_classes = 0;
-    sample_places(model);
-    list_patterns(model);
+    sample_place_classes(model);
+    list_and_score_patterns(model);
 }
 
 /* ---- how many -------------------------------------------------------------------------------- */
 
 /*
- * A scan ago the track had one hit less: the margin of that pattern, of one scan later and one hit
- * less, over start_nat.
+ * Margin above start_nat of the pattern that the track had a scan ago, with one hit fewer; 0 where
+ * that has too few hits to start a track.
  */
-static float score_margin_before(const struct false_tracks *model, unsigned place, unsigned k,
-                                 float start_nat)
+static float score_margin_a_scan_ago(const struct false_tracks *model, unsigned place, unsigned k,
+                                     float start_nat)
 {
     if (model->patterns[k].hits <= model->least_hits) {
         return 0.0f;
     }
-    /* patterns are listed by their first scan, then by hits */
+    /*
+     * index of the pattern with one hit fewer that begins a scan later: patterns are listed by
+     * their first scan, then by hits
+     */
     const unsigned less = k + model->search->num_scans - model->patterns[k].first - 3u;
     const float before = model->scores[place][less].best_nat - start_nat;
     const float most = model->patterns[less].most;
@@ -416,14 +432,14 @@ static float score_margin_before(const struct false_tracks *model, unsigned plac
 }
 
 /*
- * Sets of a pattern in a class that reach s and whose track had not started at start_nat before:
- * weight y^k times the share of them whose track starts with the newest hit. Their chi2 / 2 was
- * above `before` without it, and is below y with it. Of the content of a ball, with the two
- * dimensions of one hit fewer, that is 1 - k q^(k - 1) + (k - 1) q^k, q = before / y. Computed
- * without logarithms, as it is called often: k is a multiple of a half.
+ * Number of false sets of a pattern in one class that reach the score s, and had not reached
+ * start_nat a scan ago: weight y^k times the share of new ones. Without the newest hit their chi2 /
+ * 2 is above `before`, and with it below y. Of the content of a ball, with the two dimensions of
+ * one hit fewer, that share is 1 - k q^(k - 1) + (k - 1) q^k, q = before / y. Powers are multiplied
+ * out rather than taken by logarithms, as the function is called often: k is a multiple of a half.
  */
-static float sets_in_class(const struct false_tracks *model, unsigned place, unsigned k,
-                           float s_nat, float start_nat)
+static float false_sets_in_class(const struct false_tracks *model, unsigned place, unsigned k,
+                                 float s_nat, float start_nat)
 {
     const struct pattern *pattern = &model->patterns[k];
     const struct pattern_score *score = &model->scores[place][k];
@@ -431,14 +447,14 @@ static float sets_in_class(const struct false_tracks *model, unsigned place, uns
     if (!(y > 0.0f)) {
         return 0.0f;
     }
-    const float before = score_margin_before(model, place, k, start_nat);
+    const float before = score_margin_a_scan_ago(model, place, k, start_nat);
     y = y < pattern->most ? y : pattern->most;
     if (before >= y) {
         return 0.0f;
     }
     unsigned halves = (unsigned)(2.0f * half + 0.5f);
     float q = before / y, content = halves % 2u ? rho_sqrt(y) : 1.0f;
-    float raised = halves % 2u ? rho_sqrt(q) : 1.0f; /* q^(half - 1) */
+    float raised = halves % 2u ? rho_sqrt(q) : 1.0f; /* q^(k - 1) */
     for (; halves >= 4u; halves -= 2u) {
         content *= y;
         raised *= q;
@@ -447,15 +463,15 @@ static float sets_in_class(const struct false_tracks *model, unsigned place, uns
     return score->weight * (content * y) * share;
 }
 
-static float sets_of_pattern(const struct false_tracks *model, unsigned k, float s_nat,
-                             float start_nat)
+static float false_sets_of_pattern(const struct false_tracks *model, unsigned k, float s_nat,
+                                   float start_nat)
 {
     float sum = 0.0f;
     if (model->patterns[k].hits < model->least_hits) {
         return 0.0f;
     }
     for (unsigned i = 0; i < model->num_classes; i++) {
-        sum += sets_in_class(model, i, k, s_nat, start_nat);
+        sum += false_sets_in_class(model, i, k, s_nat, start_nat);
     }
     return sum;
 }
@@ -465,7 +481,7 @@ float rho_initiator_false_sets_above(const struct false_tracks *model, float s_n
 {
     float sum = 0.0f;
     for (unsigned k = 0; k < model->num_patterns && sum <= enough; k++) {
-        sum += sets_of_pattern(model, k, s_nat, start_nat);
+        sum += false_sets_of_pattern(model, k, s_nat, start_nat);
     }
     return sum;
 }
@@ -477,11 +493,11 @@ float rho_initiator_share_staying_inside(const struct false_tracks *model, float
     float stay[RHO_MAX_SCANS], sum = 0.0f, all = 0.0f;
     for (unsigned first = 0; first + 3u <= search->num_scans; first++) {
         float span_s = search->time_s[newest] - search->time_s[first];
-        stay[first] = share_still_inside(search, span_s + search->interval_s) /
-                      share_still_inside(search, span_s);
+        stay[first] = share_of_tracks_inside_after(search, span_s + search->interval_s) /
+                      share_of_tracks_inside_after(search, span_s);
     }
     for (unsigned k = 0; k < model->num_patterns; k++) {
-        float sets = sets_of_pattern(model, k, start_nat, start_nat);
+        float sets = false_sets_of_pattern(model, k, start_nat, start_nat);
         sum += sets * stay[model->patterns[k].first];
         all += sets;
     }
@@ -494,19 +510,19 @@ float rho_initiator_gain_of_hit(const struct false_tracks *model)
     float least = FLT_MAX;
     for (unsigned i = 0; i < model->num_classes; i++) {
         const struct place_class wide =
-            widened_by_bend(model, &model->classes[i], search->num_scans - 3u, 3);
+            noise_widened_by_bend(model, &model->classes[i], search->num_scans - 3u, 3);
         float gain = search->log_pd[search->num_scans - 1u] - wide.log_density -
-                     0.5f * dimensions_of_hit(model) * LOG_TWO_PI - log_noise(model, &wide) -
+                     0.5f * dimensions_of_hit(model) * LOG_TWO_PI - log_noise_of_hit(model, &wide) -
                      rho_log(PREDICTION_SPREAD) +
                      rho_initiator_log_volume(search, 0, 0, model->has_range_rate ? 1u : 0u) -
-                     log_aliases_of(model, 1.0f);
+                     log_aliases_of_hits(model, 1.0f);
         least = gain < least ? gain : least;
     }
     return least;
 }
 
-/* The best score of a pattern in any class. */
-static float best_in_any_class(const struct false_tracks *model, unsigned k)
+/* Score of a perfect fit to a pattern, in the class of places where it is highest. */
+static float best_score_in_any_class(const struct false_tracks *model, unsigned k)
 {
     float best = NEVER_NAT;
     for (unsigned i = 0; i < model->num_classes; i++) {
@@ -516,13 +532,16 @@ static float best_in_any_class(const struct false_tracks *model, unsigned k)
     return best;
 }
 
-/* The chi2 / 2 of targets has mean k: half of them are lost where the margin is smaller. */
+/*
+ * True where a pattern with the least number of hits has a margin over start_nat of its mean chi2 /
+ * 2 or more, so that at least half of the targets with this pattern start.
+ */
 int rho_initiator_lets_targets_start(const struct false_tracks *model, float start_nat)
 {
     for (unsigned k = 0; k < model->num_patterns; k++) {
         const struct pattern *pattern = &model->patterns[k];
         if (pattern->hits == model->least_hits &&
-            best_in_any_class(model, k) - start_nat >= pattern->half_dimensions) {
+            best_score_in_any_class(model, k) - start_nat >= pattern->half_dimensions) {
             return 1;
         }
     }
@@ -535,7 +554,7 @@ unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigne
     for (unsigned k = 0; k < model->num_patterns; k++) {
         const struct pattern *pattern = &model->patterns[k];
         if (pattern->first == first && pattern->hits >= model->least_hits &&
-            best_in_any_class(model, k) >= start_nat - BEST_MARGIN_NAT) {
+            best_score_in_any_class(model, k) >= start_nat - BEST_MARGIN_NAT) {
             return pattern->hits;
         }
     }

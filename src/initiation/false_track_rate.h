@@ -16,79 +16,89 @@
 
 #include "search.h"
 
-/* Classes of places with similar clutter and noise. */
+/* Largest number of classes of places with similar clutter and noise. */
 #define CLASSES_MAX 8
 
-/* Patterns: first scan, and number of hits up to the newest. */
+/* Number of patterns: pairs of a first scan and a number of hits up to the newest scan. */
 #define PATTERNS_MAX ((RHO_MAX_SCANS - 2) * (RHO_MAX_SCANS - 1) / 2)
 
 struct place_class {
-    float log_density;                                  /* of the clutter there */
-    float log_range, log_cross, log_up, log_range_rate; /* ln of the sigmas */
-    float share;                                        /* its share of the area */
+    float log_density; /* ln of the clutter density there, plots a m^2 and scan */
+    /* ln of the sigmas of plots there */
+    float log_range, log_cross, log_up, log_range_rate;
+    float share; /* share of the area that places of the class have */
 };
 
-/* Sets with the same number of hits, from the same first scan. */
+/*
+ * A pattern: sets with the same number of hits, the first one in the same scan, the last one in the
+ * newest.
+ */
 struct pattern {
     uint16_t first, hits;
-    float log_choices; /* of the scans between */
-    float spread_s2;   /* mean_spread_s2 */
-    float inside;      /* share of tracks so long that stay in the area */
+    float log_choices; /* ln of the number of choices of the scans between */
+    float spread_s2;   /* mean spread of the hits' times, by mean_time_spread_s2 */
+    float inside;      /* share of tracks of this duration that stay in the area */
     float half_dimensions;
-    float most; /* chi2 / 2 that a fit may have */
+    float most; /* largest chi2 / 2 of a fit that is accepted */
 };
 
-/* A pattern in one class of places. */
+/* Score and weight of a pattern in one class of places. */
 struct pattern_score {
-    float weight;   /* births, pattern of hits, choices of scans and e^-c, over Gamma(k + 1) */
-    float best_nat; /* c */
+    /*
+     * expected sets for a margin of 1 nat: births, hits and misses, choices of scans and e^-c, over
+     * Gamma(k + 1)
+     */
+    float weight;
+    float best_nat; /* c: score of a perfect fit */
 };
 
-/* The model of the false tracks that clutter makes in a window. */
+/* Model of the false tracks that clutter makes in the window of a search. */
 struct false_tracks {
     const struct search *search;
     int has_z, has_range_rate;
-    /* ln of how many range rates look alike, mean over the scans; 0 where none is ambiguous */
+    /*
+     * ln of the number of aliases of a range rate, mean over the scans; 0 where none is ambiguous
+     */
     float log_aliases;
-    /* how far process noise bends tracks that begin in a scan: summed over their scans */
+    /* by first scan of a track: variance by which process noise bends it, summed over its scans */
     float bend_m2[RHO_MAX_SCANS];
     unsigned num_classes, num_patterns;
-    unsigned least_hits; /* patterns with fewer do not count */
+    unsigned least_hits; /* patterns with fewer hits start no track */
     struct place_class classes[CLASSES_MAX];
     struct pattern patterns[PATTERNS_MAX];
     struct pattern_score scores[CLASSES_MAX][PATTERNS_MAX];
 };
 
-/* Fills the model of the search's window. */
+/* Fills the model for the window of a search. */
 void rho_initiator_model_false_tracks(const struct search *search, struct false_tracks *model);
 
 /*
- * False tracks of one search that are new at start_nat and whose score reaches s_nat at once.
- * Counting ends at `enough`; FLT_MAX counts all.
+ * Expected number of false tracks of one search whose score reaches s_nat at once, and which had
+ * not reached start_nat before. Counting ends at `enough`; FLT_MAX counts all.
  */
 float rho_initiator_false_sets_above(const struct false_tracks *model, float s_nat, float start_nat,
                                      float enough);
 
-/* Share of the false tracks started at start_nat whose next place is still in the area. */
+/* Share of the false tracks started at start_nat that are still in the area at the next scan. */
 float rho_initiator_share_staying_inside(const struct false_tracks *model, float start_nat);
 
 /*
- * Score that one more perfect hit adds to a tentative track, in the class with the most clutter per
- * noise cell.
+ * Score that one more perfect hit adds to a tentative track, in the class of places where that is
+ * least.
  */
 float rho_initiator_gain_of_hit(const struct false_tracks *model);
 
 /*
- * Fewest hits, the model's least at least, with which sets from scan `first` to the newest reach
- * the threshold in any class; N + 1 where none do.
+ * Fewest hits, at least the model's least_hits, with which sets from scan `first` to the newest
+ * reach start_nat in any class; N + 1 where none do.
  */
 unsigned rho_initiator_least_hits_from(const struct false_tracks *model, unsigned first,
                                        float start_nat);
 
-/* Clutter plots in the noise of a plot, in the class with the least. */
+/* Clutter plots within the noise of a plot, in the class of places with the fewest; at most 1. */
 float rho_initiator_thinnest_clutter(const struct false_tracks *model);
 
-/* True where targets with the least number of hits reach the threshold in spite of their chi2. */
+/* True where at least half of the targets with the least number of hits reach start_nat. */
 int rho_initiator_lets_targets_start(const struct false_tracks *model, float start_nat);
 
 #endif

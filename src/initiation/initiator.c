@@ -6,10 +6,13 @@
 #include "rhotrack/detail/angle.h"
 #include "search.h"
 
-/* Usual intervals that a pause counts as. */
+/*
+ * Longest interval between scans that counts in the usual interval, in medians: a pause counts as
+ * that.
+ */
 #define PAUSE_GAPS 3.0f
 
-/* Least v_max: below, velocities are not resolved in float32. */
+/* Smallest v_max that is accepted: velocities below are not resolved in float32. */
 #define V_MAX_LEAST_MPS 0.01f
 
 #define INITIATOR_MAGIC 0x494e4954u /* "INIT" */
@@ -73,7 +76,7 @@ enum rho_status rho_initiator_init(struct rho_initiator *initiator, size_t size,
     return RHO_OK;
 }
 
-static int is_other_area(const struct rho_extent *a, const struct rho_extent *b)
+static int are_different_areas(const struct rho_extent *a, const struct rho_extent *b)
 {
     return !rho_is_within(a->x_min_m, b->x_min_m, b->x_min_m) ||
            !rho_is_within(a->x_max_m, b->x_max_m, b->x_max_m) ||
@@ -81,12 +84,12 @@ static int is_other_area(const struct rho_extent *a, const struct rho_extent *b)
            !rho_is_within(a->y_max_m, b->y_max_m, b->y_max_m);
 }
 
-/* Another size of the window, or another area. */
-static int has_other_window(const struct rho_initiator_config *a,
+/* True where two configurations have windows of different sizes, or different areas. */
+static int needs_new_window(const struct rho_initiator_config *a,
                             const struct rho_initiator_config *b)
 {
     return a->scans != b->scans || a->area_is_fixed != b->area_is_fixed ||
-           (a->area_is_fixed && is_other_area(&a->area, &b->area));
+           (a->area_is_fixed && are_different_areas(&a->area, &b->area));
 }
 
 enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
@@ -101,7 +104,7 @@ enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
     if (!rho_initiator_is_usable(config)) {
         return RHO_ERROR_CONFIG;
     }
-    if (has_other_window(config, &initiator->config)) {
+    if (needs_new_window(config, &initiator->config)) {
         const enum rho_status status =
             rho_window_init(&initiator->window, sizeof initiator->window, config->scans,
                             config->area_is_fixed ? &config->area : 0, 0.0f);
@@ -111,7 +114,7 @@ enum rho_status rho_initiator_reconfigure(struct rho_initiator *initiator,
     }
     initiator->config = *config;
     initiator->num_candidates = 0;
-    initiator->has_revolution = 0; /* thresholds are found anew */
+    initiator->has_revolution = 0; /* the next search finds the thresholds anew */
     return RHO_OK;
 }
 
@@ -130,7 +133,10 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     if (initiator->magic != INITIATOR_MAGIC) {
         return RHO_ERROR_STATE;
     }
-    /* the oldest scan is remembered before it is overwritten, unless the push will be refused */
+    /*
+     * the oldest scan is added to the clutter memory before it is overwritten, unless the push will
+     * be refused
+     */
     if (RHO_MAX_CLUTTER_CELLS > 0 && initiator->window.num_scans == initiator->config.scans &&
         rho_window_check_push(&initiator->window, scan, fates, left_unused) == RHO_OK &&
         !rho_window_continues(&initiator->window, scan, sensor)) {
@@ -139,7 +145,10 @@ enum rho_status rho_initiator_push(struct rho_initiator *initiator, const struct
     enum rho_status status = rho_window_push(&initiator->window, scan, sensor, fates, left_unused);
     if (status == RHO_OK) {
         initiator->num_candidates = 0;
-        /* other measured quantities need other thresholds */
+        /*
+         * the thresholds of a revolution do not hold for a sector that changes which quantities it
+         * measures
+         */
         initiator->has_revolution &=
             initiator->window.is_continued && !initiator->window.is_remeasured;
     }
@@ -157,7 +166,10 @@ static int measures_heights_or_rates(const struct search *search)
     return (measures & (RHO_MEASURES_Z | RHO_MEASURES_RANGE_RATE)) != 0;
 }
 
-/* Every plot has the same noise on both axes, and no height or range rate. */
+/*
+ * True where every plot has the same noise along and across the line of sight, and no scan measures
+ * heights or range rates.
+ */
 static int has_isotropic_noise(const struct search *search)
 {
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -169,8 +181,10 @@ static int has_isotropic_noise(const struct search *search)
     return !search->has_more;
 }
 
-/* The usual time between scans: their mean, with pauses limited to PAUSE_GAPS times the median. */
-static float usual_interval_s(const struct search *search)
+/*
+ * Usual time between scans: the mean interval, with pauses limited to PAUSE_GAPS times the median.
+ */
+static float usual_scan_interval_s(const struct search *search)
 {
     float gaps[RHO_MAX_SCANS] = {0.0f};
     unsigned n = 0;
@@ -191,25 +205,25 @@ static float usual_interval_s(const struct search *search)
 }
 
 /*
- * Times relative to the newest scan. An area that is not given has at least the travel of targets
- * within the window as its sides.
+ * Sets the scans' times relative to the newest, and the usual interval. The sides of an area that
+ * is not given become at least as long as the travel of the fastest target within the window.
  */
-static void set_scan_times(struct search *search)
+static void set_times_and_area_side(struct search *search)
 {
     struct rho_window *window = &search->initiator->window;
     int64_t newest_us = rho_window_scan_at(window, search->num_scans - 1u)->time_us;
     for (unsigned m = 0; m < search->num_scans; m++) {
         search->time_s[m] = rho_seconds_between(newest_us, rho_window_scan_at(window, m)->time_us);
     }
-    search->interval_s = usual_interval_s(search);
+    search->interval_s = usual_scan_interval_s(search);
     if (!window->area_is_fixed) {
         window->side_min_m = search->interval_s * (float)(search->num_scans - 1u) *
                              search->initiator->config.v_max_mps;
     }
 }
 
-/* The share of a revolution that the newest scan has seen, against the widest of the window's. */
-static float turn_share_of_newest(struct search *search)
+/* Sector width of the newest scan over the widest of the window: its share of a revolution. */
+static float revolution_share_of_newest(struct search *search)
 {
     float newest_rad = 0.0f, widest_rad = 0.0f;
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -220,12 +234,15 @@ static float turn_share_of_newest(struct search *search)
     return newest_rad / widest_rad;
 }
 
-/* Whether the newest input is a sector, and whether its revolution was searched before. */
-static void open_revolution(struct search *search)
+/*
+ * Sets whether the newest input is a sector, and whether an earlier sector of the same revolution
+ * was searched, whose density map and thresholds then hold.
+ */
+static void set_up_revolution(struct search *search)
 {
     struct rho_initiator *initiator = search->initiator;
     const int is_newest = search->kind == RHO_SEARCH_NEWEST;
-    search->scans_seen = (float)(search->num_scans - 1u) + turn_share_of_newest(search);
+    search->scans_seen = (float)(search->num_scans - 1u) + revolution_share_of_newest(search);
     search->is_continued = is_newest && initiator->window.is_continued && initiator->has_revolution;
     initiator->has_revolution = (uint16_t)is_newest;
     if (is_newest && (search->is_continued || !initiator->window.is_continued)) {
@@ -233,7 +250,7 @@ static void open_revolution(struct search *search)
     }
 }
 
-static void open_window(struct search *search)
+static void set_up_search(struct search *search)
 {
     search->wanted_mask = search->kind == RHO_SEARCH_NEWEST ? 1u << (search->num_scans - 1u) : 0u;
     search->scans_seen = (float)search->num_scans;
@@ -242,14 +259,14 @@ static void open_window(struct search *search)
     search->has_one_noise = has_isotropic_noise(search);
     rho_initiator_assume_turns(search, 0);
     if (RHO_SECTORS) {
-        open_revolution(search);
+        set_up_revolution(search);
     }
-    set_scan_times(search);
+    set_times_and_area_side(search);
 }
 
 /* ---- search ---------------------------------------------------------------------------------- */
 
-/* Kernels of turning targets get work that those of straight ones have left. */
+/* Searches for turning targets with the work that straight ones have left. */
 static void try_turning_targets(struct search *search)
 {
     const unsigned min_scans = search->min_scans;
@@ -257,11 +274,13 @@ static void try_turning_targets(struct search *search)
         search->is_partial) {
         return;
     }
-    search->min_scans++; /* clutter makes turns more easily */
+    /* one vote more than for straight targets, as clutter forms turns more easily */
+    search->min_scans++;
     if (search->min_scans <= search->num_scans) {
         search->log_turning = rho_initiator_log_turn_prior(search);
         rho_initiator_assume_turns(search, 1);
-        search->sigma_least_m = 0.0f; /* gates are wider than noise */
+        /* turns widen the gates beyond the bound that noise gives */
+        search->sigma_least_m = 0.0f;
         rho_initiator_try_turning_kernels(search);
     }
     search->min_scans = min_scans;
@@ -295,7 +314,7 @@ enum rho_status rho_initiator_search_within(struct rho_initiator *initiator, enu
     if (search.num_scans == 0) {
         return RHO_OK;
     }
-    open_window(&search);
+    set_up_search(&search);
     rho_initiator_prepare_process_noise(&search);
     rho_initiator_prepare_density(&search);
     rho_initiator_prepare_vote_gates(&search);

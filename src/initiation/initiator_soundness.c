@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* initiator_soundness: consistency of an initiator of unknown origin (a snapshot). */
+/* initiator_soundness: checks that an initiator of unknown origin (a snapshot) is consistent. */
 #include "search.h"
 
-/* Limit of scores, so that their sums do not overflow. */
+/* Largest score, either way: sums of scores then do not overflow. */
 #define SCORE_MAX_MNAT 1000000000
 
-static int is_score(int32_t mnat)
+static int is_sound_score(int32_t mnat)
 {
     return mnat >= -SCORE_MAX_MNAT && mnat <= SCORE_MAX_MNAT;
 }
@@ -15,30 +15,33 @@ static int is_finite(float v)
     return rho_are_finite(&v, 1);
 }
 
-static int is_above_0(float v)
+static int is_finite_above_0(float v)
 {
     return v > 0.0f && is_finite(v);
 }
 
-static int is_sound_map(const struct rho_density_map *map)
+static int is_sound_density_map(const struct rho_density_map *map)
 {
     if (map->columns < 1 || map->columns > RHO_MAX_DENSITY_CELLS || map->rows < 1 ||
         map->rows > RHO_MAX_DENSITY_CELLS) {
         return 0;
     }
-    return is_above_0(map->mean) && is_above_0(map->prior_plots) && is_above_0(map->content) &&
-           is_above_0(map->scans) && rho_is_coordinate(map->sensor_x_m) &&
-           rho_is_coordinate(map->sensor_y_m) && rho_is_within(map->middle_rad, -10.0f, 10.0f) &&
-           is_finite(map->u0) && is_finite(map->v0) && rho_is_within(map->width, 0.0f, 1e30f) &&
+    return is_finite_above_0(map->mean) && is_finite_above_0(map->prior_plots) &&
+           is_finite_above_0(map->content) && is_finite_above_0(map->scans) &&
+           rho_is_coordinate(map->sensor_x_m) && rho_is_coordinate(map->sensor_y_m) &&
+           rho_is_within(map->middle_rad, -10.0f, 10.0f) && is_finite(map->u0) &&
+           is_finite(map->v0) && rho_is_within(map->width, 0.0f, 1e30f) &&
            rho_is_within(map->height, 0.0f, 1e30f) &&
            rho_is_within(map->scans, 0.0f, (float)RHO_MAX_SCANS);
 }
 
-/* There are no maps before the first search. */
-static int are_sound_maps(const struct rho_initiator *initiator)
+/*
+ * True where all density maps of an initiator are consistent. Before the first search it has none.
+ */
+static int has_sound_density_maps(const struct rho_initiator *initiator)
 {
     for (unsigned i = 0; i < initiator->num_maps && i < RHO_MAX_DENSITY_MAPS; i++) {
-        if (!is_sound_map(&initiator->density[i])) {
+        if (!is_sound_density_map(&initiator->density[i])) {
             return 0;
         }
     }
@@ -46,7 +49,7 @@ static int are_sound_maps(const struct rho_initiator *initiator)
            rho_are_finite(initiator->sensor_ratio, RHO_MAX_SCANS);
 }
 
-static int has_sound_memory(const struct rho_initiator *initiator)
+static int has_sound_clutter_memory(const struct rho_initiator *initiator)
 {
     const struct rho_clutter_memory *memory = &initiator->memory;
     return RHO_MAX_CLUTTER_CELLS == 0 ||
@@ -55,12 +58,13 @@ static int has_sound_memory(const struct rho_initiator *initiator)
             rho_is_within(memory->rows_per_m, 0.0f, 1e6f));
 }
 
-/* True where the plots of a candidate are held. */
+/* True where the window holds the plots of a candidate, and its score is in range. */
 static int is_sound_candidate(const struct rho_initiator *initiator,
                               const struct rho_candidate *candidate)
 {
     const struct rho_window *window = &initiator->window;
-    if ((uint32_t)candidate->mask >> window->num_scans != 0 || !is_score(candidate->score_mnat)) {
+    if ((uint32_t)candidate->mask >> window->num_scans != 0 ||
+        !is_sound_score(candidate->score_mnat)) {
         return 0;
     }
     for (unsigned m = 0; m < window->num_scans; m++) {
@@ -72,7 +76,10 @@ static int is_sound_candidate(const struct rho_initiator *initiator,
     return 1;
 }
 
-/* Further sectors of a revolution keep what its first one has decided. */
+/*
+ * True where an initiator with a revolution begun has the density map and M that the first sector
+ * has set.
+ */
 static int has_sound_revolution(const struct rho_initiator *initiator)
 {
     const unsigned num_scans = initiator->window.num_scans;
@@ -91,9 +98,9 @@ int rho_initiator_is_sound(const struct rho_initiator *initiator)
         return 0;
     }
     if (initiator->num_candidates > RHO_MAX_CANDIDATES || initiator->min_scans > RHO_MAX_SCANS ||
-        !is_score(initiator->start_mnat) || !is_score(initiator->confirm_mnat) ||
-        !is_finite(initiator->density_per_m2) || !are_sound_maps(initiator) ||
-        !has_sound_memory(initiator) || !has_sound_revolution(initiator) ||
+        !is_sound_score(initiator->start_mnat) || !is_sound_score(initiator->confirm_mnat) ||
+        !is_finite(initiator->density_per_m2) || !has_sound_density_maps(initiator) ||
+        !has_sound_clutter_memory(initiator) || !has_sound_revolution(initiator) ||
         initiator->budget.resume.cost_class >= RHO_INITIATOR_CLASSES ||
         initiator->budget.resume.plot >= RHO_MAX_PLOTS) {
         return 0;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * isotropic_fit: a straight track through plots whose noise has one axis, the plot nearest to it,
- * and the likelihood of the set.
+ * isotropic_fit: least-squares fit of a straight track to plots with isotropic noise (equal along
+ * and across the line of sight); the plot of a scan nearest to the track; and the likelihood of a
+ * set of plots.
  */
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "search.h"
 
-static float variance_m2(const struct rho_window_plot *plot)
+static float plot_variance_m2(const struct rho_window_plot *plot)
 {
     float sigma_m = rho_window_sigma_m(plot);
     return sigma_m * sigma_m;
@@ -15,19 +16,20 @@ static float variance_m2(const struct rho_window_plot *plot)
 
 /* ---- least squares --------------------------------------------------------------------------- */
 
-/* Weighted moments of a set about its own mean: no large numbers are subtracted. */
+/* Weighted moments of a set's plots about their mean, so that no large numbers are subtracted. */
 struct moments {
-    float weight, time_s, x_m, y_m; /* sum of weights 1 / sigma^2, and weighted means */
-    float tt, tx, ty;               /* weighted sums of products about the means */
+    /* sum of the weights 1 / sigma^2; weighted means of time and place */
+    float weight, time_s, x_m, y_m;
+    float tt, tx, ty; /* weighted sums of products of time and place about the means */
 };
 
-static struct moments moments_of(const struct search *search, const struct plot_set *set)
+static struct moments moments_of_set(const struct search *search, const struct plot_set *set)
 {
     struct moments sum = {0};
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
             const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
-            float w = 1.0f / variance_m2(plot);
+            float w = 1.0f / plot_variance_m2(plot);
             sum.weight += w;
             sum.time_s += w * rho_initiator_plot_time_s(search, set, m);
             sum.x_m += w * plot->x_m;
@@ -40,7 +42,7 @@ static struct moments moments_of(const struct search *search, const struct plot_
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
             const struct rho_window_plot *plot = rho_initiator_plot(search, set, m);
-            float w = 1.0f / variance_m2(plot);
+            float w = 1.0f / plot_variance_m2(plot);
             float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
             sum.tt += w * t_s * t_s;
             sum.tx += w * t_s * (plot->x_m - sum.x_m);
@@ -50,11 +52,11 @@ static struct moments moments_of(const struct search *search, const struct plot_
     return sum;
 }
 
-/* Fits a line to a set of plots. 0 where they do not determine one. */
+/* Fits a straight line to a set of plots. Returns 0 where the plots do not determine a line. */
 int rho_initiator_fit_isotropic(const struct search *search, const struct plot_set *set,
                                 struct line_fit *fit)
 {
-    struct moments sum = moments_of(search, set);
+    struct moments sum = moments_of_set(search, set);
     if (!(sum.tt > 0.0f)) {
         return 0;
     }
@@ -64,7 +66,7 @@ int rho_initiator_fit_isotropic(const struct search *search, const struct plot_s
     return 1;
 }
 
-/* The plot of scan m nearest to the fitted track; -1: none. */
+/* Index of the plot of scan m nearest to the fitted track, or -1 where the gate has none. */
 int rho_initiator_nearest_isotropic(struct search *search, const struct line_fit *fit, float factor,
                                     unsigned m)
 {
@@ -87,18 +89,21 @@ int rho_initiator_nearest_isotropic(struct search *search, const struct line_fit
 
 /* ---- likelihood ------------------------------------------------------------------------------ */
 
-/* Determinants and residual of a set, both axes. */
+/*
+ * Terms of the likelihood of a straight line through a set of plots; V is the covariance of the
+ * plots' noise on one axis.
+ */
 struct likelihood_terms {
     float log_det_noise;  /* ln det V */
     float log_det_fisher; /* ln det A^T V^-1 A, A the line's design matrix */
-    float chi2;           /* residual, two axes */
+    float chi2;           /* chi-square of the residual, both axes */
 };
 
-/* Independent noise: V is diagonal, and everything follows from the moments. */
-static struct likelihood_terms terms_without_process_noise(const struct search *search,
-                                                           const struct plot_set *set)
+/* Likelihood terms without process noise: V is diagonal, and all terms follow from the moments. */
+static struct likelihood_terms likelihood_without_process_noise(const struct search *search,
+                                                                const struct plot_set *set)
 {
-    struct moments sum = moments_of(search, set);
+    struct moments sum = moments_of_set(search, set);
     float vx_mps = sum.tx / sum.tt, vy_mps = sum.ty / sum.tt;
     struct likelihood_terms terms = {.log_det_fisher = rho_log(sum.weight * sum.tt)};
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -107,7 +112,7 @@ static struct likelihood_terms terms_without_process_noise(const struct search *
             float t_s = rho_initiator_plot_time_s(search, set, m) - sum.time_s;
             float rx_m = plot->x_m - sum.x_m - vx_mps * t_s;
             float ry_m = plot->y_m - sum.y_m - vy_mps * t_s;
-            float noise_m2 = variance_m2(plot);
+            float noise_m2 = plot_variance_m2(plot);
             terms.chi2 += (rx_m * rx_m + ry_m * ry_m) / noise_m2;
             terms.log_det_noise += rho_log(noise_m2);
         }
@@ -115,7 +120,7 @@ static struct likelihood_terms terms_without_process_noise(const struct search *
     return terms;
 }
 
-static float dot(unsigned n, const float *a, const float *b)
+static float dot_product(unsigned n, const float *a, const float *b)
 {
     float sum = 0.0f;
     for (unsigned i = 0; i < n; i++) {
@@ -125,13 +130,14 @@ static float dot(unsigned n, const float *a, const float *b)
 }
 
 /*
- * Squared residual of y off the columns one and t, all whitened; fisher = [one.one, one.t, t.t] and
- * its determinant. The residuals are formed and then squared: a difference of squares would cancel.
+ * Squared residual of y off a straight line, with the columns one, t and y whitened by the noise;
+ * fisher = [one.one, one.t, t.t], and its determinant. The residuals are formed before they are
+ * squared, as a difference of squares would cancel.
  */
 static float residual_chi2(unsigned n, const float *one, const float *t, const float *y,
                            const float fisher[3], float determinant)
 {
-    float by_one = dot(n, one, y), by_t = dot(n, t, y), chi2 = 0.0f;
+    float by_one = dot_product(n, one, y), by_t = dot_product(n, t, y), chi2 = 0.0f;
     float place = (by_one * fisher[2] - by_t * fisher[1]) / determinant;
     float slope = (by_t * fisher[0] - by_one * fisher[1]) / determinant;
     for (unsigned i = 0; i < n; i++) {
@@ -141,16 +147,20 @@ static float residual_chi2(unsigned n, const float *one, const float *t, const f
     return chi2;
 }
 
-/* The columns of the regression, one row a hit, about the moments' means. */
+/*
+ * Columns of the regression of a straight line: a row for each plot of the set, about the means of
+ * time and place.
+ */
 struct columns {
     float one[RHO_MAX_SCANS], t[RHO_MAX_SCANS], x[RHO_MAX_SCANS], y[RHO_MAX_SCANS];
-    float noise[RHO_TRIANGLE(RHO_MAX_SCANS)]; /* V */
+    /* V: covariance of the plots' noise and of process noise */
+    float noise[RHO_TRIANGLE(RHO_MAX_SCANS)];
 };
 
-static unsigned fill_columns(const struct search *search, const struct plot_set *set,
-                             struct columns *columns)
+static unsigned fill_regression_columns(const struct search *search, const struct plot_set *set,
+                                        struct columns *columns)
 {
-    struct moments sum = moments_of(search, set);
+    struct moments sum = moments_of_set(search, set);
     unsigned scan[RHO_MAX_SCANS], n = 0;
     for (unsigned m = 0; m < search->num_scans; m++) {
         if (set->mask >> m & 1u) {
@@ -163,19 +173,22 @@ static unsigned fill_columns(const struct search *search, const struct plot_set 
             for (unsigned j = 0; j <= n; j++) {
                 columns->noise[RHO_AT(n, j)] = search->process_m2[RHO_AT(m, scan[j])];
             }
-            columns->noise[RHO_AT(n, n)] += variance_m2(plot);
+            columns->noise[RHO_AT(n, n)] += plot_variance_m2(plot);
             n++;
         }
     }
     return n;
 }
 
-/* Process noise couples the scans: whiten with the Cholesky factor of V. 0 where V is singular. */
-static int terms_with_process_noise(const struct search *search, const struct plot_set *set,
-                                    struct likelihood_terms *terms)
+/*
+ * Likelihood terms with process noise, which correlates the scans: the columns are whitened with
+ * the Cholesky factor of V. Returns 0 where V is singular.
+ */
+static int likelihood_with_process_noise(const struct search *search, const struct plot_set *set,
+                                         struct likelihood_terms *terms)
 {
     struct columns c;
-    unsigned n = fill_columns(search, set, &c);
+    unsigned n = fill_regression_columns(search, set, &c);
     if (rho_linalg_cholesky((int)n, c.noise, c.noise) != RHO_OK) {
         return 0;
     }
@@ -183,7 +196,8 @@ static int terms_with_process_noise(const struct search *search, const struct pl
     rho_linalg_forward((int)n, c.noise, c.t);
     rho_linalg_forward((int)n, c.noise, c.x);
     rho_linalg_forward((int)n, c.noise, c.y);
-    const float fisher[3] = {dot(n, c.one, c.one), dot(n, c.one, c.t), dot(n, c.t, c.t)};
+    const float fisher[3] = {dot_product(n, c.one, c.one), dot_product(n, c.one, c.t),
+                             dot_product(n, c.t, c.t)};
     float determinant = fisher[0] * fisher[2] - fisher[1] * fisher[1];
     if (!(determinant > 0.0f)) {
         return 0;
@@ -196,16 +210,17 @@ static int terms_with_process_noise(const struct search *search, const struct pl
 }
 
 /*
- * ln of the plots' joint density with position and velocity integrated out (isotropic: both axes,
- * hence no factor 1/2 except of chi2). 0 where the plots do not determine a line.
+ * Sets *nat to ln of the joint density of a set's plots with position and velocity integrated out.
+ * The sum over both axes has no factor 1/2, except for chi-square. Also sets the residual's
+ * chi-square and dimensions. Returns 0 where the plots do not determine a line.
  */
 int rho_initiator_likelihood_isotropic(const struct search *search, const struct plot_set *set,
                                        struct set_score *score, float *nat)
 {
     struct likelihood_terms terms;
     if (!(search->fit_process_m2 > 0.0f)) {
-        terms = terms_without_process_noise(search, set);
-    } else if (!terms_with_process_noise(search, set, &terms)) {
+        terms = likelihood_without_process_noise(search, set);
+    } else if (!likelihood_with_process_noise(search, set, &terms)) {
         return 0;
     }
     score->chi2 = terms.chi2;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * kernel_enumeration: all kernels that end in a plot.
+ * kernel_enumeration: finds all kernels that end in a given plot.
  *
- * There are two ways to them, and the cheaper one is taken for each span of scans. Either each pair
- * of plots is a kernel, for which the scans between vote; or a vote is found first, the third plot,
- * whose line from the ending tells where the kernels with this vote begin.
+ * There are two ways to enumerate them, and the cheaper one is taken for each span of scans. Either
+ * each pair of a first plot and the last plot is a kernel, for which the scans between vote. Or a
+ * vote near the end, the third plot, is taken first: the line from the last plot through it,
+ * extended backwards, tells where the first plots of kernels with this vote lie.
  */
 #include "rhotrack/detail/approx.h"
 #include "search.h"
@@ -12,46 +13,56 @@
 /* Rounding error of a place computed from sums of coordinates, as a share of these. */
 #define ROUNDING_SHARE 1e-6f
 
-/* Units of boxes that are charged together. */
+/* Units of work after which the boxes searched so far are charged. */
 #define CHARGED_UNITS 64u
 
-/* Boxes whose gates are narrower than this share of a target's travel need not be cut off there. */
+/*
+ * Largest gate, as a share of a target's travel, for which a box of first plots is not cut off at
+ * the places that a target can reach.
+ */
 #define NARROW_SHARE 0.25f
 
-/* Near plots are counted bin by bin up to this number of rows. */
+/*
+ * Most rows of bins in which near plots are counted bin by bin; with more, whole rows are counted.
+ */
 #define NEAR_ROWS 16
 
-/* Costs of a kernel and a look-up in plots compared, for the choice between the two ways alone. */
+/*
+ * Costs in plots compared, for the choice between the two ways of enumeration: the test of a first
+ * plot, a kernel, a look-up; and the mean number of look-ups of a pair.
+ */
 #define FIRST_PLOTS 0.5f
 #define KERNEL_PLOTS 3.0f
 #define LOOKUP_PLOTS 3.0f
 #define LOOKUPS_OF_PAIR 2.0f
-#define SHARE_IN_GATE 0.5f /* of the plots under a gate's square */
+#define SHARE_IN_GATE 0.5f /* share of the plots in a gate's square that are in the gate */
 
 /* ---- spans ----------------------------------------------------------------------------------- */
 
-static float time_spread_s(const struct rho_window_scan *scan)
+static float plot_time_spread_s(const struct rho_window_scan *scan)
 {
     return scan->offset_max_s - scan->offset_min_s;
 }
 
-static float noise_of_ends_m2(const struct span *span, float al)
+static float variance_from_ends_m2(const struct span *span, float al)
 {
     float from_m = (1.0f - al) * span->scan_a->sigma_max_m, to_m = al * span->scan_b->sigma_max_m;
     return from_m * from_m + to_m * to_m;
 }
 
 /*
- * Widest gate of scan m. The plots' own times shift al by up to `slack`; the variance is convex in
- * al.
+ * Process noise and widest gate of scan m as a voter of the span. The plots' own times shift the
+ * interpolation factor al by up to `slack`; the variance is convex in al, so the extremes bound it.
  */
-static struct voter voter_of(const struct search *search, const struct span *span, unsigned m)
+static struct voter make_voter(const struct search *search, const struct span *span, unsigned m)
 {
     struct voter voter = {0.0f, 0.0f};
     float sigma_m = rho_window_scan_at(&search->initiator->window, m)->sigma_max_m;
     float al = (search->time_s[m] - search->time_s[span->a]) / span->gap_s;
-    float slack = (time_spread_s(span->scan_a) + time_spread_s(span->scan_b)) / span->gap_s;
-    float low_m2 = noise_of_ends_m2(span, al - slack), high_m2 = noise_of_ends_m2(span, al + slack);
+    float slack =
+        (plot_time_spread_s(span->scan_a) + plot_time_spread_s(span->scan_b)) / span->gap_s;
+    float low_m2 = variance_from_ends_m2(span, al - slack),
+          high_m2 = variance_from_ends_m2(span, al + slack);
     if (search->fit_process_m2 > 0.0f) {
         voter.process_m2 = rho_initiator_process_variance_m2(search, span->a, m, span->b);
     }
@@ -63,8 +74,8 @@ static struct voter voter_of(const struct search *search, const struct span *spa
     return voter;
 }
 
-/* True where no plot of these scans is earlier than one of the scan before. */
-static int is_ordered(const struct search *search, const struct span *span)
+/* True where no plot of a scan of the span is earlier than a plot of the scan before it. */
+static int are_plots_in_time_order(const struct search *search, const struct span *span)
 {
     for (unsigned m = span->a; m < span->b; m++) {
         const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
@@ -77,7 +88,7 @@ static int is_ordered(const struct search *search, const struct span *span)
     return 1;
 }
 
-static void open_span(struct search *search, struct span *span, struct voter *voters)
+static void set_up_span(struct search *search, struct span *span, struct voter *voters)
 {
     struct rho_window *window = &search->initiator->window;
     span->scan_a = rho_window_scan_at(window, span->a);
@@ -97,20 +108,20 @@ static void open_span(struct search *search, struct span *span, struct voter *vo
                                          span->scan_b->sigma_max_m * span->scan_b->sigma_max_m));
     }
     for (unsigned m = span->a + 1u; m < span->b; m++) {
-        voters[span->b - m - 1u] = voter_of(search, span, m);
+        voters[span->b - m - 1u] = make_voter(search, span, m);
     }
 }
 
 /*
- * True where some spans need more votes than M. The rule holds where all scans before the end are
- * one sensor's looks in the same sector: other misses may say less.
+ * True where some spans need more votes than M. The rule is used where all scans before the last
+ * are of one sensor and cover the same sector: elsewhere misses weigh less.
  */
-static int has_span_hits(struct search *search, const struct fan *fan)
+static int has_spans_with_more_votes(struct search *search, const struct span_list *list)
 {
     struct rho_window *window = &search->initiator->window;
     int has_more = 0;
-    for (unsigned n = 0; n < fan->num_spans; n++) {
-        has_more |= fan->spans[n].misses_amid < (int)fan->spans[n].misses_max;
+    for (unsigned n = 0; n < list->num_spans; n++) {
+        has_more |= list->spans[n].misses_amid < (int)list->spans[n].misses_max;
     }
     const struct rho_window_scan *first = rho_window_scan_at(window, 0);
     for (unsigned m = 1; m < search->num_scans; m++) {
@@ -125,22 +136,26 @@ static int has_span_hits(struct search *search, const struct fan *fan)
     return has_more && search->keeps_rate;
 }
 
-/* A kernel of M votes spans at least M scans; scans of one instant make none. */
-void rho_initiator_open_fan(struct search *search, unsigned b, struct fan *fan)
+/*
+ * Lists the spans of kernels that end in scan b: a kernel of M votes spans at least M scans. Scans
+ * of one time make no span.
+ */
+void rho_initiator_open_fan(struct search *search, unsigned b, struct span_list *list)
 {
-    struct voter *voters = fan->voters;
-    fan->num_spans = fan->ordered = 0;
+    struct voter *voters = list->voters;
+    list->num_spans = list->ordered = 0;
     for (unsigned a = 0; a + search->min_scans <= b + 1u; a++) {
         if (search->time_s[b] > search->time_s[a]) {
-            struct span *span = &fan->spans[fan->num_spans++];
+            struct span *span = &list->spans[list->num_spans++];
             span->a = (uint8_t)a;
             span->b = (uint8_t)b;
-            open_span(search, span, voters);
-            fan->ordered |= (uint8_t)(is_ordered(search, span) << (fan->num_spans - 1u));
+            set_up_span(search, span, voters);
+            list->ordered |=
+                (uint8_t)(are_plots_in_time_order(search, span) << (list->num_spans - 1u));
             voters += b - a - 1u;
         }
     }
-    fan->has_span_hits = HAS_SPAN_HITS && has_span_hits(search, fan);
+    list->has_span_hits = HAS_SPAN_HITS && has_spans_with_more_votes(search, list);
 }
 
 /* ---- plots in a square ----------------------------------------------------------------------- */
@@ -149,20 +164,21 @@ struct box {
     float x0_m, x1_m, y0_m, y1_m;
 };
 
-static struct box box_about(const struct rho_window_plot *plot, float gate_radius_m)
+static struct box square_about_plot(const struct rho_window_plot *plot, float gate_radius_m)
 {
     return (struct box){plot->x_m - gate_radius_m, plot->x_m + gate_radius_m,
                         plot->y_m - gate_radius_m, plot->y_m + gate_radius_m};
 }
 
-static int is_in_box(const struct rho_window_plot *plot, const struct box *box)
+static int is_plot_in_box(const struct rho_window_plot *plot, const struct box *box)
 {
     return plot->x_m >= box->x0_m && plot->x_m <= box->x1_m && plot->y_m >= box->y0_m &&
            plot->y_m <= box->y1_m;
 }
 
-static struct rho_window_bins
-bins_under_box(struct search *search, const struct rho_window_scan *scan, const struct box *box)
+static struct rho_window_bins charge_bins_under_box(struct search *search,
+                                                    const struct rho_window_scan *scan,
+                                                    const struct box *box)
 {
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box->x0_m, box->x1_m, box->y0_m, box->y1_m);
@@ -170,11 +186,11 @@ bins_under_box(struct search *search, const struct rho_window_scan *scan, const 
     return bins;
 }
 
-/* Number of plots in the bins under the box. */
-static unsigned count_plots_in_box(struct search *search, const struct rho_window_scan *scan,
-                                   const struct box *box)
+/* Number of plots in the bins that a box touches. */
+static unsigned count_plots_under_box(struct search *search, const struct rho_window_scan *scan,
+                                      const struct box *box)
 {
-    struct rho_window_bins bins = bins_under_box(search, scan, box);
+    struct rho_window_bins bins = charge_bins_under_box(search, scan, box);
     unsigned count = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
@@ -185,9 +201,12 @@ static unsigned count_plots_in_box(struct search *search, const struct rho_windo
 
 /* ---- pairs ----------------------------------------------------------------------------------- */
 
-/* Distance that a target may have travelled between the ending and the scan, without noise. */
-static float travel_max_m(const struct search *search, const struct ending *ending, unsigned b,
-                          unsigned m)
+/*
+ * Longest distance that a target may have travelled between scan m and the kernels' last plot,
+ * without noise.
+ */
+static float target_travel_max_m(const struct search *search, const struct ending *ending,
+                                 unsigned b, unsigned m)
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
     float time_s = search->time_s[b] - search->time_s[m] + ending->plot->offset_s;
@@ -195,9 +214,13 @@ static float travel_max_m(const struct search *search, const struct ending *endi
     return most_s > 0.0f ? search->initiator->config.v_max_mps * most_s : 0.0f;
 }
 
-/* Makes a candidate of the kernel from plot i of scan a where enough scans vote for it. */
-static void try_pair(struct search *search, const struct span *span, const struct ending *ending,
-                     const struct first_vote *first, unsigned i)
+/*
+ * Makes candidates of the kernels from plot i of scan a for which enough scans vote: several where
+ * a range rate is ambiguous.
+ */
+static void try_kernels_of_pair(struct search *search, const struct span *span,
+                                const struct ending *ending, const struct first_vote *first,
+                                unsigned i)
 {
     struct plot_set set;
     int next = 0;
@@ -208,19 +231,20 @@ static void try_pair(struct search *search, const struct span *span, const struc
     } while (next > 0);
 }
 
-static int try_pairs(struct search *search, const struct span *span, const struct ending *ending)
+static int try_all_pairs(struct search *search, const struct span *span,
+                         const struct ending *ending)
 {
     static const struct first_vote any = {.gap = 0};
     const struct rho_window_scan *scan = span->scan_a;
-    struct box box =
-        box_about(ending->plot, travel_max_m(search, ending, span->b, span->a) + span->slack_m);
-    struct rho_window_bins bins = bins_under_box(search, scan, &box);
+    struct box box = square_about_plot(
+        ending->plot, target_travel_max_m(search, ending, span->b, span->a) + span->slack_m);
+    struct rho_window_bins bins = charge_bins_under_box(search, scan, &box);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned end = start[bins.column_last + 1];
         rho_initiator_charge(search, end - start[bins.column_first]);
         for (unsigned i = start[bins.column_first]; i < end; i++) {
-            try_pair(search, span, ending, &any, i);
+            try_kernels_of_pair(search, span, ending, &any, i);
         }
         if (rho_initiator_is_spent(search)) {
             return 0;
@@ -231,44 +255,54 @@ static int try_pairs(struct search *search, const struct span *span, const struc
 
 /* ---- the third plot first -------------------------------------------------------------------- */
 
-/* Gates of the third plot and of the vote in the box, and what noise adds to a target's travel. */
-struct reach {
+/*
+ * Widest gates over several spans: of the third plot, and of the scan that is looked up next; and
+ * the most that noise adds to a target's travel.
+ */
+struct widest_gates {
     float third_m, own_m, slack_m;
 };
 
-/* What the boxes in an earlier scan have in common, whichever the third plot is. */
-struct way {
-    float begin_s; /* from the scan's first plot to the ending */
-    float far_m;   /* most that a target travels in this time, with noise */
-    float third_m; /* gate of the third plot, with what rounding may add */
+/*
+ * Values for extending lines from the last plot of kernels, through any third plot, back to an
+ * earlier scan.
+ */
+struct extrapolation {
+    float begin_s; /* time from the scan's first plot to the kernels' last plot */
+    float far_m;   /* most that a target travels in that time, noise included */
+    float third_m; /* gate radius of the third plot, rounding included */
 };
 
-static struct way way_from(const struct search *search, const struct rho_window_scan *scan,
-                           const struct ending *ending, float gap_s, float third_m, float slack_m)
+static struct extrapolation extrapolation_to_scan(const struct search *search,
+                                                  const struct rho_window_scan *scan,
+                                                  const struct ending *ending, float gap_s,
+                                                  float third_m, float slack_m)
 {
     const float begin_s = gap_s + ending->plot->offset_s - scan->offset_min_s;
-    return (struct way){
+    return (struct extrapolation){
         .begin_s = begin_s,
         .far_m = search->initiator->config.v_max_mps * begin_s + slack_m,
         .third_m = ending->gate_rounded * third_m + ending->rounding_m,
     };
 }
 
-/* A vote before the ending, and the way between the two. */
+/* A third plot: a vote before the kernels' last plot, and its displacement from there. */
 struct third {
     struct first_vote first;
-    float per_s; /* 1 / its time before the ending's; 0: plots of one instant */
+    /* 1 / time between the third plot and the last plot; 0 where the third is not earlier */
+    float per_s;
     float dx_m, dy_m;
 };
 
 /*
- * Makes room for the plots' own times, which spread over this share of the way to the third plot,
- * and cuts off where no target can have come from. At least an edge is left.
+ * Widens a box for the spread of its scan's plot times, `spread` times the displacement of the
+ * third plot, and clips it to far_m about the last plot, which no target exceeds. At least an edge
+ * is left.
  */
 static struct box widen_and_clip_box(const struct box *box, const struct ending *ending,
                                      const struct third *third, float spread, float far_m)
 {
-    const struct box all = box_about(ending->plot, far_m);
+    const struct box all = square_about_plot(ending->plot, far_m);
     if (!(third->per_s > 0.0f)) {
         return all;
     }
@@ -283,33 +317,38 @@ static struct box widen_and_clip_box(const struct box *box, const struct ending 
 }
 
 /*
- * The box in an earlier scan with the kernels that have this vote: the gate of the vote,
- * extrapolated from the ending.
+ * Box in an earlier scan that holds the plots of kernels with this third plot: the gate of the
+ * third plot, extended backwards from the last plot of the kernels, plus the scan's own gate.
  */
-static struct box predict_box(const struct rho_window_scan *scan, const struct ending *ending,
-                              const struct third *third, const struct way *way, float own_m)
+static struct box extrapolate_box(const struct rho_window_scan *scan, const struct ending *ending,
+                                  const struct third *third, const struct extrapolation *to_scan,
+                                  float own_m)
 {
     const struct rho_window_plot *to = ending->plot;
-    const float ratio = way->begin_s * third->per_s;
-    const float gate_radius_m = ratio * way->third_m + own_m;
+    const float ratio = to_scan->begin_s * third->per_s;
+    const float gate_radius_m = ratio * to_scan->third_m + own_m;
     const float x_m = to->x_m + third->dx_m * ratio, y_m = to->y_m + third->dy_m * ratio;
     struct box box = {x_m - gate_radius_m, x_m + gate_radius_m, y_m - gate_radius_m,
                       y_m + gate_radius_m};
-    if (HAS_SPAN_HITS && ratio > 0.0f && gate_radius_m < NARROW_SHARE * way->far_m &&
+    if (HAS_SPAN_HITS && ratio > 0.0f && gate_radius_m < NARROW_SHARE * to_scan->far_m &&
         scan->offset_min_s >= scan->offset_max_s) {
         return box;
     }
     return widen_and_clip_box(&box, ending, third,
-                              (scan->offset_max_s - scan->offset_min_s) * third->per_s, way->far_m);
+                              (scan->offset_max_s - scan->offset_min_s) * third->per_s,
+                              to_scan->far_m);
 }
 
-/* Tries the kernels of the span that begin in that box. Returns the units that the box takes. */
-static uint32_t try_first_plots(struct search *search, const struct span *span,
-                                const struct ending *ending, const struct third *third,
-                                const struct way *way)
+/*
+ * Tries the kernels of a span whose first plots lie in the box that the third plot leaves. Returns
+ * the work of searching the box, in units.
+ */
+static uint32_t try_kernels_from_box(struct search *search, const struct span *span,
+                                     const struct ending *ending, const struct third *third,
+                                     const struct extrapolation *to_scan)
 {
     const struct rho_window_scan *scan = span->scan_a;
-    const struct box box = predict_box(scan, ending, third, way, 0.0f);
+    const struct box box = extrapolate_box(scan, ending, third, to_scan, 0.0f);
     uint32_t passed = 0;
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
@@ -318,20 +357,23 @@ static uint32_t try_first_plots(struct search *search, const struct span *span,
         unsigned i = start[bins.column_first], end = start[bins.column_last + 1];
         passed += end - i + 1u;
         for (; i < end; i++) {
-            if (is_in_box(&scan->plots[i], &box)) {
-                try_pair(search, span, ending, &third->first, i);
+            if (is_plot_in_box(&scan->plots[i], &box)) {
+                try_kernels_of_pair(search, span, ending, &third->first, i);
             }
         }
     }
     return passed;
 }
 
-/* True where a plot of the scan before the third plot's may vote for its kernels. */
+/*
+ * True where the scan before the third plot's has a plot that may vote for kernels with this third
+ * plot. Adds the work to *passed.
+ */
 static int can_previous_scan_vote(const struct rho_window_scan *scan, const struct ending *ending,
-                                  const struct third *third, const struct way *way, float own_m,
-                                  uint32_t *passed)
+                                  const struct third *third, const struct extrapolation *to_scan,
+                                  float own_m, uint32_t *passed)
 {
-    const struct box box = predict_box(scan, ending, third, way, own_m);
+    const struct box box = extrapolate_box(scan, ending, third, to_scan, own_m);
     const struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
     for (int row = bins.row_first; row <= bins.row_last; row++) {
@@ -339,7 +381,7 @@ static int can_previous_scan_vote(const struct rho_window_scan *scan, const stru
         unsigned i = start[bins.column_first], end = start[bins.column_last + 1];
         *passed += end - i + 1u;
         for (; i < end; i++) {
-            if (is_in_box(&scan->plots[i], &box)) {
+            if (is_plot_in_box(&scan->plots[i], &box)) {
                 return 1;
             }
         }
@@ -348,83 +390,93 @@ static int can_previous_scan_vote(const struct rho_window_scan *scan, const stru
 }
 
 /*
- * The spans whose first vote may be `gap` scans before the end, of those in by_votes; a bit each.
+ * Spans of the mask by_votes whose misses allow the vote nearest to the end to be `gap` scans
+ * before the end; a bit each.
  */
-static unsigned spans_of_gap(const struct fan *fan, const struct ending *ending, unsigned by_votes,
-                             unsigned gap)
+static unsigned spans_allowing_gap(const struct span_list *list, const struct ending *ending,
+                                   unsigned by_votes, unsigned gap)
 {
     unsigned spans = 0;
-    for (unsigned n = 0; n < fan->num_spans; n++) {
+    for (unsigned n = 0; n < list->num_spans; n++) {
         if ((by_votes >> n & 1u) &&
-            (int)gap <= rho_initiator_misses_max(&fan->spans[n], ending) + 1) {
+            (int)gap <= rho_initiator_misses_max(&list->spans[n], ending) + 1) {
             spans |= 1u << n;
         }
     }
     return spans;
 }
 
-/* The widest gates of these spans. */
-static struct reach widest_reach(const struct fan *fan, unsigned spans, unsigned gap)
+/* Widest gates of the spans in a bit mask, whose third plot is `gap` scans before the last. */
+static struct widest_gates widest_gates_of_spans(const struct span_list *list, unsigned spans,
+                                                 unsigned gap)
 {
-    struct reach reach = {0.0f, 0.0f, 0.0f};
-    for (unsigned n = 0; n < fan->num_spans; n++) {
-        const struct span *span = &fan->spans[n];
+    struct widest_gates widest = {0.0f, 0.0f, 0.0f};
+    for (unsigned n = 0; n < list->num_spans; n++) {
+        const struct span *span = &list->spans[n];
         if (spans >> n & 1u) {
-            reach.third_m = rho_larger(reach.third_m, span->voters[gap - 1u].gate_radius_m);
-            reach.slack_m = rho_larger(reach.slack_m, span->slack_m);
+            widest.third_m = rho_larger(widest.third_m, span->voters[gap - 1u].gate_radius_m);
+            widest.slack_m = rho_larger(widest.slack_m, span->slack_m);
             if (span->a + gap + 1u < span->b) {
-                reach.own_m = rho_larger(reach.own_m, span->voters[gap].gate_radius_m);
+                widest.own_m = rho_larger(widest.own_m, span->voters[gap].gate_radius_m);
             }
         }
     }
-    reach.slack_m += GATE_ROUNDING * reach.own_m;
-    return reach;
+    widest.slack_m += GATE_ROUNDING * widest.own_m;
+    return widest;
 }
 
 /*
- * The ways to the first plots of these spans, whose first vote is `gap` scans before the end.
- * Returns what noise and the gate add to the distance of this vote from the ending.
+ * For each span in a bit mask, sets the values for extending lines back to its first scan, where
+ * the third plot is `gap` scans before the last. Returns the most that noise and gate add to a
+ * target's travel to the third plot.
  */
-static float open_ways(const struct search *search, const struct fan *fan,
-                       const struct ending *ending, unsigned spans, unsigned gap, struct way *ways)
+static float extrapolate_to_spans(const struct search *search, const struct span_list *list,
+                                  const struct ending *ending, unsigned spans, unsigned gap,
+                                  struct extrapolation *to_first)
 {
     float far_m = 0.0f;
     for (unsigned n = 0; spans >> n; n++) {
-        const struct span *span = &fan->spans[n];
+        const struct span *span = &list->spans[n];
         if (spans >> n & 1u) {
             const float third_m = span->voters[gap - 1u].gate_radius_m;
-            ways[n] = way_from(search, span->scan_a, ending, span->gap_s, third_m, span->slack_m);
+            to_first[n] = extrapolation_to_scan(search, span->scan_a, ending, span->gap_s, third_m,
+                                                span->slack_m);
             far_m = rho_larger(far_m, span->slack_m + GATE_ROUNDING * third_m);
         }
     }
     return far_m;
 }
 
-/* Tries the kernels of these spans whose first vote is `gap` scans before the end. */
-static int try_third_plots(struct search *search, const struct fan *fan,
+/*
+ * Tries the kernels, of the spans in a bit mask, whose vote nearest to the end is `gap` scans
+ * before the end. Returns 0 where the work is spent.
+ */
+static int try_third_plots(struct search *search, const struct span_list *list,
                            const struct ending *ending, unsigned spans, unsigned gap)
 {
-    const unsigned b = fan->spans[0].b;
+    const unsigned b = list->spans[0].b;
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, b - gap);
-    struct way ways[SPANS_MAX];
-    const float far_m = open_ways(search, fan, ending, spans, gap, ways) + ending->rounding_m +
-                        GATE_ROUNDING * travel_max_m(search, ending, b, b - gap);
-    struct box box = box_about(ending->plot, far_m);
-    struct rho_window_bins bins = bins_under_box(search, scan, &box);
+    struct extrapolation to_first[SPANS_MAX];
+    const float far_m = extrapolate_to_spans(search, list, ending, spans, gap, to_first) +
+                        ending->rounding_m +
+                        GATE_ROUNDING * target_travel_max_m(search, ending, b, b - gap);
+    struct box box = square_about_plot(ending->plot, far_m);
+    struct rho_window_bins bins = charge_bins_under_box(search, scan, &box);
     const float gap_s = search->time_s[b] - search->time_s[b - gap] + ending->plot->offset_s;
-    /* spans without further misses: where the next scan has no vote there is no kernel of them */
+    /* spans that allow no further miss: their kernels need a vote of the next scan back, too */
     const unsigned full = !HAS_SPAN_HITS || ending->is_clear
                               ? 0u
-                              : spans & ~spans_of_gap(fan, ending, spans, gap + 1u);
+                              : spans & ~spans_allowing_gap(list, ending, spans, gap + 1u);
     const struct rho_window_scan *next = scan;
-    struct way next_way = {0};
+    struct extrapolation to_next = {0};
     float own_m = 0.0f;
     if (full != 0) {
-        const struct reach reach = widest_reach(fan, full, gap);
+        const struct widest_gates widest = widest_gates_of_spans(list, full, gap);
         next = rho_window_scan_at(&search->initiator->window, b - gap - 1u);
-        next_way = way_from(search, next, ending, search->time_s[b] - search->time_s[b - gap - 1u],
-                            reach.third_m, reach.slack_m);
-        own_m = ending->gate_rounded * reach.own_m;
+        to_next = extrapolation_to_scan(search, next, ending,
+                                        search->time_s[b] - search->time_s[b - gap - 1u],
+                                        widest.third_m, widest.slack_m);
+        own_m = ending->gate_rounded * widest.own_m;
     }
     struct third third = {.first = {.gap = gap}};
     uint32_t passed = 0;
@@ -444,12 +496,13 @@ static int try_third_plots(struct search *search, const struct fan *fan,
             third.first.index = k;
             unsigned tried = spans;
             if ((full & (full - 1u)) != 0 &&
-                !can_previous_scan_vote(next, ending, &third, &next_way, own_m, &passed)) {
+                !can_previous_scan_vote(next, ending, &third, &to_next, own_m, &passed)) {
                 tried &= ~full;
             }
             for (unsigned n = 0; tried >> n; n++) {
                 if (tried >> n & 1u) {
-                    passed += try_first_plots(search, &fan->spans[n], ending, &third, &ways[n]);
+                    passed +=
+                        try_kernels_from_box(search, &list->spans[n], ending, &third, &to_first[n]);
                 }
             }
             if (passed >= CHARGED_UNITS) {
@@ -468,27 +521,29 @@ static int try_third_plots(struct search *search, const struct fan *fan,
 /* ---- which way ------------------------------------------------------------------------------- */
 
 /*
- * True where the way by votes compares fewer plots: where plots lie far apart against their noise.
- * counts: plots that a target in the ending may have come from, summed over the last scans.
+ * True where enumeration by third plots compares fewer plots than by pairs: where plots lie far
+ * apart against their noise. counts[gap]: plots in the last `gap` scans that a target in the last
+ * plot may have come from.
  */
-static int votes_are_cheaper(struct search *search, const struct span *span,
-                             const struct ending *ending, const unsigned *counts)
+static int is_cheaper_by_third_plots(struct search *search, const struct span *span,
+                                     const struct ending *ending, const unsigned *counts)
 {
     unsigned width = span->b - span->a;
     unsigned gaps = (unsigned)rho_initiator_misses_max(span, ending) + 1u, thirds = counts[gaps];
     unsigned pairs = counts[width] - counts[width - 1u];
     if (pairs == 0 || thirds == 0) {
-        return pairs > 0; /* without a third plot there is nothing to look for */
+        return pairs > 0; /* without a third plot there is no kernel, and no cost */
     }
     const struct rho_window_scan *before =
         rho_window_scan_at(&search->initiator->window, span->b - 1u);
     float gate_radius_m = ending->gate_share * span->voters[0].gate_radius_m;
     float ratio = span->gap_s / (search->time_s[span->b] - search->time_s[span->b - 1u]);
-    struct box gate = box_about(ending->plot, gate_radius_m), firsts;
-    firsts = box_about(ending->plot, rho_smaller(gate_radius_m * ratio,
-                                                 travel_max_m(search, ending, span->b, span->a)));
-    float lookup = LOOKUP_PLOTS + (float)count_plots_in_box(search, before, &gate);
-    float found = (float)count_plots_in_box(search, span->scan_a, &firsts), by_votes = 0.0f;
+    struct box gate = square_about_plot(ending->plot, gate_radius_m), firsts;
+    firsts = square_about_plot(
+        ending->plot,
+        rho_smaller(gate_radius_m * ratio, target_travel_max_m(search, ending, span->b, span->a)));
+    float lookup = LOOKUP_PLOTS + (float)count_plots_under_box(search, before, &gate);
+    float found = (float)count_plots_under_box(search, span->scan_a, &firsts), by_votes = 0.0f;
     float in_gate = SHARE_IN_GATE * ending->along_share / ending->gate_share;
     for (unsigned gap = 1; gap <= gaps; gap++) {
         float kernel = KERNEL_PLOTS + (float)(gap + 1u) * lookup;
@@ -500,44 +555,47 @@ static int votes_are_cheaper(struct search *search, const struct span *span,
 }
 
 /*
- * Where the box has many rows of bins, all plots of these rows count: their number is known at
+ * Number of plots, in the scan before the list's last, that a target in plot j may have come from.
+ * Where the box has many rows of bins all plots of these rows count, as their number is known at
  * once.
  */
-unsigned rho_initiator_count_plots_near(struct search *search, const struct fan *fan, unsigned j)
+unsigned rho_initiator_count_plots_near(struct search *search, const struct span_list *list,
+                                        unsigned j)
 {
-    const struct span *widest = &fan->spans[0];
+    const struct span *widest = &list->spans[0];
     const struct ending ending = {.plot = &widest->scan_b->plots[j]};
     const struct rho_window_scan *scan =
         rho_window_scan_at(&search->initiator->window, widest->b - 1u);
-    float far_m =
-        travel_max_m(search, &ending, widest->b, widest->b - 1u) + widest->voters[0].gate_radius_m;
-    struct box box = box_about(ending.plot, far_m);
+    float far_m = target_travel_max_m(search, &ending, widest->b, widest->b - 1u) +
+                  widest->voters[0].gate_radius_m;
+    struct box box = square_about_plot(ending.plot, far_m);
     struct rho_window_bins bins =
         rho_window_bins_under(scan, box.x0_m, box.x1_m, box.y0_m, box.y1_m);
     if (bins.row_last - bins.row_first < NEAR_ROWS) {
-        return count_plots_in_box(search, scan, &box);
+        return count_plots_under_box(search, scan, &box);
     }
     rho_initiator_charge(search, 1);
     return (unsigned)(scan->bin_start[(bins.row_last + 1) * scan->bins_x] -
                       scan->bin_start[bins.row_first * scan->bins_x]);
 }
 
-static void count_reachable(struct search *search, const struct fan *fan,
-                            const struct ending *ending, unsigned *counts)
+static void sum_reachable_plots(struct search *search, const struct span_list *list,
+                                const struct ending *ending, unsigned *counts)
 {
-    unsigned b = fan->spans[0].b;
+    unsigned b = list->spans[0].b;
     counts[0] = 0;
-    for (unsigned gap = 1; gap <= b - fan->spans[0].a; gap++) {
-        struct box box = box_about(ending->plot, travel_max_m(search, ending, b, b - gap));
+    for (unsigned gap = 1; gap <= b - list->spans[0].a; gap++) {
+        struct box box =
+            square_about_plot(ending->plot, target_travel_max_m(search, ending, b, b - gap));
         const struct rho_window_scan *scan =
             rho_window_scan_at(&search->initiator->window, b - gap);
-        counts[gap] = counts[gap - 1u] + count_plots_in_box(search, scan, &box);
+        counts[gap] = counts[gap - 1u] + count_plots_under_box(search, scan, &box);
     }
 }
 
 /*
- * True where clutter is thinner than at the sampled places: sets that end here may start tracks
- * with fewer hits than their spans want elsewhere.
+ * True where clutter at a plot is thinner than at all sampled places: sets that end there may start
+ * tracks with fewer hits than their span needs elsewhere.
  */
 static int is_in_thin_clutter(const struct search *search, const struct rho_window_plot *plot)
 {
@@ -547,15 +605,15 @@ static int is_in_thin_clutter(const struct search *search, const struct rho_wind
            initiator->thin_clutter;
 }
 
-int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, unsigned j)
+int rho_initiator_try_kernels_to(struct search *search, const struct span_list *list, unsigned j)
 {
-    const struct span *widest = &fan->spans[0];
+    const struct span *widest = &list->spans[0];
     struct ending ending = {.plot = &widest->scan_b->plots[j]};
     unsigned counts[RHO_MAX_SCANS] = {0}, by_votes = 0;
     if (rho_initiator_is_spent(search)) {
         return 0;
     }
-    float far_m = travel_max_m(search, &ending, widest->b, widest->a);
+    float far_m = target_travel_max_m(search, &ending, widest->b, widest->a);
     ending.rounding_m = ROUNDING_SHARE * (rho_larger(ending.plot->x_m, -ending.plot->x_m) +
                                           rho_larger(ending.plot->y_m, -ending.plot->y_m) + far_m);
     if (!rho_initiator_is_isotropic(search)) {
@@ -565,22 +623,22 @@ int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, u
                                  &ending);
     ending.gate_rounded = GATE_ROUNDING * ending.gate_share;
     ending.is_clear =
-        !HAS_SPAN_HITS || !fan->has_span_hits || is_in_thin_clutter(search, ending.plot);
-    count_reachable(search, fan, &ending, counts);
-    for (unsigned n = 0; n < fan->num_spans; n++) {
-        if (rho_initiator_misses_max(&fan->spans[n], &ending) < 0) {
+        !HAS_SPAN_HITS || !list->has_span_hits || is_in_thin_clutter(search, ending.plot);
+    sum_reachable_plots(search, list, &ending, counts);
+    for (unsigned n = 0; n < list->num_spans; n++) {
+        if (rho_initiator_misses_max(&list->spans[n], &ending) < 0) {
             continue;
         }
-        if ((fan->ordered >> n & 1u) &&
-            votes_are_cheaper(search, &fan->spans[n], &ending, counts)) {
+        if ((list->ordered >> n & 1u) &&
+            is_cheaper_by_third_plots(search, &list->spans[n], &ending, counts)) {
             by_votes |= 1u << n;
-        } else if (!try_pairs(search, &fan->spans[n], &ending)) {
+        } else if (!try_all_pairs(search, &list->spans[n], &ending)) {
             return 0;
         }
     }
-    for (unsigned gap = 1; spans_of_gap(fan, &ending, by_votes, gap) != 0; gap++) {
-        const unsigned spans = spans_of_gap(fan, &ending, by_votes, gap);
-        if (!try_third_plots(search, fan, &ending, spans, gap)) {
+    for (unsigned gap = 1; spans_allowing_gap(list, &ending, by_votes, gap) != 0; gap++) {
+        const unsigned spans = spans_allowing_gap(list, &ending, by_votes, gap);
+        if (!try_third_plots(search, list, &ending, spans, gap)) {
             return 0;
         }
     }

@@ -1,43 +1,45 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * kernel_schedule: the order in which the newest plots get the work of the search.
+ * kernel_schedule: the order in which the newest plots are searched, and the work that each gets.
  *
- * The last plots of kernels are tried by classes of their number of near plots, the cheapest first,
- * so that targets in thin clutter are found however dense clutter is elsewhere. A search that
- * leaves plots out tells the next one where to begin.
+ * Kernels are tried by classes of the number of plots near their last plot, the cheapest first, so
+ * that targets in thin clutter are found however dense clutter is elsewhere. A search that leaves
+ * plots out records the plot with which the next one begins.
  */
 #include "search.h"
 
-/* Share of the work of a scan that is kept for the choice among the candidates: 1 of so many. */
+/* Part of a scan's work that is kept for the selection among candidates: one in CHOICE_SHARE. */
 #define CHOICE_SHARE 4u
 
 /*
- * Of the work for the newest plots, 1 of KEPT_SHARE is kept in equal parts for the plots that are
- * not tried yet. Of the rest each plot may take 1 of FREE_PARTS.
+ * Of the work for the newest plots, one part in KEPT_SHARE is reserved in equal shares for the
+ * plots not tried yet. Each plot may take one part in FREE_PARTS of the rest.
  */
 #define KEPT_SHARE 2u
 #define FREE_PARTS 4u
 
 /*
- * Kernels of turning targets may take as much work as those of straight ones took; an eighth of it
- * where plots have positions alone, which hardly reveal turns; and this number of units in any
- * case.
+ * Limits of the work on kernels of turning targets: as much as straight ones took; one part in
+ * TURN_SHARE_OF_PLACES of that where plots have positions alone, which hardly reveal turns; and at
+ * least TURN_UNITS_MIN units.
  */
 #define TURN_SHARE_OF_PLACES 8u
 #define TURN_UNITS_MIN 4000u
 
 #define CLASSES RHO_INITIATOR_CLASSES
 
-/* One pass over the newest plots. A pass that leaves plots out tells where the next one begins. */
-struct round {
-    unsigned tried, waiting; /* plots */
-    uint32_t kept_units;     /* for each that waits */
-    int is_found;            /* the next begin is known */
+/* State of one pass over the plots of the newest scan. */
+struct pass {
+    unsigned tried, waiting; /* numbers of plots tried, and not tried yet */
+    uint32_t kept_units;     /* units of work reserved for each waiting plot */
+    int is_found;            /* `next` is final: a plot was left out */
     struct rho_initiator_resume next;
 };
 
-/* Cost class by the number of near plots: octaves and half octaves from 8 on. */
-static unsigned cost_class_of(unsigned near)
+/*
+ * Cost class by the number of near plots: the number itself below 8, then octaves and half octaves.
+ */
+static unsigned cost_class_by_near_plots(unsigned near)
 {
     unsigned class = near < 8u ? near : 8u;
     for (; near >= 16u && class + 2u < CLASSES; near /= 2u) {
@@ -46,22 +48,28 @@ static unsigned cost_class_of(unsigned near)
     return class + (near >= 12u && class + 1u < CLASSES);
 }
 
-/* Plots of earlier sectors of the revolution were the ends of kernels when they came. */
+/*
+ * True where a plot is of the newest sector: kernels that end in earlier sectors were tried when
+ * those came.
+ */
 static int is_of_newest_sector(const struct search *search, const struct rho_window_plot *plot)
 {
     return !search->newest || plot->offset_s >= search->newest->offset_min_s;
 }
 
-/* Sorts the plots at which kernels may end into classes. Returns their number. */
-static unsigned sort_endings(struct search *search, const struct fan *fan)
+/*
+ * Sets the cost class of each plot of the list's last scan; unusable plots get class CLASSES.
+ * Returns the number of plots at which kernels may end.
+ */
+static unsigned set_cost_classes(struct search *search, const struct span_list *list)
 {
-    const struct rho_window_scan *scan = fan->spans[0].scan_b;
+    const struct rho_window_scan *scan = list->spans[0].scan_b;
     unsigned count = 0;
     for (unsigned j = 0; j < scan->num_plots; j++) {
         unsigned class = CLASSES;
         if (!(scan->marks[j] & search->skip_flags) &&
             is_of_newest_sector(search, &scan->plots[j])) {
-            class = cost_class_of(rho_initiator_count_plots_near(search, fan, j));
+            class = cost_class_by_near_plots(rho_initiator_count_plots_near(search, list, j));
             count++;
         }
         search->initiator->cost_class[j] = (uint8_t) class;
@@ -70,81 +78,88 @@ static unsigned sort_endings(struct search *search, const struct fan *fan)
 }
 
 /*
- * The next pass begins with the first plot left out, or the one behind it where that was the first
- * of this pass.
+ * Tries the kernels that end in plot j; where the work does not suffice, counts j as not tried. The
+ * next search begins with the first plot left out, or the one behind it where that was the first of
+ * this pass.
  */
-static void try_kernels_of_plot(struct search *search, const struct fan *fan, unsigned j,
-                                struct round *round)
+static void try_kernels_of_plot(struct search *search, const struct span_list *list, unsigned j,
+                                struct pass *pass)
 {
-    int is_done = rho_initiator_try_kernels_to(search, fan, j);
+    int is_done = rho_initiator_try_kernels_to(search, list, j);
     if (!is_done) {
         struct rho_initiator *initiator = search->initiator;
         initiator->budget.plots_not_tried = rho_count(initiator->budget.plots_not_tried, 1);
         search->is_partial = 1;
     }
-    if (!round->is_found && (round->tried == 1u || (round->tried > 0 && !is_done))) {
-        round->next.cost_class = search->initiator->cost_class[j];
-        round->next.plot = (uint16_t)j;
-        round->is_found = !is_done;
+    if (!pass->is_found && (pass->tried == 1u || (pass->tried > 0 && !is_done))) {
+        pass->next.cost_class = search->initiator->cost_class[j];
+        pass->next.plot = (uint16_t)j;
+        pass->is_found = !is_done;
     }
-    round->tried++;
+    pass->tried++;
 }
 
 /*
- * Limit of the work after a plot: the share of each plot that waits is not touched, and it takes a
- * part of the rest.
+ * Limit of work until the end of a plot: the shares reserved for the waiting plots stay, and the
+ * plot may take a part of the rest beyond its own share.
  */
-static uint32_t work_limit_of(const struct search *search, const struct round *round,
-                              uint32_t end_units)
+static uint32_t work_limit_after_plot(const struct search *search, const struct pass *pass,
+                                      uint32_t end_units)
 {
     if (end_units == UINT32_MAX) {
-        return UINT32_MAX; /* no limit */
+        return UINT32_MAX; /* UINT32_MAX: no limit */
     }
-    uint32_t ceiling = end_units - round->kept_units * round->waiting;
-    uint32_t own = rho_count(rho_initiator_spent(search), round->kept_units);
-    unsigned others = round->waiting < FREE_PARTS - 1u ? round->waiting : FREE_PARTS - 1u;
+    uint32_t ceiling = end_units - pass->kept_units * pass->waiting;
+    uint32_t own = rho_count(rho_initiator_spent(search), pass->kept_units);
+    unsigned others = pass->waiting < FREE_PARTS - 1u ? pass->waiting : FREE_PARTS - 1u;
     return own < ceiling ? own + (ceiling - own) / (others + 1u) : ceiling;
 }
 
-/* The plots of a class from `first` to before `end`. */
-static void try_kernels_of_class(struct search *search, const struct fan *fan, unsigned class,
-                                 unsigned first, unsigned end, struct round *round)
+/* Tries the kernels that end in the plots of a cost class, from index `first` to before `end`. */
+static void try_kernels_of_class(struct search *search, const struct span_list *list,
+                                 unsigned class, unsigned first, unsigned end, struct pass *pass)
 {
     const uint32_t end_units = search->limit_units;
     for (unsigned j = first; j < end; j++) {
         if (search->initiator->cost_class[j] == class) {
-            round->waiting--;
-            search->limit_units = work_limit_of(search, round, end_units);
-            try_kernels_of_plot(search, fan, j, round);
+            pass->waiting--;
+            search->limit_units = work_limit_after_plot(search, pass, end_units);
+            try_kernels_of_plot(search, list, j, pass);
         }
     }
     search->limit_units = end_units;
 }
 
-/* All kernels that end in scan b, those of the cheapest plots first, from `begin` on. */
+/*
+ * Tries all kernels that end in scan b, the cheapest plots first, beginning at the class and plot
+ * of `begin`.
+ */
 static void try_kernels_of_scan(struct search *search, unsigned b, uint32_t units,
                                 const struct rho_initiator_resume *begin)
 {
-    struct fan fan;
-    rho_initiator_open_fan(search, b, &fan);
-    if (fan.num_spans == 0) {
+    struct span_list list;
+    rho_initiator_open_fan(search, b, &list);
+    if (list.num_spans == 0) {
         return;
     }
-    const unsigned num_plots = fan.spans[0].scan_b->num_plots;
-    struct round round = {.waiting = sort_endings(search, &fan)};
+    const unsigned num_plots = list.spans[0].scan_b->num_plots;
+    struct pass pass = {.waiting = set_cost_classes(search, &list)};
     unsigned first = begin->plot < num_plots ? begin->plot : num_plots;
-    round.kept_units = round.waiting > 0 ? units / (KEPT_SHARE * round.waiting) : 0u;
-    try_kernels_of_class(search, &fan, begin->cost_class, first, num_plots, &round);
+    pass.kept_units = pass.waiting > 0 ? units / (KEPT_SHARE * pass.waiting) : 0u;
+    try_kernels_of_class(search, &list, begin->cost_class, first, num_plots, &pass);
     for (unsigned i = 1; i < CLASSES; i++) {
-        try_kernels_of_class(search, &fan, (begin->cost_class + i) % CLASSES, 0, num_plots, &round);
+        try_kernels_of_class(search, &list, (begin->cost_class + i) % CLASSES, 0, num_plots, &pass);
     }
-    try_kernels_of_class(search, &fan, begin->cost_class, 0, first, &round);
-    search->next = round.is_found || (search->is_partial && round.tried > 1u)
-                       ? round.next
+    try_kernels_of_class(search, &list, begin->cost_class, 0, first, &pass);
+    search->next = pass.is_found || (search->is_partial && pass.tried > 1u)
+                       ? pass.next
                        : (struct rho_initiator_resume){0, 0};
 }
 
-/* In a batch, each scan at which kernels may end has its own work. */
+/*
+ * Tries the kernels of straight targets. In a batch, each scan at which kernels may end has its own
+ * work.
+ */
 void rho_initiator_try_kernels(struct search *search)
 {
     static const struct rho_initiator_resume cheapest = {0, 0};
@@ -162,8 +177,8 @@ void rho_initiator_try_kernels(struct search *search)
 }
 
 /*
- * The same for turning targets, with the work that is left, and no more than a share of the work of
- * the straight ones. Plots that this leaves out are not counted as such.
+ * Tries the kernels of turning targets in the newest scan, with the work that is left, and at most
+ * a share of the work on straight ones. Plots that this pass leaves out do not count as not tried.
  */
 void rho_initiator_try_turning_kernels(struct search *search)
 {

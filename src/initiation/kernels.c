@@ -1,34 +1,40 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * kernels: a pair of plots far apart in time, and the scans between that vote for its line and
- * speed.
+ * kernels: a kernel is a pair of plots far apart in time; the scans between vote for the straight
+ * track through them.
  */
 #include "rhotrack/detail/approx.h"
 #include "search.h"
 
-/* A pair of plots, for which the scans between vote. */
+/* A kernel: its first and last plot, and the look-ups of votes in the scans between. */
 struct kernel {
     const struct rho_window_plot *from, *to;
     float dx_m, dy_m;
     float duration_s;
     float gate_share;
     int misses_max;
-    float from_m2, to_m2;                     /* isotropic: the variances of the ends */
-    struct rho_window_query query;            /* ... and what every scan is asked alike */
-    struct rho_window_noise noise_a, noise_b; /* anisotropic: the covariances of the ends */
-    struct rho_window_place place;            /* ... and what every scan is asked alike */
+    float from_m2, to_m2; /* isotropic noise: the variances of first and last plot */
+    /* isotropic noise: look-up of a vote, with the values common to all scans */
+    struct rho_window_query query;
+    /* anisotropic noise: the covariances of first and last plot */
+    struct rho_window_noise noise_a, noise_b;
+    /* anisotropic noise: look-up of a vote, with the values common to all scans */
+    struct rho_window_place place;
 };
 
 /* ---- plots with their own covariance, height and range rate ---------------------------------- */
 
-static int both_measure(const struct span *span, uint32_t what)
+static int do_both_ends_measure(const struct span *span, uint32_t what)
 {
     return (span->scan_a->measures & span->scan_b->measures & what) != 0;
 }
 
-/* The velocity of the kernel with its noise. The position is filled in for each vote. */
-static struct rho_window_place velocity_of(const struct search *search, const struct span *span,
-                                           const struct kernel *kernel)
+/*
+ * Velocity of a kernel with its covariance, as a look-up of votes. The position is filled in for
+ * each scan.
+ */
+static struct rho_window_place kernel_velocity(const struct search *search, const struct span *span,
+                                               const struct kernel *kernel)
 {
     const struct rho_window_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
     float per_s = 1.0f / kernel->duration_s, per_s2 = per_s * per_s;
@@ -36,7 +42,7 @@ static struct rho_window_place velocity_of(const struct search *search, const st
         .vx_mps = kernel->dx_m * per_s,
         .vy_mps = kernel->dy_m * per_s,
         .factor = 1.0f,
-        .has_z = both_measure(span, RHO_MEASURES_Z),
+        .has_z = do_both_ends_measure(span, RHO_MEASURES_Z),
         .skip_flags = search->skip_flags,
     };
     if (search->has_more) {
@@ -52,9 +58,9 @@ static struct rho_window_place velocity_of(const struct search *search, const st
     return place;
 }
 
-static int agrees_with_range_rate(const struct rho_window_scan *scan,
-                                  const struct rho_window_plot *plot,
-                                  const struct rho_window_place *place)
+static int is_range_rate_in_gate(const struct rho_window_scan *scan,
+                                 const struct rho_window_plot *plot,
+                                 const struct rho_window_place *place)
 {
     return !(scan->measures & RHO_MEASURES_RANGE_RATE) ||
            rho_window_range_rate_distance2(scan, plot, place) <= RHO_GATE_CHI2_1D;
@@ -68,23 +74,23 @@ static int climbs_too_fast(const struct search *search, const struct rho_window_
            over_mps * over_mps > RHO_GATE_CHI2_1D * place->velocity_noise.zz_m2;
 }
 
-static int complete_anisotropic(const struct search *search, const struct span *span,
-                                struct kernel *kernel)
+static int set_up_anisotropic_kernel(const struct search *search, const struct span *span,
+                                     struct kernel *kernel)
 {
     kernel->noise_a = rho_window_noise(span->scan_a, kernel->from);
-    kernel->place = velocity_of(search, span, kernel);
+    kernel->place = kernel_velocity(search, span, kernel);
     return !search->has_more ||
            (!climbs_too_fast(search, &kernel->place) &&
-            agrees_with_range_rate(span->scan_a, kernel->from, &kernel->place) &&
-            agrees_with_range_rate(span->scan_b, kernel->to, &kernel->place));
+            is_range_rate_in_gate(span->scan_a, kernel->from, &kernel->place) &&
+            is_range_rate_in_gate(span->scan_b, kernel->to, &kernel->place));
 }
 
 /*
- * The voter's plot nearest to the predicted place, in the gate of the three plots' covariances; -1:
- * none.
+ * Index of the plot of scan m nearest to the kernel's predicted place, in the gate of the
+ * covariances of all three plots; -1: none.
  */
-static int vote_anisotropic(struct search *search, const struct span *span, unsigned m,
-                            struct kernel *kernel)
+static int find_vote_anisotropic(struct search *search, const struct span *span, unsigned m,
+                                 struct kernel *kernel)
 {
     const struct voter *voter = &span->voters[span->b - m - 1u];
     const struct rho_window_noise *a = &kernel->noise_a, *b = &kernel->noise_b;
@@ -106,13 +112,14 @@ static int vote_anisotropic(struct search *search, const struct span *span, unsi
 /* ---- votes ----------------------------------------------------------------------------------- */
 
 /*
- * The voter's plot nearest to the predicted place, in the gate of the three plots' noise; -1: none.
+ * Index of the plot of scan m nearest to the kernel's predicted place, in the gate of the noise of
+ * all three plots; -1: none.
  */
-static int vote_of_scan(struct search *search, const struct span *span, unsigned m,
-                        struct kernel *kernel)
+static int find_vote_in_scan(struct search *search, const struct span *span, unsigned m,
+                             struct kernel *kernel)
 {
     if (!rho_initiator_is_isotropic(search)) {
-        return vote_anisotropic(search, span, m, kernel);
+        return find_vote_anisotropic(search, span, m, kernel);
     }
     const struct voter *voter = &span->voters[span->b - m - 1u];
     struct rho_window_query *query = &kernel->query;
@@ -135,20 +142,20 @@ static void add_vote(struct plot_set *set, unsigned m, int plot)
 }
 
 /*
- * True where vote `first` is the one nearest to the end of the kernel. Other kernels are tried with
- * their own first vote.
+ * Adds vote `first` where it is its scan's nearest plot to the kernel, and no scan nearer to the
+ * end votes. Returns 0 elsewhere: such kernels are tried with another first vote.
  */
-static int has_first_vote(struct search *search, const struct span *span,
-                          const struct first_vote *first, struct kernel *kernel,
-                          struct plot_set *set)
+static int add_first_vote_if_nearest(struct search *search, const struct span *span,
+                                     const struct first_vote *first, struct kernel *kernel,
+                                     struct plot_set *set)
 {
     unsigned m = span->b - first->gap;
-    if (vote_of_scan(search, span, m, kernel) != (int)first->index) {
+    if (find_vote_in_scan(search, span, m, kernel) != (int)first->index) {
         return 0;
     }
     add_vote(set, m, (int)first->index);
     while (++m < span->b) {
-        if (vote_of_scan(search, span, m, kernel) >= 0) {
+        if (find_vote_in_scan(search, span, m, kernel) >= 0) {
             return 0;
         }
     }
@@ -156,9 +163,9 @@ static int has_first_vote(struct search *search, const struct span *span,
 }
 
 /*
- * Collects the votes of the scans between; 1 where they are enough. Before the first vote the scan
- * in the middle votes first, then its neighbours outwards: its gate is the narrowest and rejects
- * most.
+ * Collects the votes of the scans between a kernel's plots. Returns 1 where they are enough. Apart
+ * from the first vote, the scan in the middle votes first, then its neighbours outwards: the middle
+ * has the narrowest gate and rejects most kernels.
  */
 static int collect_votes(struct search *search, const struct span *span,
                          const struct first_vote *first, struct kernel *kernel,
@@ -167,7 +174,7 @@ static int collect_votes(struct search *search, const struct span *span,
     *set = (struct plot_set){.mask = 1u << span->a | 1u << span->b, .hits = 2};
     set->plot[span->a] = (uint16_t)(kernel->from - span->scan_a->plots);
     set->plot[span->b] = (uint16_t)(kernel->to - span->scan_b->plots);
-    if (first->gap > 0 && !has_first_vote(search, span, first, kernel, set)) {
+    if (first->gap > 0 && !add_first_vote_if_nearest(search, span, first, kernel, set)) {
         return 0;
     }
     int misses = first->gap > 0 ? (int)first->gap - 1 : 0;
@@ -177,7 +184,7 @@ static int collect_votes(struct search *search, const struct span *span,
         if (m + first->gap >= span->b && first->gap > 0) {
             continue;
         }
-        int plot = vote_of_scan(search, span, m, kernel);
+        int plot = find_vote_in_scan(search, span, m, kernel);
         if (plot >= 0) {
             add_vote(set, m, plot);
         } else if (++misses > kernel->misses_max) {
@@ -193,20 +200,23 @@ static float squared(float v)
 }
 
 /*
- * Units of a kernel besides its votes: with the plots' own covariances; with heights or range
- * rates; and for each alias of a range rate.
+ * Units of work of a kernel besides its votes: with covariances of the plots; with heights or range
+ * rates too; and for each alias of a range rate.
  */
 #define OWN_UNITS 4u
 #define MORE_UNITS 16u
 #define ALIAS_UNITS 8u
 
-/* Fills in the noise of the kernel's ends. 0 where their range rates or heights contradict it. */
-static int complete_kernel(struct search *search, const struct span *span, struct kernel *kernel)
+/*
+ * Sets the noise of a kernel's plots and the look-up of votes. Returns 0 where range rates or
+ * heights of the plots contradict the kernel's velocity.
+ */
+static int set_up_kernel(struct search *search, const struct span *span, struct kernel *kernel)
 {
     search->initiator->work.seeds = rho_count(search->initiator->work.seeds, 1);
     if (!rho_initiator_is_isotropic(search)) {
         rho_initiator_charge(search, search->has_more ? MORE_UNITS : OWN_UNITS);
-        return complete_anisotropic(search, span, kernel);
+        return set_up_anisotropic_kernel(search, span, kernel);
     }
     kernel->from_m2 = squared(rho_window_sigma_m(kernel->from));
     kernel->to_m2 = squared(rho_window_sigma_m(kernel->to));
@@ -221,12 +231,13 @@ static int complete_kernel(struct search *search, const struct span *span, struc
 }
 
 /*
- * A kernel whose first plot has an ambiguous range rate is tried for each alias, from number `next`
- * on, up to the first with enough votes.
+ * Collects the votes of a kernel. Where its first plot has an ambiguous range rate, each alias is
+ * tried from number *next on, up to the first one with enough votes; *next becomes the number
+ * behind that, or 0.
  */
-static int vote_aliases(struct search *search, const struct span *span,
-                        const struct first_vote *first, struct kernel *kernel, int *next,
-                        struct plot_set *set)
+static int collect_votes_by_alias(struct search *search, const struct span *span,
+                                  const struct first_vote *first, struct kernel *kernel, int *next,
+                                  struct plot_set *set)
 {
     struct aliases aliases;
     int number = *next;
@@ -239,7 +250,7 @@ static int vote_aliases(struct search *search, const struct span *span,
     for (int i = aliases.first + number; i <= aliases.last; i++) {
         rho_initiator_charge(search, ALIAS_UNITS);
         rho_initiator_apply_alias(&aliases, i, &place, &kernel->place);
-        if (agrees_with_range_rate(span->scan_b, kernel->to, &kernel->place) &&
+        if (is_range_rate_in_gate(span->scan_b, kernel->to, &kernel->place) &&
             collect_votes(search, span, first, kernel, set)) {
             *next = i + 1 - aliases.first;
             return 1;
@@ -252,7 +263,7 @@ static int vote_aliases(struct search *search, const struct span *span,
     return 0;
 }
 
-/* True where the speed is a target's, within noise. */
+/* True where a target can have the kernel's speed, noise allowed for. */
 static int has_target_speed(const struct search *search, const struct span *span,
                             const struct kernel *kernel)
 {
@@ -264,10 +275,10 @@ static int has_target_speed(const struct search *search, const struct span *span
            (near_m < 0.0f || distance2_m2 >= near_m * near_m);
 }
 
-/* True where the first vote may be in the gate of this kernel. */
-static int may_have_first_vote(const struct search *search, const struct span *span,
-                               const struct ending *ending, const struct first_vote *first,
-                               const struct kernel *kernel)
+/* True where vote `first` may be in the gate of the kernel, by the widest gate of its scan. */
+static int is_first_vote_in_widest_gate(const struct search *search, const struct span *span,
+                                        const struct ending *ending, const struct first_vote *first,
+                                        const struct kernel *kernel)
 {
     if (first->gap == 0) {
         return 1;
@@ -304,10 +315,10 @@ int rho_initiator_vote_for_kernel(struct search *search, const struct span *span
     kernel.misses_max = rho_initiator_misses_max(span, ending);
     kernel.noise_b = ending->noise;
     if ((span->scan_a->marks[i] & search->skip_flags) || !has_target_speed(search, span, &kernel) ||
-        !may_have_first_vote(search, span, ending, first, &kernel) ||
-        rho_initiator_is_spent(search) || !complete_kernel(search, span, &kernel)) {
+        !is_first_vote_in_widest_gate(search, span, ending, first, &kernel) ||
+        rho_initiator_is_spent(search) || !set_up_kernel(search, span, &kernel)) {
         *next = 0;
         return 0;
     }
-    return vote_aliases(search, span, first, &kernel, next, set);
+    return collect_votes_by_alias(search, span, first, &kernel, next, set);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * prior: what is assumed of targets before any plot is seen: detections, and the space of births.
+ * prior: what is assumed of targets before any plot is seen: detection probabilities, and the
+ * density of births over area and velocity.
  */
 #include "rhotrack/detail/approx.h"
 #include "search.h"
@@ -12,8 +13,8 @@
 #define LOG_TARGETS_EXPECTED LOG_HALF
 
 /*
- * ln of the volume of clutter and births in heights and range rates, beyond positions and
- * velocities in the plane.
+ * ln of the volume of heights and range rates over which clutter and births are spread, apart from
+ * positions and velocities in the plane.
  */
 float rho_initiator_log_volume(const struct search *search, int has_z, unsigned heights,
                                unsigned range_rates)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * process_noise: how far accelerations that change from scan to scan move a target off a straight
- * line.
+ * process_noise: variances by which accelerations that change from scan to scan move a target off a
+ * straight line.
  */
 #include "rhotrack/detail/linalg.h"
 #include "search.h"
 
-/* Displacement at scan m by 1 m/s^2 through the interval from scan l to l + 1. */
-static float displacement_s2(const struct search *search, unsigned l, unsigned m)
+/* Displacement at scan m, for an acceleration of 1 m/s^2 from scan l to scan l + 1. */
+static float displacement_per_acceleration_s2(const struct search *search, unsigned l, unsigned m)
 {
     if (m <= l) {
         return 0.0f;
@@ -17,9 +17,9 @@ static float displacement_s2(const struct search *search, unsigned l, unsigned m
 }
 
 /*
- * Diagonal elements of H K H, H the projection off straight lines over the scans from `first` on:
- * the variances by which process noise K bends a track away from its own fit. Returns the largest;
- * *sum_m2: their sum.
+ * Variances by which process noise bends a track off its own fit over the scans from `first` on:
+ * the diagonal of H K H, K the covariance of process noise, H the projection off straight lines.
+ * Returns the largest; *sum_m2: their sum.
  */
 float rho_initiator_bend_m2(const struct search *search, unsigned first, float *sum_m2)
 {
@@ -58,7 +58,8 @@ void rho_initiator_prepare_process_noise(struct search *search)
         for (unsigned j = 0; j <= i; j++) {
             float sum = 0.0f;
             for (unsigned l = 0; l < j; l++) {
-                sum += displacement_s2(search, l, i) * displacement_s2(search, l, j);
+                sum += displacement_per_acceleration_s2(search, l, i) *
+                       displacement_per_acceleration_s2(search, l, j);
             }
             search->process_m2[RHO_AT(i, j)] = variance * sum;
         }
@@ -67,7 +68,6 @@ void rho_initiator_prepare_process_noise(struct search *search)
         variance > 0.0f ? rho_initiator_bend_m2(search, 0, &(float){0.0f}) : 0.0f;
 }
 
-/* Variance by process noise of the place in scan m between the places in scans a and b. */
 float rho_initiator_process_variance_m2(const struct search *search, unsigned a, unsigned m,
                                         unsigned b)
 {

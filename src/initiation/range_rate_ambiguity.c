@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * range_rate_ambiguity: the aliases of an ambiguous range rate. The velocity between two plots
- * excludes most of them. Each of the others is tried, and determines the velocity along the line of
- * sight as well as the range rate does.
+ * range_rate_ambiguity: the aliases of an ambiguous range rate, that is, its possible values a span
+ * apart. The velocity between the plots of a kernel excludes most aliases. Each of the others is
+ * tried, and sharpens the velocity along the line of sight as an unambiguous range rate would.
  */
 #include "rhotrack/detail/approx.h"
 #include "search.h"
 
-/* Sums of a few such products are rounded to 1e-6 in float32. */
+/*
+ * Factor below 1 that keeps a variance positive when float32 rounds the sums of products in its
+ * update.
+ */
 #define LESS_THAN_ALL (1.0f - 4.0e-6f)
 
-/* The nearest whole number of ambiguity spans. */
-static int whole_spans(float spans)
+/* Whole ambiguity spans that fit into `spans`, at most ALIASES_MAX. */
+static int limited_whole_spans(float spans)
 {
     return spans < (float)ALIASES_MAX ? (int)spans : ALIASES_MAX;
 }
@@ -26,13 +29,16 @@ int rho_initiator_open_aliases(const struct rho_window_scan *scan,
     }
     aliases->span_mps = scan->sensor.range_rate_span_mps;
     float reach_mps = rho_sqrt(RHO_GATE_CHI2_1D * aliases->seen.variance);
-    float error_mps = aliases->seen.error_mps; /* in the gate, or nearly: one alias at least */
-    aliases->last = whole_spans(rho_larger(reach_mps - error_mps, 0.0f) / aliases->span_mps);
-    aliases->first = -whole_spans(rho_larger(reach_mps + error_mps, 0.0f) / aliases->span_mps);
+    /* the nearest alias is in the gate, or nearly: at least that one is listed */
+    float error_mps = aliases->seen.error_mps;
+    aliases->last =
+        limited_whole_spans(rho_larger(reach_mps - error_mps, 0.0f) / aliases->span_mps);
+    aliases->first =
+        -limited_whole_spans(rho_larger(reach_mps + error_mps, 0.0f) / aliases->span_mps);
     return 1;
 }
 
-/* A scalar update of the velocity: V - V u u^T V / s^2. */
+/* Kalman update of the velocity by alias i of the range rate: V - V u u^T V / s^2. */
 void rho_initiator_apply_alias(const struct aliases *aliases, int i,
                                const struct rho_window_place *place, struct rho_window_place *known)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * search: what one search of the initiator carries from phase to phase, and the functions of each
- * phase. Private to src/initiation.
+ * search: the state that one search of the initiator carries from phase to phase, and the functions
+ * of each phase. Private to src/initiation.
  */
 #ifndef RHOTRACK_SEARCH_H
 #define RHOTRACK_SEARCH_H
@@ -17,92 +17,109 @@
 #define SIGMAS_95 1.6449f
 #define SIGMAS_99_9 3.0902f
 
-/* Targets climb or sink by up to this share of v_max. */
+/* Largest climb or sink rate of targets, as a share of v_max. */
 #define CLIMB_SHARE 0.5f
 
-/* Meanings of an ambiguous range rate to either side that are tried. More of them say little. */
+/*
+ * Most aliases of an ambiguous range rate that are tried on either side. More of them carry little
+ * information.
+ */
 #define ALIASES_MAX 8
 
 /*
- * Whether long spans may need more votes than M. Where few plots are held that saves little, and
- * its code is left out.
+ * True where long spans may need more votes than M. Builds that hold few plots leave that out, as
+ * it saves little there.
  */
 #define HAS_SPAN_HITS (RHO_MAX_PLOTS > 64)
 
 struct search {
     struct rho_initiator *initiator;
     enum rho_search kind;
-    unsigned wanted_mask; /* scans that must vote: the newest, or none in particular */
-    unsigned num_scans;   /* N: scans held */
-    float scans_seen;     /* the same; a revolution that has only begun counts by its share */
+    unsigned wanted_mask; /* bits of the scans that must vote: the newest, or none in a batch */
+    unsigned num_scans;   /* N: number of scans held */
+    /* number of scans held; a revolution that has only begun counts by its share */
+    float scans_seen;
     /*
-     * The newest input is a further sector of a revolution. The map and the thresholds are those of
-     * its first sector; the plots of the newest scan are not in the map.
+     * the newest input is a further sector of a revolution. Density map and thresholds are then
+     * those of its first sector; the map does not count the plots of the newest scan
      */
     int is_continued;
-    const struct rho_window_sector *newest; /* kernels end in this sector; NULL: anywhere */
-    unsigned min_scans;                     /* M */
-    float time_s[RHO_MAX_SCANS];            /* of the scans, after the newest: <= 0 */
-    float interval_s;                       /* usual time between scans */
-    int has_more;                           /* a scan has heights or range rates */
-    float gate_chi2;                        /* of the widest gate */
+    /* the sector in which kernels end; NULL: kernels may end in any plot of the last scan */
+    const struct rho_window_sector *newest;
+    unsigned min_scans;          /* M: votes that a track needs */
+    float time_s[RHO_MAX_SCANS]; /* times of the scans relative to the newest: <= 0 */
+    float interval_s;            /* usual time between scans */
+    int has_more;                /* a scan measures heights or range rates */
+    float gate_chi2;             /* limit of the NIS in the widest gate */
     /*
-     * Noise of a single radar, 0 where not known. sigma_near_m or sigma_per_m times the range,
-     * whichever is larger, bounds every plot's; sigma_least_m is the smallest of the scans' maxima.
+     * bounds of the noise of a single radar, 0 where not known: each plot's sigma is at most the
+     * larger of sigma_near_m and sigma_per_m times its range; sigma_least_m is the smallest of the
+     * scans' largest sigmas
      */
     float sigma_near_m, sigma_per_m, sigma_least_m;
-    int has_one_noise; /* every plot has noise of one axis, and no height or range rate */
-    int is_isotropic;  /* the same, and sets are straight; ask rho_initiator_is_isotropic */
+    int has_one_noise; /* every plot has isotropic noise, and no height or range rate */
+    /*
+     * noise is isotropic and sets are straight; ask rho_initiator_is_isotropic, which knows the
+     * build
+     */
+    int is_isotropic;
     float log_pd[RHO_MAX_SCANS], log_miss[RHO_MAX_SCANS]; /* by scan: ln pd, ln(1 - pd) */
-    float log_ratio[RHO_MAX_SCANS]; /* by scan: ln of its sensor's clutter over the mean */
-    float log_prior;                /* ln of the density of births over area and velocity */
-    float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2]; /* displacements by process noise */
-    float fit_process_m2; /* its largest residual variance about a fitted line */
-    float turn_mps2;      /* sd of a set's acceleration in the plane; 0: sets are straight */
-    float log_turn;       /* ln of the prior of that acceleration; 0 for straight sets */
-    float log_turning;    /* the same while turns are assumed */
-    uint16_t skip_flags;  /* plots with these marks are passed over */
-    float score_min_nat;  /* a set below this score is no candidate */
-    int keeps_rate;       /* thresholds follow from false_tracks_per_hour, and fits must be good */
-    uint32_t work_max;    /* of this search; 0: no limit */
-    uint32_t limit_units; /* work that may be done for now */
-    int is_partial;       /* some of the work was left out */
-    struct rho_initiator_resume next; /* where the next search begins */
-    int is_left_out; /* the plots of the set that is scored are not in the density map */
+    /* by scan: ln of the clutter density of its sensor over the mean of all sensors */
+    float log_ratio[RHO_MAX_SCANS];
+    float log_prior; /* ln of the density of births over area and velocity */
+    /* covariance of the displacements by process noise between scans */
+    float process_m2[RHO_MAX_SCANS * (RHO_MAX_SCANS + 1) / 2];
+    /* largest variance by which process noise moves a plot off a fitted line */
+    float fit_process_m2;
+    /* standard deviation of a set's acceleration in the plane; 0: sets are straight */
+    float turn_mps2;
+    float log_turn;      /* ln of the prior of a turn; 0 for straight sets */
+    float log_turning;   /* value that log_turn takes while sets may turn */
+    uint16_t skip_flags; /* plots with any of these marks are skipped */
+    float score_min_nat; /* lowest score of a candidate */
+    int keeps_rate; /* thresholds keep false_tracks_per_hour, and chi-square of fits is limited */
+    uint32_t work_max;    /* limit of the search's work, units; 0: none */
+    uint32_t limit_units; /* limit of the work until the end of the current plot or phase */
+    int is_partial;       /* plots or candidates were left out for lack of work */
+    struct rho_initiator_resume next; /* the plot with which the next search begins */
+    int is_left_out; /* the density map does not count the plots of the set that is scored */
 };
 
 /*
- * The fast path: noise of one axis in every scan, nothing else measured, straight sets. A build
- * without Cartesian plots has none.
+ * True where the search takes the fast path: isotropic noise in every scan, positions alone
+ * measured, straight sets. Constant 0 in a build without Cartesian plots.
  */
 static inline int rho_initiator_is_isotropic(const struct search *search)
 {
     return (RHO_SCAN_KINDS & 1) != 0 && search->is_isotropic;
 }
 
-/* A track: position and velocity at the time of the newest scan. */
+/* A track: place, velocity and acceleration at the time of the newest scan. */
 struct line_fit {
     float x_m, y_m, vx_mps, vy_mps;
-    float ax_mps2, ay_mps2; /* 0: straight */
-    int has_z;              /* z_m and vz_mps are known; never in the isotropic path */
+    float ax_mps2, ay_mps2; /* acceleration; 0: the track is straight */
+    int has_z;              /* z_m and vz_mps are known; never with isotropic noise */
     float z_m, vz_mps;
 };
 
-/* How good a set is as a track. */
+/* Score of a set of plots as a track. */
 struct set_score {
     int32_t mnat;
-    float chi2;          /* of the residual ... */
-    unsigned dimensions; /* ... which has so many */
+    float chi2;          /* chi-square of the residual */
+    unsigned dimensions; /* degrees of freedom of the residual */
 };
 
-/* The plots of a hypothesis, by age order of their scans. */
+/*
+ * A set of plots, one a scan at most, that may be a track: bits and indices by age order of the
+ * scans.
+ */
 struct plot_set {
     unsigned mask;
     unsigned hits;
     uint16_t plot[RHO_MAX_SCANS];
 };
 
-/* The plot of a hypothesis in scan m, and its own time. */
+/* The plot of a set in scan m. */
 static inline const struct rho_window_plot *
 rho_initiator_plot(const struct search *search, const struct plot_set *set, unsigned m)
 {
@@ -117,177 +134,200 @@ static inline float rho_initiator_plot_time_s(const struct search *search,
 
 /* ---- before the search ----------------------------------------------------------------------- */
 
-/* clutter_density.c: measured anew, or as the first sector of the revolution had it */
+/*
+ * Measures the clutter density, or takes that of the revolution's first sector (clutter_density.c).
+ */
 void rho_initiator_prepare_density(struct search *search);
-/* The density without plots of these marks, but with more_plots besides. */
+/* Measures the clutter density without plots of these marks, but with more_plots added. */
 void rho_initiator_measure_density(struct search *search, uint16_t skip_flags, float more_plots);
 float rho_initiator_area_m2(const struct rho_initiator *initiator);
 float rho_initiator_mean_density(const struct rho_initiator *initiator, float x_m, float y_m);
-/* ln of the density that hit m of a set is compared with */
 float rho_initiator_log_density(const struct search *search, const struct plot_set *set,
                                 unsigned m);
 
-/* clutter_memory.c: takes the oldest scan in before it leaves the window */
+/* Adds the window's oldest scan to the clutter memory before it leaves (clutter_memory.c). */
 void rho_initiator_add_to_memory(struct rho_initiator *initiator);
 /*
- * The window's density at a place, raised to the remembered one where that is significantly more.
+ * Clutter density at a place: density_per_m2, or the remembered density where that is significantly
+ * higher.
  */
 float rho_initiator_memory_density(const struct rho_initiator *initiator, float x_m, float y_m,
                                    float density_per_m2);
 
-/* process_noise.c */
+/* Sets the covariance of displacements by process noise (process_noise.c). */
 void rho_initiator_prepare_process_noise(struct search *search);
-/*
- * How far it bends tracks that begin in scan `first` off their fit: the largest variance, the sum.
- */
 float rho_initiator_bend_m2(const struct search *search, unsigned first, float *sum_m2);
-/* Variance of the place in scan m between the places in scans a and b. */
+/*
+ * Variance by process noise of the place in scan m about the line between the places in scans a and
+ * b.
+ */
 float rho_initiator_process_variance_m2(const struct search *search, unsigned a, unsigned m,
                                         unsigned b);
 
-/* prior.c */
+/* Sets the detection probabilities and the density of births (prior.c). */
 void rho_initiator_prepare_prior(struct search *search);
-/* ln of the heights and range rates that clutter and births are spread over */
 float rho_initiator_log_volume(const struct search *search, int has_z, unsigned heights,
                                unsigned range_rates);
 
-/* distributions.c */
+/* Quantile of chi-square at a normal deviate of `sigmas` (distributions.c). */
 float rho_initiator_chi2_limit(unsigned dimensions, float sigmas);
+/* Natural logarithm of n factorial. */
 float rho_initiator_log_factorial(unsigned n);
 
-/* start_thresholds.c: M, and the scores that start and confirm a track */
+/* Sets M, and the scores that start and confirm a track (start_thresholds.c). */
 void rho_initiator_set_thresholds(struct search *search);
 void rho_initiator_update_thresholds(struct search *search);
-/* ln of the prior of a turn, by the thresholds */
 float rho_initiator_log_turn_prior(const struct search *search);
-/* Sets are those of turning targets from here on, or of straight ones. */
+/* Takes sets as those of turning targets from here on, or of straight ones. */
 void rho_initiator_assume_turns(struct search *search, int turns);
 
 /* ---- work ------------------------------------------------------------------------------------ */
 
-/* search_budget.c: work done so far, in units */
+/* Units of work that the search has done so far (search_budget.c). */
 uint32_t rho_initiator_spent(const struct search *search);
+/* True where the work exceeds its current limit. */
 int rho_initiator_is_spent(const struct search *search);
+/* Adds units to the work done. */
 void rho_initiator_charge(const struct search *search, uint32_t units);
 void rho_initiator_close_budget(struct search *search);
 
 /* ---- kernels --------------------------------------------------------------------------------- */
 
-/* A scan between two others: it votes for kernels from one to the other. */
+/* A scan between the first and the last scan of a span, which votes for the kernels of the span. */
 struct voter {
-    float process_m2;    /* variance of its place between them, by process noise and turns */
-    float gate_radius_m; /* of the widest gate */
+    /* variance of a track's place in the voting scan, by process noise and turns */
+    float process_m2;
+    float gate_radius_m; /* radius of the widest gate of its votes */
 };
 
 #define SPANS_MAX (RHO_MAX_SCANS - 2)
 
-/* Rounding may add this factor to the distance of a vote from its kernel. */
+/* Factor by which rounding may increase the distance of a vote from its kernel. */
 #define GATE_ROUNDING 1.001f
 
-/* The values common to all kernels from scan a to scan b. */
+/* A span: the values common to all kernels from scan a to scan b. */
 struct span {
     uint8_t a, b;
-    uint8_t misses_max; /* scans between that need not vote, by M */
-    int8_t misses_amid; /* ... amid clutter; below 0: no kernel of the span can start a track */
+    uint8_t misses_max; /* scans between a and b that need not vote, by M */
+    /*
+     * scans between that need not vote where clutter is not thin; below 0: no kernel of the span
+     * can start a track there
+     */
+    int8_t misses_amid;
     const struct rho_window_scan *scan_a, *scan_b;
-    float gap_s;                /* between the scans' times */
-    float slack_m;              /* what noise may add to the distance of a pair; 0: isotropic */
-    const struct voter *voters; /* by scans before b, the one before it first */
+    float gap_s; /* time from scan a to scan b */
+    /* most that noise adds to the distance of a kernel's plots; 0 with isotropic noise */
+    float slack_m;
+    const struct voter *voters; /* scans between a and b, from b backwards */
 };
 
-/* The last plot of kernels. */
+/* The last plot of kernels, and the gates of their votes. */
 struct ending {
     const struct rho_window_plot *plot;
     /*
-     * Shares of the widest gates that the noise of plots within a target's travel of this one
-     * needs: in any direction, and along the line of sight.
+     * shares of the widest gates' radius that suffice for the noise of plots within a target's
+     * travel of this plot: in any direction, and along the line of sight
      */
     float gate_share, along_share;
-    float gate_rounded;            /* the first one, with what rounding may add */
-    float along_x, along_y;        /* the line of sight, or 0, 0 */
-    float rounding_m;              /* of a place that is extrapolated from here, in float32 */
-    int is_clear;                  /* M holds for all spans */
-    struct rho_window_noise noise; /* covariance of the plot, not in the isotropic path */
+    float gate_rounded;     /* gate_share, with an allowance for rounding */
+    float along_x, along_y; /* unit vector of the line of sight; 0, 0: not used */
+    float rounding_m;       /* rounding error of places extrapolated from this plot, in float32 */
+    int is_clear;           /* clutter here is thin: M votes suffice in all spans */
+    struct rho_window_noise noise; /* covariance of the plot; not set with isotropic noise */
 };
 
-/* Scans between that need not vote for kernels with this end; below 0: there are none. */
+/*
+ * Number of scans between that need not vote for kernels of the span with this last plot; below 0:
+ * the span has no kernels.
+ */
 static inline int rho_initiator_misses_max(const struct span *span, const struct ending *ending)
 {
     return !HAS_SPAN_HITS || ending->is_clear ? (int)span->misses_max : (int)span->misses_amid;
 }
 
-/* The vote of a kernel that is nearest to its end: plot `index`, `gap` scans before. gap 0: any. */
+/*
+ * The vote of a kernel nearest to its end: plot `index` of the scan `gap` scans before the end. gap
+ * 0: not prescribed.
+ */
 struct first_vote {
     unsigned gap, index;
 };
 
-/* All kernels that end in one scan. */
-struct fan {
+/* The spans of all kernels that end in one scan, the longest first. */
+struct span_list {
     uint8_t num_spans;
-    uint8_t has_span_hits; /* some spans need more votes than M, where that holds */
-    uint8_t ordered; /* bits: no plot of the span's scans is earlier than one of the scan before */
-    struct span spans[SPANS_MAX];                         /* the longest first */
-    struct voter voters[SPANS_MAX * (SPANS_MAX + 1) / 2]; /* theirs, span by span */
+    uint8_t has_span_hits; /* where clutter is not thin some spans need more votes than M */
+    /* a bit a span: each scan's plots are not earlier than those of the scan before */
+    uint8_t ordered;
+    struct span spans[SPANS_MAX];
+    struct voter voters[SPANS_MAX * (SPANS_MAX + 1) / 2]; /* voters of all spans, span by span */
 };
 
-/*
- * vote_gate.c: the noise of a single radar; the gates about an ending, for plots within far_m of it
- */
+/* Bounds the noise of a single radar by range, for narrower gates (vote_gate.c). */
 void rho_initiator_prepare_vote_gates(struct search *search);
 void rho_initiator_find_vote_gate(const struct search *search, float far_m, struct ending *ending);
 
-/* The candidates of an ambiguous range rate: error + i span, i from first to last. */
+/*
+ * Aliases of an ambiguous range rate: its error is seen.error_mps + i span_mps, i from first to
+ * last.
+ */
 struct aliases {
     struct rho_window_range_rate seen;
     float span_mps;
     int first, last;
 };
 
-/* range_rate_ambiguity.c: 0 where the plot's range rate is not ambiguous */
+/*
+ * Lists the aliases of a plot's range rate that agree with the velocity of a place. Returns 0 where
+ * the range rate is not ambiguous (range_rate_ambiguity.c).
+ */
 int rho_initiator_open_aliases(const struct rho_window_scan *scan,
                                const struct rho_window_plot *plot,
                                const struct rho_window_place *place, struct aliases *aliases);
-/* *known: the place with its velocity as alias i has it */
+/* Sets *known to the place with its velocity corrected by alias i of the range rate. */
 void rho_initiator_apply_alias(const struct aliases *aliases, int i,
                                const struct rho_window_place *place,
                                struct rho_window_place *known);
 
 /*
- * kernels.c: the votes for the kernel from plot i of the span's first scan to the ending. 0 where
- * they are too few. An ambiguous range rate makes several kernels of one pair: *next, 0 at first,
- * tells where to continue, and is 0 after the last.
+ * Collects the votes for the kernel from plot i of the span's first scan to `ending`. Returns 0
+ * where they are too few. An ambiguous range rate makes several kernels of one pair: *next, 0 at
+ * first, tells with which alias to continue, and is 0 after the last (kernels.c).
  */
 int rho_initiator_vote_for_kernel(struct search *search, const struct span *span,
                                   const struct ending *ending, const struct first_vote *first,
                                   unsigned i, int *next, struct plot_set *set);
 
-/* kernel_enumeration.c: the spans that end in scan b */
-void rho_initiator_open_fan(struct search *search, unsigned b, struct fan *fan);
-/* Plots of the scan before that a target in plot j may have come from: what its kernels cost. */
-unsigned rho_initiator_count_plots_near(struct search *search, const struct fan *fan, unsigned j);
-/* Tries all kernels that end in plot j; 0 where the limit on work stopped that. */
-int rho_initiator_try_kernels_to(struct search *search, const struct fan *fan, unsigned j);
+/* Lists the spans of kernels that end in scan b (kernel_enumeration.c). */
+void rho_initiator_open_fan(struct search *search, unsigned b, struct span_list *list);
+/*
+ * Number of plots, in the scan before the last, that a target in plot j may have come from: a
+ * measure of the cost of the kernels that end there.
+ */
+unsigned rho_initiator_count_plots_near(struct search *search, const struct span_list *list,
+                                        unsigned j);
+/* Tries all kernels that end in plot j. Returns 0 where the work is spent. */
+int rho_initiator_try_kernels_to(struct search *search, const struct span_list *list, unsigned j);
 
-/* kernel_schedule.c: all kernels, as far as the work goes */
+/* Tries all kernels of straight targets within the limit of work (kernel_schedule.c). */
 void rho_initiator_try_kernels(struct search *search);
 void rho_initiator_try_turning_kernels(struct search *search);
 
 /* ---- candidates ------------------------------------------------------------------------------ */
 
-/* track_fit.c: nats as thousandths; least squares; 0 where the plots do not determine a track */
+/* Converts nats to integer thousandths, limited to a million nats (track_fit.c). */
 int32_t rho_initiator_mnat(float nat);
 int rho_initiator_fit(const struct search *search, const struct plot_set *set,
                       struct line_fit *fit);
-/* The plots nearest to the fitted track; factor widens the gate's variance. */
 void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit, float factor,
                                    struct plot_set *set);
-/* Fit and association in turns; 0 where too few scans vote, or no target is so fast. */
 int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct line_fit *fit);
 int rho_initiator_score_set(const struct search *search, const struct plot_set *set,
                             const struct line_fit *fit, struct set_score *score);
 
 /*
- * isotropic_fit.c and anisotropic_fit.c: the arithmetic of track_fit.c for the two kinds of noise
+ * Arithmetic of track_fit.c for isotropic noise (isotropic_fit.c) and for all other plots
+ * (anisotropic_fit.c).
  */
 int rho_initiator_fit_isotropic(const struct search *search, const struct plot_set *set,
                                 struct line_fit *fit);
@@ -302,24 +342,27 @@ int rho_initiator_nearest_anisotropic(struct search *search, const struct line_f
 int rho_initiator_likelihood_anisotropic(const struct search *search, const struct plot_set *set,
                                          struct set_score *score, float *nat);
 
-/* Candidates passed in a list, and compared by their plots, that make a unit of work. */
+/*
+ * Numbers of candidates that make a unit of work: when a list is passed, and when plots are
+ * compared.
+ */
 #define PASSED_IN_UNIT 8u
 #define COMPARED_IN_UNIT 2u
 
-/* candidates.c: refines and scores a set; 0 where it is no candidate, or one that is listed */
 int rho_initiator_make_candidate(struct search *search, struct plot_set *set,
                                  struct rho_candidate *candidate);
+/* Makes a candidate of a set and lists it; a full list drops the lowest score (candidates.c). */
 void rho_initiator_add_candidate(struct search *search, struct plot_set *set);
+/* True where a score reaches the start threshold and, if a rate is kept, chi-square is small. */
 int rho_initiator_is_good_enough(const struct search *search, const struct set_score *score);
-/* Its plots and its track; sets are straight or turning from here on, as it is. */
 int rho_initiator_open_candidate(struct search *search, const struct rho_candidate *candidate,
                                  struct plot_set *set, struct line_fit *fit);
 
-/* candidate_selection.c: no two candidates share plots; then the score against clutter alone */
+/* Choice among the candidates listed, in candidate_selection.c. */
 void rho_initiator_select_candidates(struct search *search);
 void rho_initiator_rescore_candidates(struct search *search);
 
-/* initiator.c: every field within its range */
+/* True where every field of a configuration is within its range (initiator.c). */
 int rho_initiator_is_usable(const struct rho_initiator_config *config);
 
 #endif

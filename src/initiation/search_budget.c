@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * search_budget: the work that a search has done, in units, and its limit.
- */
+/* search_budget: the work that a search has done, in units, and whether it exceeds the limit. */
 #include "search.h"
 
-/* Work is counted in units: one plot compared, or one row of bins. */
+/*
+ * Units of work of a kernel, a look-up and a fit. A unit is one plot compared, or one row of bins.
+ */
 #define KERNEL_UNITS 2u
 #define LOOKUP_UNITS 3u
 #define FIT_UNITS 400u
@@ -29,7 +29,7 @@ void rho_initiator_charge(const struct search *search, uint32_t units)
     work->passed = rho_count(work->passed, units);
 }
 
-/* Records the work of the search, and where the next one begins. */
+/* Records the work of a search, whether it was partial, and where the next search begins. */
 void rho_initiator_close_budget(struct search *search)
 {
     struct rho_initiator_budget *budget = &search->initiator->budget;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * start_thresholds: the scores that start and confirm a track, and M, so that clutter alone makes
- * no more tracks than wanted.
+ * start_thresholds: chooses M, and the scores that start and confirm a track, so that clutter alone
+ * makes no more tracks than wanted.
  *
  * false_track_rate tells the expected number of sets of clutter plots that reach a score at once.
  * Besides, tentative false tracks climb to the confirm threshold by further clutter plots. The
@@ -12,31 +12,42 @@
 #include "false_track_rate.h"
 #include "rhotrack/detail/approx.h"
 
-/* Sets of clutter plots a search that may start a tentative track; the next scans decide on it. */
+/*
+ * Most sets of clutter plots that may start a tentative track, expected a search; later scans
+ * confirm or drop such tracks.
+ */
 #define FALSE_STARTS_MAX 0.1f
 
-/* Bounds of thresholds. Every track in the gates reaches the lower one. */
+/* Bounds of thresholds, in nats. Every track in the gates reaches the lower bound. */
 #define THRESHOLD_MIN_NAT (-10.0f)
 #define THRESHOLD_MAX_NAT 60.0f
 #define BISECTIONS 16
 
-#define STEPS 12 /* of the integral over tentative starts */
+#define STEPS 12 /* steps of the integral over the scores at which tentative tracks start */
 
-/* Table of the probability to climb, by the missing score. */
+/*
+ * Table of the probability that a tentative track of clutter climbs to the confirm threshold, by
+ * the score that it still lacks: step in nats, number of steps, and sweeps of the solution.
+ */
 #define CLIMB_STEP 0.5f
 #define CLIMBS 48
 #define CLIMB_SWEEPS 4
 
-/* Share of targets that turn, and the share of false tracks that they may add. */
+/*
+ * Prior share of targets that turn, and share of the wanted false tracks that turning sets may add.
+ */
 #define TURNING_SHARE 0.1f
 
 /*
- * M is the smallest number of votes, down from N, with at most this many false tracks a search;
- * else N.
+ * Most false tracks expected of a batch. M is the smallest number of votes that keeps this limit,
+ * or N where none does.
  */
 #define FALSE_TRACKS_MAX 0.1f
 
-/* Clutter so much thinner than at the sampled places is no thinner: classes are as wide. */
+/*
+ * Clutter counts as thin below this share of the thinnest sampled clutter: places of one class
+ * differ by about as much.
+ */
 #define THIN_SHARE 0.9f
 
 /* Scores that start and confirm tracks, and the least number of votes. */
@@ -49,11 +60,11 @@ struct thresholds {
 
 /*
  * ln of the expected number of false tracks with votes in h given scans: density^h sigma^(2h-4)
- * V(c) A pi (v_max^2 - v_min^2) h Stt, V the ball of 2h - 4 dimensions, Stt the spread of the scan
- * times (src/DESIGN.md derives it).
+ * V(c) A pi (v_max^2 - v_min^2) h Stt, where V is the ball of 2h - 4 dimensions and Stt the spread
+ * of the scan times (src/DESIGN.md derives it).
  */
-static float log_false_tracks(const struct search *search, unsigned h, float sigma_m,
-                              float spread_s2)
+static float log_false_tracks_in_scans(const struct search *search, unsigned h, float sigma_m,
+                                       float spread_s2)
 {
     const struct rho_initiator_config *config = &search->initiator->config;
     float degrees = (float)(2u * h - 4u);
@@ -77,25 +88,26 @@ static float largest_sigma_m(const struct search *search)
 }
 
 /*
- * The sum over the subsets of h of N scans is taken as C(N, h) times the subset spread evenly over
- * the window.
+ * Expected number of false tracks with votes of any h of the N scans: C(N, h) times the number for
+ * h scans spread evenly over the window.
  */
-static float false_tracks_of_votes(const struct search *search, unsigned h)
+static float expected_false_tracks(const struct search *search, unsigned h)
 {
     float span_s = search->time_s[search->num_scans - 1u] - search->time_s[0];
     float spread_s2 = (float)(h * (h + 1u)) * span_s * span_s / (12.0f * (float)(h - 1u));
     float log_subsets = rho_initiator_log_factorial(search->num_scans) -
                         rho_initiator_log_factorial(h) -
                         rho_initiator_log_factorial(search->num_scans - h);
-    return rho_exp(log_subsets + log_false_tracks(search, h, largest_sigma_m(search), spread_s2));
+    return rho_exp(log_subsets +
+                   log_false_tracks_in_scans(search, h, largest_sigma_m(search), spread_s2));
 }
 
 static unsigned choose_min_votes(const struct search *search)
 {
     unsigned m = search->num_scans;
-    float model = m > 3 ? false_tracks_of_votes(search, m) : 0.0f;
+    float model = m > 3 ? expected_false_tracks(search, m) : 0.0f;
     while (m > 3) {
-        model += false_tracks_of_votes(search, m - 1u);
+        model += expected_false_tracks(search, m - 1u);
         if (!(model <= FALSE_TRACKS_MAX)) {
             break;
         }
@@ -106,21 +118,21 @@ static unsigned choose_min_votes(const struct search *search)
 
 /* ---- tentative tracks ------------------------------------------------------------------------ */
 
-struct climbs {
-    float of[CLIMBS]; /* of u in the middle of each step */
+struct climb_table {
+    float of[CLIMBS]; /* probability by the lacking score u, at the middle of each step */
 };
 
 /*
- * Probability that clutter lifts the score of a tentative track by u or more before it is dropped,
- * for u in steps of CLIMB_STEP. In every scan a clutter plot in the gate adds between gain_nat and
- * that less half the gate, uniformly, with density pd e^-gain_nat; else the score loses the miss:
+ * Probability that clutter lifts the score of a tentative track by u_nat or more before it is
+ * dropped, from the table. In every scan a clutter plot in the gate adds between gain_nat and that
+ * less half the gate, uniformly, with density pd e^-gain_nat; else the score loses the miss:
  *
  *     climb(u) = integral of density climb(u - gain) d gain + (1 - P(hit)) climb(u + miss)
  *     climb(u <= 0) = 1
  *
- * Solved in a few sweeps, from the values nearest to 1 on.
+ * The table is solved in a few sweeps, from the values nearest to 1 on.
  */
-static float climb_probability(const struct climbs *climbs, float u_nat)
+static float climb_probability(const struct climb_table *climbs, float u_nat)
 {
     float place = u_nat / CLIMB_STEP;
     if (u_nat <= 0.0f) {
@@ -129,12 +141,12 @@ static float climb_probability(const struct climbs *climbs, float u_nat)
     return place < (float)CLIMBS ? climbs->of[(int)place] : 0.0f;
 }
 
-/* Effect of a scan on a tentative track of clutter. */
+/* Change of a tentative false track's score in one scan. */
 struct clutter_gain {
-    float gain_nat; /* of a perfect hit */
-    float each;     /* probability of each step of the gain below it */
-    unsigned gains; /* steps */
-    float miss_nat; /* lost without a hit */
+    float gain_nat; /* score that a perfect hit adds */
+    float each;     /* probability of a hit in each step of CLIMB_STEP below gain_nat */
+    unsigned gains; /* number of such steps: half the gate */
+    float miss_nat; /* score lost by a miss, positive */
 };
 
 static struct clutter_gain gain_by_clutter(const struct false_tracks *model, float start_nat)
@@ -147,13 +159,14 @@ static struct clutter_gain gain_by_clutter(const struct false_tracks *model, flo
     gain.each = rho_initiator_share_staying_inside(model, start_nat) * CLIMB_STEP *
                 rho_exp(search->log_pd[newest] - gain.gain_nat);
     if (gain.each * (float)gain.gains > 1.0f) {
-        /* clutter in every gate: the track takes one of several plots */
+        /* clutter in every gate: the track takes only one of several plots */
         gain.each = 1.0f / (float)gain.gains;
     }
     return gain;
 }
 
-static void solve_climbs(struct climbs *climbs, const struct false_tracks *model, float start_nat)
+static void solve_climb_probabilities(struct climb_table *climbs, const struct false_tracks *model,
+                                      float start_nat)
 {
     struct clutter_gain gain = gain_by_clutter(model, start_nat);
     float missed = 1.0f - gain.each * (float)gain.gains;
@@ -176,12 +189,13 @@ static void solve_climbs(struct climbs *climbs, const struct false_tracks *model
 /* ---- thresholds ------------------------------------------------------------------------------ */
 
 /*
- * True where clutter has more tracks confirmed at s than wanted: sets that reach s at once, and
- * sets that start below, from start_nat on, and climb. The sets not yet summed, up to at_start,
- * climb with a smaller probability than those summed so far: mostly that decides early.
+ * True where more false tracks are confirmed at the threshold s_nat than wanted: sets that reach it
+ * at once, and sets that start below, from start_nat on, and climb. Sets not summed yet, up to
+ * at_start, climb with a smaller probability than those summed so far, which mostly decides early.
  */
-static int clutter_confirms_more_than(const struct climbs *climbs, const struct false_tracks *model,
-                                      float s_nat, float start_nat, float at_start, float wanted)
+static int clutter_confirms_more_than(const struct climb_table *climbs,
+                                      const struct false_tracks *model, float s_nat,
+                                      float start_nat, float at_start, float wanted)
 {
     float above = rho_initiator_false_sets_above(model, s_nat, start_nat, FLT_MAX), sum = above;
     float lowest = s_nat - start_nat < CLIMB_STEP * (float)CLIMBS
@@ -201,8 +215,10 @@ static int clutter_confirms_more_than(const struct climbs *climbs, const struct 
     return sum > wanted;
 }
 
-/* The lowest start threshold with no more false starts than allowed. */
-static float start_threshold(const struct false_tracks *model)
+/*
+ * The lowest start threshold at which no more than FALSE_STARTS_MAX sets of clutter start a track.
+ */
+static float find_start_threshold(const struct false_tracks *model)
 {
     float low = THRESHOLD_MIN_NAT, high = THRESHOLD_MAX_NAT;
     if (rho_initiator_false_sets_above(model, low, low, FALSE_STARTS_MAX) <= FALSE_STARTS_MAX) {
@@ -220,15 +236,15 @@ static float start_threshold(const struct false_tracks *model)
     return high;
 }
 
-static float confirm_threshold(const struct false_tracks *model, float wanted, float start_nat)
+static float find_confirm_threshold(const struct false_tracks *model, float wanted, float start_nat)
 {
-    struct climbs climbs;
+    struct climb_table climbs;
     float low = start_nat, high = THRESHOLD_MAX_NAT;
     float at_start = rho_initiator_false_sets_above(model, start_nat, start_nat, FLT_MAX);
     if (at_start <= wanted) {
         return low;
     }
-    solve_climbs(&climbs, model, start_nat);
+    solve_climb_probabilities(&climbs, model, start_nat);
     for (int i = 0; i < BISECTIONS; i++) {
         float middle = 0.5f * (low + high);
         if (clutter_confirms_more_than(&climbs, model, middle, start_nat, at_start, wanted)) {
@@ -241,17 +257,17 @@ static float confirm_threshold(const struct false_tracks *model, float wanted, f
 }
 
 /*
- * M: the fewest hits whose threshold a target is likely to reach. Where there is none, a full
- * window starts sets with all hits, and a window that still fills starts none: M is beyond the
- * scans held.
+ * Chooses M, the fewest hits whose start threshold a target is likely to reach, and that threshold.
+ * Where there is none, a full window starts sets with hits in all scans; a window that still fills
+ * starts none: M is then beyond the number of scans held.
  */
-static unsigned choose_least_hits(struct false_tracks *model, float *start_nat)
+static unsigned choose_least_hits_and_start(struct false_tracks *model, float *start_nat)
 {
     unsigned num_scans = model->search->num_scans;
     unsigned wanted = model->search->initiator->config.min_scans;
     for (model->least_hits = wanted > 3u ? wanted : 3u; model->least_hits <= num_scans;
          model->least_hits++) {
-        *start_nat = start_threshold(model);
+        *start_nat = find_start_threshold(model);
         if (model->num_classes == 0 || rho_initiator_lets_targets_start(model, *start_nat)) {
             return model->least_hits;
         }
@@ -261,10 +277,11 @@ static unsigned choose_least_hits(struct false_tracks *model, float *start_nat)
 }
 
 /*
- * Long spans have room for more misses, each of which lowers the score: they need more hits than M.
+ * Sets the hits that each span needs, and the limit of thin clutter. Long spans have room for more
+ * misses, each of which lowers the score, so they need more hits than M.
  */
-static void find_span_hits(struct rho_initiator *initiator, const struct false_tracks *model,
-                           float start_nat)
+static void set_span_hits(struct rho_initiator *initiator, const struct false_tracks *model,
+                          float start_nat)
 {
     initiator->thin_clutter = THIN_SHARE * rho_initiator_thinnest_clutter(model);
     for (unsigned first = 0; first < RHO_MAX_SCANS; first++) {
@@ -279,13 +296,13 @@ static void find_thresholds(const struct search *search, struct thresholds *thre
     struct false_tracks model;
     thresholds->start_nat = THRESHOLD_MAX_NAT;
     rho_initiator_model_false_tracks(search, &model);
-    thresholds->min_scans = choose_least_hits(&model, &thresholds->start_nat);
+    thresholds->min_scans = choose_least_hits_and_start(&model, &thresholds->start_nat);
     if (HAS_SPAN_HITS) {
-        find_span_hits(search->initiator, &model, thresholds->start_nat);
+        set_span_hits(search->initiator, &model, thresholds->start_nat);
     }
     thresholds->confirm_nat =
-        confirm_threshold(&model, config->false_tracks_per_hour * search->interval_s / 3600.0f,
-                          thresholds->start_nat);
+        find_confirm_threshold(&model, config->false_tracks_per_hour * search->interval_s / 3600.0f,
+                               thresholds->start_nat);
 }
 
 static void use_thresholds(struct search *search, const struct thresholds *thresholds)
@@ -298,8 +315,8 @@ static void use_thresholds(struct search *search, const struct thresholds *thres
 }
 
 /*
- * Without a rate to keep, one threshold starts and confirms tracks. In further sectors of a
- * revolution those of its first sector stay.
+ * Sets M and the thresholds of a search. Without a false-track rate to keep, one threshold starts
+ * and confirms tracks. A further sector of a revolution keeps those of the first sector.
  */
 void rho_initiator_set_thresholds(struct search *search)
 {
@@ -321,7 +338,7 @@ void rho_initiator_set_thresholds(struct search *search)
     initiator->min_scans = (uint16_t)search->min_scans;
 }
 
-/* Sets the thresholds anew, for the density as it was measured last. */
+/* Finds the thresholds anew, for the clutter density measured last. */
 void rho_initiator_update_thresholds(struct search *search)
 {
     struct thresholds thresholds;
@@ -332,9 +349,10 @@ void rho_initiator_update_thresholds(struct search *search)
 /* ---- turns ----------------------------------------------------------------------------------- */
 
 /*
- * ln of the prior of a turn. Sets of clutter that reach s are at most S TURNING_SHARE / 2 e^-s,
- * with S scans in which they may begin, as the score is a likelihood ratio. Where the thresholds
- * would let more than TURNING_SHARE of the wanted false tracks through, the prior is lowered.
+ * ln of the prior of a turn. The expected sets of clutter that reach the score s are at most S
+ * TURNING_SHARE / 2 e^-s, with S scans in which they may begin, as the score is a likelihood ratio.
+ * Where the thresholds would let more than TURNING_SHARE of the wanted false tracks through, the
+ * prior is lowered.
  */
 float rho_initiator_log_turn_prior(const struct search *search)
 {

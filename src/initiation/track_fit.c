@@ -1,34 +1,41 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * track_fit: the track of a set of plots: fitted, associated again with every scan, and scored.
+ * track_fit: fits a track to a set of plots, associates the plots of every scan with the fit, and
+ * scores the set.
  *
- * The arithmetic is in isotropic_fit where the noise of every plot has one axis and sets are
- * straight, and in anisotropic_fit elsewhere.
+ * The arithmetic is in isotropic_fit where noise is isotropic and sets are straight, and in
+ * anisotropic_fit elsewhere.
  */
 #include "rhotrack/detail/approx.h"
 #include "search.h"
 
 /*
  * Variance of a plot about the fitted track over the plot's own: 1 + leverage, which is 1.46 at the
- * ends of seven evenly spread hits. It is larger for fewer hits; their gates are a little too
+ * ends of seven evenly spread hits. Fewer hits have a larger leverage; their gates are a little too
  * tight, but their votes were counted before.
  */
 #define FIT_GATE_FACTOR 1.5f
-/* The same for a fit with an acceleration, whose ends are less certain. */
+/*
+ * Variance of a plot about a fitted turning track over the plot's own: the acceleration makes the
+ * ends of the fit less certain.
+ */
 #define TURN_GATE_FACTOR 3.0f
 
 #define FIT_ROUNDS 2
 
 /* ---- fit ------------------------------------------------------------------------------------- */
 
-/* Fits a track to a set. 0 where the plots do not determine a line. */
+/* Fits a track to a set of plots. Returns 0 where the plots do not determine a track. */
 int rho_initiator_fit(const struct search *search, const struct plot_set *set, struct line_fit *fit)
 {
     return rho_initiator_is_isotropic(search) ? rho_initiator_fit_isotropic(search, set, fit)
                                               : rho_initiator_fit_anisotropic(search, set, fit);
 }
 
-/* The plot nearest to the fitted track in every scan. factor widens the gate's variance. */
+/*
+ * Makes the set of the plots nearest to the fitted track, one a scan at most. `factor` widens the
+ * gate's variance.
+ */
 void rho_initiator_associate_plots(struct search *search, const struct line_fit *fit, float factor,
                                    struct plot_set *set)
 {
@@ -74,8 +81,9 @@ static int has_target_speed(const struct search *search, const struct line_fit *
 }
 
 /*
- * Fits the set and associates every scan with the fit until nothing changes (FIT_ROUNDS times at
- * most). 0 where too few scans have a plot, or the speed is not in the limits.
+ * Fits a set and associates the plots of every scan with the fit, until the set stays the same,
+ * FIT_ROUNDS times at most. Returns 0 where too few scans have a plot, or the speed is outside
+ * v_min .. v_max.
  */
 int rho_initiator_refine_set(struct search *search, struct plot_set *set, struct line_fit *fit)
 {
@@ -111,8 +119,8 @@ int32_t rho_initiator_mnat(float nat)
     return mnat < 1.0e9f ? (int32_t)(mnat + (mnat < 0.0f ? -0.5f : 0.5f)) : 1000000000;
 }
 
-/* True where scan m covered the fitted track. */
-static int was_covered(const struct search *search, const struct line_fit *fit, unsigned m)
+/* True where scan m covered the place of the fitted track. */
+static int did_scan_cover_track(const struct search *search, const struct line_fit *fit, unsigned m)
 {
     const struct rho_window_scan *scan = rho_window_scan_at(&search->initiator->window, m);
     float t_s = search->time_s[m];
@@ -123,11 +131,12 @@ static int was_covered(const struct search *search, const struct line_fit *fit, 
 }
 
 /*
- * ln of the pattern of hits and misses, each hit over the clutter density there. A track may have
- * been born within the window: in the search after every scan, misses count from its first hit on.
+ * ln of the probability of the hits and misses, each hit divided by the clutter density at its
+ * plot. A track may have been born within the window: in a search after every scan, misses count
+ * from the first hit on.
  */
-static float log_detections(const struct search *search, const struct plot_set *set,
-                            const struct line_fit *fit)
+static float log_detection_ratio(const struct search *search, const struct plot_set *set,
+                                 const struct line_fit *fit)
 {
     float sum = 0.0f;
     int is_born = search->kind == RHO_SEARCH_BATCH;
@@ -135,7 +144,7 @@ static float log_detections(const struct search *search, const struct plot_set *
         if (set->mask >> m & 1u) {
             sum += search->log_pd[m] - rho_initiator_log_density(search, set, m);
             is_born = 1;
-        } else if (is_born && was_covered(search, fit, m)) {
+        } else if (is_born && did_scan_cover_track(search, fit, m)) {
             sum += search->log_miss[m];
         }
     }
@@ -143,8 +152,8 @@ static float log_detections(const struct search *search, const struct plot_set *
 }
 
 /*
- * ln [ P(plots | one target) / P(plots | clutter) ]. Returns 0 where the plots do not determine a
- * line.
+ * Sets the score ln [ P(plots | one target) / P(plots | clutter) ] of a set of plots. Returns 0
+ * where the plots do not determine a track.
  */
 int rho_initiator_score_set(const struct search *search, const struct plot_set *set,
                             const struct line_fit *fit, struct set_score *score)
@@ -157,6 +166,6 @@ int rho_initiator_score_set(const struct search *search, const struct plot_set *
         return 0;
     }
     score->mnat = rho_initiator_mnat(search->log_prior + search->log_turn +
-                                     log_detections(search, set, fit) + nat);
+                                     log_detection_ratio(search, set, fit) + nat);
     return 1;
 }

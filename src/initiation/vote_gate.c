@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* vote_gate: how far votes can be from a kernel, where the noise of a radar grows with range. */
+/*
+ * vote_gate: narrows the gates of votes for a kernel where the noise of a radar's plots grows with
+ * range.
+ */
 #include "rhotrack/detail/approx.h"
 #include "search.h"
 
-static int has_one_sensor(const struct search *search)
+static int are_sensors_at_one_place(const struct search *search)
 {
     const struct rho_sensor *first = &rho_window_scan_at(&search->initiator->window, 0)->sensor;
     for (unsigned m = 1; m < search->num_scans; m++) {
@@ -18,10 +21,10 @@ static int has_one_sensor(const struct search *search)
 }
 
 /*
- * Raises sigma_per_m to the largest noise over range of the plots of a scan with noise above
- * sigma_near_m.
+ * Raises sigma_per_m to the largest ratio of noise to range of a scan's plots, those with noise up
+ * to sigma_near_m left out.
  */
-static void raise_noise_per_range(struct search *search, const struct rho_window_scan *scan)
+static void raise_sigma_per_range(struct search *search, const struct rho_window_scan *scan)
 {
     float per2 = search->sigma_per_m * search->sigma_per_m;
     for (unsigned i = 0; i < scan->num_plots; i++) {
@@ -37,14 +40,15 @@ static void raise_noise_per_range(struct search *search, const struct rho_window
 }
 
 /*
- * Gates are wide enough for the noise of the farthest plots. Nearer plots have less noise where it
- * is that of an angle.
+ * Bounds the noise of a single radar by range. Kernels' gates are wide enough for the noise of the
+ * farthest plots; nearer plots have less noise where it comes from an angle. Without bounds
+ * (several places, isotropic noise, process noise) sigma_least_m is 0.
  */
 void rho_initiator_prepare_vote_gates(struct search *search)
 {
     search->sigma_least_m = 0.0f;
     if (rho_initiator_is_isotropic(search) || search->fit_process_m2 > 0.0f ||
-        !has_one_sensor(search)) {
+        !are_sensors_at_one_place(search)) {
         return;
     }
     for (unsigned m = 0; m < search->num_scans; m++) {
@@ -59,14 +63,15 @@ void rho_initiator_prepare_vote_gates(struct search *search)
         }
     }
     for (unsigned m = 0; m < search->num_scans; m++) {
-        raise_noise_per_range(search, rho_window_scan_at(&search->initiator->window, m));
+        raise_sigma_per_range(search, rho_window_scan_at(&search->initiator->window, m));
     }
 }
 
 /*
- * All plots of the kernels that end here are within far_m. The sine of the angle between their
- * lines of sight and its own is at most far_m over their range, so that no more than sigma_per_m
- * far_m of their noise across lies along its line of sight.
+ * Sets the shares of the widest gates that kernels ending in this plot need, whose plots are all
+ * within far_m. The sine of the angle between the plots' lines of sight and that of the last plot
+ * is at most far_m over their range, so that no more than sigma_per_m far_m of their noise across
+ * lies along the latter.
  */
 void rho_initiator_find_vote_gate(const struct search *search, float far_m, struct ending *ending)
 {

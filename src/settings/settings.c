@@ -3,15 +3,23 @@
 
 #include "rhotrack/detail/approx.h"
 
-/* Share of the largest acceleration that targets have for a whole initiation window. */
+/*
+ * Share of the largest acceleration that the initiator assumes turning targets to keep for a
+ * window.
+ */
 #define TURN_SHARE 0.2f
 
-/* Scans that the network may delay a scan by, and the largest late_max_s that a tracker takes. */
+/*
+ * Scan intervals by which the network may delay a scan, and the largest late_max_s that a tracker
+ * accepts.
+ */
 #define LATE_SCANS 2.0f
 #define LATE_LIMIT_S 60.0f
 
-/* Ranges that a passive search takes; and all cells of rho, range_max_m either way and room for the
- * sensors' own places, over range_max_m. */
+/*
+ * Least and largest range_max_m of a passive search; and the span of all its cells of rho over
+ * range_max_m: range_max_m either way, and room for the sensors' own places.
+ */
 #define PASSIVE_RANGE_MIN_M 1000.0f
 #define PASSIVE_RANGE_MAX_M 500000.0f
 #define PASSIVE_SPAN 2.56f
@@ -38,7 +46,10 @@ void rho_settings_default(struct rho_settings *settings)
 
 /* ---- check --------------------------------------------------------------------------------- */
 
-/* The value is noted, so that the first one that is refused stands in *fault. */
+/*
+ * True where the value is finite and in min .. max. Always notes field, value and limits in *fault,
+ * so that the first refused one stands there.
+ */
 static int is_within(struct rho_settings_fault *fault, const char *field, float value, float min,
                      float max)
 {
@@ -105,7 +116,8 @@ static int has_usable_decisions(const struct rho_settings *settings,
             is_within(fault, "min_scans", settings->min_scans, 3.0f, scans)) &&
            is_within(fault, "coast_scans_max", settings->coast_scans_max, 1.0f, (float)UINT8_MAX) &&
            is_within(fault, "work_max", (float)settings->work_max, 0.0f, (float)RHO_LIMIT_WORK) &&
-           settings->work_max <= RHO_LIMIT_WORK; /* a float may have rounded it */
+           /* compared as an integer, too: the float may have been rounded down to the limit */
+           settings->work_max <= RHO_LIMIT_WORK;
 }
 
 enum rho_status rho_settings_check(const struct rho_settings *settings,

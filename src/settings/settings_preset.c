@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * settings_preset: the settings of typical radars. settings.h gives the reasons for each figure.
+ * settings_preset: the settings of typical kinds of radar. settings.h gives the reason for each
+ * figure.
  */
 #include "rhotrack/settings.h"
 
-/* Without the fields that no kind has of its own. */
+/* Presets by kind; sigma_rad, scans and work_max are left to rho_settings_default. */
 static const struct rho_settings presets[RHO_NUM_PRESETS] = {
     [RHO_PRESET_EN_ROUTE] =
         {

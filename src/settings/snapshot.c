@@ -9,15 +9,18 @@
 #include "rhotrack/settings.h"
 #include "rhotrack/tracker.h"
 
-/* Bytes of the image; numbers have the least significant byte first on every machine. */
+/*
+ * Offsets and sizes of a snapshot image's fields, in bytes. Numbers have the least significant byte
+ * first on every machine.
+ */
 #define MAGIC_AT 0u
 #define VERSION_AT 8u
 #define LAYOUT_AT 12u
 #define SIZE_AT 16u
 #define NUM_PARTS_AT 20u
 #define HEADER_BYTES 24u
-#define PART_BYTES 16u /* kind, id, size, 0 */
-#define END_BYTES 8u   /* 0, checksum */
+#define PART_BYTES 16u /* fields of a part: kind, id, size, 0 */
+#define END_BYTES 8u   /* fields at the end of an image: 0, checksum */
 
 static const uint8_t magic[8] = {'r', 'h', 'o', 's', 'n', 'a', 'p', '\n'};
 
@@ -36,7 +39,10 @@ static uint32_t get_u32(const uint8_t *bytes)
            (uint32_t)bytes[3] << 24;
 }
 
-/* CRC-32 (IEEE 802.3), four bits at a time; begins with and is kept as its complement. */
+/*
+ * Adds bytes to a CRC-32 (IEEE 802.3), four bits at a time. The running value is the complement of
+ * the checksum, and begins as UINT32_MAX.
+ */
 static uint32_t add_to_crc(uint32_t crc, const uint8_t *bytes, size_t size)
 {
     static const uint32_t table[16] = {0x00000000u, 0x1db71064u, 0x3b6e20c8u, 0x26d930acu,
@@ -50,14 +56,17 @@ static uint32_t add_to_crc(uint32_t crc, const uint8_t *bytes, size_t size)
     return crc;
 }
 
-/* Of bytes with their checksum behind them, before its complement. */
+/* Running CRC-32 after bytes that are followed by their own checksum. */
 #define CRC_OF_ALL 0xdebb20e3u
 
 /* ---- layout ---------------------------------------------------------------------------------- */
 
 #define PLACE(type, field) (uint32_t) offsetof(struct type, field)
 
-/* In the machine's byte order, which is part of it. */
+/*
+ * Capacities, options, sizes and offsets that two builds must agree on to exchange snapshots.
+ * Hashed in the machine's byte order, so that this must agree, too.
+ */
 static const uint32_t facts[] = {
     RHO_MAX_PLOTS,
     RHO_MAX_SCANS,
@@ -159,7 +168,7 @@ static uint32_t layout_hash(void)
 
 /* ---- kinds ----------------------------------------------------------------------------------- */
 
-/* 0: there is no such kind. */
+/* Size of the object of a snapshot kind; 0: there is no such kind in this build. */
 static size_t size_of_kind(uint32_t kind)
 {
     switch (kind) {
@@ -180,7 +189,7 @@ static size_t size_of_kind(uint32_t kind)
     }
 }
 
-static int is_sound(uint32_t kind, const void *object)
+static int is_sound_object(uint32_t kind, const void *object)
 {
     switch (kind) {
     case RHO_SNAPSHOT_TRACKER:
@@ -202,7 +211,7 @@ static int is_sound(uint32_t kind, const void *object)
     }
 }
 
-static size_t padding_of(size_t size)
+static size_t padding_to_alignment(size_t size)
 {
     return (RHO_SNAPSHOT_ALIGNMENT - size % RHO_SNAPSHOT_ALIGNMENT) % RHO_SNAPSHOT_ALIGNMENT;
 }
@@ -230,7 +239,7 @@ static size_t image_size(const struct rho_snapshot_part *parts, unsigned num_par
 {
     size_t size = HEADER_BYTES + (size_t)num_parts * PART_BYTES + END_BYTES;
     for (unsigned i = 0; i < num_parts; i++) {
-        size += parts[i].size + padding_of(parts[i].size);
+        size += parts[i].size + padding_to_alignment(parts[i].size);
     }
     return size;
 }
@@ -242,12 +251,15 @@ size_t rho_snapshot_size(const struct rho_snapshot_part *parts, unsigned num_par
 
 /* ---- save ------------------------------------------------------------------------------------ */
 
-/* All bytes of the image pass in order; those within the window are written. */
+/*
+ * Writer of a snapshot image. All bytes of the image pass in order; those from `from` to before
+ * `end` are written to the buffer.
+ */
 struct writer {
     size_t at, from, end;
     uint8_t *buffer;
     uint32_t crc;
-    int has_crc; /* asked for: the window holds it */
+    int has_crc; /* the checksum is computed, as the buffer will hold it */
 };
 
 static void put_bytes(struct writer *writer, const void *data, size_t size)
@@ -265,8 +277,8 @@ static void put_bytes(struct writer *writer, const void *data, size_t size)
     writer->at += size;
 }
 
-static void put_head(struct writer *writer, const struct rho_snapshot_part *parts,
-                     unsigned num_parts)
+static void put_header_and_table(struct writer *writer, const struct rho_snapshot_part *parts,
+                                 unsigned num_parts)
 {
     uint8_t bytes[HEADER_BYTES];
     memcpy(bytes + MAGIC_AT, magic, sizeof magic);
@@ -284,7 +296,7 @@ static void put_head(struct writer *writer, const struct rho_snapshot_part *part
     }
 }
 
-static void put_end(struct writer *writer)
+static void put_checksum(struct writer *writer)
 {
     uint8_t bytes[4] = {0};
     put_bytes(writer, bytes, sizeof bytes);
@@ -295,7 +307,7 @@ static void put_end(struct writer *writer)
 static int are_all_sound(const struct rho_snapshot_part *parts, unsigned num_parts)
 {
     for (unsigned i = 0; i < num_parts; i++) {
-        if (!is_sound((uint32_t)parts[i].kind, parts[i].object)) {
+        if (!is_sound_object((uint32_t)parts[i].kind, parts[i].object)) {
             return 0;
         }
     }
@@ -321,12 +333,12 @@ enum rho_status rho_snapshot_save(const struct rho_snapshot_part *parts, unsigne
                             .crc = UINT32_MAX,
                             .has_crc = offset + *length > all - 4u};
     writer.buffer = buffer;
-    put_head(&writer, parts, num_parts);
+    put_header_and_table(&writer, parts, num_parts);
     for (unsigned i = 0; i < num_parts; i++) {
         put_bytes(&writer, parts[i].object, parts[i].size);
-        put_bytes(&writer, zeros, padding_of(parts[i].size));
+        put_bytes(&writer, zeros, padding_to_alignment(parts[i].size));
     }
-    put_end(&writer);
+    put_checksum(&writer);
     return RHO_OK;
 }
 
@@ -337,7 +349,7 @@ static uint32_t part_field(const uint8_t *image, unsigned part, unsigned field)
     return get_u32(image + HEADER_BYTES + (size_t)part * PART_BYTES + 4u * field);
 }
 
-/* The parts' stated sizes are those of their kinds, and fill the image. */
+/* True where each part of an image has the size of its kind, and the parts fill the image. */
 static int is_filled_by_parts(const uint8_t *image, uint32_t size, uint32_t num_parts)
 {
     size_t left = size - HEADER_BYTES - END_BYTES;
@@ -347,15 +359,16 @@ static int is_filled_by_parts(const uint8_t *image, uint32_t size, uint32_t num_
     left -= num_parts * PART_BYTES;
     for (unsigned i = 0; i < num_parts; i++) {
         const size_t bytes = size_of_kind(part_field(image, i, 0));
-        if (bytes == 0 || part_field(image, i, 2) != bytes || bytes + padding_of(bytes) > left) {
+        if (bytes == 0 || part_field(image, i, 2) != bytes ||
+            bytes + padding_to_alignment(bytes) > left) {
             return 0;
         }
-        left -= bytes + padding_of(bytes);
+        left -= bytes + padding_to_alignment(bytes);
     }
     return left == 0;
 }
 
-/* Checks an image without its objects. */
+/* Checks an image's alignment, header, checksum and part sizes, but not the objects in it. */
 static enum rho_status check_image(const uint8_t *image, size_t size)
 {
     if (!image) {
@@ -421,7 +434,7 @@ static int are_parts_of_image(const struct rho_snapshot_part *parts, unsigned nu
     return 1;
 }
 
-/* Checks the image's objects, or copies them. */
+/* Checks that the image's objects are consistent, or (takes) copies them to the parts. */
 static int check_or_copy_objects(const struct rho_snapshot_part *parts, unsigned num_parts,
                                  const uint8_t *image, int takes)
 {
@@ -429,10 +442,10 @@ static int check_or_copy_objects(const struct rho_snapshot_part *parts, unsigned
     for (unsigned i = 0; i < num_parts; i++) {
         if (takes) {
             memcpy(parts[i].object, object, parts[i].size);
-        } else if (!is_sound((uint32_t)parts[i].kind, object)) {
+        } else if (!is_sound_object((uint32_t)parts[i].kind, object)) {
             return 0;
         }
-        object += parts[i].size + padding_of(parts[i].size);
+        object += parts[i].size + padding_to_alignment(parts[i].size);
     }
     return 1;
 }
@@ -465,9 +478,9 @@ static size_t smaller_size(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Header and table of an image of these parts are known before it comes. */
-static enum rho_status compare_head(const struct rho_snapshot_loader *loader, const uint8_t *bytes,
-                                    size_t size)
+/* Compares a piece of an image with the header and the table of parts that the loader expects. */
+static enum rho_status compare_header_and_table(const struct rho_snapshot_loader *loader,
+                                                const uint8_t *bytes, size_t size)
 {
     uint8_t expected[PART_BYTES] = {0};
     for (size_t i = 0; i < size; i++) {
@@ -475,7 +488,7 @@ static enum rho_status compare_head(const struct rho_snapshot_loader *loader, co
         if (i % PART_BYTES == 0) {
             struct writer writer = {.from = at, .end = at + smaller_size(PART_BYTES, size - i)};
             writer.buffer = expected;
-            put_head(&writer, loader->parts, loader->num_parts);
+            put_header_and_table(&writer, loader->parts, loader->num_parts);
         }
         if (bytes[i] != expected[i % PART_BYTES]) {
             return at < LAYOUT_AT ? RHO_ERROR_TYPE
@@ -486,8 +499,9 @@ static enum rho_status compare_head(const struct rho_snapshot_loader *loader, co
     return RHO_OK;
 }
 
-/* Copies the bytes of a piece that belong to objects. */
-static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *bytes, size_t size)
+/* Copies the bytes of a piece of an image that belong to objects. */
+static void copy_piece_to_objects(const struct rho_snapshot_loader *loader, const uint8_t *bytes,
+                                  size_t size)
 {
     size_t first = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
     for (unsigned i = 0; i < loader->num_parts; i++) {
@@ -498,11 +512,14 @@ static void copy_piece(const struct rho_snapshot_loader *loader, const uint8_t *
             memcpy((uint8_t *)part->object + (from - first), bytes + (from - loader->at),
                    end - from);
         }
-        first += part->size + padding_of(part->size);
+        first += part->size + padding_to_alignment(part->size);
     }
 }
 
-/* Ends a pass over the image: the first checks, the second copies. */
+/*
+ * Ends a pass over an image: the first pass checks the checksum, the second one the loaded objects
+ * too, which are cleared where that fails.
+ */
 static enum rho_status end_pass(struct rho_snapshot_loader *loader)
 {
     int is_whole = loader->crc == CRC_OF_ALL;
@@ -544,10 +561,10 @@ enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loader, const uint
     const size_t head = HEADER_BYTES + (size_t)loader->num_parts * PART_BYTES;
     const size_t taken = smaller_size(size, all - loader->at);
     if (loader->passes == 0 && loader->at < head) {
-        status = compare_head(loader, bytes, smaller_size(taken, head - loader->at));
+        status = compare_header_and_table(loader, bytes, smaller_size(taken, head - loader->at));
     }
     if (loader->passes == 1) {
-        copy_piece(loader, bytes, taken);
+        copy_piece_to_objects(loader, bytes, taken);
     }
     loader->crc = add_to_crc(loader->crc, bytes, taken);
     loader->at += (uint32_t)taken;
@@ -555,7 +572,7 @@ enum rho_status rho_snapshot_take(struct rho_snapshot_loader *loader, const uint
         status = end_pass(loader);
     }
     if (status != RHO_OK) {
-        loader->passes = RHO_SNAPSHOT_PASSES + 1; /* refused */
+        loader->passes = RHO_SNAPSHOT_PASSES + 1; /* marks the image as refused */
     }
     return status;
 }

@@ -14,17 +14,17 @@
 #define ROW_MAX RHO_WINDOW_ROW
 
 /*
- * Missing sectors (lost, or out of sequence) up to this angle do not end a revolution. Their places
- * count as not covered.
+ * Largest angle of missing sectors (lost, or out of sequence) that does not end a revolution.
+ * Places in the gap count as not covered.
  */
 #define SECTOR_GAP_RAD (RHO_TWO_PI / 8.0f)
 
-/* Bins a plot of scans with few plots: more are not worth their memory traffic. */
+/* Most bins for each plot of a scan with few plots: more are not worth their memory traffic. */
 #define BINS_PER_PLOT 8u
 
 /* ---- areas and bins -------------------------------------------------------------------------- */
 
-static float at_least(float v, float limit)
+static float larger_of(float v, float limit)
 {
     return v > limit ? v : limit;
 }
@@ -36,16 +36,16 @@ static int is_usable_area(const struct rho_extent *area)
            area->x_min_m < area->x_max_m && area->y_min_m < area->y_max_m;
 }
 
-/* Nearly square bins over the area, in proportion to the plots. */
-static void size_bins(struct rho_window_scan *scan, const struct rho_window *window,
-                      unsigned num_plots)
+/* Lays out nearly square bins over the area, at most BINS_PER_PLOT for each plot expected. */
+static void lay_out_bins(struct rho_window_scan *scan, const struct rho_window *window,
+                         unsigned num_plots)
 {
-    float width_m = rho_extent_width_m(&window->extent, at_least(window->side_min_m, 1.0f));
-    float height_m = rho_extent_height_m(&window->extent, at_least(window->side_min_m, 1.0f));
+    float width_m = rho_extent_width_m(&window->extent, larger_of(window->side_min_m, 1.0f));
+    float height_m = rho_extent_height_m(&window->extent, larger_of(window->side_min_m, 1.0f));
     unsigned limit = BINS_PER_PLOT * num_plots + 1u;
     unsigned bins = limit < RHO_MAX_BINS ? limit : RHO_MAX_BINS;
     unsigned columns = 1;
-    /* the most columns whose bins are not narrower than high: columns^2 <= bins * width / height */
+    /* most columns whose bins are at least as wide as high: columns^2 <= bins * width / height */
     while (columns < bins &&
            (float)((columns + 1) * (columns + 1)) * height_m <= (float)bins * width_m) {
         columns++;
@@ -60,13 +60,17 @@ static void size_bins(struct rho_window_scan *scan, const struct rho_window *win
 
 /* ---- taking a scan in ------------------------------------------------------------------------ */
 
-static float seconds(int32_t offset_us)
+static float seconds_of_us(int32_t offset_us)
 {
     return (float)offset_us * 1e-6f;
 }
 
-/* Gives plots without room their fate. Returns the number held with those that were held before. */
-static unsigned limit_to_capacity(const struct rho_scan *scan, unsigned held, uint8_t *fates)
+/*
+ * Gives HELD plots beyond the window's capacity the fate NO_ROOM. Returns the number of plots that
+ * the scan then holds, `held` earlier ones included.
+ */
+static unsigned refuse_plots_beyond_capacity(const struct rho_scan *scan, unsigned held,
+                                             uint8_t *fates)
 {
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         if (fates[i] != RHO_FATE_HELD) {
@@ -81,7 +85,9 @@ static unsigned limit_to_capacity(const struct rho_scan *scan, unsigned held, ui
     return held;
 }
 
-/* The first scan has bins before the area is known. */
+/*
+ * Sets the extent to that of the first scan's plots, as bins are needed before the area is known.
+ */
 static void set_first_extent(struct rho_window *window, const struct rho_scan *scan,
                              const uint8_t *fates)
 {
@@ -95,67 +101,69 @@ static void set_first_extent(struct rho_window *window, const struct rho_scan *s
     }
 }
 
-/* A scan on its way into its slot of the ring. */
+/* A scan or sector that is copied into a slot of the window's ring. */
 struct entry {
     struct rho_window_scan *slot;
     const struct rho_scan *scan;
     const uint8_t *fates;
-    struct rho_sigma_factors factors; /* of what plots say of their noise */
-    float after_s;                    /* the scan's time after that of the slot */
+    /* factors of the plots' sigmas, by the sensor's description */
+    struct rho_sigma_factors factors;
+    float after_s; /* time of the scan or sector after the slot's time */
 };
 
-static float within_limits(float sigma)
+static float clamp_sigma(float sigma)
 {
     const float least = sigma > RHO_LIMIT_SIGMA_MIN ? sigma : RHO_LIMIT_SIGMA_MIN;
     return least < RHO_LIMIT_SIGMA_MAX ? least : RHO_LIMIT_SIGMA_MAX;
 }
 
-static struct rho_window_plot window_plot(const struct entry *entry, uint32_t row)
+static struct rho_window_plot make_window_plot(const struct entry *entry, uint32_t row)
 {
     const struct rho_scan *scan = entry->scan;
     const struct rho_plot *plot = &scan->plots[row];
     struct rho_window_plot held = {
         .x_m = plot->x_m,
         .y_m = plot->y_m,
-        .offset_s = entry->after_s + seconds(plot->offset_us),
-        .sigma_range = sigma_code(within_limits(entry->factors.range * plot->sigma_range_m)),
-        .sigma_cross = sigma_code(within_limits(entry->factors.cross * plot->sigma_cross_m)),
+        .offset_s = entry->after_s + seconds_of_us(plot->offset_us),
+        .sigma_range = code_of_sigma(clamp_sigma(entry->factors.range * plot->sigma_range_m)),
+        .sigma_cross = code_of_sigma(clamp_sigma(entry->factors.cross * plot->sigma_cross_m)),
     };
     if (scan->measures & RHO_MEASURES_Z) {
         held.z_m = plot->z_m;
-        held.sigma_up = sigma_code(plot->sigma_up_m);
+        held.sigma_up = code_of_sigma(plot->sigma_up_m);
     }
     if (scan->measures & RHO_MEASURES_RANGE_RATE) {
         held.range_rate_mps = plot->range_rate_mps;
-        held.sigma_range_rate = sigma_code(plot->sigma_range_rate_mps);
+        held.sigma_range_rate = code_of_sigma(plot->sigma_range_rate_mps);
     }
     return held;
 }
 
-static void widen_ranges(struct rho_window *window, struct rho_window_scan *slot,
-                         const struct rho_window_plot *plot)
+static void widen_scan_bounds(struct rho_window *window, struct rho_window_scan *slot,
+                              const struct rho_window_plot *plot)
 {
-    slot->sigma_max_m = at_least(slot->sigma_max_m, sigma_of(larger_sigma(plot)));
+    slot->sigma_max_m = larger_of(slot->sigma_max_m, sigma_of_code(larger_sigma_code(plot)));
     if (plot->sigma_up) {
-        /* a steep line of sight turns the upward noise into the plane */
-        slot->sigma_max_m = at_least(slot->sigma_max_m, sigma_of(plot->sigma_up));
+        /* a steep line of sight turns the upward noise into the horizontal plane */
+        slot->sigma_max_m = larger_of(slot->sigma_max_m, sigma_of_code(plot->sigma_up));
     }
     slot->is_isotropic = slot->is_isotropic && plot->sigma_range == plot->sigma_cross;
-    slot->offset_max_s = at_least(slot->offset_max_s, plot->offset_s);
+    slot->offset_max_s = larger_of(slot->offset_max_s, plot->offset_s);
     slot->offset_min_s = plot->offset_s < slot->offset_min_s ? plot->offset_s : slot->offset_min_s;
     if (RHO_SECTORS && plot->offset_s < window->newest.offset_min_s) {
         window->newest.offset_min_s = plot->offset_s;
     }
 }
 
-/* Begins of the bins with the new plots. */
+/* Finds the start of each bin, earlier sectors' plots and the new ones counted. */
 static void find_bin_starts(const struct entry *entry)
 {
     struct rho_window_scan *slot = entry->slot;
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
     uint16_t *start = slot->bin_start;
     if (RHO_SECTORS && slot->num_plots > 0) {
-        for (unsigned c = bins; c > 0; c--) { /* as many as there are */
+        /* starts of the earlier sectors' bins become their counts */
+        for (unsigned c = bins; c > 0; c--) {
             start[c] = (uint16_t)(start[c] - start[c - 1]);
         }
     } else {
@@ -173,10 +181,10 @@ static void find_bin_starts(const struct entry *entry)
 }
 
 /*
- * Moves the plots held of earlier sectors to the new begins of their bins, the last bin first.
- * Afterwards each start lies behind the plots that were moved.
+ * Moves the plots of earlier sectors to the new starts of their bins, the last bin first.
+ * Afterwards each bin's start lies behind the plots that were moved there.
  */
-static void move_held_plots(struct rho_window_scan *slot)
+static void move_held_plots_to_bins(struct rho_window_scan *slot)
 {
     unsigned end = slot->num_plots;
     while (end > 0) {
@@ -198,35 +206,36 @@ static void move_held_plots(struct rho_window_scan *slot)
 }
 
 /*
- * Counting sort by bin, stable, without a second array: starts advance as bins fill, and are then
- * shifted back.
+ * Copies the plots with fate HELD into the slot, sorted by bin: a stable counting sort without a
+ * second array, in which starts advance as bins fill, and are then shifted back.
  */
-static void sort_into_bins(struct rho_window *window, const struct entry *entry)
+static void copy_plots_into_bins(struct rho_window *window, const struct entry *entry)
 {
     struct rho_window_scan *slot = entry->slot;
     unsigned bins = (unsigned)slot->bins_x * slot->bins_y;
     uint16_t *start = slot->bin_start;
     find_bin_starts(entry);
     if (RHO_SECTORS) {
-        move_held_plots(slot);
+        move_held_plots_to_bins(slot);
     }
     for (uint32_t i = 0; i < entry->scan->num_plots; i++) {
         if (entry->fates[i] == RHO_FATE_HELD) {
-            struct rho_window_plot plot = window_plot(entry, i);
+            struct rho_window_plot plot = make_window_plot(entry, i);
             unsigned place = start[rho_window_bin_of(slot, plot.x_m, plot.y_m)]++;
             slot->plots[place] = plot;
             slot->marks[place] = (uint16_t)i;
             if (RHO_MAX_ECHOES > 0) {
                 slot->repeats[place] = 0;
             }
-            widen_ranges(window, slot, &plot);
+            widen_scan_bounds(window, slot, &plot);
         }
     }
     memmove(start + 1, start, bins * sizeof start[0]);
     start[0] = 0;
 }
 
-static struct rho_window_scan *next_slot(struct rho_window *window, uint32_t *left_unused)
+static struct rho_window_scan *take_slot_for_newest(struct rho_window *window,
+                                                    uint32_t *left_unused)
 {
     if (window->num_scans == window->scans_max) {
         *left_unused = rho_count(*left_unused, window->ring[window->first].num_unused);
@@ -240,9 +249,9 @@ static struct rho_window_scan *next_slot(struct rho_window *window, uint32_t *le
 
 /* ---- sectors --------------------------------------------------------------------------------- */
 
-static const struct rho_window_scan *newest_of(const struct rho_window *window)
+static const struct rho_window_scan *newest_scan_of(const struct rho_window *window)
 {
-    const unsigned end = (unsigned)window->first + window->num_scans; /* num_scans > 0 */
+    const unsigned end = (unsigned)window->first + window->num_scans; /* requires num_scans > 0 */
     return &window->ring[(end > window->scans_max ? end - window->scans_max : end) - 1u];
 }
 
@@ -251,8 +260,11 @@ static int is_equal(float a, float b)
     return a <= b && a >= b;
 }
 
-/* True where the held plots were seen by a sensor of another description. */
-static int is_other_sensor(const struct rho_window_scan *held, const struct rho_sensor *sensor)
+/*
+ * True where the held plots came from a sensor with another place or range-rate span, or where only
+ * one of both has a description.
+ */
+static int is_sensor_changed(const struct rho_window_scan *held, const struct rho_sensor *sensor)
 {
     const struct rho_sensor *was = &held->sensor;
     if (!sensor) {
@@ -269,8 +281,8 @@ int rho_window_continues(const struct rho_window *window, const struct rho_scan 
     if (!RHO_SECTORS || window->magic != WINDOW_MAGIC || window->num_scans == 0) {
         return 0;
     }
-    const struct rho_window_scan *held = newest_of(window);
-    return held->sensor.sensor_id == scan->sensor_id && !is_other_sensor(held, sensor) &&
+    const struct rho_window_scan *held = newest_scan_of(window);
+    return held->sensor.sensor_id == scan->sensor_id && !is_sensor_changed(held, sensor) &&
            window->newest.time_us <= scan->time_us &&
            scan->time_us - held->time_us <= RHO_LIMIT_OFFSET_US &&
            rho_angle_sector_continues(held->sector_from_rad, held->sector_to_rad,
@@ -279,11 +291,11 @@ int rho_window_continues(const struct rho_window *window, const struct rho_scan 
 }
 
 /*
- * How many plots the revolution will have that begins with `held` in a sector: as many as the
- * revolution before, where the window has one.
+ * Number of plots that a scan will hold when its revolution is complete. For a sector: as many as
+ * the revolution before, or RHO_MAX_PLOTS where the window has none; at least `held`.
  */
-static unsigned plots_of_revolution(struct rho_window *window, const struct rho_scan *scan,
-                                    unsigned held)
+static unsigned expected_plots_of_revolution(struct rho_window *window, const struct rho_scan *scan,
+                                             unsigned held)
 {
     const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
     if (!RHO_SECTORS || !(RHO_TWO_PI / width_rad > 1.0f)) {
@@ -296,13 +308,13 @@ static unsigned plots_of_revolution(struct rho_window *window, const struct rho_
     return held > before ? held : before;
 }
 
-/* Begins the record of a new sector, or of a whole scan. */
-static void begin_sector(struct rho_window *window, const struct rho_scan *scan)
+/* Begins the window's record of its newest sector, or whole scan. */
+static void begin_newest_sector(struct rho_window *window, const struct rho_scan *scan)
 {
     window->newest = (struct rho_window_sector){.time_us = scan->time_us, .offset_min_s = FLT_MAX};
 }
 
-static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
+static void widen_covered_sector(struct rho_window_scan *slot, const struct rho_scan *scan)
 {
     const unsigned ends =
         rho_angle_sector_continues(slot->sector_from_rad, slot->sector_to_rad,
@@ -317,7 +329,10 @@ static void widen_sector(struct rho_window_scan *slot, const struct rho_scan *sc
     }
 }
 
-/* A revolution measures the quantities that all its sectors with plots measure. */
+/*
+ * Keeps the quantities that all sectors with plots of a revolution measure. Records whether that
+ * changes what the held scan measures.
+ */
 static void intersect_measures(struct rho_window *window, struct rho_window_scan *slot,
                                const struct rho_scan *scan, unsigned held)
 {
@@ -330,21 +345,21 @@ static void intersect_measures(struct rho_window *window, struct rho_window_scan
     window->is_remeasured = slot->measures != before;
 }
 
-static void add_sector(struct rho_window *window, const struct rho_scan *scan,
-                       const struct rho_sensor *sensor, uint8_t *fates)
+static void add_sector_to_newest(struct rho_window *window, const struct rho_scan *scan,
+                                 const struct rho_sensor *sensor, uint8_t *fates)
 {
     struct rho_window_scan *slot = rho_window_scan_at(window, window->num_scans - 1u);
     const struct entry entry = {slot, scan, fates, rho_measurement_sigma_factors(sensor),
                                 rho_seconds_between(slot->time_us, scan->time_us)};
-    const unsigned held = limit_to_capacity(scan, slot->num_plots, fates);
+    const unsigned held = refuse_plots_beyond_capacity(scan, slot->num_plots, fates);
     if (slot->num_plots == 0) {
         set_first_extent(window, scan, fates);
-        size_bins(slot, window, plots_of_revolution(window, scan, held));
+        lay_out_bins(slot, window, expected_plots_of_revolution(window, scan, held));
     }
     intersect_measures(window, slot, scan, held);
-    widen_sector(slot, scan);
-    begin_sector(window, scan);
-    sort_into_bins(window, &entry);
+    widen_covered_sector(slot, scan);
+    begin_newest_sector(window, scan);
+    copy_plots_into_bins(window, &entry);
     slot->sensor.pd = sensor ? sensor->pd : 0.0f;
     slot->num_unused = (uint16_t)(slot->num_unused + held - slot->num_plots);
     slot->num_plots = (uint16_t)held;
@@ -397,26 +412,27 @@ enum rho_status rho_window_check_push(const struct rho_window *window, const str
 static void add_scan(struct rho_window *window, const struct rho_scan *scan,
                      const struct rho_sensor *sensor, uint8_t *fates, uint32_t *left_unused)
 {
-    struct rho_window_scan *slot = next_slot(window, left_unused);
+    struct rho_window_scan *slot = take_slot_for_newest(window, left_unused);
     const struct entry entry = {.slot = slot,
                                 .scan = scan,
                                 .fates = fates,
                                 .factors = rho_measurement_sigma_factors(sensor)};
-    unsigned held = limit_to_capacity(scan, 0, fates);
+    unsigned held = refuse_plots_beyond_capacity(scan, 0, fates);
     slot->time_us = scan->time_us;
     slot->measures = scan->measures;
     slot->sector_from_rad = scan->sector_from_rad;
     slot->sector_to_rad = scan->sector_to_rad;
     slot->sensor = sensor ? *sensor : (struct rho_sensor){.sensor_id = scan->sensor_id};
     slot->sensor.pd = sensor ? sensor->pd : 0.0f;
-    slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0; /* plots have it */
+    /* the held plots' sigmas include these factors */
+    slot->sensor.sigma_range_percent = slot->sensor.sigma_cross_percent = 0;
     slot->num_plots = 0;
     slot->sigma_max_m = slot->offset_min_s = slot->offset_max_s = 0.0f;
     slot->is_isotropic = 1;
-    begin_sector(window, scan);
+    begin_newest_sector(window, scan);
     set_first_extent(window, scan, fates);
-    size_bins(slot, window, plots_of_revolution(window, scan, held));
-    sort_into_bins(window, &entry);
+    lay_out_bins(slot, window, expected_plots_of_revolution(window, scan, held));
+    copy_plots_into_bins(window, &entry);
     slot->num_plots = slot->num_unused = (uint16_t)held;
     if (!window->area_is_fixed) {
         rho_window_follow_extent(window);
@@ -434,7 +450,7 @@ enum rho_status rho_window_push(struct rho_window *window, const struct rho_scan
     window->is_continued = rho_window_continues(window, scan, sensor) != 0;
     window->is_remeasured = 0;
     if (window->is_continued) {
-        add_sector(window, scan, sensor, fates);
+        add_sector_to_newest(window, scan, sensor, fates);
     } else {
         add_scan(window, scan, sensor, fates, left_unused);
     }

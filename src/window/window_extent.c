@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * window_extent: rectangles of the plane, and the extent of the held plots where no area is given.
+ * window_extent: functions of rectangles of the plane; and the window's extent, which follows the
+ * held plots where no area is given.
  */
 #include "window_extent.h"
 
 /*
- * Extent of the plots: plots beyond this many standard deviations are left out, in this many
- * rounds, if there are a dozen plots. The extent shrinks by this share of the difference a scan.
+ * Outliers among the plots, which the extent leaves out: square of the standard deviations beyond
+ * which a plot is one, rounds of leaving out, least number of plots for it; and the share of the
+ * difference by which the extent shrinks in a scan.
  */
 #define OUTLIER_SIGMAS2 9.0f
 #define OUTLIER_ROUNDS 3
@@ -15,25 +17,25 @@
 
 /* ---- extents --------------------------------------------------------------------------------- */
 
-static float at_least(float v, float limit)
+static float larger_of(float v, float limit)
 {
     return v > limit ? v : limit;
 }
 
 float rho_extent_width_m(const struct rho_extent *extent, float side_min_m)
 {
-    return at_least(extent->x_max_m - extent->x_min_m, side_min_m);
+    return larger_of(extent->x_max_m - extent->x_min_m, side_min_m);
 }
 
 float rho_extent_height_m(const struct rho_extent *extent, float side_min_m)
 {
-    return at_least(extent->y_max_m - extent->y_min_m, side_min_m);
+    return larger_of(extent->y_max_m - extent->y_min_m, side_min_m);
 }
 
 float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m)
 {
-    return at_least(rho_extent_width_m(extent, side_min_m), 0.0f) *
-           at_least(rho_extent_height_m(extent, side_min_m), 0.0f);
+    return larger_of(rho_extent_width_m(extent, side_min_m), 0.0f) *
+           larger_of(rho_extent_height_m(extent, side_min_m), 0.0f);
 }
 
 void rho_extent_add(struct rho_extent *extent, float x_m, float y_m)
@@ -51,9 +53,10 @@ void rho_extent_add(struct rho_extent *extent, float x_m, float y_m)
 
 /* ---- the area that the plots show ------------------------------------------------------------ */
 
-/* Plots within some standard deviations of a mean, one axis after the other. */
+/* Mean, spread and extent of the held plots without outliers. */
 struct plot_spread {
-    float plots, mean_m[2], sum2_m2[2]; /* of the last round: the others are outliers */
+    /* number of plots; mean of x and y; sum of squares about the mean of x and y */
+    float plots, mean_m[2], sum2_m2[2];
     struct rho_extent extent;
 };
 
@@ -65,9 +68,12 @@ static int is_outlier(const struct plot_spread *spread, float x_m, float y_m)
             dy_m * dy_m * spread->plots > OUTLIER_SIGMAS2 * spread->sum2_m2[1]);
 }
 
-/* Adds a plot to the running mean and sum of squares (Welford). */
-static void add_plot(struct plot_spread *spread, const struct plot_spread *before, float x_m,
-                     float y_m)
+/*
+ * Adds a plot to the running mean and sum of squares (Welford), unless `before` makes it an
+ * outlier.
+ */
+static void add_plot_unless_outlier(struct plot_spread *spread, const struct plot_spread *before,
+                                    float x_m, float y_m)
 {
     const float place_m[2] = {x_m, y_m};
     if (is_outlier(before, x_m, y_m)) {
@@ -82,30 +88,33 @@ static void add_plot(struct plot_spread *spread, const struct plot_spread *befor
     rho_extent_add(&spread->extent, x_m, y_m);
 }
 
-static void add_all_plots(struct plot_spread *spread, const struct plot_spread *before,
-                          struct rho_window *window)
+static void gather_plot_spread(struct plot_spread *spread, const struct plot_spread *before,
+                               struct rho_window *window)
 {
     *spread = (struct plot_spread){.extent = {1.0f, 0.0f, 1.0f, 0.0f}};
     for (unsigned m = 0; m < window->num_scans; m++) {
         const struct rho_window_scan *held = rho_window_scan_at(window, m);
         for (unsigned i = 0; i < held->num_plots; i++) {
-            add_plot(spread, before, held->plots[i].x_m, held->plots[i].y_m);
+            add_plot_unless_outlier(spread, before, held->plots[i].x_m, held->plots[i].y_m);
         }
     }
 }
 
-static float decayed(float was, float is, int is_wider)
+static float bound_shrinking_slowly(float was, float is, int is_wider)
 {
     return is_wider ? is : was + EXTENT_DECAY * (is - was);
 }
 
-/* The extent follows the plots without outliers, which make clutter look thin. */
+/*
+ * Updates the extent by the held plots without outliers, which would make clutter look thin: it
+ * grows at once and shrinks slowly.
+ */
 void rho_window_follow_extent(struct rho_window *window)
 {
     struct plot_spread spread = {0}, before;
     for (int round = 0; round < OUTLIER_ROUNDS; round++) {
         before = spread;
-        add_all_plots(&spread, &before, window);
+        gather_plot_spread(&spread, &before, window);
     }
     struct rho_extent *was = &window->extent, is = spread.extent;
     if (spread.plots < 1.0f) {
@@ -114,8 +123,8 @@ void rho_window_follow_extent(struct rho_window *window)
     if (window->num_scans == 1) {
         *was = is;
     }
-    was->x_min_m = decayed(was->x_min_m, is.x_min_m, is.x_min_m < was->x_min_m);
-    was->x_max_m = decayed(was->x_max_m, is.x_max_m, is.x_max_m > was->x_max_m);
-    was->y_min_m = decayed(was->y_min_m, is.y_min_m, is.y_min_m < was->y_min_m);
-    was->y_max_m = decayed(was->y_max_m, is.y_max_m, is.y_max_m > was->y_max_m);
+    was->x_min_m = bound_shrinking_slowly(was->x_min_m, is.x_min_m, is.x_min_m < was->x_min_m);
+    was->x_max_m = bound_shrinking_slowly(was->x_max_m, is.x_max_m, is.x_max_m > was->x_max_m);
+    was->y_min_m = bound_shrinking_slowly(was->y_min_m, is.y_min_m, is.y_min_m < was->y_min_m);
+    was->y_max_m = bound_shrinking_slowly(was->y_max_m, is.y_max_m, is.y_max_m > was->y_max_m);
 }

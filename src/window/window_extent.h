@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Where a window's plots lie. Private to src/window/window*.c. */
+/* window_extent: the rectangle in which a window's plots lie. Private to src/window. */
 #ifndef RHOTRACK_WINDOW_EXTENT_H
 #define RHOTRACK_WINDOW_EXTENT_H
 
 #include "rhotrack/detail/window.h"
 
-/* After a scan was pushed: the area that is not given follows the plots held. */
+/* Updates the extent of a window without a given area by the plots held, after a push. */
 void rho_window_follow_extent(struct rho_window *window);
 
 #endif

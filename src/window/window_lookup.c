@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* window_lookup: the held scans and plots, and the plot nearest to a place. */
+/*
+ * window_lookup: access to the held scans and plots of a window, their bins, and the search for the
+ * plot nearest to a place.
+ */
 #include <string.h>
 
 #include "rhotrack/detail/measurement.h"
@@ -10,12 +13,12 @@
 
 float rho_window_sigma(uint16_t code)
 {
-    return sigma_of(code);
+    return sigma_of_code(code);
 }
 
 float rho_window_sigma_m(const struct rho_window_plot *plot)
 {
-    return sigma_of(larger_sigma(plot));
+    return sigma_of_code(larger_sigma_code(plot));
 }
 
 struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m)
@@ -27,9 +30,10 @@ struct rho_window_scan *rho_window_scan_at(struct rho_window *window, unsigned m
 /* ---- bins ------------------------------------------------------------------------------------ */
 
 /*
- * Cell of a coordinate among n. Coordinates outside belong to the border cells, NaN to the first.
+ * Row or column of a coordinate among n bins. Coordinates outside get the border bins, NaN the
+ * first one.
  */
-static int cell_of(float v_m, float origin_m, float cells_per_m, int n)
+static int bin_coordinate(float v_m, float origin_m, float cells_per_m, int n)
 {
     float cell = (v_m - origin_m) * cells_per_m;
     if (!(cell > 0.0f)) {
@@ -40,8 +44,8 @@ static int cell_of(float v_m, float origin_m, float cells_per_m, int n)
 
 unsigned rho_window_bin_of(const struct rho_window_scan *scan, float x_m, float y_m)
 {
-    int column = cell_of(x_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x);
-    int row = cell_of(y_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y);
+    int column = bin_coordinate(x_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x);
+    int row = bin_coordinate(y_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y);
     return (unsigned)(row * scan->bins_x + column);
 }
 
@@ -49,25 +53,25 @@ struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan,
                                              float x1_m, float y0_m, float y1_m)
 {
     struct rho_window_bins bins = {
-        .column_first = cell_of(x0_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
-        .column_last = cell_of(x1_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
-        .row_first = cell_of(y0_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
-        .row_last = cell_of(y1_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
+        .column_first = bin_coordinate(x0_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
+        .column_last = bin_coordinate(x1_m, scan->bin_x0_m, scan->bins_per_m_x, scan->bins_x),
+        .row_first = bin_coordinate(y0_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
+        .row_last = bin_coordinate(y1_m, scan->bin_y0_m, scan->bins_per_m_y, scan->bins_y),
     };
     return bins;
 }
 
 /* ---- isotropic noise ------------------------------------------------------------------------- */
 
-/* The best plot so far: distance2 / variance is compared by cross-multiplication. */
+/* The nearest plot so far; distance2 / variance is compared by cross-multiplication. */
 struct nearest {
     int index;
     float distance2_m2;
     float variance_m2;
 };
 
-static void compare_plots(struct nearest *best, const struct rho_window_scan *scan, unsigned from,
-                          unsigned to, const struct rho_window_query *query)
+static void update_nearest_plot(struct nearest *best, const struct rho_window_scan *scan,
+                                unsigned from, unsigned to, const struct rho_window_query *query)
 {
     for (unsigned i = from; i < to; i++) {
         const struct rho_window_plot *plot = &scan->plots[i];
@@ -85,38 +89,41 @@ static void compare_plots(struct nearest *best, const struct rho_window_scan *sc
     }
 }
 
-/* Displacement of the place along one axis by the plots' own times, least and most. */
-static float shift_min(const struct rho_window_scan *scan, float v_mps)
+/*
+ * Least displacement along one axis of a place with this speed, over the offsets of a scan's plots.
+ */
+static float least_shift_m(const struct rho_window_scan *scan, float v_mps)
 {
     return v_mps * (v_mps > 0.0f ? scan->offset_min_s : scan->offset_max_s);
 }
 
-static float shift_max(const struct rho_window_scan *scan, float v_mps)
+static float largest_shift_m(const struct rho_window_scan *scan, float v_mps)
 {
     return v_mps * (v_mps > 0.0f ? scan->offset_max_s : scan->offset_min_s);
 }
 
-static struct rho_window_bins bins_around(const struct rho_window_scan *scan, float x_m, float y_m,
-                                          float vx_mps, float vy_mps, float gate_radius_m)
+static struct rho_window_bins bins_around_gate(const struct rho_window_scan *scan, float x_m,
+                                               float y_m, float vx_mps, float vy_mps,
+                                               float gate_radius_m)
 {
-    return rho_window_bins_under(scan, x_m - gate_radius_m + shift_min(scan, vx_mps),
-                                 x_m + gate_radius_m + shift_max(scan, vx_mps),
-                                 y_m - gate_radius_m + shift_min(scan, vy_mps),
-                                 y_m + gate_radius_m + shift_max(scan, vy_mps));
+    return rho_window_bins_under(scan, x_m - gate_radius_m + least_shift_m(scan, vx_mps),
+                                 x_m + gate_radius_m + largest_shift_m(scan, vx_mps),
+                                 y_m - gate_radius_m + least_shift_m(scan, vy_mps),
+                                 y_m + gate_radius_m + largest_shift_m(scan, vy_mps));
 }
 
 int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_window_query *query,
                        struct rho_window_work *work)
 {
-    struct rho_window_bins bins = bins_around(scan, query->x_m, query->y_m, query->vx_mps,
-                                              query->vy_mps, query->gate_radius_m);
-    /* a plot exactly on the gate counts as outside */
+    struct rho_window_bins bins = bins_around_gate(scan, query->x_m, query->y_m, query->vx_mps,
+                                                   query->vy_mps, query->gate_radius_m);
+    /* the limit itself is the first bound: a plot exactly on the gate counts as outside */
     struct nearest best = {.index = -1, .distance2_m2 = query->gate_chi2, .variance_m2 = 1.0f};
     unsigned compared = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned from = start[bins.column_first], to = start[bins.column_last + 1];
-        compare_plots(&best, scan, from, to, query);
+        update_nearest_plot(&best, scan, from, to, query);
         compared += to - from;
     }
     work->lookups = rho_count(work->lookups, 1);
@@ -127,7 +134,7 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
 
 /* ---- plots with their own covariance --------------------------------------------------------- */
 
-#define RANGE_LEAST_M2 1.0f /* nearer to the sensor there is no line of sight */
+#define RANGE_LEAST_M2 1.0f /* least ground range, squared, at which a plot has a line of sight */
 #define ROUNDING_ALLOWANCE (1.0f / 4194304.0f)
 
 const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan)
@@ -152,7 +159,7 @@ struct rho_plot rho_window_plot_of(const struct rho_window_scan *scan, unsigned 
     return plot;
 }
 
-static float squared_sigma(uint16_t code)
+static float squared_sigma_of_code(uint16_t code)
 {
     float sigma = rho_window_sigma(code);
     return sigma * sigma;
@@ -163,8 +170,9 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
 {
     float dx_m = plot->x_m - scan->sensor.x_m, dy_m = plot->y_m - scan->sensor.y_m;
     float ground2_m2 = dx_m * dx_m + dy_m * dy_m;
-    float along_m2 = squared_sigma(plot->sigma_range), cross_m2 = squared_sigma(plot->sigma_cross);
-    struct rho_window_noise noise = {.zz_m2 = squared_sigma(plot->sigma_up)};
+    float along_m2 = squared_sigma_of_code(plot->sigma_range),
+          cross_m2 = squared_sigma_of_code(plot->sigma_cross);
+    struct rho_window_noise noise = {.zz_m2 = squared_sigma_of_code(plot->sigma_up)};
     if (!(ground2_m2 >= RANGE_LEAST_M2)) {
         noise.xx_m2 = noise.yy_m2 = along_m2 > cross_m2 ? along_m2 : cross_m2;
         return noise;
@@ -177,7 +185,7 @@ struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
         along_m2 += rise * (up_m2 - along_m2);
     }
     float per_m2 = 1.0f / ground2_m2, xx = dx_m * dx_m * per_m2, yy = dy_m * dy_m * per_m2;
-    /* rounding of the thinnest ellipses */
+    /* allowance for rounding, so that thin ellipses stay positive definite */
     float allowance_m2 = (along_m2 > cross_m2 ? along_m2 : cross_m2) * ROUNDING_ALLOWANCE;
     noise.xx_m2 = xx * along_m2 + yy * cross_m2 + allowance_m2;
     noise.xy_m2 = (along_m2 - cross_m2) * dx_m * dy_m * per_m2;
@@ -190,7 +198,7 @@ int rho_window_see_range_rate(const struct rho_window_scan *scan,
                               const struct rho_window_place *place,
                               struct rho_window_range_rate *seen)
 {
-    /* without heights, the height of the place gives the elevation of the line of sight */
+    /* scans without heights: the height of the place gives the elevation of the line of sight */
     float z_m =
         scan->measures & RHO_MEASURES_Z ? plot->z_m : place->z_m + place->vz_mps * plot->offset_s;
     float state[6] = {plot->x_m,
@@ -207,12 +215,13 @@ int rho_window_see_range_rate(const struct rho_window_scan *scan,
     if (!rho_measurement_range_rate(state, &scan->sensor, place->has_z, row, &rate_mps)) {
         return 0;
     }
-    const float *turn = row, *u = row + 3; /* by the position, by the velocity */
+    /* derivatives of the range rate by position, and by velocity */
+    const float *turn = row, *u = row + 3;
     seen->error_mps =
         rho_measurement_range_rate_error_mps(&scan->sensor, plot->range_rate_mps, rate_mps);
     float turned2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
-    seen->variance = place->factor * (squared_sigma(plot->sigma_range_rate) +
-                                      turned2 * squared_sigma(larger_sigma(plot))) +
+    seen->variance = place->factor * (squared_sigma_of_code(plot->sigma_range_rate) +
+                                      turned2 * squared_sigma_of_code(larger_sigma_code(plot))) +
                      noise->xx_m2 * u[0] * u[0] + 2.0f * noise->xy_m2 * u[0] * u[1] +
                      noise->yy_m2 * u[1] * u[1] + noise->zz_m2 * u[2] * u[2];
     for (int i = 0; i < 3; i++) {
@@ -232,9 +241,12 @@ float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
     return seen.error_mps * seen.error_mps / seen.variance;
 }
 
-/* NIS of a plot about the place, all dimensions; `limit` or more as soon as that is certain. */
-static float distance2_to(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
-                          const struct rho_window_place *place, float limit)
+/*
+ * NIS of a plot about a place: position, and height and range rate where measured. Returns `limit`
+ * or more as soon as that is certain.
+ */
+static float nis_of_plot(const struct rho_window_scan *scan, const struct rho_window_plot *plot,
+                         const struct rho_window_place *place, float limit)
 {
     float t_s = plot->offset_s;
     float dx_m = plot->x_m - place->x_m - (place->vx_mps + 0.5f * place->ax_mps2 * t_s) * t_s;
@@ -262,29 +274,30 @@ static float distance2_to(const struct rho_window_scan *scan, const struct rho_w
     return distance2;
 }
 
-static float gate_chi2(const struct rho_window_scan *scan, const struct rho_window_place *place)
+static float gate_chi2_of_scan(const struct rho_window_scan *scan,
+                               const struct rho_window_place *place)
 {
     int more = ((scan->measures & RHO_MEASURES_Z) && place->has_z ? 1 : 0) +
                ((scan->measures & RHO_MEASURES_RANGE_RATE) ? 1 : 0);
     return more == 0 ? RHO_GATE_CHI2_2D : more == 1 ? RHO_GATE_CHI2_3D : RHO_GATE_CHI2_4D;
 }
 
-/* Units of a comparison with an own covariance, besides the comparison itself. */
+/* Units of work of comparing a plot by its own covariance, beyond those of a simple comparison. */
 #define OWN_NOISE_UNITS 2u
 
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work)
 {
-    struct rho_window_bins bins = bins_around(scan, place->x_m, place->y_m, place->vx_mps,
-                                              place->vy_mps, place->gate_radius_m);
-    float best = gate_chi2(scan, place);
+    struct rho_window_bins bins = bins_around_gate(scan, place->x_m, place->y_m, place->vx_mps,
+                                                   place->vy_mps, place->gate_radius_m);
+    float best = gate_chi2_of_scan(scan, place);
     int index = -1;
     unsigned compared = 0;
     for (int row = bins.row_first; row <= bins.row_last; row++) {
         const uint16_t *start = &scan->bin_start[row * scan->bins_x];
         unsigned from = start[bins.column_first], to = start[bins.column_last + 1];
         for (unsigned i = from; i < to; i++) {
-            float distance2 = distance2_to(scan, &scan->plots[i], place, best);
+            float distance2 = nis_of_plot(scan, &scan->plots[i], place, best);
             if (distance2 < best && !(scan->marks[i] & place->skip_flags)) {
                 best = distance2;
                 index = (int)i;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* window_soundness: consistency of a window of unknown origin (a snapshot). */
+/* window_soundness: checks that a window of unknown origin (a snapshot) is consistent. */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"
 #include "rhotrack/detail/window.h"
@@ -24,7 +24,10 @@ static int is_sound_plot(const struct rho_window_plot *plot)
            is_finite(plot->range_rate_mps);
 }
 
-/* Bins are in order, and each plot lies in its own bin: pushes move plots by bins. */
+/*
+ * True where the bins' starts ascend and each plot lies in the bin of its place, as pushes move
+ * plots by bins.
+ */
 static int has_sound_bins(const struct rho_window_scan *scan)
 {
     const unsigned num_bins = (unsigned)scan->bins_x * scan->bins_y;
@@ -47,8 +50,11 @@ static int has_sound_bins(const struct rho_window_scan *scan)
     return 1;
 }
 
-/* The newest sector, or the newest scan where that is no sector. */
-static int is_sound_newest(const struct rho_window *window)
+/*
+ * True where the record of the newest sector, or whole scan, is consistent with the newest held
+ * scan.
+ */
+static int is_sound_newest_sector(const struct rho_window *window)
 {
     const struct rho_window_sector *newest = &window->newest;
     if (window->num_scans == 0) {
@@ -96,5 +102,5 @@ int rho_window_is_sound(const struct rho_window *window)
         }
         before_us = scan->time_us;
     }
-    return is_sound_newest(window) && rho_window_accepts(window, INT64_MAX);
+    return is_sound_newest_sector(window) && rho_window_accepts(window, INT64_MAX);
 }

@@ -33,19 +33,19 @@
 extern "C" {
 #endif
 
-/* Hits of a known echo: saved, shown and counted are known echoes alone. */
+/* Hits from which an echo counts as known: only known echoes are saved, shown and counted. */
 #define RHO_ECHO_KNOWN_HITS 6
 
 /*
- * Classes of hits (1; 2; 3 to 5; 6 and more) and of scans since the last one (1; 2; 3, 4; 5 to 8; 9
- * and more).
+ * Number of classes of an echo's hits (1; 2; 3 to 5; 6 and more), and of scans since its last hit
+ * (1; 2; 3, 4; 5 to 8; 9 and more).
  */
 #define RHO_ECHO_HIT_CLASSES 4
 #define RHO_ECHO_GAP_CLASSES 5
 
-/* A source of clutter plots. */
+/* An echo: a place that returns clutter again and again. */
 struct rho_echo {
-    int64_t time_us; /* of the estimate */
+    int64_t time_us; /* time of the estimate */
     int32_t sensor_id;
     float x_m, y_m, vx_mps, vy_mps;
     /*
@@ -53,52 +53,68 @@ struct rho_echo {
      * speed, variance of the speed; m^2, m^2/s, m^2/s^2
      */
     float along[3], across[3];
-    float weight;   /* probability that the plot below is of the echo */
-    int16_t plot;   /* row of its best plot in the newest scan; -1: none */
-    uint16_t hits;  /* saturates; 0: the place in the table is free */
-    uint8_t unseen; /* scans of the sensor since the last hit that covered the place */
-    /* one of its plots belonged to a target that has been tracked for long; it is not counted */
+    float weight;   /* probability that `plot` is of this echo */
+    int16_t plot;   /* row of the echo's best plot in the newest scan; -1: none */
+    uint16_t hits;  /* plots of the echo so far, saturating; 0: this place in the table is free */
+    uint8_t unseen; /* scans of the sensor since the last hit that covered the echo */
+    /*
+     * a plot of the echo belonged to a target that has been tracked for long; the echo's looks and
+     * returns are not counted
+     */
     uint8_t is_target;
-    uint8_t region;        /* of the tables below */
-    uint8_t was_looked_at; /* covered by the newest scan */
+    uint8_t region; /* index of the echo's region in the map's tables; UINT8_MAX: not known yet */
+    uint8_t was_looked_at; /* the newest scan covered the echo */
 };
 
-/* Returns of echoes: scans that covered them, and scans that saw them again. */
+/*
+ * Counts of scans that covered echoes, and of scans that saw them again, by classes of hits and of
+ * scans since the last hit.
+ */
 struct rho_echo_returns {
     float looks[RHO_ECHO_HIT_CLASSES][RHO_ECHO_GAP_CLASSES];
     float returns[RHO_ECHO_HIT_CLASSES][RHO_ECHO_GAP_CLASSES];
 };
 
-/* Sizes of the map; a build without it (RHO_MAX_ECHOES 0) holds the smallest and never uses it. */
+/*
+ * Lengths of the map's arrays. A build without it (RHO_MAX_ECHOES 0) has the smallest ones and
+ * never uses them.
+ */
 #define RHO_ECHO_PLACES (RHO_MAX_ECHOES > 0 ? RHO_MAX_ECHOES : 1)
 #define RHO_ECHO_PLOTS (RHO_MAX_ECHOES > 0 ? RHO_MAX_PLOTS : 1)
 #define RHO_ECHO_STROBES (RHO_MAX_ECHOES > 0 ? RHO_STROBE_BINS : 1)
 #define RHO_ECHO_TABLES ((RHO_MAX_ECHOES > 0 ? RHO_ECHO_REGIONS * RHO_ECHO_REGIONS : 1) + 1)
 
 struct rho_clutter_map {
-    int64_t time_us;         /* of the newest scan */
-    float v_min_mps;         /* clutter moves slower than this; 0: it stands */
-    uint32_t echoes_dropped; /* gave way to others; saturates */
-    /* plots of echoes with range rates; those with the range rate of the echo's own speed */
-    float rate_plots, exact_plots;
-    float scans_to_blocks; /* scans until the tables below are advanced */
-    uint16_t first_echo;   /* first in the next scan, as the work of the last one ended there */
-    uint16_t is_looked;    /* ratios and best echoes below are those of the newest scan */
+    int64_t time_us; /* time of the newest scan */
+    float v_min_mps; /* lowest speed of targets: clutter moves more slowly; 0: clutter stands */
+    uint32_t echoes_dropped; /* echoes dropped for others, or for lack of room; saturates */
     /*
-     * by regions of range and azimuth about the sensor, and over all regions. [1], [2]: of the last
-     * scans, not used yet, as their plots may turn out to be of targets
+     * plots of echoes with range rates; number of them that have the range rate of the echo's own
+     * speed
+     */
+    float rate_plots, exact_plots;
+    float scans_to_blocks; /* revolutions until the newest block of counts is closed */
+    /*
+     * place in the table with which the next scan begins, as the work of the last scan ended there
+     */
+    uint16_t first_echo;
+    uint16_t is_looked; /* `denser`, `best_per_m2` and `best_echo` are those of the newest scan */
+    /*
+     * counts of looks and returns, by regions of range and azimuth about the sensor, and last over
+     * all regions. [0] is used; [1] and [2] are blocks of the last revolutions, used later, as
+     * their plots may turn out to be of targets
      */
     struct rho_echo_returns tables[3][RHO_ECHO_TABLES];
     struct rho_echo echoes[RHO_ECHO_PLACES];
     /*
-     * by plots of the newest scan: ln of density* over density (during the update: the density of
-     * echoes and strobes, 1/m^2); the echo that explains the plot best, and its share of that
-     * density
+     * by plots of the newest scan: ln of the ratio of the density with echoes to that without
+     * (during the update: the density of echoes and strobes, 1/m^2); the echo that explains the
+     * plot best, and the density that it adds
      */
     float denser[RHO_ECHO_PLOTS], best_per_m2[RHO_ECHO_PLOTS];
     uint16_t best_echo[RHO_ECHO_PLOTS];
     /*
-     * of the newest scan: plots by direction, and the eighths of the sensor's range with plots, a
+     * by direction: plots of the newest scan; eighths of the sensor's range in which they lie, a
      * bit each
      */
     uint16_t strobe_count[RHO_ECHO_STROBES];
@@ -147,8 +163,9 @@ void rho_clutter_map_learned(const struct rho_clutter_map *map, unsigned region,
                              unsigned unseen, float *looks, float *returns);
 
 /*
- * Replaces these statistics. Errors: NULL, VALUE (no such region, hits or unseen 0, looks
- * outside 0 .. 1e9, returns outside 0 .. looks); nothing is changed.
+ * Replaces the statistics of echoes with this number of hits after `unseen` misses. Errors: NULL,
+ * VALUE (no such region, hits or unseen 0, looks outside 0 .. 1e9, returns outside 0 .. looks);
+ * nothing is changed.
  */
 RHO_MUST_CHECK enum rho_status rho_clutter_map_teach_returns(struct rho_clutter_map *map,
                                                              unsigned region, unsigned hits,

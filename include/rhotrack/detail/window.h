@@ -30,104 +30,117 @@ struct rho_extent {
     float x_min_m, x_max_m, y_min_m, y_max_m;
 };
 
-/* One held plot. */
+/* One held plot of a window. */
 struct rho_window_plot {
     float x_m, y_m, z_m;
-    float offset_s; /* own time after the scan's */
+    float offset_s; /* time of this plot after the held scan's time */
     float range_rate_mps;
     /*
-     * sigmas along, across and above the line of sight, and of the range rate: rho_window_sigma()
+     * codes of the sigmas along, across and above the line of sight, and of the range rate:
+     * rho_window_sigma() decodes them
      */
     uint16_t sigma_range, sigma_cross, sigma_up, sigma_range_rate;
 };
 
-/* The mark of a held plot: its row in the scan, and flags. */
+/* Mark of a held plot: its row in the pushed scan, and flags. */
 #define RHO_WINDOW_TAKEN 0x8000u /* belongs to a candidate that the current search has accepted */
 #define RHO_WINDOW_INITIATED 0x4000u /* started a track: look-ups skip it */
 #define RHO_WINDOW_ROW 0x3fffu
 
-/* Units of `repeats`: ln of the clutter map's density over the density map's, in 1/12 nat. */
+/*
+ * Units of `repeats` in a nat: the field holds ln of the ratio of the clutter map's density to the
+ * density map's.
+ */
 #define RHO_WINDOW_REPEATS_PER_NAT 12.0f
 
-/* The newest input: a whole scan, or the sector that was added last to the newest scan. */
+/* The newest input of a window: a whole scan, or the sector added last to the newest scan. */
 struct rho_window_sector {
     int64_t time_us;
-    float offset_min_s; /* least of its plots' own times, after the time of the held scan */
+    float offset_min_s; /* least offset of its plots, after the time of the held scan */
 };
 
-/* Held plots know how much denser clutter is at their place: with a clutter map alone. */
+/*
+ * Length of `repeats`, the density ratio of the clutter map at each held plot: 1 without a clutter
+ * map.
+ */
 #define RHO_WINDOW_REPEATS (RHO_MAX_ECHOES > 0 ? RHO_MAX_PLOTS : 1)
 
 /*
- * One held scan. plots[bin_start[c]] .. plots[bin_start[c + 1] - 1] lie in bin c = row * bins_x +
- * column.
+ * One held scan of a window. plots[bin_start[c]] .. plots[bin_start[c + 1] - 1] lie in bin c, that
+ * is row * bins_x + column.
  */
 struct rho_window_scan {
     int64_t time_us;
-    uint32_t measures; /* RHO_MEASURES_...; of sectors: common to all that have plots */
+    /* RHO_MEASURES_... or-ed; of a revolution: common to all sectors with plots */
+    uint32_t measures;
     float sector_from_rad, sector_to_rad;
-    struct rho_sensor sensor; /* pd 0: not described; then at the origin, with full coverage */
+    /* the sensor's description; pd 0: it has none, is at the origin and covers every place */
+    struct rho_sensor sensor;
     uint16_t num_plots;
     uint16_t num_unused; /* plots that started no track */
     uint16_t bins_x, bins_y;
     float bin_x0_m, bin_y0_m;
     float bins_per_m_x, bins_per_m_y;
-    float sigma_max_m;                /* over the plots, along or across */
-    float offset_min_s, offset_max_s; /* over the plots */
+    float sigma_max_m; /* largest sigma of a plot, along, across or above the line of sight */
+    float offset_min_s, offset_max_s; /* least and largest offset of a plot */
     int is_isotropic;                 /* every plot has the same noise along and across */
     uint16_t bin_start[RHO_MAX_BINS + 1];
-    uint16_t marks[RHO_MAX_PLOTS]; /* row and flags of each plot */
-    /* ln of how much denser the clutter map makes clutter at each plot */
+    uint16_t marks[RHO_MAX_PLOTS]; /* by plots: row in the pushed scan, and flags */
+    /* by plots: ln of the ratio by which the clutter map raises the clutter density, coded */
     uint8_t repeats[RHO_WINDOW_REPEATS];
     struct rho_window_plot plots[RHO_MAX_PLOTS];
 };
 
 struct rho_window {
-    uint32_t magic; /* tells an initialised object */
+    uint32_t magic; /* tells an initialised window from other memory */
     uint16_t scans_max;
     uint16_t num_scans;
-    uint16_t first; /* ring place of the oldest */
+    uint16_t first; /* place of the oldest scan in the ring */
     uint16_t area_is_fixed;
-    uint16_t is_continued;  /* the last push went into the newest scan */
-    uint16_t is_remeasured; /* ... and changed what that scan measures */
+    uint16_t is_continued; /* the last push added a sector to the newest scan */
+    /* the sector that the last push added changed what the newest scan measures */
+    uint16_t is_remeasured;
     struct rho_window_sector newest;
-    float side_min_m;         /* the area is taken at least this wide and high */
-    struct rho_extent extent; /* fixed, or of the held plots without outliers; it shrinks slowly */
+    float side_min_m; /* least width and height that the area is taken to have */
+    /* the given area, or the extent of the held plots without outliers; that shrinks slowly */
+    struct rho_extent extent;
     struct rho_window_scan ring[RHO_MAX_SCANS];
 };
 
 /*
- * A look-up of the plot nearest, in units of its own standard deviation, to a place that moves with
- * the plots' own times. All noise is taken as isotropic, with the larger sigma of a plot.
+ * A look-up of the plot nearest to a moving place, for plots with isotropic noise: in units of the
+ * plot's own standard deviation, at the plot's own time. The noise of any plot is taken as
+ * isotropic, with the larger of its sigmas.
  */
 struct rho_window_query {
-    float x_m, y_m;       /* where, at the scan's time */
-    float vx_mps, vy_mps; /* moves on with the plot's offset */
-    float variance_m2;    /* of the place, an axis */
-    float sigma_factor;   /* of the sigma^2 of plots */
-    /* limit of distance^2 / (variance_m2 + sigma_factor sigma^2), exclusive */
+    float x_m, y_m;       /* the place at the scan's time */
+    float vx_mps, vy_mps; /* velocity, by which the place moves on with the plot's offset */
+    float variance_m2;    /* variance of the place on each axis */
+    float sigma_factor;   /* factor of the plots' sigma^2 */
+    /* limit, exclusive, of distance^2 / (variance_m2 + sigma_factor sigma^2) */
     float gate_chi2;
-    float gate_radius_m; /* bound of the gate in metres, before plots' own times */
+    float gate_radius_m; /* largest radius of the gate, before the plots' offsets */
     uint16_t skip_flags; /* plots with any of these flags are skipped */
 };
 
-/* Covariance in the plane, and the variance of the height. */
+/* Covariance of a place in the plane, and the variance of its height. */
 struct rho_window_noise {
     float xx_m2, xy_m2, yy_m2, zz_m2;
 };
 
 /*
- * The same look-up with the covariance of each plot, and its height and range rate where measured.
+ * A look-up of the plot nearest to a moving place, for plots with anisotropic noise: by the
+ * covariance of each plot, and by its height and range rate where measured.
  */
 struct rho_window_place {
     float x_m, y_m, z_m;
     float vx_mps, vy_mps, vz_mps;
-    float ax_mps2, ay_mps2;                 /* to the plot's own time; reach_m allows for it */
-    struct rho_window_noise noise;          /* of the place */
-    struct rho_window_noise velocity_noise; /* of the velocity, (m/s)^2 */
-    /* correction of the velocity by an ambiguous range rate; counts for range rates alone */
+    float ax_mps2, ay_mps2; /* acceleration over the plot's offset; gate_radius_m allows for it */
+    struct rho_window_noise noise;          /* covariance of the place */
+    struct rho_window_noise velocity_noise; /* covariance of the velocity, (m/s)^2 */
+    /* correction of the velocity by an alias of a range rate; applied to range rates alone */
     float more_mps[3];
-    float factor; /* of the plots' covariances, and of the sum's gate */
+    float factor; /* factor of the plots' variances */
     int has_z;    /* z_m and vz_mps are known */
     float gate_radius_m;
     uint16_t skip_flags;
@@ -135,7 +148,7 @@ struct rho_window_place {
 
 /* Counters of the work of look-ups; they saturate. */
 struct rho_window_work {
-    uint32_t lookups;   /* queries */
+    uint32_t lookups;   /* look-ups of a nearest plot */
     uint32_t distances; /* plots compared */
     uint32_t passed;    /* rows of bins, and other work of the same cost */
 };
@@ -153,8 +166,8 @@ RHO_MUST_CHECK enum rho_status rho_window_init(struct rho_window *window, size_t
                                                float side_min_m);
 
 /*
- * True where a scan of this time can be pushed: the window is initialised, and holds no newer scan.
- * Constant cost.
+ * True where a scan of this time can be pushed: the window is initialised, and no scan that it
+ * holds is newer. Constant cost.
  */
 int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 
@@ -167,7 +180,7 @@ int rho_window_accepts(const struct rho_window *window, int64_t time_us);
 int rho_window_continues(const struct rho_window *window, const struct rho_scan *scan,
                          const struct rho_sensor *sensor);
 
-/* The status that rho_window_push would return; nothing is taken. Constant cost. */
+/* The status that rho_window_push would return; nothing is changed. Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_window_check_push(const struct rho_window *window,
                                                      const struct rho_scan *scan,
                                                      const uint8_t *fates,
@@ -204,27 +217,32 @@ int rho_window_nearest(const struct rho_window_scan *scan, const struct rho_wind
                        struct rho_window_work *work);
 
 /*
- * The same for a place with its own covariance: the plot with the least NIS, position plus height
- * plus range rate, within the gate of as many dimensions. Correlations of height and range rate
- * with the position are neglected. Cost: as above, 60 instructions a plot. Stack: 272 bytes.
+ * Index of the plot with the least NIS about a place with its own covariance: position plus height
+ * plus range rate where measured, within the gate of as many dimensions; -1 where none is in the
+ * gate. Correlations of height and range rate with the position are neglected. Cost: bins under the
+ * gate's square, 60 instructions a plot in them. Stack: 272 bytes.
  */
 int rho_window_nearest_to(const struct rho_window_scan *scan, const struct rho_window_place *place,
                           struct rho_window_work *work);
 
-/* A held plot's covariance, from its line of sight. Cost: a division, with z two more. */
+/*
+ * Covariance of a held plot's place, by its sigmas and its line of sight. Cost: a division, with z
+ * two more.
+ */
 struct rho_window_noise rho_window_noise(const struct rho_window_scan *scan,
                                          const struct rho_window_plot *plot);
 
-/* The range rate of a held plot against the velocity of a place. */
+/* Innovation of a held plot's range rate, against the velocity of a place. */
 struct rho_window_range_rate {
-    float error_mps; /* measured minus expected, by the nearest multiple where ambiguous */
-    float variance;  /* of error_mps */
-    float along[3];  /* the line of sight: derivative by the velocity */
+    /* measured minus expected, by the nearest alias where the range rate is ambiguous */
+    float error_mps;
+    float variance; /* variance of error_mps */
+    float along[3]; /* unit vector of the line of sight: derivative by the velocity */
 };
 
 /*
- * Fills *seen. Returns 0, and fills nothing, for a plot at the sensor's position. Cost: 100
- * instructions. Stack: 160 bytes.
+ * Compares a held plot's range rate with the velocity of a place. Returns 0, and fills nothing, for
+ * a plot at the sensor's position. Cost: 100 instructions. Stack: 160 bytes.
  */
 int rho_window_see_range_rate(const struct rho_window_scan *scan,
                               const struct rho_window_plot *plot,
@@ -232,27 +250,27 @@ int rho_window_see_range_rate(const struct rho_window_scan *scan,
                               struct rho_window_range_rate *seen);
 
 /*
- * NIS of a held plot's range rate against the velocity of the place. The line of sight is that of
- * the plot, whose error turns it. 0 for a plot at the sensor's position. Cost: 100 instructions.
- * Stack: 160 bytes.
+ * NIS of a held plot's range rate against the velocity of a place; 0 for a plot at the sensor's
+ * position. The line of sight is the plot's, and its error by the plot's noise is included. Cost:
+ * 100 instructions. Stack: 160 bytes.
  */
 float rho_window_range_rate_distance2(const struct rho_window_scan *scan,
                                       const struct rho_window_plot *plot,
                                       const struct rho_window_place *place);
 
 /*
- * The held plot as it was pushed, without its velocity and snr, which are 0. Sigmas are rounded to
+ * A held plot as rho_plot, as it was pushed, but with velocity and snr 0. Sigmas are rounded to
  * 2^-12 of themselves, the offset to float32. Constant cost.
  */
 struct rho_plot rho_window_plot_of(const struct rho_window_scan *scan, unsigned index);
 
-/* The scan's sensor, or NULL where it was not described. */
+/* The sensor of a held scan, or NULL where it has no description. */
 const struct rho_sensor *rho_window_sensor(const struct rho_window_scan *scan);
 
 /*
- * A standard deviation from its code: 5 bits of exponent and 11 of mantissa, 2^-12 relative error
- * from RHO_LIMIT_SIGMA_MIN to RHO_LIMIT_SIGMA_MAX; numbers of 12 significant bits are exact.
- * Constant cost.
+ * Decodes a standard deviation: 5 bits of exponent and 11 of mantissa, 2^-12 relative error from
+ * RHO_LIMIT_SIGMA_MIN to RHO_LIMIT_SIGMA_MAX; numbers of 12 significant bits are exact. Constant
+ * cost.
  */
 float rho_window_sigma(uint16_t code);
 
@@ -269,18 +287,18 @@ struct rho_window_bins {
 struct rho_window_bins rho_window_bins_under(const struct rho_window_scan *scan, float x0_m,
                                              float x1_m, float y0_m, float y1_m);
 
-/* The bin of a place; outside the area a border bin. Constant cost. */
+/* Index of the bin at a place; outside the area a border bin. Constant cost. */
 unsigned rho_window_bin_of(const struct rho_window_scan *scan, float x_m, float y_m);
 
 /*
- * Sides and content of an extent, at least side_min_m a side; 0 where it is empty and side_min_m is
- * 0.
+ * Width, height and area of an extent, whose sides count as at least side_min_m; 0 where it is
+ * empty and side_min_m is 0.
  */
 float rho_extent_width_m(const struct rho_extent *extent, float side_min_m);
 float rho_extent_height_m(const struct rho_extent *extent, float side_min_m);
 float rho_extent_area_m2(const struct rho_extent *extent, float side_min_m);
 
-/* Grows an extent to hold the point. Constant cost. */
+/* Grows an extent so that it holds a point. Constant cost. */
 void rho_extent_add(struct rho_extent *extent, float x_m, float y_m);
 
 /*
