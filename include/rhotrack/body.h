@@ -2,24 +2,26 @@
 /*
  * body: targets that give several plots a scan: trucks for a traffic radar, ships for a harbour's.
  *
- * A tracker that is told the longest body groups the plots of a scan before tracks claim them
- * (RHO_BODIES). Each plot goes to the track whose body explains it best: by its place in the
- * body's frame, with the variances of a place on the body, of the plot and of the prediction, up
- * to 3 standard deviations on each axis; and by its range rate. The others are grouped where they
- * are no farther from each other than the longest body, and their range rates agree. A group is
- * one plot at its mean, with the noise
+ * A body is the extent of such a target. A tracker that is told the length of the longest body
+ * groups the plots of a scan before tracks claim them (RHO_BODIES). Each plot goes to the track
+ * whose body explains it best: by its place in the body's frame, with the variances of a place on
+ * the body, of the plot and of the prediction, up to 3 standard deviations on each axis; and by its
+ * range rate. The other plots are grouped where they are no farther from each other than the
+ * longest body, and their range rates agree. A group becomes one plot at the mean of its plots,
+ * with the variance
  *
  *     (B + R) / n       B of a place on the body, R of a plot, n plots
  *
- * for gates, claims and starts. So point targets are tracked as ever, and every plot has the fate
- * of its group. The extent is then estimated from the track's plots (random matrix in the frame of
- * the velocity): M. Feldmann, D. Franken, W. Koch, Tracking of Extended Objects and Group Targets
- * Using Random Matrices, IEEE Transactions on Signal Processing 59 (2011), 1409-1420.
+ * for gates, claims and starts. So a point target's plot stays as it is, and every plot has the
+ * fate of its group. The extent is then estimated from the track's plots (random matrix in the
+ * frame of the velocity): M. Feldmann, D. Franken, W. Koch, Tracking of Extended Objects and Group
+ * Targets Using Random Matrices, IEEE Transactions on Signal Processing 59 (2011), 1409-1420.
  *
- * Two targets that are near each other from their first plots on are one body, until it is surely
- * wider than 0.3 of the longest, or longer than that, or its range rates say that its parts move
- * apart (src/step/split_bodies.c, src/bodies/body_doubt.c). Of two tracks whose bodies stay on
- * each other the younger ends. Plots of one body in two sectors of a turn are two groups.
+ * Two targets that are near each other from their first plots on are taken for one body, until it
+ * is surely wider than 0.3 of the longest body, or longer than the longest body, or its range rates
+ * show parts that move apart (src/step/split_bodies.c, src/bodies/body_doubt.c). Of two tracks
+ * whose bodies overlap for long the younger ends. Plots of one body in two sectors of a turn are
+ * two groups.
  *
  * Stack: 128 bytes at most.
  */
@@ -39,65 +41,67 @@ struct rho_tracker;
 
 #define RHO_LIMIT_BODY_M 5000.0f /* the longest body that a tracker can be told */
 
-/* One axis of a body, as its plots tell it. */
+/* Estimate of the variance of a place on a body, on one axis. */
 struct rho_body_side {
-    float mean_m2;     /* of squares, less noise; it may be 0 or less */
-    float weight;      /* evidence behind the mean, in plots: one without noise counts 1 */
-    float variance_m4; /* of the mean */
-    float prior_share; /* of the mean that is still the prior's */
+    float mean_m2;     /* mean of the plots' squared places, less their noise; may be 0 or less */
+    float weight;      /* weight of the mean, in plots; a plot without noise counts 1 */
+    float variance_m4; /* variance of the mean */
+    float prior_share; /* weight of the prior in the mean, 0 .. 1 */
 };
 
 /*
- * What looks of several plots say of two targets that are taken for one body. All fades over some
- * 80 of them.
+ * Evidence that a body is two targets, by looks with several plots of the body. All sums fade over
+ * about 80 such looks.
  */
 struct rho_body_doubt {
-    float looks, long_looks; /* ... that are longer than any body */
-    float steady_looks;      /* since the heading last turned; with range rates */
-    float time_s;            /* that they took */
+    float looks, long_looks; /* looks; looks with plots farther apart than the longest body */
+    float steady_looks;      /* looks with range rates since the heading last turned */
+    float time_s;            /* duration of the steady looks */
     float cos_heading, sin_heading;
-    float plots_beyond_one; /* of each look */
+    float plots_beyond_one; /* sum over the steady looks of their plots less one */
     /*
-     * about a look's mean: squares of places along the line of sight and across it, and their
-     * product; of range rates; and of these with both places; what noise is expected to add
+     * sums of squares and products of plots' deviations from the mean of their look: place along
+     * the line of sight (far), place across it (side), range rate; and the sums that noise alone
+     * would give
      */
     float far_m2, side_m2, cross_m2, rates_m2ps2, far_m2ps, side_m2ps;
     float side_noise_m2, rate_noise_m2ps2;
-    /* what an error of the velocity across the line of sight may add to range rates */
+    /* sum of squared range rates that an error of the velocity across the line of sight may give */
     float unknown_m2ps2;
-    float doubled;      /* scans in which its body lay on that of an older track; fades, too */
-    int64_t time_us;    /* of the last look */
-    int64_t doubled_us; /* of the last such scan */
+    float doubled;      /* scans in which the body overlapped that of an older track; fades, too */
+    int64_t time_us;    /* time of the last look */
+    int64_t doubled_us; /* time of the last scan with such an overlap */
 };
 
-/* The extent of a track, within the tracker. */
+/* Estimate of the extent of a track's body, within the tracker. */
 struct rho_body_filter {
     uint32_t track_id;
-    float along_m2, across_m2; /* variances of a place on the body */
-    float prior_m2;            /* of one of which nothing is known */
+    float along_m2, across_m2; /* variances of a place on the body, along and across the heading */
+    float prior_m2;            /* prior of both variances */
     struct rho_body_side along, across;
-    float slope, slope_weight; /* how far its scatterers seem turned, and 1 / variance */
+    /* slope of the line of scatterers against the heading, and 1 / its variance */
+    float slope, slope_weight;
     float cos_heading, sin_heading;
     float heading_sigma_rad;
-    float plots;         /* that all this comes from */
-    uint16_t most_plots; /* of one scan */
+    float plots;         /* plots that the extent was estimated from */
+    uint16_t most_plots; /* largest number of plots in one scan */
     uint8_t has_heading;
     struct rho_body_doubt doubt;
 };
 
-/* The body of a track: a rectangle, its length along the heading. */
+/* The body of a track: a rectangle, with its length along the heading. */
 struct rho_body {
     float length_m, width_m, heading_rad;
     float sigma_length_m, sigma_width_m, sigma_heading_rad;
-    /* sigma of its centre about the track's place, which is the mean of what was seen */
+    /* sigma of the body's centre about the track's place, which is the mean of its plots */
     float sigma_along_m, sigma_across_m;
-    float plots; /* that this comes from: about 500 at most, the newest ones */
+    float plots; /* plots that the body was estimated from, the newest; about 500 at most */
 };
 
 /*
- * Targets may give several plots a scan, and are length_max_m long at most; 0: they are points, as
- * after rho_tracker_init. Applies from the next step on. Of scans that have more than
- * RHO_MAX_PLOTS plots the others are NO_ROOM then.
+ * Sets the length of the longest body: targets may then give several plots a scan. 0: targets are
+ * points, as after rho_tracker_init. Applies from the next step on. Plots of a scan beyond
+ * RHO_MAX_PLOTS are NO_ROOM then.
  * Errors: NULL, STATE (not initialised), VALUE (not 0 .. RHO_LIMIT_BODY_M), CAPACITY (other than 0
  * without RHO_BODIES). Constant cost.
  */
@@ -105,8 +109,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_body_max(struct rho_tracker *trac
                                                         float length_max_m);
 
 /*
- * track: place among the tracker's tracks, which is that in the report. 0, and *body is unchanged:
- * no such track, or no scan of two plots of it yet. Constant cost.
+ * Computes the body of a track. track: its index in the report. Returns 0, with *body unchanged,
+ * where there is no such track, or no scan had two plots of it so far. Constant cost.
  */
 int rho_tracker_body_of(const struct rho_tracker *tracker, unsigned track, struct rho_body *body);
 

@@ -16,13 +16,13 @@
  *   initiate  tracks from the plots that no track claimed
  *   report    tracks, one fate a plot, counters
  *
- * A scan is a whole turn of a radar, or a sector of it (RHO_SECTORS): sectors that go on where the
- * one before ended, either way round, are one turn. A target at the edge of two has one hit or one
- * miss a turn; tracks start as from whole turns.
+ * A scan is a whole turn of a radar, or a sector of a turn (RHO_SECTORS): sectors that each begin
+ * where the previous one ended, clockwise or counter-clockwise, make up one turn. A target at the
+ * edge of two sectors has one hit or one miss a turn; tracks start as from whole turns.
  *
- * A sensor that does not see the tracks that others see, or sees them elsewhere, is suspect (see
- * struct rho_tracker_look; rho_tracker_look_of finds a sensor's). If it was described, the noise of
- * its plots is taken as larger.
+ * A sensor that does not see the tracks that others see, or sees them elsewhere, is suspect (struct
+ * rho_tracker_look, which rho_tracker_look_of returns). If the sensor was described, its plots are
+ * given more noise.
  *
  * The stated coverage of a sensor (rho_tracker_set_sensor) bounds its plots, its misses, and the
  * time that tracks live without either. A track that no sensor covers ends after the time of
@@ -31,15 +31,15 @@
  * clutter, the track is tentative until it is seen once more; it ends at the third miss in a row.
  *
  * Where more confirmed tracks end early than false_tracks_per_hour allows, a new track stays
- * tentative until it is seen as often as targets are, or 16 times. A track also ends when its place
- * is known no better than its sensor's range. Time is that of the scans: the tracks of a silent
- * sensor end at steps of other sensors, or at its own next one.
+ * tentative until it is seen as often as targets are, or 16 times. A track also ends when the sigma
+ * of its place exceeds its sensor's maximum range. Time is that of the scans: the tracks of a
+ * silent sensor end at steps of other sensors, or at its own next step.
  *
- * Stepping a scan twice counts it twice, unless it is that sensor's newest: rho_scan_assembler
- * tells them apart. With several radars each scan is a step, in the order of time, with the
- * initiator of its sensor or a common one. Sectors of several radars need an initiator each.
+ * A scan that is stepped twice counts twice, unless it is its sensor's newest; rho_scan_assembler
+ * removes such copies. With several radars each scan is a step, in the order of time, with the
+ * initiator of its sensor or a common one. Radars that send sectors need one initiator each.
  *
- * Nothing flows back: earlier reports are never amended. The same scans give the same bytes on
+ * Earlier reports are never amended by later scans. The same scans give the same bytes on
  * every machine: there is no clock, no random number and no global variable inside. Calls on one
  * tracker must not overlap; several trackers are independent. The objects hold no pointers: a
  * memcpy is a snapshot (rhotrack/snapshot.h: one for flash or a file).
@@ -77,213 +77,211 @@ extern "C" {
  */
 enum rho_tracker_gate {
     RHO_TRACKER_BEST = 0, /* several hypotheses over two motion models: imm, hypotheses */
-    /* the paper: Hough clutter elimination among the plots of a window, input estimation */
+    /* the method of the paper: Hough clutter elimination in a window of plots, input estimation */
     RHO_TRACKER_HOUGH,
-    /* the likeliest plot in the gate, input estimation: least work and memory */
+    /* the likeliest plot in the gate, with input estimation: least work and memory */
     RHO_TRACKER_NEAREST,
     RHO_NUM_TRACKER_GATES
 };
 
 struct rho_tracker_config {
-    float pd; /* assumed of sensors that are not in the table: 0.01 .. 0.999 */
+    float pd; /* detection probability of sensors that are not described: 0.01 .. 0.999 */
     /*
-     * slowest target: a track that is surely slower follows something that stands, and is dropped;
-     * 0: none. 0 .. v_max_mps. The initiator is to have the same, or it starts one after the other
-     * there.
+     * speed of the slowest target: a track that is surely slower is dropped; 0: none is. 0 ..
+     * v_max_mps. The initiator should have the same value, or it starts such tracks again and again
      */
     float v_min_mps;
     /*
-     * sd of a new track's velocity before its second plot: 1 .. RHO_LIMIT_SPEED_MPS. A track ends
-     * that three updates in a row leave faster by a tenth, and by two standard deviations
+     * speed of the fastest target, and standard deviation of a new track's velocity before its
+     * second plot: 1 .. RHO_LIMIT_SPEED_MPS. A track ends after three updates in a row with a speed
+     * above it by a tenth, and by two standard deviations
      */
     float v_max_mps;
-    float accel_max_mps2; /* manoeuvres to follow: 0 .. 1000 */
+    float accel_max_mps2; /* largest acceleration of a manoeuvre: 0 .. 1000 */
     /*
-     * best: mean time between manoeuvres of agile targets, 0 .. 1e5; where that is less than they
-     * last, as long as these. A target that keeps straight becomes calm in a minute on average, and
-     * keeps straight for max(C, steady_s) then (imm.h): C is 300 s, doubled up to 2400 s where
-     * hardly an established track turns
+     * gate best: mean time between manoeuvres of agile targets, 0 .. 1e5; at least the mean length
+     * of a manoeuvre. A target that keeps straight becomes calm after a minute on average; the mean
+     * time until it manoeuvres is then max(C, steady_s) (imm.h): C is 300 s, doubled up to 2400 s
+     * where hardly any established track turns
      */
     float steady_s;
     /*
-     * scans that are older than the newest by so much at most update tracks all the same; 0: none.
-     * 0 .. 60 s; without RHO_SECTORS no older scan updates tracks, whatever stands here
+     * largest age of an out-of-sequence scan, against the newest scan, with which it still updates
+     * tracks: 0 .. 60 s; 0: none does. Without RHO_SECTORS none does at any value
      */
     float late_max_s;
     /*
-     * bounds of what is learned of a sensor (struct rho_tracker_learned): of the factors on its
-     * plots' sigmas, 0.1 .. 1 and 1 .. 10; and of the share of its stated pd, 0.1 .. 1. With 1
-     * nothing is learned on that side
+     * bounds of the values that are learned for a sensor (struct rho_tracker_learned): factors on
+     * its plots' sigmas, 0.1 .. 1 and 1 .. 10; pd over the stated pd, 0.1 .. 1. A bound of 1 turns
+     * off learning in that direction
      */
     float learn_noise_min, learn_noise_max, learn_pd_min;
     /*
-     * misses in a row that end a track, 1 .. 255: one of 16 hits is only in doubt then, tentative,
-     * and ends after 2.4 times as many, as long as its gate is not full of clutter. And scans, in
-     * the time that the sensors that saw it last take for them, for which a track coasts that no
+     * misses in a row that end a track, 1 .. 255. A track of 16 hits only becomes tentative then,
+     * and ends after 2.4 times as many, as long as little clutter is expected in its gate. Also the
+     * number of scans, of the sensors that saw it last, for whose time a track coasts that no
      * sensor can see
      */
     uint16_t coast_scans_max;
     uint8_t gate;   /* enum rho_tracker_gate */
-    uint8_t planes; /* hough: RHO_GATE_PLANE_... */
+    uint8_t planes; /* gate hough: RHO_GATE_PLANE_... of the Hough transforms */
     /*
-     * gates hough and nearest: is_estimated 0 is a Kalman filter with white acceleration of half
-     * accel_max for 1 s; not looked at where RHO_FILTERS has no input estimation
+     * gates hough and nearest: input estimation; with is_estimated 0 a Kalman filter with white
+     * acceleration of half accel_max for 1 s. Ignored where RHO_FILTERS has no input estimation
      */
     struct rho_input_config input;
-    float theta_cell_rad; /* hough: 1e-3 .. pi/2 */
+    float theta_cell_rad; /* gate hough: size of a cell in theta, 1e-3 .. pi/2 */
     /*
-     * hough: all plots so near to the prediction, along x and along y, are candidates, at least
-     * those in the chi-square gate's box: 0 .. 2 RHO_LIMIT_POSITION_M, the whole scan, which is the
-     * paper's beam. 0: that box, wider by as far as accel_max moves a target in twice the time
-     * since the track's last plot. Of scans that measure no velocities: those in the chi-square
-     * gate
+     * gate hough: half side of the square about the prediction whose plots are candidates, at least
+     * the box of the chi-square gate: 0 .. 2 RHO_LIMIT_POSITION_M, which is the whole scan, the
+     * beam of the paper. 0: that box, widened by the distance that accel_max moves a target in
+     * twice the time since the track's last plot. In scans without velocities the candidates are
+     * the plots in the chi-square gate
      */
     float hough_window_m;
     /*
-     * work that a step may do, up to 1e8 units (struct rho_tracker_work); 0: no limit. Tracks have
-     * half of it at most, clutter a quarter, the search what is left, and at most its own work_max
+     * units of work (struct rho_tracker_work) that a step may do, up to 1e8; 0: no limit. Tracks
+     * have half of it at most, clutter a quarter, and the search the rest, up to its own work_max
      */
     uint32_t work_max;
 };
 
-/* Since init; all saturate. The fates' counters add up to plots_in. */
+/* Counters since rho_tracker_init; all saturate. The counters of fates add up to plots_in. */
 struct rho_tracker_counters {
     uint32_t scans_accepted, scans_late;
     uint32_t plots_in;
     uint32_t fates[RHO_NUM_FATES];
-    uint32_t plots_outside;   /* of the invalid: outside of the stated coverage of their sensor */
-    uint32_t plots_initiated; /* of the held: started a track */
-    uint32_t plots_clutter;   /* of the held: left the window unused */
+    uint32_t plots_outside;   /* invalid plots outside of the stated coverage of their sensor */
+    uint32_t plots_initiated; /* held plots that started a track */
+    uint32_t plots_clutter;   /* held plots that left the window unused */
     uint32_t tracks_started, tracks_confirmed, tracks_ended;
-    /* of the ended: not looked at for longer than coasting allows, or of unknown place; too fast */
+    /* ended tracks: not observed for too long or of too uncertain place; faster than v_max */
     uint32_t tracks_unseen, tracks_too_fast;
-    /* starts refused, or tentative tracks that gave way: RHO_MAX_TRACKS */
+    /* starts refused, and tentative tracks ended for another one, as RHO_MAX_TRACKS were there */
     uint32_t tracks_no_room;
-    uint32_t gate_plots_dropped; /* RHO_MAX_GATE_PLOTS */
-    uint32_t candidates_dropped; /* RHO_MAX_CANDIDATES */
+    uint32_t gate_plots_dropped; /* plots in a track's gate beyond RHO_MAX_GATE_PLOTS */
+    uint32_t candidates_dropped; /* candidates of the search beyond RHO_MAX_CANDIDATES */
     uint32_t updates_refused;    /* numerically impossible updates: the track counts a miss */
-    uint32_t hypotheses_cut;     /* RHO_MAX_HYPOTHESES */
-    uint32_t scans_retrodicted;  /* of the accepted: late, by late_max_s at most */
+    uint32_t hypotheses_cut;     /* hypotheses beyond RHO_MAX_HYPOTHESES */
+    uint32_t scans_retrodicted;  /* accepted scans that were late, by late_max_s at most */
     uint32_t sensors_suspected;  /* times that a sensor became suspect */
-    /* by an operator: of the ended; plots in excluded areas that no track claimed */
+    /* tracks that an operator ended; unclaimed plots in areas that an operator excluded */
     uint32_t tracks_dropped, plots_excluded;
 };
 
 /*
- * Effects of the limits on work. A unit is 40 to 90 instructions of a Cortex-M4: those of struct
- * rho_initiator_budget; 20 to 220 for a plot that one hypothesis of a track scores, or 12 by a
- * Kalman filter's gate; for an echo of clutter and a plot near it 4 or 10, for two plots near each
- * other 12. Where plots crowd in a track's gate those far from its expected place are left out, and
- * the counters move. All saturate, and only rho_tracker_init clears them. work is at most work_max
- * and RHO_TRACKER_WORK_BEYOND: work that was begun is finished. The search of the passive initiator
- * does not count: its cost follows from the capacities alone.
+ * Work of steps, and effects of its limit work_max. A unit is 40 to 90 instructions of a Cortex-M4.
+ * The search costs units as in struct rho_initiator_budget; a plot that one hypothesis of a track
+ * scores 20 to 220, one in a Kalman filter's gate 12; an echo of clutter and a plot near it 4 or
+ * 10; two plots near each other 12. Where more plots are near a track than its share allows, those
+ * far from its expected place are left out and counted. Counters saturate, and only
+ * rho_tracker_init clears them. work is at most work_max + RHO_TRACKER_WORK_BEYOND, as work that
+ * was begun is finished. The search of the passive initiator does not count: its cost follows from
+ * the capacities alone.
  */
 #define RHO_TRACKER_WORK_BEYOND (RHO_INITIATOR_WORK_BEYOND + 64u * RHO_MAX_PLOTS)
 struct rho_tracker_work {
-    uint32_t work, work_worst; /* units of the last step, of the worst one */
-    uint32_t partial_steps;    /* steps that left something out */
-    /* newest plots that the search left out; and by each track; echoes and plots' neighbours that
-     * were not looked for */
+    uint32_t work, work_worst; /* units of work of the last step, and of the worst step so far */
+    uint32_t partial_steps;    /* steps in which the limit left out something */
+    /* newest plots left out by the search, plots by each track, echoes, and neighbours of plots */
     uint32_t plots_not_tried;
 };
 
-/* The plots of the scan that is stepped, by strips of x; of no use with a single strip. */
+/* Rows of the scan's plots, sorted by strips of x in a step; not used with a single strip. */
 struct rho_tracker_strips {
-    float x_min_m, per_m;
-    uint16_t starts[RHO_PLOT_STRIPS + 2]; /* of strip s: from starts[s] to starts[s + 1] in ... */
-    uint16_t plots[RHO_PLOT_STRIPS > 1 ? RHO_MAX_PLOTS : 1]; /* ... their rows */
+    float x_min_m, per_m;                 /* where strip 0 begins; strips per metre */
+    uint16_t starts[RHO_PLOT_STRIPS + 2]; /* strip s is plots[starts[s] .. starts[s + 1] - 1] */
+    uint16_t plots[RHO_PLOT_STRIPS > 1 ? RHO_MAX_PLOTS : 1]; /* rows of plots, strip by strip */
 };
 
-/* A sensor's newest scan (RHO_SECTORS). */
+/* Record of a sensor that has sent scans: its newest scan, and its health (RHO_SECTORS). */
 struct rho_tracker_look {
     int32_t sensor_id;
     float sector_from_rad, sector_to_rad;
     int64_t time_us;
-    /*
-     * of the last search of its initiator: scores that start and confirm a track; 0, 0: there was
-     * none
-     */
+    /* thresholds of its initiator's last search: to start, to confirm a track; 0, 0: no search */
     int32_t start_mnat, confirm_mnat;
     /*
-     * of confirmed tracks that another sensor had seen before: share of those that it saw where it
-     * looked, and the plots' squared distances a dimension, 1 on average where all is well; over
-     * the last `watched` looks and hits, 16 at most
+     * health, by confirmed tracks that another sensor had seen before: share of those tracks that
+     * this sensor saw where it looked; mean NIS per dimension of its plots, 1 where its noise is as
+     * stated. Means over the last `watched` looks and `watched_hits` hits, 16 at most
      */
     float seen_share, distance2;
-    float sigma_m; /* that the newest of these plots claims, the larger one in the plane */
+    float sigma_m; /* stated noise of the newest of these plots, the larger horizontal sigma */
     uint16_t watched, watched_hits;
-    uint16_t count; /* its scans so far, 1 .. 65535 round and round */
+    uint16_t count; /* scans of the sensor so far, 1 .. 65535 and then 1 again */
     /*
-     * suspect: it contradicts the others; its plots' noise counts for more, its misses not at all,
+     * the sensor contradicts the others: its plots are given more noise, its misses do not count,
      * and it starts no tracks
      */
     uint16_t is_suspect;
 };
 
-/* Rings of range of equal widths, out to a sensor's range_max_m, that its pd is learned by. */
+/* Number of rings of range, equally wide up to range_max_m, in each of which a pd is learned. */
 #define RHO_LEARN_RINGS 6
 
 /*
- * Intervals of the range rate over ground, either way, from 0 on: the first one to 0.25 m/s, each
- * next one 1.41 times as far, the last one without end (RHO_DOPPLER_NOTCH).
+ * Number of intervals of the absolute range rate over ground, in each of which looks and hits are
+ * counted (RHO_DOPPLER_NOTCH): the first ends at 0.25 m/s, each next one at 1.41 times the end of
+ * the one before, the last one has no end.
  */
 #define RHO_LEARN_RATES (RHO_DOPPLER_NOTCH ? 16 : 1)
 
 /*
- * Noise and detection probability of a described sensor, as its tracks show them. Both begin at the
- * stated values, and are used where they surely differ: sigmas by more than an eighth, within the
- * bounds of the config; pd only where it is less. With the gate best alone: noise of tracks that
- * this sensor alone has seen, pd at looks of the sensor that saw the track last.
+ * Noise and detection probability of a described sensor, learned from its tracks with the gate
+ * best. Both begin at the stated values, and are used where they surely differ: sigmas by more than
+ * an eighth, within the bounds of the config; pd only where it is less. Noise is learned from
+ * tracks that this sensor alone has seen, pd from tracks that this sensor saw last.
  */
 struct rho_tracker_learned {
-    float log_noise
-        [2]; /* ln of what the variances are of those stated, along the line of sight, across */
-    uint16_t innovations; /* that they come from; ends at 1000 */
+    /* ln of learned over stated variance of plots, along the line of sight and across it */
+    float log_noise[2];
+    uint16_t innovations; /* innovations that log_noise was learned from; stops at 1000 */
     /*
-     * by ring of range: looks at tracks that had been seen at the look before, and those that saw
-     * them; both are halved at 1000
+     * by ring of range: looks at tracks that were seen at the look before, and those looks that saw
+     * them again; both are halved at 1000
      */
     uint16_t looks[RHO_LEARN_RINGS], hits[RHO_LEARN_RINGS];
-    uint8_t is_lowered; /* bit i: in ring i pd is used as learned */
-    uint8_t ring;       /* that is learned next, one a scan */
+    uint8_t is_lowered; /* bit i: the learned pd is used in ring i */
+    uint8_t ring;       /* ring whose pd is tested next, one ring a scan */
     /*
-     * the same by the range rate, of a sensor of which no notch was stated. In the first
-     * blind_rates intervals it sees targets so much worse than above that it has a notch there,
-     * which is used as if it were stated (gate best); those looks are none of the rings'
+     * looks and hits by interval of range rate, for a sensor of which no notch was stated. Where pd
+     * in the first blind_rates intervals is far below that at faster ones, the sensor has a notch
+     * there, which is used as if it were stated (gate best); its looks do not count in the rings
      */
-    unsigned blind_rates : 5;       /* as learned */
-    unsigned used_rates : 5;        /* as the sensor's notch_mps has it now */
-    unsigned notches_forgotten : 2; /* that were none; after three no more is learned */
+    unsigned blind_rates : 5;       /* intervals of the learned notch; 0: no notch */
+    unsigned used_rates : 5;        /* intervals of the notch in the sensor's notch_mps */
+    unsigned notches_forgotten : 2; /* false notches so far; after three none is learned */
     uint8_t rate_looks[RHO_LEARN_RATES], rate_hits[RHO_LEARN_RATES]; /* halved at 250 */
-    /* resolution cell, along the line of sight and across: ln of what its square is of the first
-     * one's, and the weight of that (RHO_SHARES_PLOTS) */
+    /* resolution cell along the line of sight and across it: ln of its square over that of the
+     * default, and the weight of the estimate (RHO_SHARES_PLOTS) */
     float log_cell[2], cell_weight[2];
 };
 
-/* How often a sensor looks at a place. */
+/* Scan interval of a sensor, measured in one direction. */
 struct rho_tracker_pace {
     int32_t sensor_id;
-    float azimuth_rad; /* a direction: the scans that hold it are counted */
-    float interval_s;  /* from one to the next, smoothed; 0: not known yet */
-    float x_m, y_m;    /* its place */
-    int64_t time_us;   /* of the last of them */
+    float azimuth_rad; /* the direction: scans whose sector holds it are timed */
+    float interval_s;  /* smoothed time between such scans; 0: not known yet */
+    float x_m, y_m;    /* place of the sensor */
+    int64_t time_us;   /* time of the last such scan */
 };
 
-/* The plots of a scan as groups (body.h); what a step leaves is of no use after it. */
+/* Groups of a scan's plots, each of one target (body.h); valid within a step only. */
 struct rho_groups {
-    uint16_t count;
-    uint16_t first[RHO_BODY_PLOTS], last[RHO_BODY_PLOTS]; /* plots of each group, */
-    uint16_t next[RHO_BODY_PLOTS];                        /* each with the next one */
+    uint16_t count;                                       /* groups */
+    uint16_t first[RHO_BODY_PLOTS], last[RHO_BODY_PLOTS]; /* first and last plot of each group */
+    uint16_t next[RHO_BODY_PLOTS];                        /* next plot in a plot's group */
     uint16_t of[RHO_BODY_PLOTS];                          /* group of each plot */
-    uint16_t owner[RHO_BODY_PLOTS];                       /* track of each plot */
-    float misfit[RHO_BODY_PLOTS];                         /* with that */
-    uint16_t contender[RHO_BODY_PLOTS];    /* another track whose body explains it nearly as well */
-    struct rho_plot plots[RHO_BODY_PLOTS]; /* of each group */
+    uint16_t owner[RHO_BODY_PLOTS];        /* track whose body explains each plot best */
+    float misfit[RHO_BODY_PLOTS];          /* -2 ln of each plot's likelihood by its owner's body */
+    uint16_t contender[RHO_BODY_PLOTS];    /* track whose body explains a plot nearly as well */
+    struct rho_plot plots[RHO_BODY_PLOTS]; /* each group as one plot */
 };
 
-/* Targets that are more than points. */
+/* Bodies of the tracks, where targets may give several plots a scan. */
 struct rho_bodies {
-    float length_max_m; /* 0: they are points */
+    float length_max_m; /* longest body; 0: targets are points */
     uint16_t count;
     struct rho_body_filter of[RHO_BODY_TRACKS]; /* in the order of the tracks */
     struct rho_groups groups;
@@ -292,37 +290,35 @@ struct rho_bodies {
 struct rho_tracker {
     uint32_t magic;
     uint32_t next_track_id;
-    int64_t time_us; /* of the last accepted scan */
-    int has_time;
-    /* scores that start and confirm a track: the initiator's, of its last search */
+    int64_t time_us; /* time of the last accepted scan */
+    int has_time;    /* a scan was accepted */
+    /* track scores that start and that confirm a track, by the initiators' last searches */
     int32_t start_mnat, confirm_mnat;
-    /* a scan, smoothed: the clutter density where no initiator measures it */
+    /* mean per turn; a clutter density follows from it where no initiator measures one */
     float unclaimed_plots;
-    float unclaimed_bearings; /* a passive sensor's scan, smoothed */
-    struct rho_extent extent; /* of all valid plots so far */
+    float unclaimed_bearings; /* mean per scan of a passive sensor */
+    struct rho_extent extent; /* rectangle that holds all valid plots so far */
     uint16_t num_sensors;
-    uint16_t num_tracks; /* live ones, in the order of their identities */
-    uint16_t looks_max;  /* scans of a frame, the most so far; 1 before */
+    uint16_t num_tracks; /* live tracks, in the order of their identities */
+    uint16_t looks_max;  /* largest number of scans in a frame so far; 1 before any frame */
     struct rho_tracker_config config;
     struct rho_tracker_counters counters;
     struct rho_tracker_work work;
     struct rho_sensor sensors[RHO_MAX_SENSORS];
-    struct rho_tracker_learned learned[RHO_MAX_SENSORS]; /* of the same */
-    /*
-     * tracks that misses ended before they had 16 hits, and those that had; of the last half an
-     * hour
-     */
+    struct rho_tracker_learned learned[RHO_MAX_SENSORS]; /* in the order of `sensors` */
+    /* counts that fade in half an hour: tracks that misses ended early; that reached 16 hits */
     float ended_early, established;
-    float straight_s, turning_s; /* of those that had, surely; of the last half an hour, too */
-    float wanted_per_hour;       /* false tracks, by the last initiator */
-    int64_t counted_us;
+    /* seconds of established tracks, fading, too: not surely manoeuvring; surely manoeuvring */
+    float straight_s, turning_s;
+    float wanted_per_hour; /* false_tracks_per_hour of the last initiator */
+    int64_t counted_us;    /* time at which the counts above were faded last */
     uint32_t num_paces;
     struct rho_tracker_pace paces[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
     uint32_t num_looks;
-    struct rho_tracker_look looks[RHO_MAX_SENSORS]; /* of the sensors that came first */
+    struct rho_tracker_look looks[RHO_MAX_SENSORS]; /* of the sensors that were heard last */
     struct rho_track tracks[RHO_MAX_TRACKS];
     struct rho_assignment assignment;
-    struct rho_hypotheses hypotheses; /* of the gate best */
+    struct rho_hypotheses hypotheses; /* pool of all tracks' hypotheses (gate best) */
     struct rho_tracker_strips strips;
     struct rho_clutter_map clutter_map;
     struct rho_second_plots second_plots[RHO_MAX_SENSORS]; /* of the sensors that came first */
@@ -334,38 +330,38 @@ struct rho_tracker {
 };
 
 /*
- * One track as reported: the estimate at the step's time. Of a track that the scan could not see it
- * is the last one, moved there with its acceleration.
+ * Report of one track: its estimate at the step's time. For a track that the scan could not see,
+ * the last estimate is extrapolated to that time with its acceleration.
  */
 struct rho_track_report {
     uint32_t track_id;
     enum rho_track_status status;
     uint16_t hits, misses;
-    int32_t sensor_id; /* of the last claimed plot */
+    int32_t sensor_id; /* sensor of the last claimed plot */
     int32_t plot;      /* row of the plot claimed in this scan; -1: none */
-    /* scan's time after the last claimed plot's own; 0 where that is later */
+    /* time from the last claimed plot to the scan's time; 0 where the plot is later */
     int32_t update_age_us;
     float score_nat;
     float state[RHO_KALMAN_STATES];
     float covariance[RHO_TRIANGLE(RHO_KALMAN_STATES)];
-    float sigma_m, sigma_mps; /* root mean variance over the measured axes */
+    float sigma_m, sigma_mps; /* rho_track_sigma_m, rho_track_sigma_mps */
     float accel_mps2[3];
-    /* best: of the manoeuvring model; else 1 where an input is present, 0 where not */
+    /* gate best: probability of the manoeuvring model; else 1 with an input present, 0 without */
     float maneuver_probability;
-    uint16_t num_hypotheses; /* best; else 1 */
+    uint16_t num_hypotheses; /* gate best: hypotheses of the track; else 1 */
 };
 
 /* The result of one step. Tracks in the order of their identities. */
 struct rho_report {
     int64_t time_us;
     /*
-     * of the scan: fates of the first RHO_MAX_PLOTS follow; the others are claimed, INVALID or
-     * NO_ROOM, or STALE of a late scan
+     * plots of the scan: `fates` holds those of the first RHO_MAX_PLOTS; further plots are CLAIMED,
+     * INVALID or NO_ROOM, or STALE in a late scan
      */
     uint32_t num_plots;
     uint16_t num_tracks, num_ended;
-    uint32_t is_partial;                 /* work ended before all plots were tried */
-    uint32_t fates_total[RHO_NUM_FATES]; /* add up to num_plots */
+    uint32_t is_partial;                 /* the limit on work left out something */
+    uint32_t fates_total[RHO_NUM_FATES]; /* number of plots with each fate; sum: num_plots */
     uint8_t fates[RHO_MAX_PLOTS];        /* enum rho_fate */
     struct rho_track_report tracks[RHO_MAX_TRACKS];
     /* identities of tracks that had been confirmed and ended in this step */
@@ -379,22 +375,22 @@ struct rho_report {
 const char *rho_track_status_name(enum rho_track_status status);
 
 /*
- * Of one of the tracker's tracks: root of the mean position (velocity) variance over the axes that
- * were measured so far, metres (metres a second). Constant cost. Stack: 32 bytes.
+ * Accuracy of one of the tracker's tracks: root of the mean variance of position (velocity) over
+ * the axes that were measured so far, m (m/s). Constant cost. Stack: 32 bytes.
  */
 float rho_track_sigma_m(const struct rho_track *track);
 float rho_track_sigma_mps(const struct rho_track *track);
 
 /*
- * pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s, late_max 20 s, learn_noise_min
- * 0.7, learn_noise_max 4, learn_pd_min 0.5, coast_scans_max 5, gate best (nearest where RHO_FILTERS
- * has no hypotheses); hough and nearest without input estimation, planes xy, xz and yz, cells of 5
- * degrees. Constant cost. Stack: 80 bytes.
+ * Fills the default configuration: pd 0.9, v_min 0, v_max 700 m/s, accel_max 30 m/s^2, steady 0 s,
+ * late_max 20 s, learn_noise_min 0.7, learn_noise_max 4, learn_pd_min 0.5, coast_scans_max 5, gate
+ * best (nearest where RHO_FILTERS has no hypotheses); for the gates hough and nearest no input
+ * estimation, planes xy, xz and yz, cells of 5 degrees. Constant cost. Stack: 80 bytes.
  */
 void rho_tracker_config_default(struct rho_tracker_config *config);
 
 /*
- * Prepares an empty tracker; the config is copied.
+ * Initialises an empty tracker; the config is copied.
  *   size   sizeof(struct rho_tracker) of the caller
  * Errors: NULL, SIZE, CONFIG (a field outside its range, or a filter that is none of RHO_FILTERS).
  * Cost: sizeof(tracker) bytes cleared. Stack: 384 bytes.
@@ -403,18 +399,19 @@ RHO_MUST_CHECK enum rho_status rho_tracker_init(struct rho_tracker *tracker, siz
                                                 const struct rho_tracker_config *config);
 
 /*
- * Gives a tracker another configuration, from the next step on; tracks and all that was learned go
- * on. Tracks that it would not keep (slower than v_min, missed coast_scans_max times) end there.
- * Errors: NULL, STATE (not initialised; there are tracks, and their filter is another one: of gate
- * or input.is_estimated), CONFIG (as rho_tracker_init); nothing is changed. Constant cost. Stack:
+ * Changes the configuration, from the next step on; tracks and all learned values are kept. Tracks
+ * that the new configuration does not keep (slower than v_min, missed coast_scans_max times) end in
+ * the next step.
+ * Errors: NULL, STATE (not initialised; or there are tracks, and gate or input.is_estimated would
+ * change their filter), CONFIG (as rho_tracker_init); nothing is changed. Constant cost. Stack:
  * 500 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
                                                        const struct rho_tracker_config *config);
 
 /*
- * Describes a sensor, or replaces the description of the same sensor_id; what was learned of it
- * stays, and is applied to the new description.
+ * Describes a sensor, or replaces its description by sensor_id; values learned for it are kept, and
+ * are applied to the new description.
  * Errors: NULL, STATE, CONFIG (a field outside its range), CAPACITY (RHO_MAX_SENSORS). Cost:
  * RHO_MAX_SENSORS.
  */
@@ -422,78 +419,78 @@ RHO_MUST_CHECK enum rho_status rho_tracker_set_sensor(struct rho_tracker *tracke
                                                       const struct rho_sensor *sensor);
 
 /*
- * Forgets the description of a sensor: its scans use the defaults from then on, and there is room
- * for another one.
+ * Removes the description of a sensor and all that was learned for it: its scans use the defaults
+ * from then on, and there is room for another sensor.
  * Errors: NULL, STATE (not initialised, or not described). Cost: RHO_MAX_SENSORS. Stack: 112 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_forget_sensor(struct rho_tracker *tracker,
                                                          int32_t sensor_id);
 
-/* A sensor's noise and detection probability, as learned. */
+/* Noise, detection probability, notch and resolution of a sensor, as learned and used. */
 struct rho_tracker_known {
-    float range_factor, cross_factor; /* that its plots' sigmas count */
+    float range_factor, cross_factor; /* factors on the stated sigmas of its plots */
     float pd[RHO_LEARN_RINGS];        /* by ring of range */
-    uint32_t innovations, looks;      /* that was learned from */
-    /* learned of a sensor of which no notch was stated (RHO_DOPPLER_NOTCH); 0: none */
+    uint32_t innovations, looks;      /* numbers from which factors and pd were learned */
+    /* notch, learned where none was stated (RHO_DOPPLER_NOTCH); 0: none */
     float notch_mps;
-    /* resolution cell in sigmas of plots, where none was stated (RHO_SHARES_PLOTS); 0: not learned
-     */
+    /* resolution cell in sigmas of plots, learned where none was stated (RHO_SHARES_PLOTS); 0: not
+     * learned */
     float resolution_range_sigmas, resolution_cross_sigmas;
 };
 
-/* Errors: NULL, STATE (not initialised, or the sensor was not described). Constant cost.
+/* Fills the learned values of a described sensor.
+ * Errors: NULL, STATE (not initialised, or the sensor was not described). Constant cost.
  * Stack: 128 bytes. */
 RHO_MUST_CHECK enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker,
                                                     int32_t sensor_id,
                                                     struct rho_tracker_known *known);
 
 /*
- * The health of a sensor that has sent scans; NULL: it has sent none, or RHO_MAX_SENSORS others
- * since. Cost: RHO_MAX_SENSORS.
+ * Record of a sensor's newest scan and health; NULL: the sensor has sent no scans, or
+ * RHO_MAX_SENSORS other sensors have sent scans since. Cost: RHO_MAX_SENSORS.
  */
 const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tracker,
                                                    int32_t sensor_id);
 
 /*
- * Of the last step, for one track: how its evidence divides among what may be true. Each plot that
- * the track's gate offered has the odds e^gain over none being the target's, the gain that the gate
- * compares plots by, before plots are given to one track each. So its probability p is e^gain / (1
- * + sum of e^gain); r is the share of this e^gain among those of all tracks for the same plot.
+ * Probabilities of where a track's plot is, in the last step, before each plot is assigned to one
+ * track. gain is the score of a plot in the track's gate over that of a miss, nats. The plot is the
+ * target's with the probability p = e^gain / (1 + sum of e^gain over the plots in the gate); r is
+ * its e^gain over the sum of e^gain of all tracks for the same plot.
  *
  *     support = sum of p r      shared = sum of p (1 - r)      clutter = 1 - sum of p
  *
- * the truth, indeterminacy and falsity of neutrosophic sets: they add up to 1. Of a frame it is the
- * last sensor's scan, of a scan in parts (RHO_CLAIMS_BEYOND) the last part.
+ * are the truth, indeterminacy and falsity of neutrosophic sets, and add up to 1. In a frame they
+ * are those of the last sensor's scan, in a scan in parts (RHO_CLAIMS_BEYOND) of the last part.
  */
 struct rho_tracker_evidence {
-    float support; /* plots that the track alone is likely to have given */
-    float shared;  /* the part of its plots that other tracks claim, too */
-    float clutter; /* that no plot is the target's: those near it are clutter, or there is none */
+    float support; /* probability of a plot that is this track's alone */
+    float shared;  /* probability of a plot that other tracks may have, too */
+    float clutter; /* probability that no plot is the target's: those in the gate are clutter */
 };
 
 /*
- * track: place among the tracker's tracks, which is that in the report. Returns 0 where nothing is
- * known, and *evidence is unchanged: no such track, started in this step, not looked at, or built
- * without RHO_KEEPS_OFFERS. Cost: offered plots of the track times
- * those of all tracks. Stack: 120 bytes.
+ * Computes the evidence of one track in the last step. track: its index in the report. Returns 0,
+ * with *evidence unchanged, where none is known: no such track, started in this step, not looked
+ * at, or built without RHO_KEEPS_OFFERS. Cost: plots in the track's gate times those in all gates.
+ * Stack: 120 bytes.
  */
 int rho_tracker_evidence_of(const struct rho_tracker *tracker, unsigned track,
                             struct rho_tracker_evidence *evidence);
 
 /*
- * Takes one scan through all phases above.
+ * Processes one scan of plots in all phases above.
  *   initiator  NULL: existing tracks are maintained, none is started, unclaimed plots are held
  *              nowhere (fate NO_ROOM)
- *   scan       num_plots plots; bad ones get the fate INVALID. Of those beyond RHO_MAX_PLOTS tracks
- *              may claim (RHO_CLAIMS_BEYOND), in the first 4 RHO_MAX_PLOTS and 32767 of the scan;
- *              unclaimed ones are not held, but NO_ROOM. A scan older than the newest
- *              accepted one is late. By late_max_s at most, tracks are moved back to its time,
- *              claim its plots and are missed as at any scan (of a sector: where all of the gate is
- *              in it). Tracks start from it where it is the newest that the initiator was given;
- *              else the other plots are STALE. Beyond that all its plots are, and but for counters
- *              nothing else changes.
- *   report     filled whole, whatever it held before; of a late scan that updates tracks at the
- *              newest scan's time
+ *   scan       num_plots plots; bad ones get the fate INVALID. Tracks may also claim plots beyond
+ *              RHO_MAX_PLOTS (RHO_CLAIMS_BEYOND), up to 4 RHO_MAX_PLOTS and 32767; unclaimed ones
+ *              beyond RHO_MAX_PLOTS are NO_ROOM. A scan older than the newest accepted one is late.
+ *              If it is late by late_max_s at most, tracks are moved back to its time, claim its
+ *              plots and count misses as at any scan (in a sector: where it holds the whole gate).
+ *              Tracks start from it where it is the newest scan that the initiator was given; else
+ *              its unclaimed plots are STALE. If it is later, all its plots are STALE, and nothing
+ *              else changes but counters.
+ *   report     filled completely; after a late scan that updates tracks, at the newest scan's time
  * Errors: NULL (tracker, scan, report, plots of a scan that has some), CONFIG (initiator, without
  * RHO_SEARCHES), STATE (tracker or initiator not initialised), VALUE (a sector beyond one turn
  * either way, a time beyond RHO_LIMIT_TIME_US); nothing is changed, *report neither.
@@ -508,15 +505,15 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step(struct rho_tracker *tracker,
 
 /*
  * Starts a track from plots that another initiator has found: the papers' Hough transforms
- * (hough.h), or the caller's own. The tracker is stepped without an initiator (NULL); after a
- * step the caller's initiator takes the plots with the fate NO_ROOM, which no track has claimed.
+ * (hough.h), or one of the caller. The tracker is stepped without an initiator (NULL); after each
+ * step that initiator takes the unclaimed plots, which have the fate NO_ROOM.
  *   plots      num_plots >= 1 of any scans so far, as rho_track_start takes them; row is that in
  *              the last step's scan, or -1
- *   score_mnat evidence for a target, above the caller's threshold: the track is confirmed at 0 and
- *              more, tentative below until plots have raised it to 0, and ends below -4605. A
- *              tracker that was also stepped with an initiator compares with that one's thresholds
- *   report     of the last step; it shows the new track from now on
- * A full tracker gives up its lowest tentative track below the score (tracks_no_room).
+ *   score_mnat track score, less the caller's threshold: the track is confirmed from 0 on,
+ *              tentative below until plots have raised it to 0, and ends below -4605. In a tracker
+ *              that was also stepped with an initiator, the thresholds of that initiator hold
+ *   report     report of the last step; the new track is added to it
+ * In a full tracker the tentative track with the lowest score below this one ends (tracks_no_room).
  * Errors: NULL, STATE (not initialised, or the report is not the last step's), VALUE (num_plots, a
  * score at which tracks end or beyond 1e9, a plot later than the last scan by more than
  * RHO_LIMIT_OFFSET_US, a row beyond the scan), CAPACITY (no room), and those of rho_track_start; no
@@ -529,9 +526,10 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_track(struct rho_tracker *track
                                                        struct rho_report *report);
 
 /*
- * The same from an estimate at the time of the last step, made of hits >= 1 scans: of bearings, or
- * by a filter of the caller's own. sensor_id is one of the sensors that saw it. Errors: NULL,
- * STATE, and those of rho_track_start_estimate; VALUE for a score too low. Stack: 2.6 KB.
+ * Starts a track, as rho_tracker_start_track, but from an estimate at the time of the last step,
+ * made from hits >= 1 scans: from bearings, or by a filter of the caller. sensor_id is one of the
+ * sensors of these scans. Errors: NULL, STATE, and those of rho_track_start_estimate; VALUE for a
+ * score at which tracks end. Stack: 2.6 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
                                                           const struct rho_kalman *estimate,
@@ -540,12 +538,12 @@ RHO_MUST_CHECK enum rho_status rho_tracker_start_estimate(struct rho_tracker *tr
                                                           struct rho_report *report);
 
 /*
- * Takes one frame of bearings through all phases: its scans in their order, each with the bearings'
- * own times.
+ * Processes one frame of bearings in all phases: its scans in their order, with the bearings' own
+ * times.
  *   passive  NULL: existing tracks are maintained, none is started, unclaimed bearings are held
- *            nowhere (fate NO_ROOM); else its batch takes the unclaimed bearings, and once it is
- *            full it is searched at each step. A found track with passive->start_mnat or more is
- *            started, and confirmed at once.
+ *            nowhere (fate NO_ROOM); else its batch takes the unclaimed bearings, and is searched
+ *            at each step once it is full. A candidate with a score of passive->start_mnat or more
+ *            starts a track, which is confirmed at once.
  *   frame    one scan a sensor; bad bearings get the fate INVALID, those beyond RHO_MAX_BEARINGS of
  *            a scan NO_ROOM. A frame older than the last accepted scan or frame is late: all its
  *            bearings are STALE
@@ -567,9 +565,9 @@ RHO_MUST_CHECK enum rho_status rho_tracker_step_frame(struct rho_tracker *tracke
                                                       struct rho_report *report);
 
 /*
- * True where the object may be worked with, wherever its bytes come from (a snapshot, memory that
- * outlived a reset): counts and places are within what they count, numbers within their limits.
- * rho_snapshot_load asks it. Cost: tracks and hypotheses. Stack: 850 bytes.
+ * True where a tracker of unknown origin (a snapshot, memory that outlived a reset) is safe to use:
+ * counts and indices are within their arrays, numbers within their limits. rho_snapshot_load tests
+ * it. Cost: tracks and hypotheses. Stack: 850 bytes.
  */
 int rho_tracker_is_sound(const struct rho_tracker *tracker);
 

@@ -1,49 +1,51 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * body_doubt: whether the plots of a body are those of two targets.
+ * body_doubt: collects evidence that a track's body is really two targets, and decides on it.
  *
- * Looks of several plots are compared with what one rigid body can show. It is no longer than the
- * longest. And as long as it keeps its heading, its range rates are no plane over it that is
- * steeper than a turn explains. Two cars in neighbouring lanes, one faster than the other, show
- * that within a few seconds, long before they are seen apart; two of one lane that were never
- * farther apart than a truck is long show their length.
+ * The plots of a look are compared with those of one rigid body. Their extent is at most that of
+ * the longest body. And while the body keeps its heading, range rates vary over it like a plane no
+ * steeper than an unseen turn explains. Two cars in neighbouring lanes, one faster than the other,
+ * are told apart by range rates within a few seconds, long before they are resolved; two cars in
+ * one lane, so near that they were taken for one truck, are told apart by their length.
  */
 #include "../tracker/step.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
 
-/* Looks that count. */
+/* Memory of the evidence, in looks of several plots: sums fade by 1 / MEMORY_LOOKS each look. */
 #define MEMORY_LOOKS 80.0f
-/* So many of them, and this share, are longer than the longest body by so many sigmas of a plot:
- * more than stray plots are. */
+/*
+ * A body is too long where more looks than LONG_LOOKS, and a larger share than LONG_SHARE, extend
+ * beyond the longest body by LONG_SIGMAS of a plot: stray plots make fewer.
+ */
 #define LONG_LOOKS 4.0f
 #define LONG_SHARE 0.1f
 #define LONG_SIGMAS 4.0f
 /*
- * A heading keeps within this, and a sigma of it, of its mean; else range rates begin anew: parts
- * of a body that turns have others.
+ * Largest deviation of a steady heading from its mean, beside one sigma of the heading. Beyond it
+ * the sums of range rates begin anew, as parts of a turning body have different range rates.
  */
 #define STEADY_RAD 0.1f
-/* A heading that keeps within that may have turned by so many times as much. */
+/* Largest unseen turn of a steady heading, over its tolerance. */
 #define TURN_SHARE 2.0f
-/* ... and shows within so many looks that it turns. */
+/* Looks with a steady heading after which range rates are judged: a turn is seen by then. */
 #define STEADY_LOOKS 30.0f
-/* The square of so many sigmas of a velocity across the line of sight, which turns range rates. */
+/* Square of the number of sigmas that the velocity across the line of sight may be off. */
 #define UNKNOWN_SHARE 4.0f
-/* A chi-square of two dimensions: looks are many, and their errors not independent. */
+/* Limit of chi-square in two dimensions; large, as errors of successive looks are correlated. */
 #define APART_CHI2 40.0f
-/* Squares of places across the line of sight are known to this share of their noise. */
+/* Least variance of places across the line of sight, as a share of their noise. */
 #define SIDE_SHARE 0.2f
-/* Places are no line: 1 less the square of their correlation. */
+/* Least 1 - correlation^2 of places in two axes, for a plane to be fitted to the range rates. */
 #define PLANE_SHARE 0.1f
 
-static float steady_rad(const struct rho_body_filter *body)
+static float heading_tolerance_rad(const struct rho_body_filter *body)
 {
     return STEADY_RAD + body->heading_sigma_rad;
 }
 
-static void forget_rates(struct rho_body_doubt *doubt, const struct rho_body_filter *body)
+static void clear_range_rate_sums(struct rho_body_doubt *doubt, const struct rho_body_filter *body)
 {
     *doubt = (struct rho_body_doubt){.looks = doubt->looks,
                                      .long_looks = doubt->long_looks,
@@ -54,17 +56,19 @@ static void forget_rates(struct rho_body_doubt *doubt, const struct rho_body_fil
                                      .doubled_us = doubt->doubled_us};
 }
 
-/* By the time and the look that have gone by. */
-static void fade(struct rho_body_doubt *doubt, const struct rho_body_filter *body, float passed_s)
+/* Fades all sums by one look and counts it; clears those of range rates where the body has turned.
+ */
+static void fade_doubt_by_one_look(struct rho_body_doubt *doubt, const struct rho_body_filter *body,
+                                   float passed_s)
 {
     const float share = 1.0f - 1.0f / MEMORY_LOOKS;
     doubt->looks = share * doubt->looks + 1.0f;
     doubt->long_looks *= share;
     const float turned_rad = rho_angle_difference(rho_atan2(doubt->sin_heading, doubt->cos_heading),
                                                   rho_atan2(body->sin_heading, body->cos_heading));
-    if (doubt->plots_beyond_one <= 0.0f || turned_rad > steady_rad(body) ||
-        turned_rad < -steady_rad(body)) {
-        forget_rates(doubt, body);
+    if (doubt->plots_beyond_one <= 0.0f || turned_rad > heading_tolerance_rad(body) ||
+        turned_rad < -heading_tolerance_rad(body)) {
+        clear_range_rate_sums(doubt, body);
         return;
     }
     doubt->steady_looks *= share;
@@ -83,17 +87,21 @@ static void fade(struct rho_body_doubt *doubt, const struct rho_body_filter *bod
     doubt->unknown_m2ps2 *= share;
 }
 
-/* Sums over a look's plots: places along the line of sight and across, and range rates. */
-struct sums {
+/*
+ * Sums over a look's plots: places along the line of sight (far) and across it (side), range rates,
+ * their squares and products.
+ */
+struct look_sums {
     float n, far, side, rate, far2, cross, side2, rate2, rate_far, rate_side;
     float side_noise_m2, rate_noise_m2ps2;
-    float first_m, last_m, noise_m2; /* along the body */
+    float first_m, last_m, noise_m2; /* along the body: extreme places, largest plot variance */
 };
 
-static struct sums sums_of(const struct step *step, const struct rho_scan *scan, unsigned row)
+static struct look_sums sum_look_of_body(const struct step *step, const struct rho_scan *scan,
+                                         unsigned row)
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
-    struct sums sums = {.first_m = 1e9f, .last_m = -1e9f};
+    struct look_sums sums = {.first_m = 1e9f, .last_m = -1e9f};
     const struct rho_groups *groups = &bodies->groups;
     struct body_plot at;
     float axes[3];
@@ -103,7 +111,7 @@ static struct sums sums_of(const struct step *step, const struct rho_scan *scan,
         const struct rho_plot *plot = &scan->plots[i];
         if (!rho_tracker_place_on_body(step, scan, row, i, &at) &&
             (scan->measures & RHO_MEASURES_RANGE_RATE)) {
-            continue; /* at the sensor */
+            continue; /* a plot at the sensor has no line of sight */
         }
         rho_tracker_noise_on_body(step, &bodies->of[row], plot, axes);
         const float far_m = at.line[0] * at.dx_m + at.line[1] * at.dy_m,
@@ -127,15 +135,15 @@ static struct sums sums_of(const struct step *step, const struct rho_scan *scan,
     return sums;
 }
 
-/* An error of the velocity across the line of sight turns what range rates show. */
-static float seen_turn_radps(const struct step *step, const struct rho_track *track)
+/* Turn rate that one sigma of the velocity across the line of sight adds to range rates, rad/s. */
+static float apparent_turn_sigma_radps(const struct step *step, const struct rho_track *track)
 {
     const float x_m = track->kalman.state[RHO_X] - (step->sensor ? step->sensor->x_m : 0.0f),
                 y_m = track->kalman.state[RHO_Y] - (step->sensor ? step->sensor->y_m : 0.0f);
     return rho_track_sigma_mps(track) / (rho_sqrt(x_m * x_m + y_m * y_m) + 1.0f);
 }
 
-static int is_longer(const struct step *step, const struct sums *sums)
+static int is_longer_than_any_body(const struct step *step, const struct look_sums *sums)
 {
     return sums->last_m - sums->first_m >
            step->tracker->bodies.length_max_m + LONG_SIGMAS * rho_sqrt(sums->noise_m2);
@@ -145,7 +153,7 @@ void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan
 {
     struct rho_body_filter *body = &step->tracker->bodies.of[row];
     struct rho_body_doubt *doubt = &body->doubt;
-    const struct sums sums = sums_of(step, scan, row);
+    const struct look_sums sums = sum_look_of_body(step, scan, row);
     const float passed_s =
         doubt->looks > 0.0f ? rho_seconds_between(doubt->time_us, step->time_us) : 0.0f;
     if (sums.n < 2.0f || !body->has_heading) {
@@ -153,16 +161,16 @@ void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan
     }
     const float mean = 1.0f / sums.n;
     doubt->time_us = step->time_us;
-    fade(doubt, body, passed_s);
-    doubt->long_looks += is_longer(step, &sums) ? 1.0f : 0.0f;
+    fade_doubt_by_one_look(doubt, body, passed_s);
+    doubt->long_looks += is_longer_than_any_body(step, &sums) ? 1.0f : 0.0f;
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE) || body->plots < RHO_BODY_NEW_PLOTS) {
-        return; /* a new track's velocity is not known well enough */
+        return; /* the velocity of a new track is too uncertain for its range rates to be judged */
     }
     doubt->steady_looks += 1.0f;
     doubt->plots_beyond_one += sums.n - 1.0f;
     doubt->far_m2 += sums.far2 - mean * sums.far * sums.far;
     const float side_m2 = sums.side2 - mean * sums.side * sums.side;
-    const float turned_radps = seen_turn_radps(step, &step->tracker->tracks[row]);
+    const float turned_radps = apparent_turn_sigma_radps(step, &step->tracker->tracks[row]);
     doubt->side_m2 += side_m2;
     doubt->unknown_m2ps2 += turned_radps * turned_radps * side_m2;
     doubt->side_noise_m2 += (1.0f - mean) * sums.side_noise_m2;
@@ -174,9 +182,9 @@ void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan
 }
 
 /*
- * Range rates as a plane over the body, by least squares. What it explains is noise, or is a turn
- * of as much as the heading may have turned unseen, or the body is no body. Wheels and other parts
- * that move in themselves make all range rates wider.
+ * Fits a plane to the range rates over the body, by least squares. Where the plane explains more
+ * than noise, an unseen turn and an error of the velocity do, the plots are of two targets. Wheels
+ * and other moving parts raise the noise, which is taken from the residuals.
  */
 static int parts_move_apart(const struct rho_body_filter *body)
 {
@@ -191,7 +199,7 @@ static int parts_move_apart(const struct rho_body_filter *body)
                              doubt->far_m2 * side * side) /
                             det;
     const float noise = rho_larger(doubt->rate_noise_m2ps2, doubt->rates_m2ps2 - explained);
-    const float turn_radps = TURN_SHARE * steady_rad(body) / (doubt->time_s + 1e-6f);
+    const float turn_radps = TURN_SHARE * heading_tolerance_rad(body) / (doubt->time_s + 1e-6f);
     const float side_m2 =
         rho_larger(doubt->side_m2 - doubt->side_noise_m2, SIDE_SHARE * doubt->side_noise_m2);
     return explained * doubt->plots_beyond_one > APART_CHI2 * noise &&

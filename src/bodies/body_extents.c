@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * body_extents: the extent of each track, learned from the plots of its groups.
+ * body_extents: estimates the extent of each track's body from the plots of its groups.
  */
 #include "rhotrack/body.h"
 
@@ -9,11 +9,11 @@
 #include "rhotrack/detail/body_filter.h"
 #include "rhotrack/detail/measurement.h"
 
-/* Places on a body of unknown extent: it is half as long as the longest, in any direction. */
+/* Prior length of a body of unknown extent, on each axis, as a share of the longest body. */
 #define PRIOR_SHARE 0.5f
-/* ... and at least 0.1 m long. */
+/* Least prior length of a body. */
 #define PRIOR_LEAST_M 0.1f
-/* Variances of places are below a thousandth of the least prior's for no body. */
+/* Least variance of a place on a body in a sound tracker, far below that of the least prior. */
 #define LEAST_M2 1e-7f
 
 float rho_tracker_body_prior_m2(const struct rho_tracker *tracker)
@@ -40,7 +40,7 @@ enum rho_status rho_tracker_set_body_max(struct rho_tracker *tracker, float leng
     return RHO_OK;
 }
 
-/* Tracks stay in their order, and new ones come behind the others: so do bodies. */
+/* Moves bodies to the rows of their tracks, drops those of ended tracks, and starts new ones. */
 void rho_tracker_align_bodies(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -103,9 +103,9 @@ void rho_tracker_noise_on_body(const struct step *step, const struct rho_body_fi
     rho_body_to_axes(body, noise, axes);
 }
 
-/* The squares of distances, and the plots' noise, in the axes of the body. */
-static void sum_up_plots(const struct step *step, const struct rho_scan *scan, unsigned row,
-                         struct rho_body_look *look)
+/* Sums squared places of a track's plots and the variances of their noise, in the body's axes. */
+static void sum_plots_of_body(const struct step *step, const struct rho_scan *scan, unsigned row,
+                              struct rho_body_look *look)
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     struct body_plot at;
@@ -137,7 +137,7 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
     struct rho_tracker *tracker = step->tracker;
     rho_tracker_align_bodies(step);
     if (step->is_late) {
-        return; /* tracks are back at the newest time, and a turn may lie between */
+        return; /* tracks have returned to the newest time, with another heading than at the scan */
     }
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         const struct rho_track *track = &tracker->tracks[row];
@@ -146,7 +146,7 @@ void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan)
             continue;
         }
         rho_tracker_turn_body(tracker, row);
-        sum_up_plots(step, scan, row, &look);
+        sum_plots_of_body(step, scan, row, &look);
         rho_body_add(&tracker->bodies.of[row], &look);
     }
 }

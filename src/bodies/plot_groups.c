@@ -1,31 +1,34 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_groups: the plots of a scan that one target can have given are one plot, from before the
- * claims to the report.
+ * plot_groups: joins the plots of a scan that one extended target can have given into one plot,
+ * from before the claims to the report.
  *
- * A step goes on with the scan of the groups, in the order of their first plots; so the group of a
- * plot never has a higher row than the plot. At the end rows and fates are those of the plots
- * again.
+ * A step replaces the scan by one of the groups, in the order of their first plots, so that the
+ * group of a plot never has a higher row than the plot. At the end of the step rows and fates are
+ * turned into those of the plots again.
  */
 #include "../tracker/step.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
 #include "rhotrack/detail/measurement.h"
 
-/* A plot is a track's by its place up to so many standard deviations on each axis of the body. */
+/* Largest distance of a plot from its track, standard deviations on each axis of the body. */
 #define GATE_SIGMAS 3.0f
-/* Range rates of one target differ by so many sigmas of both, and so much a metre as it turns. */
+/*
+ * Range rates of one target differ by noise up to RATE_SIGMAS, and by its turn: its largest rate at
+ * a track's plot, its sigma between plots of no track, and its sigma in the misfit.
+ */
 #define RATE_SIGMAS 4.0f
 #define TURN_RADPS 0.3f
 #define TURN_USUAL_RADPS 0.1f
 #define TURN_MISFIT_RADPS 0.3f
-/* Two places anywhere on a body are so much of its length apart, root mean square. */
+/* Root mean square distance of two random places on a body, over its length. */
 #define APART_SHARE 0.41f
-/* Two plots of one target are farther apart than it is long by so many of their sigmas. */
+/* Sigmas of two plots by which they may be farther apart than the longest body. */
 #define APART_SIGMAS 2.0f
-/* A plot is contested that another body explains so little worse. */
+/* Difference of misfits below which the body that explains a plot second best contends for it. */
 #define CONTESTED_MISFIT 6.0f
-/* Work units: a plot compared with a body, or with another plot; passed over. */
+/* Units of work: a plot compared with a body; with another plot; a plot passed over. */
 #define TEST_UNITS 6u
 #define PAIR_UNITS 2u
 #define PASS_UNITS 1u
@@ -38,11 +41,11 @@ static float longest_body_m(const struct step *step)
 /* ---- pairs of plots -------------------------------------------------------------------------- */
 
 /*
- * Range rates that one target has at both places. They differ across the line of sight alone: as it
- * turns, and as its speed across is not known.
+ * True where one target may have both plots' range rates. Those of a rigid body differ only across
+ * the line of sight, by its turn and by its unknown speed across the line of sight.
  */
-static int have_one_rate(const struct step *step, const struct rho_plot *one,
-                         const struct rho_plot *other)
+static int have_range_rates_of_one_body(const struct step *step, const struct rho_plot *one,
+                                        const struct rho_plot *other)
 {
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 1;
@@ -65,37 +68,37 @@ static int have_one_rate(const struct step *step, const struct rho_plot *one,
     return off_mps * off_mps <= RATE_SIGMAS * RATE_SIGMAS * variance;
 }
 
-/* One target can have given both plots. */
-static int fit_together(struct step *step, uint32_t one, uint32_t other)
+/* True where one target can have given both plots, by distance and range rates. */
+static int may_be_plots_of_one_body(struct step *step, uint32_t one, uint32_t other)
 {
     const struct rho_plot *a = &step->scan->plots[one], *b = &step->scan->plots[other];
     const float dx_m = a->x_m - b->x_m, dy_m = a->y_m - b->y_m;
     const float most_m =
         longest_body_m(step) + APART_SIGMAS * (rho_plot_sigma_m(a) + rho_plot_sigma_m(b));
     rho_tracker_spend(step, PAIR_UNITS);
-    return dx_m * dx_m + dy_m * dy_m <= most_m * most_m && have_one_rate(step, a, b);
+    return dx_m * dx_m + dy_m * dy_m <= most_m * most_m && have_range_rates_of_one_body(step, a, b);
 }
 
 /* ---- a track's body -------------------------------------------------------------------------- */
 
-/* A track's body as this scan's plots are compared with it. */
-struct outline {
+/* Body of a track, predicted to the scan's time. */
+struct predicted_body {
     const struct rho_body_filter *body;
     const struct rho_track *track;
-    float place_m2[3]; /* of body and prediction, in the body's axes */
+    float place_m2[3]; /* variances of place by body and prediction: along, cross, across */
     float rate_sigma_mps;
 };
 
-static struct outline outline_of(const struct step *step, unsigned row)
+static struct predicted_body predict_body(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     const float *p = track->kalman.covariance;
     const float place_m2[3] = {p[RHO_AT(0, 0)], p[RHO_AT(0, 1)], p[RHO_AT(1, 1)]};
-    struct outline outline = {.body = &step->tracker->bodies.of[row],
-                              .track = track,
-                              .rate_sigma_mps = rho_track_sigma_mps(track)};
+    struct predicted_body outline = {.body = &step->tracker->bodies.of[row],
+                                     .track = track,
+                                     .rate_sigma_mps = rho_track_sigma_mps(track)};
     rho_body_to_axes(outline.body, place_m2, outline.place_m2);
-    /* an end of the body is 3 times as far off as the mean square of its places */
+    /* the square of a half length is 3 times the variance of a place on the body */
     const float turned = outline.body->has_heading ? 3.0f * outline.body->heading_sigma_rad *
                                                          outline.body->heading_sigma_rad
                                                    : 0.0f;
@@ -104,29 +107,30 @@ static struct outline outline_of(const struct step *step, unsigned row)
     return outline;
 }
 
-/* How far a track goes until the plot that is farthest off the scan's time. */
-static float moved_m(const struct step *step, const struct outline *outline)
+/* Distance that a track moves between the scan's time and that of the plot farthest from it. */
+static float distance_moved_in_scan_m(const struct step *step, const struct predicted_body *outline)
 {
     const float vx_mps = outline->track->kalman.state[RHO_VX],
                 vy_mps = outline->track->kalman.state[RHO_VY];
     return step->offset_max_s * rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
 }
 
-/* Half the side of the box in which plots may be the track's: both axes at once. */
-static float half_box_m(const struct step *step, const struct outline *outline)
+/* Half side of a square about the track that holds the gate of its body in any direction. */
+static float half_search_box_m(const struct step *step, const struct predicted_body *outline)
 {
     const float noise_m2 = step->sigma_max_m * step->sigma_max_m;
     return 1.5f * GATE_SIGMAS *
                rho_sqrt(rho_larger(outline->place_m2[0], outline->place_m2[2]) + noise_m2) +
-           moved_m(step, outline);
+           distance_moved_in_scan_m(step, outline);
 }
 
 /*
- * The range rate agrees with the track's velocity, where both are known. The misfit grows by what
- * a body that hardly turns would not show.
+ * True where a plot's range rate, if measured, agrees with the track's velocity and a turn of the
+ * body. Adds to the misfit -2 ln of the likelihood of the range rate.
  */
-static int has_rate_of_track(const struct step *step, const struct outline *outline,
-                             const struct rho_plot *plot, float apart_m, float *misfit)
+static int range_rate_agrees_add_misfit(const struct step *step,
+                                        const struct predicted_body *outline,
+                                        const struct rho_plot *plot, float apart_m, float *misfit)
 {
     float off_mps, line[2];
     if (!rho_tracker_rate_off(step, step->scan, outline->track, plot, line, &off_mps)) {
@@ -142,9 +146,9 @@ static int has_rate_of_track(const struct step *step, const struct outline *outl
     return off_mps <= slack_mps && off_mps >= -slack_mps;
 }
 
-/* How badly the body explains the plot: -2 ln of its likelihood. 0: not within the gate. */
-static int explains_plot(const struct step *step, const struct outline *outline,
-                         const struct rho_plot *plot, float *misfit)
+/* Returns 1 where a plot is in the gate of a body. *misfit: -2 ln of the plot's likelihood. */
+static int body_explains_plot(const struct step *step, const struct predicted_body *outline,
+                              const struct rho_plot *plot, float *misfit)
 {
     float axes[3];
     const float after_s = (float)plot->offset_us * 1e-6f, *state = outline->track->kalman.state;
@@ -158,20 +162,22 @@ static int explains_plot(const struct step *step, const struct outline *outline,
     const float far = along_m * along_m / along_m2, wide = across_m * across_m / across_m2;
     *misfit = far + wide + rho_log(along_m2) + rho_log(across_m2);
     return far <= GATE_SIGMAS * GATE_SIGMAS && wide <= GATE_SIGMAS * GATE_SIGMAS &&
-           has_rate_of_track(step, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m), misfit);
+           range_rate_agrees_add_misfit(step, outline, plot, rho_sqrt(dx_m * dx_m + dy_m * dy_m),
+                                        misfit);
 }
 
-/* The plots in a box about the track's place. */
-static struct plots_near plots_about(const struct step *step, const struct outline *outline,
-                                     float half_m)
+/* Plots in a square of the given half side about the track's place. */
+static struct plots_near plots_near_body(const struct step *step,
+                                         const struct predicted_body *outline, float half_m)
 {
     const float *state = outline->track->kalman.state;
     return rho_tracker_plots_near(step, state[0] - half_m, state[0] + half_m, state[1] - half_m,
                                   state[1] + half_m);
 }
 
-/* The track has the plot if its body explains it better than that of the one that has it. */
-static void claim(struct rho_groups *groups, unsigned row, uint32_t plot, float misfit)
+/* Gives the plot to this track if its body explains it better than that of the present owner. */
+static void assign_plot_to_better_body(struct rho_groups *groups, unsigned row, uint32_t plot,
+                                       float misfit)
 {
     const unsigned owner = groups->owner[plot];
     const float better = groups->misfit[plot] - misfit;
@@ -187,8 +193,8 @@ static void claim(struct rho_groups *groups, unsigned row, uint32_t plot, float 
     groups->misfit[plot] = misfit;
 }
 
-/* Each plot belongs to the track whose body explains it best. */
-static void find_owners(struct step *step)
+/* Gives each plot to the track whose body explains it best, then ends tracks of one target. */
+static void find_owners_and_end_duplicates(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     float misfit;
@@ -196,8 +202,8 @@ static void find_owners(struct step *step)
         if (!rho_tracker_may_own_plots(step, row)) {
             continue;
         }
-        const struct outline outline = outline_of(step, row);
-        struct plots_near near = plots_about(step, &outline, half_box_m(step, &outline));
+        const struct predicted_body outline = predict_body(step, row);
+        struct plots_near near = plots_near_body(step, &outline, half_search_box_m(step, &outline));
         for (uint32_t i;
              !rho_tracker_is_spent(step) && rho_tracker_next_plot_near(step, &near, &i);) {
             const struct rho_plot *plot = &step->scan->plots[i];
@@ -205,8 +211,8 @@ static void find_owners(struct step *step)
                 continue;
             }
             rho_tracker_spend(step, TEST_UNITS);
-            if (explains_plot(step, &outline, plot, &misfit)) {
-                claim(groups, row, i, misfit);
+            if (body_explains_plot(step, &outline, plot, &misfit)) {
+                assign_plot_to_better_body(groups, row, i, misfit);
             }
         }
     }
@@ -223,7 +229,7 @@ static void begin_group(struct rho_groups *groups, uint32_t plot)
     groups->of[plot] = (uint16_t)group;
 }
 
-static void join_group(struct rho_groups *groups, unsigned group, uint32_t plot)
+static void add_plot_to_group(struct rho_groups *groups, unsigned group, uint32_t plot)
 {
     groups->next[groups->last[group]] = (uint16_t)plot;
     groups->last[group] = (uint16_t)plot;
@@ -234,16 +240,18 @@ static int fits_all_in_group(struct step *step, unsigned group, uint32_t plot)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     for (unsigned i = groups->first[group]; i != RHO_NO_ROW; i = groups->next[i]) {
-        if (!fit_together(step, i, plot)) {
+        if (!may_be_plots_of_one_body(step, i, plot)) {
             return 0;
         }
     }
     return 1;
 }
 
-/* Plots of no track that fit the group's first, and each other; those in excluded areas stay alone,
- * for they start nothing. */
-static void gather_near_plots(struct step *step, unsigned group)
+/*
+ * Adds plots of no track that may be of one target with all plots of the group. Plots in excluded
+ * areas stay alone, as they start no track.
+ */
+static void add_near_plots_to_group(struct step *step, unsigned group)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct rho_plot *plot = &step->scan->plots[groups->first[group]];
@@ -255,12 +263,12 @@ static void gather_near_plots(struct step *step, unsigned group)
         if (step->report->fates[i] == RHO_FATE_HELD && groups->of[i] == RHO_NO_ROW &&
             groups->owner[i] == RHO_NO_ROW && !rho_tracker_is_excluded(step, i) &&
             fits_all_in_group(step, group, i)) {
-            join_group(groups, group, i);
+            add_plot_to_group(groups, group, i);
         }
     }
 }
 
-/* In the order of the plots: a group has the row of its first plot among the firsts. */
+/* Forms the groups, in the order of their first plots: one for each track, the others by place. */
 static void form_groups(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
@@ -274,22 +282,23 @@ static void form_groups(struct step *step)
             continue;
         }
         if (owner != RHO_NO_ROW && of_track[owner] != RHO_NO_ROW) {
-            join_group(groups, of_track[owner], i);
+            add_plot_to_group(groups, of_track[owner], i);
             continue;
         }
         begin_group(groups, i);
         if (owner != RHO_NO_ROW) {
             of_track[owner] = groups->of[i];
         } else if (step->report->fates[i] == RHO_FATE_HELD && !rho_tracker_is_excluded(step, i)) {
-            gather_near_plots(step, groups->of[i]);
+            add_near_plots_to_group(step, groups->of[i]);
         }
     }
 }
 
 /* ---- a group as one plot --------------------------------------------------------------------- */
 
-/* Sum over a group's plots of the squared range rate less the mean. */
-static float rate_spread(const struct step *step, unsigned group, const struct rho_plot *mean)
+/* Sum over a group's plots of the squared difference of range rates from the mean. */
+static float sum_of_squared_rate_errors(const struct step *step, unsigned group,
+                                        const struct rho_plot *mean)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     float sum = 0.0f;
@@ -301,8 +310,8 @@ static float rate_spread(const struct step *step, unsigned group, const struct r
     return sum;
 }
 
-/* The mean of a group's plots, by differences from the first: sums of places would be rounded. */
-static struct rho_plot mean_plot_of(const struct step *step, unsigned group, unsigned *count)
+/* Mean of a group's plots, by differences from the first: sums of coordinates would be rounded. */
+static struct rho_plot mean_plot_of_group(const struct step *step, unsigned group, unsigned *count)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     const struct rho_plot *first = &step->scan->plots[groups->first[group]];
@@ -335,9 +344,9 @@ static struct rho_plot mean_plot_of(const struct step *step, unsigned group, uns
 }
 
 /*
- * Times 1 / n the variance that places on the body leave in the mean of n plots, in x and y. Of a
- * track's body, the share of a place's variance that n plots miss; of no track, the plots' own
- * spread, with one plot's worth of the prior.
+ * n times the variance of the mean of n plots by their random places on the body: xx, yx, yy. With
+ * a track it is the share of the variance of a place that n plots leave; without, it is the spread
+ * of the plots, with the prior as one plot more.
  */
 static void variance_missed_by_mean(const struct step *step, unsigned group,
                                     const struct rho_plot *mean, unsigned count, float xx_yx_yy[3])
@@ -375,13 +384,13 @@ static float sigma_within_limits(float sigma)
     return sigma < RHO_LIMIT_SIGMA_MAX ? sigma : RHO_LIMIT_SIGMA_MAX;
 }
 
-/* The group as one plot: its mean, with the noise by places on the body and by the plots. */
+/* Makes one plot of a group: the mean, with the noise of the plots and of places on the body. */
 static void make_group_plot(const struct step *step, unsigned group, struct rho_plot *out)
 {
     struct rho_measurement seen;
     float spread[3];
     unsigned count;
-    *out = mean_plot_of(step, group, &count);
+    *out = mean_plot_of_group(step, group, &count);
     if (step->report->fates[step->tracker->bodies.groups.first[group]] != RHO_FATE_HELD) {
         return;
     }
@@ -398,15 +407,16 @@ static void make_group_plot(const struct step *step, unsigned group, struct rho_
     if (step->scan->measures & RHO_MEASURES_RANGE_RATE) {
         out->sigma_range_rate_mps =
             sigma_within_limits(rho_sqrt((out->sigma_range_rate_mps * out->sigma_range_rate_mps +
-                                          rate_spread(step, group, out) / n) /
+                                          sum_of_squared_rate_errors(step, group, out) / n) /
                                          n));
     }
 }
 
 /* ---- the scan -------------------------------------------------------------------------------- */
 
-/* Begins with each plot alone; valid ones may be grouped. */
-static void open_groups(struct step *step)
+/* Clears the groups; fates are HELD for valid plots and INVALID for others. Finds the largest noise
+ * and time offset of the valid plots. */
+static void init_groups_and_fates(struct step *step)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     groups->count = 0;
@@ -430,10 +440,10 @@ void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped)
 {
     struct rho_groups *groups = &step->tracker->bodies.groups;
     rho_tracker_align_bodies(step);
-    open_groups(step);
+    init_groups_and_fates(step);
     rho_tracker_sort_plots(step);
     rho_tracker_begin_share(step, RHO_WORK_GROUPS_SHARE);
-    find_owners(step);
+    find_owners_and_end_duplicates(step);
     form_groups(step);
     step->is_partial |= rho_tracker_is_spent(step);
     for (unsigned group = 0; group < groups->count; group++) {
@@ -454,13 +464,13 @@ void rho_tracker_ungroup_plots(struct step *step, const struct rho_scan *scan)
     step->scan = scan;
     step->num_inputs = scan->num_plots;
     step->num_gated = step->num_inputs < RHO_MAX_PLOTS ? step->num_inputs : RHO_MAX_PLOTS;
-    /* the last first: no plot's group has a higher row than the plot */
+    /* backwards, as the row of a group is at most that of its plots */
     for (uint32_t i = step->num_gated; i-- > 0;) {
         step->report->fates[i] = step->report->fates[groups->of[i]];
     }
     for (unsigned row = 0; RHO_BODIES && row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (track->plot > 0) { /* the first group's first plot is the first one */
+        if (track->plot > 0) { /* the first plot of group 0 is plot 0 */
             track->plot = (int16_t)groups->first[track->plot];
         }
     }

@@ -3,32 +3,34 @@
  * blind_looks: tracks in the Doppler notch of a sensor (rhotrack/detail/notch.h).
  *
  * The share of looks that are blind follows from the range rate that a track's estimate expects.
- * Where most are, a scan without a plot is no miss: a track that was confirmed coasts, with its
- * identity, until it leaves the notch, or its place is so uncertain that clutter would take it, or
- * it was not seen for too long. Neither health nor learned pd of the sensor hear of such looks.
+ * Where most looks are blind, a scan without a plot is no miss: a confirmed track coasts, with its
+ * identity, until it leaves the notch, or its place is so uncertain that clutter would be claimed,
+ * or it was not seen for too long. Blind looks count neither for the sensor's health nor for its
+ * learned pd.
  */
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/imm_notch.h"
 #include "step.h"
 
-/* Probability that a target in the notch is seen all the same. */
+/* Detection probability of a target in the Doppler notch. */
 #define NOTCH_PD 0.03f
 
+/* Largest share of blind looks that is assumed of a track, per cent. */
 #define BLIND_PERCENT_MOST 99.0f
 
 /*
- * Score that a miss takes of a target that stands. It goes on standing, so that the looks that were
- * not blind to another one do not add up.
+ * ln of the miss probability of a target that may stand. Almost 0: a target that stands stays in
+ * the notch, so that successive looks without a plot are no independent evidence.
  */
 #define STAND_MISS_NAT (-1.0e-4f)
 
 /* Expected clutter plots in the gate up to which a track may coast in the notch. */
 #define BLIND_CLUTTER_MAX 3.0f
 
-/* A target that stands has rather gone after so long. */
+/* Longest time without a plot for which a track may coast in the notch; then it is rather gone. */
 #define BLIND_MAX_S 300.0f
 
-static float blind_share_of(const struct step *step, const struct rho_track *track)
+static float share_of_blind_looks(const struct step *step, const struct rho_track *track)
 {
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
     float sum = 0.0f, shares = 0.0f;
@@ -43,13 +45,13 @@ static float blind_share_of(const struct step *step, const struct rho_track *tra
     return shares > 0.0f ? sum / shares : 0.0f;
 }
 
-static uint8_t blind_percent_of(const struct step *step, const struct rho_track *track)
+static uint8_t percent_of_blind_looks(const struct step *step, const struct rho_track *track)
 {
     if (rho_seconds_between(track->updated_us, step->time_us) > BLIND_MAX_S ||
         rho_tracker_clutter_in_gate(step, track) > BLIND_CLUTTER_MAX) {
         return 0;
     }
-    const float percent = 100.0f * blind_share_of(step, track);
+    const float percent = 100.0f * share_of_blind_looks(step, track);
     return (uint8_t)(percent < BLIND_PERCENT_MOST ? percent : BLIND_PERCENT_MOST);
 }
 
@@ -63,7 +65,7 @@ void rho_tracker_find_blind(struct step *step)
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         if (track->status != RHO_TRACK_FREE && rho_tracker_is_in_view(step, row)) {
-            track->blind_percent = blind_percent_of(step, track);
+            track->blind_percent = percent_of_blind_looks(step, track);
         }
     }
 }
@@ -75,7 +77,7 @@ void rho_tracker_forget_blind(struct step *step)
     }
 }
 
-static int seems_to_stand(const struct step *step, const struct rho_track *track)
+static int may_stand_in_notch(const struct step *step, const struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float most_mps = RHO_NOTCH_STAND_WIDTHS * step->sensor->notch_mps;
@@ -89,8 +91,9 @@ struct detection rho_tracker_detection_beside_notch(const struct step *step,
 {
     const float blind = 0.01f * (float)track->blind_percent;
     const float seen = rho_exp(rho_tracker_usual_detection(step, track).log_pd) * (1.0f - blind);
-    return (struct detection){rho_log(seen + NOTCH_PD * blind),
-                              seems_to_stand(step, track) ? STAND_MISS_NAT : rho_log(1.0f - seen)};
+    return (struct detection){rho_log(seen + NOTCH_PD * blind), may_stand_in_notch(step, track)
+                                                                    ? STAND_MISS_NAT
+                                                                    : rho_log(1.0f - seen)};
 }
 
 void rho_tracker_note_blind_look(const struct step *step, struct rho_track *track)

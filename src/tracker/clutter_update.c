@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * clutter_update: a step asks the clutter map how dense clutter is at each plot, and updates the
- * map with the plots.
+ * clutter_update: a step computes the clutter density at each plot from the clutter map, and
+ * updates the map with the plots.
  *
- *   look   before claims: echoes move to the scan's time, and each adds the density of its next
- *          plot at the plots near it
- *   keep   when plots are held for initiation, the density found stays with them
- *   learn  after starts: echoes take the plots that they explain best, other plots become new
- *          echoes
+ *   look   before claims: echoes are predicted to the scan's time, and each adds the density of its
+ *          next plot at the plots near it
+ *   keep   when plots are held for initiation, the density ratios are stored with them
+ *   learn  after starts: each echo is updated with the plot that it explains best; plots that no
+ *          echo explains become new echoes
  *
- * Plots of targets teach the map, too, until it is known that they are targets'. So a track counts
- * how far echoes explained its plots. Once it has been seen often enough and moves as a target
- * does, that count is subtracted from the map.
+ * The map also counts returns of echoes that were plots of targets, until a track is known to be of
+ * a target. So each track sums the probabilities that its plots were returns of echoes. Once the
+ * track has enough hits and moves as a target does, that sum is subtracted from the map.
  */
 #include <string.h>
 
@@ -21,29 +21,29 @@
 #include "rhotrack/detail/measurement.h"
 #include "step.h"
 
-/* Hits of a track from which it is a target's, if it is not too slow. */
+/* Fewest hits of a track that is taken to be of a target; it must also move as targets do. */
 #define TARGET_HITS 12
 /*
- * A track has moved that is so many standard deviations of both places away from where it started;
- * where one of its first plots was clutter, five may be probability.
+ * A track has moved when its distance from where it started exceeds this many standard deviations
+ * of both places. Five would be too few where one of its first plots was clutter.
  */
 #define MOVED_SIGMAS 8.0f
-/* Gate of an echo: squared distance, in variances; e^-(this / 2) of the density is left out. */
+/* Gate of an echo: limit of the NIS of a plot, and its root. e^-(limit / 2) is cut off. */
 #define GATE_CHI2 18.0f
 #define GATE_SIGMAS 4.2426407f
-/* A sensor that was silent for longer is not there. */
+/* Longest silence of a sensor that still counts as scanning. */
 #define SILENT_S 60.0f
 /*
- * Variance of an echo's place, as a share of the squared range of its sensor, from which the place
- * is not known.
+ * Largest variance of an echo's predicted place, as a share of the squared maximum range of its
+ * sensor; an echo with a larger one is dropped.
  */
 #define UNKNOWN_SHARE 0.01f
-/* Share of a plot's density from which an echo takes it. */
+/* Least share of the clutter density at a plot that an echo must explain to be updated with it. */
 #define WEIGHT_MIN 0.3f
 /*
- * Range rates of an echo: a share of them is that of its own speed (learned; the prior and its
- * weight in plots). Of the rest half are so to within some m/s, and half are any (blades, trees,
- * water). Sums are halved at so many plots.
+ * Range rates of an echo's plots: a learned share is exactly that of the echo's own speed; its
+ * prior, and the weight of the prior in plots. Of the rest half are near it (RATE_SIGMA_MPS), and
+ * half are any (blades, trees, water). The learned sums are halved at RATE_PLOTS_REMEMBERED.
  */
 #define EXACT_PRIOR 0.3f
 #define EXACT_PRIOR_PLOTS 10.0f
@@ -51,21 +51,21 @@
 #define RATE_SHARE 0.5f
 #define RATE_PLOTS_REMEMBERED 1000.0f
 /*
- * A strobe: three directions have more plots than this, and than so many times as many as others;
- * in so many eighths of the range.
+ * A jammer's strobe: three neighbouring directions with at least STROBE_PLOTS_MIN plots more than
+ * STROBE_TIMES_USUAL times the mean of other directions, in STROBE_RANGES_MIN eighths of the range.
  */
 #define STROBE_PLOTS_MIN 8.0f
 #define STROBE_TIMES_USUAL 6.0f
 #define STROBE_RANGES 8.0f
 #define STROBE_RANGES_LAST 7u
 #define STROBE_RANGES_MIN 6u
-/* Units of work: an echo and a plot near it, more of them with range rates. */
+/* Units of work for an echo and a plot near it, and for their range rates. */
 #define ECHO_UNITS 4u
 #define RATE_UNITS 6u
 
 /* ---- look ------------------------------------------------------------------------------------ */
 
-static float range_max_of(const struct step *step)
+static float range_max_of_sensor(const struct step *step)
 {
     if (step->sensor) {
         return step->sensor->range_max_m;
@@ -77,66 +77,69 @@ static float range_max_of(const struct step *step)
 }
 
 /*
- * Likelihood of a plot's range rate for the echo, over that for clutter, which is spread over all
- * rates: where it is that of the echo's own speed, as of a reflector; and where it is not.
+ * Likelihood ratios of a plot's range rate, from the echo against clutter that is spread over all
+ * rates. exact: the rate is that of the echo's own speed, as of a mast; other: it is not.
  */
-struct rate_ratios {
+struct echo_range_rate_ratios {
     float exact, other;
 };
 
-/* Density of a normal range rate, over that of clutter, which is spread over all rates. */
-static float over_all_rates(const struct step *step, float off_mps, float variance)
+/* Normal density of a range rate's deviation, over the density of clutter uniform in all rates. */
+static float normal_over_uniform_rate(const struct step *step, float off_mps, float variance)
 {
     const float share = rho_exp(-0.5f * off_mps * off_mps / variance);
     return share > 0.0f ? step->range_rates_mps * (share * rho_inverse_sqrt(RHO_TWO_PI * variance))
-                        : 0.0f; /* most of them */
+                        : 0.0f; /* most plots: exp() has underflowed */
 }
 
 float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance)
 {
     return 1.0f - RATE_SHARE +
-           RATE_SHARE * over_all_rates(step, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
+           RATE_SHARE *
+               normal_over_uniform_rate(step, off_mps, variance + RATE_SIGMA_MPS * RATE_SIGMA_MPS);
 }
 
-static struct rate_ratios rate_ratios(const struct step *step, const struct rho_echo *echo,
-                                      const struct echo_view *view, const struct rho_plot *plot)
+static struct echo_range_rate_ratios echo_range_rate_ratios(const struct step *step,
+                                                            const struct rho_echo *echo,
+                                                            const struct echo_view *view,
+                                                            const struct rho_plot *plot)
 {
     const float variance = plot->sigma_range_rate_mps * plot->sigma_range_rate_mps + echo->along[2];
     const float off_mps =
         plot->range_rate_mps - (echo->vx_mps * view->along_x + echo->vy_mps * view->along_y);
-    return (struct rate_ratios){over_all_rates(step, off_mps, variance),
-                                rho_tracker_rate_ratio(step, off_mps, variance)};
+    return (struct echo_range_rate_ratios){normal_over_uniform_rate(step, off_mps, variance),
+                                           rho_tracker_rate_ratio(step, off_mps, variance)};
 }
 
-/* Learned share of the echoes' plots with the range rate of the echo's own speed. */
-static float exact_share(const struct rho_clutter_map *map)
+/* Learned share of echoes' plots that have exactly the range rate of the echo's own speed. */
+static float share_of_exact_rates(const struct rho_clutter_map *map)
 {
     return (map->exact_plots + EXACT_PRIOR * EXACT_PRIOR_PLOTS) /
            (map->rate_plots + EXACT_PRIOR_PLOTS);
 }
 
-static float rate_ratio(const struct step *step, const struct rho_echo *echo,
-                        const struct echo_view *view, const struct rho_plot *plot)
+static float echo_range_rate_ratio(const struct step *step, const struct rho_echo *echo,
+                                   const struct echo_view *view, const struct rho_plot *plot)
 {
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
     }
-    const struct rate_ratios ratios = rate_ratios(step, echo, view, plot);
-    const float share = exact_share(&step->tracker->clutter_map);
+    const struct echo_range_rate_ratios ratios = echo_range_rate_ratios(step, echo, view, plot);
+    const float share = share_of_exact_rates(&step->tracker->clutter_map);
     return share * ratios.exact + (1.0f - share) * ratios.other;
 }
 
-/* An echo takes a plot: learns how often its range rate is just the echo's speed. */
-static void learn_range_rate(struct step *step, const struct rho_echo *echo,
-                             const struct rho_plot *plot)
+/* Learns from an echo's plot how often range rates are exactly those of the echo's own speed. */
+static void learn_exact_rate_share(struct step *step, const struct rho_echo *echo,
+                                   const struct rho_plot *plot)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     if (!(step->scan->measures & RHO_MEASURES_RANGE_RATE)) {
         return;
     }
     const struct echo_view view = rho_clutter_map_view(step->sensor, echo->x_m, echo->y_m);
-    const struct rate_ratios ratios = rate_ratios(step, echo, &view, plot);
-    const float share = exact_share(map);
+    const struct echo_range_rate_ratios ratios = echo_range_rate_ratios(step, echo, &view, plot);
+    const float share = share_of_exact_rates(map);
     const float exact = share * ratios.exact;
     if (map->rate_plots >= RATE_PLOTS_REMEMBERED) {
         map->rate_plots *= 0.5f;
@@ -146,7 +149,7 @@ static void learn_range_rate(struct step *step, const struct rho_echo *echo,
     map->exact_plots += exact / (exact + (1.0f - share) * ratios.other);
 }
 
-/* Density at a plot of the echo's next plot, if it comes back; 0 beyond its gate. */
+/* Density, at a given plot, of an echo's next plot if the echo returns; 0 outside of its gate. */
 static float echo_density_at(const struct step *step, const struct rho_echo *echo,
                              const struct echo_view *view, const struct rho_plot *plot)
 {
@@ -160,15 +163,15 @@ static float echo_density_at(const struct step *step, const struct rho_echo *ech
         return 0.0f;
     }
     return rho_exp(-0.5f * chi2) * rho_inverse_sqrt(along_m2 * across_m2) / RHO_TWO_PI *
-           rate_ratio(step, echo, view, plot);
+           echo_range_rate_ratio(step, echo, view, plot);
 }
 
-static void add_echo_density(struct step *step, unsigned place)
+static void add_echo_density_at_plots(struct step *step, unsigned place)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     struct rho_echo *echo = &map->echoes[place];
     struct echo_view view = {0.0f, 0.0f, 0.0f};
-    float probability = -1.0f; /* with the view, once there is a plot: most echoes have none near */
+    float probability = -1.0f; /* of the echo's return; < 0: no plot near the echo yet */
     const float sigma_m = step->sigma_max_m;
     const float half_m =
         GATE_SIGMAS * rho_sqrt(echo->along[0] + echo->across[0] + sigma_m * sigma_m);
@@ -203,8 +206,8 @@ static void add_echo_density(struct step *step, unsigned place)
     rho_tracker_spend(step, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
-/* 1 where the scan may see the echo. Its scratch of the scan is cleared. */
-static int is_echo_in_scan(const struct step *step, struct rho_echo *echo)
+/* Clears the echo's results of the last scan. Returns 1 where the new scan covers the echo. */
+static int clear_echo_and_is_covered(const struct step *step, struct rho_echo *echo)
 {
     const struct rho_scan *scan = step->scan;
     echo->was_looked_at = 0;
@@ -215,8 +218,8 @@ static int is_echo_in_scan(const struct step *step, struct rho_echo *echo)
                                   echo->x_m, echo->y_m);
 }
 
-/* Predicts the echo to the scan's time; 0 where it is lost. */
-static int predict_echo(struct step *step, struct rho_echo *echo, float range_max_m)
+/* Predicts the echo to the scan's time. Returns 0 where it is lost: its place becomes free. */
+static int predict_or_drop_echo(struct step *step, struct rho_echo *echo, float range_max_m)
 {
     echo->was_looked_at = 1;
     echo->unseen = (uint8_t)(echo->unseen < UINT8_MAX ? echo->unseen + 1 : UINT8_MAX);
@@ -229,30 +232,30 @@ static int predict_echo(struct step *step, struct rho_echo *echo, float range_ma
     }
     rho_clutter_map_predict_echo(echo, step->time_us);
     if (!(echo->along[0] + echo->across[0] < UNKNOWN_SHARE * range_max_m * range_max_m)) {
-        echo->hits = 0; /* after a long silence it may be anywhere */
+        echo->hits = 0; /* the echo's place is unknown after a long silence of the sensor */
         return 0;
     }
     return 1;
 }
 
 /*
- * Where work ends before all echoes are predicted, the next scan begins with the others: this scan
- * cannot have seen them.
+ * Predicts the echoes that the scan covers, and adds their densities at plots. The next scan begins
+ * with the echoes that were left out because the share of work was used up.
  */
-static void add_echo_densities(struct step *step, float range_max_m)
+static void predict_echoes_and_add_densities(struct step *step, float range_max_m)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     unsigned place = map->first_echo, left_out = 0;
     rho_tracker_begin_share(step, RHO_WORK_ECHOES_SHARE);
     for (unsigned i = 0; i < RHO_ECHO_PLACES; i++, place = (place + 1u) % RHO_ECHO_PLACES) {
-        if (!is_echo_in_scan(step, &map->echoes[place])) {
+        if (!clear_echo_and_is_covered(step, &map->echoes[place])) {
             continue;
         }
         if (rho_tracker_is_spent(step)) {
             map->first_echo = (uint16_t)(left_out == 0 ? place : map->first_echo);
             left_out++;
-        } else if (predict_echo(step, &map->echoes[place], range_max_m)) {
-            add_echo_density(step, place);
+        } else if (predict_or_drop_echo(step, &map->echoes[place], range_max_m)) {
+            add_echo_density_at_plots(step, place);
         }
     }
     step->is_partial |= left_out > 0;
@@ -261,13 +264,13 @@ static void add_echo_densities(struct step *step, float range_max_m)
 
 /* ---- strobes --------------------------------------------------------------------------------- */
 
-/* Where the sensor sees a plot, which must be a valid one. */
+/* Bin of azimuth, of RHO_ECHO_STROBES, and range of a valid plot, as the sensor sees it. */
 struct direction {
     unsigned bin;
     float range_m;
 };
 
-static struct direction direction_of(const struct step *step, uint32_t row)
+static struct direction direction_of_plot(const struct step *step, uint32_t row)
 {
     const struct rho_plot *plot = &step->scan->plots[row];
     const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
@@ -275,15 +278,15 @@ static struct direction direction_of(const struct step *step, uint32_t row)
     return (struct direction){bin < RHO_ECHO_STROBES ? bin : 0, view.range_m};
 }
 
-/* In which eighth of the sensor's range a plot is. */
-static unsigned range_part(float range_m, float range_max_m)
+/* Index 0 .. 7 of the eighth of the sensor's maximum range that a range lies in. */
+static unsigned eighth_of_range(float range_m, float range_max_m)
 {
     const float eighth = STROBE_RANGES * range_m / range_max_m;
     return eighth < STROBE_RANGES ? (unsigned)eighth : STROBE_RANGES_LAST;
 }
 
-/* Counts the plots by direction. Returns how many there are. */
-static float count_directions(struct step *step, float range_max_m)
+/* Counts held plots by direction, and marks the ranges that have any. Returns their number. */
+static float count_plots_by_direction(struct step *step, float range_max_m)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     float plots = 0.0f;
@@ -293,16 +296,16 @@ static float count_directions(struct step *step, float range_max_m)
         if (step->report->fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        const struct direction at = direction_of(step, i);
+        const struct direction at = direction_of_plot(step, i);
         map->strobe_count[at.bin]++;
-        map->strobe_ranges[at.bin] |= (uint8_t)(1u << range_part(at.range_m, range_max_m));
+        map->strobe_ranges[at.bin] |= (uint8_t)(1u << eighth_of_range(at.range_m, range_max_m));
         plots += 1.0f;
     }
     return plots;
 }
 
-/* Width of the scan's sector, or of the sensor's own where that is narrower. */
-static float sector_width(const struct step *step)
+/* Width of the scan's sector, or of the sensor's stated sector where that is narrower, radians. */
+static float covered_sector_width(const struct step *step)
 {
     const float scan_rad =
         rho_angle_sector_width(step->scan->sector_from_rad, step->scan->sector_to_rad);
@@ -313,8 +316,8 @@ static float sector_width(const struct step *step)
 }
 
 /*
- * Plots a radian and metre of range that a strobe in this direction and the two beside it has; 0
- * where there is none.
+ * Plots per radian and metre of range that a strobe in this direction and the two beside it adds; 0
+ * where there is no strobe.
  */
 static float strobe_density(const struct step *step, unsigned bin, float plots, float range_max_m)
 {
@@ -327,10 +330,10 @@ static float strobe_density(const struct step *step, unsigned bin, float plots, 
         ranges |= map->strobe_ranges[bins[k]];
     }
     if (!((float)count > STROBE_PLOTS_MIN)) {
-        return 0.0f; /* most directions */
+        return 0.0f; /* most directions have too few plots for a strobe */
     }
     const float width_rad = 3.0f * RHO_TWO_PI / (float)RHO_ECHO_STROBES;
-    const float others_rad = sector_width(step) - width_rad;
+    const float others_rad = covered_sector_width(step) - width_rad;
     const float usual = others_rad > 0.0f ? (plots - (float)count) * width_rad / others_rad : plots;
     return (float)count > STROBE_PLOTS_MIN + STROBE_TIMES_USUAL * usual &&
                    rho_count_bits(ranges) >= STROBE_RANGES_MIN
@@ -338,7 +341,7 @@ static float strobe_density(const struct step *step, unsigned bin, float plots, 
                : 0.0f;
 }
 
-/* Counts plots, and the parts of the range that have any. */
+/* A cheap test of the whole scan: enough plots for one strobe, in enough eighths of the range. */
 static int may_have_strobes(const struct step *step, float range_max_m)
 {
     float plots = 0.0f;
@@ -347,28 +350,31 @@ static int may_have_strobes(const struct step *step, float range_max_m)
         if (step->report->fates[i] == RHO_FATE_HELD) {
             const struct rho_plot *plot = &step->scan->plots[i];
             const struct echo_view view = rho_clutter_map_view(step->sensor, plot->x_m, plot->y_m);
-            ranges |= 1u << range_part(view.range_m, range_max_m);
+            ranges |= 1u << eighth_of_range(view.range_m, range_max_m);
             plots += 1.0f;
         }
     }
     return plots > STROBE_PLOTS_MIN && rho_count_bits(ranges) >= STROBE_RANGES_MIN;
 }
 
-/* A jammer's strobe lies in one direction, at all ranges: too narrow for the density map. */
+/*
+ * Adds the clutter density of strobes at plots. A jammer's strobe lies in one direction, at all
+ * ranges, and is too narrow for the initiator's density map.
+ */
 static void add_strobe_densities(struct step *step, float range_max_m)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     if (!may_have_strobes(step, range_max_m)) {
         return;
     }
-    const float plots = count_directions(step, range_max_m);
+    const float plots = count_plots_by_direction(step, range_max_m);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] != RHO_FATE_HELD) {
             continue;
         }
-        const struct direction at = direction_of(step, i);
+        const struct direction at = direction_of_plot(step, i);
         float density = 0.0f;
-        for (unsigned k = 0; k < 3; k++) { /* at the strobe's edge */
+        for (unsigned k = 0; k < 3; k++) { /* a plot at a strobe's edge may be one bin beside it */
             const float beside = strobe_density(
                 step, (at.bin + RHO_ECHO_STROBES + k - 1u) % RHO_ECHO_STROBES, plots, range_max_m);
             density = beside > density ? beside : density;
@@ -381,8 +387,11 @@ static void add_strobe_densities(struct step *step, float range_max_m)
 
 /* ---- clutter at each plot -------------------------------------------------------------------- */
 
-/* For each plot: how much denser clutter is there, and the echo that explains it best. */
-static void compare_with_echoes(struct step *step)
+/*
+ * Gives each echo the plot of which it explains the largest share, and turns the density of echoes
+ * and strobes at each plot into ln of how much denser than the background clutter is there.
+ */
+static void match_echoes_and_take_log_ratios(struct step *step)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
     for (uint32_t i = 0; i < step->num_gated; i++) {
@@ -413,10 +422,10 @@ void rho_tracker_look_at_clutter(struct step *step)
     map->time_us = step->time_us;
     memset(map->denser, 0, step->num_gated * sizeof map->denser[0]);
     memset(map->best_per_m2, 0, step->num_gated * sizeof map->best_per_m2[0]);
-    const float range_max_m = range_max_of(step);
-    add_echo_densities(step, range_max_m);
+    const float range_max_m = range_max_of_sensor(step);
+    predict_echoes_and_add_densities(step, range_max_m);
     add_strobe_densities(step, range_max_m);
-    compare_with_echoes(step);
+    match_echoes_and_take_log_ratios(step);
 }
 
 float rho_tracker_repeats_nat(const struct step *step, uint32_t row)
@@ -436,7 +445,7 @@ void rho_tracker_keep_repeats(struct step *step)
         const unsigned row = scan->marks[i] & RHO_WINDOW_ROW;
         if (row >= step->num_gated ||
             (RHO_SECTORS && rho_tracker_is_of_earlier_sector(window, scan, i))) {
-            continue; /* an earlier sector has given it its own */
+            continue; /* a plot of an earlier sector has its density ratio already */
         }
         const float repeats = RHO_WINDOW_REPEATS_PER_NAT * map->denser[row] + 0.5f;
         scan->repeats[i] = (uint8_t)(repeats < 255.0f ? repeats : 255.0f);
@@ -450,7 +459,8 @@ void rho_tracker_note_start_echoes(struct step *step, const struct rho_candidate
 {
     struct rho_window *window = &step->initiator->window;
     unsigned hits = 0;
-    for (unsigned m = 0; m + 1u < window->num_scans; m++) { /* the newest plot: as the map learns */
+    /* the newest scan's plot is counted when the map is updated */
+    for (unsigned m = 0; m + 1u < window->num_scans; m++) {
         if (!((unsigned)candidate->mask >> m & 1u)) {
             continue;
         }
@@ -479,9 +489,10 @@ static int has_left_its_start(const struct rho_track *track)
 }
 
 /*
- * Its plots are a target's: it moves as one; or, where targets may stand still, it has moved once.
+ * True where a track is of a target: it is as fast as v_min, or, where targets may stand still, it
+ * has left its start place once, which is remembered in the track.
  */
-static int is_target(const struct step *step, struct rho_track *track)
+static int update_moved_and_is_target(const struct step *step, struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float v_min_mps = step->tracker->config.v_min_mps;
@@ -495,13 +506,13 @@ static int is_target(const struct step *step, struct rho_track *track)
                : track->has_moved != 0;
 }
 
-static void take_back_returns(struct step *step, struct rho_track *track)
+static void remove_track_returns_from_map(struct step *step, struct rho_track *track)
 {
     if (track->has_taken_back) {
         return;
     }
     rho_clutter_map_remove_returns(&step->tracker->clutter_map,
-                                   rho_clutter_map_region(step->sensor, range_max_of(step),
+                                   rho_clutter_map_region(step->sensor, range_max_of_sensor(step),
                                                           track->kalman.state[0],
                                                           track->kalman.state[1]),
                                    track->returns);
@@ -510,13 +521,13 @@ static void take_back_returns(struct step *step, struct rho_track *track)
 
 /* ---- learn ----------------------------------------------------------------------------------- */
 
-static int is_plot_of_target(const uint32_t *targets, uint32_t row)
+static int is_row_in_set(const uint32_t *targets, uint32_t row)
 {
     return (targets[row / 32] >> row % 32 & 1u) != 0;
 }
 
-/* Notes in the track the return that the echo counts for its plot. */
-static void note_echo_return(const struct rho_clutter_map *map, struct rho_track *track)
+/* Adds to a track's sum of returns the probability that its plot is the return of an echo. */
+static void add_echo_return_to_track(const struct rho_clutter_map *map, struct rho_track *track)
 {
     if (map->best_per_m2[track->plot] > 0.0f) {
         const struct rho_echo *echo = &map->echoes[map->best_echo[track->plot]];
@@ -526,30 +537,35 @@ static void note_echo_return(const struct rho_clutter_map *map, struct rho_track
     }
 }
 
-/* Rows of the plots that targets have. */
-static void find_target_plots(struct step *step, uint32_t *targets, float share)
+/*
+ * Sets the bits of plots of targets. The returns of such a track are removed from the map once;
+ * other tracks fade theirs as the map does, and add the newest.
+ */
+static void update_returns_and_find_target_plots(struct step *step, uint32_t *targets, float share)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
         for (unsigned c = 0; c < RHO_ECHO_HIT_CLASSES; c++) {
-            track->returns[c] *= rho_clutter_map_remaining(share); /* as the map forgets */
+            track->returns[c] *=
+                rho_clutter_map_remaining(share); /* as the map's sums fade with time */
         }
         if (track->plot < 0 || (uint32_t)track->plot >= step->num_gated) {
             continue;
         }
-        if (is_target(step, track)) {
-            take_back_returns(step, track);
+        if (update_moved_and_is_target(step, track)) {
+            remove_track_returns_from_map(step, track);
             targets[track->plot / 32] |= 1u << track->plot % 32;
         } else {
-            note_echo_return(&tracker->clutter_map, track);
+            add_echo_return_to_track(&tracker->clutter_map, track);
         }
     }
 }
 
 /*
- * Echoes take the plots that they explain best. Where targets may stand still, an echo takes no
- * plot of a target.
+ * Updates each echo with the plot that it explains best, and sets the plot's bit in `taken`. Where
+ * targets may stand still, no echo is updated with a plot of a target. An echo faster than v_min is
+ * dropped.
  */
 static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *taken)
 {
@@ -558,7 +574,7 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
     for (unsigned place = 0; place < RHO_ECHO_PLACES; place++) {
         struct rho_echo *echo = &map->echoes[place];
         const int is_seen = echo->hits > 0 && echo->was_looked_at && echo->plot >= 0;
-        const int by_target = is_seen && is_plot_of_target(targets, (uint32_t)echo->plot);
+        const int by_target = is_seen && is_row_in_set(targets, (uint32_t)echo->plot);
         if (echo->hits > 0 && echo->was_looked_at && !echo->is_target) {
             rho_clutter_map_count_look(map, echo);
             if (is_seen && !by_target) {
@@ -567,7 +583,7 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
         }
         if (is_seen && echo->weight > WEIGHT_MIN && !(by_target && !(v_min2 > 0.0f))) {
             if (!by_target && !echo->is_target) {
-                learn_range_rate(step, echo, &step->scan->plots[echo->plot]);
+                learn_exact_rate_share(step, echo, &step->scan->plots[echo->plot]);
             }
             rho_clutter_map_update_echo(echo, step->sensor, &step->scan->plots[echo->plot]);
             echo->is_target |= (uint8_t)by_target;
@@ -580,27 +596,27 @@ static void update_echoes(struct step *step, const uint32_t *targets, uint32_t *
     }
 }
 
-/* A plot that no echo explains and, where targets may stand still, no target has. */
-static int becomes_echo(const struct step *step, const uint32_t *targets, const uint32_t *taken,
-                        uint32_t row)
+/* True of a valid plot of no echo and, where targets may stand still, of no target's track. */
+static int plot_becomes_echo(const struct step *step, const uint32_t *targets,
+                             const uint32_t *taken, uint32_t row)
 {
     const int may_stand = !(step->tracker->clutter_map.v_min_mps > 0.0f);
-    return step->report->fates[row] != RHO_FATE_INVALID && !is_plot_of_target(taken, row) &&
-           !(may_stand && is_plot_of_target(targets, row));
+    return step->report->fates[row] != RHO_FATE_INVALID && !is_row_in_set(taken, row) &&
+           !(may_stand && is_row_in_set(targets, row));
 }
 
 static void add_echoes(struct step *step, const uint32_t *targets, const uint32_t *taken)
 {
     struct rho_clutter_map *map = &step->tracker->clutter_map;
-    const float range_max_m = range_max_of(step);
+    const float range_max_m = range_max_of_sensor(step);
     uint32_t num = 0;
     unsigned place = 0;
     for (uint32_t i = 0; i < step->num_gated; i++) {
-        num += becomes_echo(step, targets, taken, i) ? 1u : 0u;
+        num += plot_becomes_echo(step, targets, taken, i) ? 1u : 0u;
     }
     rho_clutter_map_make_room(map, num, step->time_us);
     for (uint32_t i = 0; i < step->num_gated; i++) {
-        if (!becomes_echo(step, targets, taken, i)) {
+        if (!plot_becomes_echo(step, targets, taken, i)) {
             continue;
         }
         while (place < RHO_ECHO_PLACES && map->echoes[place].hits > 0) {
@@ -613,12 +629,12 @@ static void add_echoes(struct step *step, const uint32_t *targets, const uint32_
         const struct rho_plot *plot = &step->scan->plots[i];
         struct rho_echo *echo = &map->echoes[place];
         rho_clutter_map_start_echo(map, echo, step->scan->sensor_id, step->time_us, plot);
-        echo->is_target = (uint8_t)is_plot_of_target(targets, i);
+        echo->is_target = (uint8_t)is_row_in_set(targets, i);
         echo->region = rho_clutter_map_region(step->sensor, range_max_m, plot->x_m, plot->y_m);
     }
 }
 
-/* Share of one turn of all sensors that this scan is. */
+/* Share of this scan in one turn of all sensors that are not silent. */
 static float share_of_turn(const struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
@@ -638,7 +654,7 @@ void rho_tracker_learn_clutter(struct step *step)
         return;
     }
     const float share = share_of_turn(step);
-    find_target_plots(step, targets, share);
+    update_returns_and_find_target_plots(step, targets, share);
     update_echoes(step, targets, taken);
     add_echoes(step, targets, taken);
     rho_clutter_map_age(&step->tracker->clutter_map, share);

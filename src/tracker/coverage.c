@@ -2,10 +2,11 @@
 /*
  * coverage: the tracks that a scan can see.
  *
- * A track well outside the field of view is left as it is: neither predicted, nor offered plots,
- * nor missed. So a sensor's scans change no bit of the estimates of tracks that it cannot see, and
- * a sector of a turn costs what is in it. The margin grows with the uncertainty of the track's
- * place: a track that no sensor sees is predicted in the end, until it is worthless.
+ * A track well outside the field of view is left as it is: it is not predicted, gets no plots and
+ * counts no miss. So a sensor's scans change no bit of the estimates of tracks that it cannot see,
+ * and the cost of a sector grows with the tracks in it alone. The margin of the field of view grows
+ * with the uncertainty of the track's place, so that a track that no sensor sees is predicted in
+ * the end, until its place is too uncertain to be of use.
  */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
@@ -14,7 +15,7 @@
 
 /*
  * Margin of the field of view: standard deviations of the track's place, and a share of the range
- * for biases of its plots.
+ * that allows for biases of the plots.
  */
 #define MARGIN_SIGMAS 8.0f
 #define MARGIN_SHARE 0.05f
@@ -29,7 +30,7 @@ static int is_near_sector(float azimuth_rad, float from_rad, float to_rad, float
            (to_last_rad <= margin_rad && to_last_rad >= -margin_rad);
 }
 
-/* A target at the border has plots so many standard deviations beyond it. */
+/* Standard deviations of its noise that a plot may lie outside of the sensor's stated coverage. */
 #define PLOT_SIGMAS 4.0f
 
 int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *plot,
@@ -53,8 +54,8 @@ int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *p
            rho_tracker_covers_bearing(sensor, rho_atan2(dy_m, dx_m), cross_sigma_m / ground_m);
 }
 
-/* The scan or the sensor itself has a sector, and not the full circle. */
-static int has_sector(const struct step *step)
+/* True where the scan or the sensor covers a sector instead of the full circle. */
+static int has_scan_or_sensor_sector(const struct step *step)
 {
     const struct rho_scan *scan = step->scan;
     const struct rho_sensor *sensor = step->sensor;
@@ -63,7 +64,7 @@ static int has_sector(const struct step *step)
            (sensor && !rho_angle_is_circle(sensor->sector_from_rad, sensor->sector_to_rad));
 }
 
-static int may_see_sector(const struct step *step, float azimuth_rad, float margin_rad)
+static int is_near_both_sectors(const struct step *step, float azimuth_rad, float margin_rad)
 {
     const struct rho_scan *scan = step->scan;
     const struct rho_sensor *sensor = step->sensor;
@@ -84,7 +85,7 @@ int rho_tracker_may_see(const struct step *step, const struct rho_track *track)
     const float *state = track->kalman.state;
     float dt_s, dx_m, dy_m, range_m, margin_m;
 
-    if (!sensor && !has_sector(step)) {
+    if (!sensor && !has_scan_or_sensor_sector(step)) {
         return 1;
     }
     dt_s = rho_seconds_between(track->time_us, step->time_us);
@@ -92,21 +93,21 @@ int rho_tracker_may_see(const struct step *step, const struct rho_track *track)
     dy_m = state[1] + state[4] * dt_s - (sensor ? sensor->y_m : 0.0f);
     range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     if (sensor && range_m <= sensor->range_max_m && range_m >= sensor->range_min_m &&
-        !has_sector(step)) {
+        !has_scan_or_sensor_sector(step)) {
         return 1;
     }
-    dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* the track's plot was later than the scan */
+    dt_s = dt_s < 0.0f ? -dt_s : dt_s; /* the track's estimate may be newer than the scan */
     margin_m = MARGIN_SIGMAS * (rho_track_sigma_m(track) + rho_track_sigma_mps(track) * dt_s) +
                step->tracker->config.accel_max_mps2 * dt_s * dt_s + MARGIN_SHARE * range_m;
     if (sensor &&
         (range_m - margin_m > sensor->range_max_m || range_m + margin_m < sensor->range_min_m)) {
         return 0;
     }
-    if (!(margin_m < range_m) || !has_sector(step)) {
-        return 1; /* nearer than the margin, its plots may be in any direction */
+    if (!(margin_m < range_m) || !has_scan_or_sensor_sector(step)) {
+        return 1; /* plots of a track within the margin of the sensor may be in any direction */
     }
-    /* the angle that the margin is seen under, asin(margin / range), is no larger than this */
-    return may_see_sector(step, rho_atan2(dy_m, dx_m), margin_m / range_m * (0.5f * RHO_PI));
+    /* upper bound of the angle that the margin subtends: asin(x) <= x pi / 2 for x in 0 .. 1 */
+    return is_near_both_sectors(step, rho_atan2(dy_m, dx_m), margin_m / range_m * (0.5f * RHO_PI));
 }
 
 int rho_tracker_is_in_view(const struct step *step, unsigned row)

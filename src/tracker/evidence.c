@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* evidence: of a track's last look, what is its own, what others claim too, and what is clutter. */
+/*
+ * evidence: the probabilities that a track's plots of the last scan are its own, are shared with
+ * other tracks, or are clutter.
+ */
 #include <string.h>
 
 #include "rhotrack/detail/approx.h"
@@ -18,8 +21,8 @@ void rho_tracker_remove_offer_row(struct rho_tracker *tracker, unsigned row)
     }
 }
 
-/* Costs are losses against a miss: the dearest to lose, or none, is the likeliest. */
-static int32_t least_cost(const struct rho_assignment *assignment, unsigned row)
+/* Least cost of a track's plots and of a miss, which costs 0: the cost of the likeliest choice. */
+static int32_t least_cost_of_track(const struct rho_assignment *assignment, unsigned row)
 {
     int32_t least = 0;
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
@@ -29,33 +32,31 @@ static int32_t least_cost(const struct rho_assignment *assignment, unsigned row)
     return least;
 }
 
-static float likelihood(int32_t cost, int32_t least)
+static float relative_likelihood(int32_t cost, int32_t least)
 {
     return rho_exp((float)(least - cost) * NAT_PER_MNAT);
 }
 
-/* Likelihoods of all offers and of none, relative to the likeliest. */
+/* Sum of the likelihoods of a track's plots and of a miss, relative to the likeliest of them. */
 static float sum_of_likelihoods(const struct rho_assignment *assignment, unsigned row,
                                 int32_t least)
 {
-    float sum = likelihood(0, least);
+    float sum = relative_likelihood(0, least);
     for (unsigned i = 0; i < assignment->num_pairs[row]; i++) {
-        sum += likelihood(assignment->pairs[row][i].cost, least);
+        sum += relative_likelihood(assignment->pairs[row][i].cost, least);
     }
     return sum;
 }
 
-/*
- * How much likelier the column's plot is the row's than another one's: 1 where no other offers it.
- */
-static float share_of_plot(const struct rho_assignment *assignment, unsigned row, int16_t column,
-                           int32_t cost)
+/* Probability that a plot (column) belongs to this track (row) and not to another track. */
+static float track_share_of_plot(const struct rho_assignment *assignment, unsigned row,
+                                 int16_t column, int32_t cost)
 {
     float others = 0.0f;
     for (unsigned other = 0; other < assignment->num_rows; other++) {
         for (unsigned i = 0; other != row && i < assignment->num_pairs[other]; i++) {
             if (assignment->pairs[other][i].column == column) {
-                others += likelihood(assignment->pairs[other][i].cost, cost);
+                others += relative_likelihood(assignment->pairs[other][i].cost, cost);
             }
         }
     }
@@ -72,15 +73,15 @@ int rho_tracker_evidence_of(const struct rho_tracker *tracker, unsigned track,
     const struct rho_assignment *assignment = &tracker->assignment;
     const unsigned offers = assignment->num_pairs[track];
     if (offers == 0 && tracker->tracks[track].time_us != tracker->time_us) {
-        return 0; /* it was not moved to the scan's time: out of the sensor's sight */
+        return 0; /* a track outside of the scan's field of view was not moved to its time */
     }
-    const int32_t least = least_cost(assignment, track);
+    const int32_t least = least_cost_of_track(assignment, track);
     const float sum = sum_of_likelihoods(assignment, track, least);
-    *evidence = (struct rho_tracker_evidence){.clutter = likelihood(0, least) / sum};
+    *evidence = (struct rho_tracker_evidence){.clutter = relative_likelihood(0, least) / sum};
     for (unsigned i = 0; i < offers; i++) {
         const struct rho_assignment_pair *offer = &assignment->pairs[track][i];
-        const float own = likelihood(offer->cost, least) / sum;
-        const float share = share_of_plot(assignment, track, offer->column, offer->cost);
+        const float own = relative_likelihood(offer->cost, least) / sum;
+        const float share = track_share_of_plot(assignment, track, offer->column, offer->cost);
         evidence->support += own * share;
         evidence->shared += own * (1.0f - share);
     }

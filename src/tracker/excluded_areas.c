@@ -11,14 +11,14 @@
 /* Comparisons of a plot with an area that cost one unit of work. */
 #define COMPARED_A_UNIT 8u
 
-static int is_usable(const struct rho_extent *area)
+static int is_usable_area(const struct rho_extent *area)
 {
     return rho_is_coordinate(area->x_min_m) && rho_is_coordinate(area->x_max_m) &&
            rho_is_coordinate(area->y_min_m) && rho_is_coordinate(area->y_max_m) &&
            area->x_min_m < area->x_max_m && area->y_min_m < area->y_max_m;
 }
 
-static int contains(const struct rho_extent *area, float x_m, float y_m)
+static int area_contains(const struct rho_extent *area, float x_m, float y_m)
 {
     return x_m >= area->x_min_m && x_m <= area->x_max_m && y_m >= area->y_min_m &&
            y_m <= area->y_max_m;
@@ -32,7 +32,7 @@ enum rho_status rho_tracker_exclude_area(struct rho_tracker *tracker, const stru
     if (!rho_tracker_is_ready(tracker)) {
         return RHO_ERROR_STATE;
     }
-    if (!is_usable(area)) {
+    if (!is_usable_area(area)) {
         return RHO_ERROR_VALUE;
     }
     if (tracker->num_excluded + 1 > RHO_MAX_EXCLUDED_AREAS) {
@@ -52,7 +52,7 @@ enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m
     }
     unsigned kept = 0;
     for (unsigned i = 0; i < tracker->num_excluded; i++) {
-        if (!contains(&tracker->excluded[i], x_m, y_m)) {
+        if (!area_contains(&tracker->excluded[i], x_m, y_m)) {
             tracker->excluded[kept++] = tracker->excluded[i];
         }
     }
@@ -69,7 +69,7 @@ int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker)
 {
     const int num = tracker->num_excluded;
     int i = 0;
-    while (i < num && num <= RHO_MAX_EXCLUDED_AREAS && is_usable(&tracker->excluded[i])) {
+    while (i < num && num <= RHO_MAX_EXCLUDED_AREAS && is_usable_area(&tracker->excluded[i])) {
         i++;
     }
     return i == num;
@@ -80,7 +80,7 @@ int rho_tracker_lies_excluded(const struct step *step, uint32_t plot)
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_plot *at = &step->scan->plots[plot];
     unsigned k = 0;
-    while (k < tracker->num_excluded && !contains(&tracker->excluded[k], at->x_m, at->y_m)) {
+    while (k < tracker->num_excluded && !area_contains(&tracker->excluded[k], at->x_m, at->y_m)) {
         k++;
     }
     return k < tracker->num_excluded;

@@ -2,20 +2,20 @@
 /*
  * expected_clutter: how many false plots are expected where a track is.
  *
- * The initiator measures the density of clutter. Where it knows none, the unclaimed plots of a
- * scan, smoothed over ten scans, are spread over the area that plots have come from so far.
+ * The initiator measures the density of clutter. Where it has measured none, the density is the
+ * number of unclaimed plots of a scan, smoothed over ten scans, over the area of all plots so far.
  */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "step.h"
 
-/* Weight of the newest scan in the smoothed counts: a memory of ten scans. */
+/* Weight of the newest scan in a smoothed count of plots: a memory of ten scans. */
 #define CLUTTER_SMOOTHING 0.1f
 
 /* Lower bound of the clutter density at a plot, 1/m^2. */
 #define DENSITY_MIN 1e-12f
 
-/* Standard deviations of a gate, where it is as large as the track's place is uncertain. */
+/* Radius of the circle that stands for a track's gate, standard deviations of the track's place. */
 #define GATE_SIGMAS 3.0f
 
 float rho_tracker_usual_density(const struct step *step, float x_m, float y_m)
@@ -37,7 +37,7 @@ float rho_tracker_density_at_plot(const struct step *step, const struct rho_plot
     return density > DENSITY_MIN ? density : DENSITY_MIN;
 }
 
-static float density_in_part(const struct step *step, float x_m, float y_m)
+static float background_density_in_part(const struct step *step, float x_m, float y_m)
 {
     float density = rho_tracker_usual_density(step, x_m, y_m);
     if (RHO_CLAIMS_BEYOND && step->part_share > 0.0f) {
@@ -49,7 +49,8 @@ static float density_in_part(const struct step *step, float x_m, float y_m)
 
 float rho_tracker_log_clutter_density(const struct step *step, const struct rho_track *track)
 {
-    return rho_log(density_in_part(step, track->kalman.state[0], track->kalman.state[1]));
+    return rho_log(
+        background_density_in_part(step, track->kalman.state[0], track->kalman.state[1]));
 }
 
 float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track)
@@ -59,12 +60,13 @@ float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_trac
     }
     const float sigma_m = rho_track_sigma_m(track);
     return 0.5f * RHO_TWO_PI * GATE_SIGMAS * GATE_SIGMAS * sigma_m * sigma_m *
-           density_in_part(step, track->kalman.state[0], track->kalman.state[1]);
+           background_density_in_part(step, track->kalman.state[0], track->kalman.state[1]);
 }
 
 /*
- * The initiator has measured the first parts of earlier scans. A later part is as dense as its own
- * plots lie; where plots of all places are mixed, as the first part.
+ * The initiator has measured the density of the first parts of earlier scans alone. The density of
+ * a later part is that of its held plots over their extent, or that of the first part times the
+ * scan's plots over RHO_MAX_PLOTS, whichever is larger.
  */
 void rho_tracker_measure_part_density(struct step *step)
 {

@@ -5,19 +5,20 @@
 #include "rhotrack/detail/approx.h"
 #include "step.h"
 
-/* Wald's lower threshold: one true track in a hundred is given up while tentative. */
+/* Wald's lower threshold below the start score, ln 100: loses one true track in a hundred. */
 #define TENTATIVE_FALL_MNAT 4605
 
 /*
- * ln of the odds that a target seen until now is still there: 200, its lifetime in scans, to one.
- * In frames all sensors are assumed to miss what one misses.
+ * Fall of the score at which a target has probably gone, ln 200: a target's mean lifetime is 200
+ * scans. In frames of bearings it is multiplied by the number of sensors, which are assumed to miss
+ * a target together.
  */
 #define LIFETIME_MNAT 5298
 
 /*
- * An established track that has moved, and is not seen any more, may hide: tentative, unreported,
- * for so many times coast_scans_max misses, as long as no more clutter plots than that are expected
- * in its gate. The target may have flown behind something, and keeps its identity.
+ * The target of an established track that has moved, and is not seen any more, may be hidden behind
+ * something. Its track is kept, tentative and unreported, for HIDE_SHARE times coast_scans_max
+ * misses, while at most HIDE_CLUTTER_MAX clutter plots are expected in its gate.
  */
 #define HIDE_SHARE 2.4f
 #define HIDE_CLUTTER_MAX 3.0f
@@ -50,9 +51,11 @@ void rho_tracker_remove_ended(struct rho_tracker *tracker)
     }
 }
 
-/* A miss of the best sensor: the scan of a weak sensor must not make earlier misses of a better one
- * count for more. */
-static float largest_loss_of_miss(const struct step *step)
+/*
+ * Largest loss of score by one miss, of all sensors. With the loss of the scan's own sensor alone,
+ * a scan of a sensor with a low pd would lower the limit for the misses of a better one.
+ */
+static float largest_miss_loss_of_sensors(const struct step *step)
 {
     float loss = -step->log_miss;
     for (unsigned i = 0; i < step->tracker->num_sensors; i++) {
@@ -70,14 +73,14 @@ struct rho_track_limits rho_tracker_limits(const struct step *step)
         .doubt_mnat = LIFETIME_MNAT * (int32_t)tracker->looks_max,
         .tentative_mnat = tracker->start_mnat - TENTATIVE_FALL_MNAT,
         .fall_mnat =
-            rho_tracker_mnat(largest_loss_of_miss(step) * (float)tracker->config.coast_scans_max *
-                             (float)tracker->looks_max),
+            rho_tracker_mnat(largest_miss_loss_of_sensors(step) *
+                             (float)tracker->config.coast_scans_max * (float)tracker->looks_max),
         .misses_in_row_max = (uint8_t)tracker->config.coast_scans_max,
     };
     return limits;
 }
 
-static int may_be_hidden(const struct step *step, const struct rho_track *track)
+static int may_be_hidden_target(const struct step *step, const struct rho_track *track)
 {
     return rho_tracker_is_established(track) &&
            (RHO_MAX_ECHOES == 0 || rho_tracker_has_moved(track)) &&
@@ -85,10 +88,10 @@ static int may_be_hidden(const struct step *step, const struct rho_track *track)
 }
 
 /*
- * A hidden track ends later, and its score falls no further than twice doubt_mnat: a hidden target
- * is missed for sure, and two plots that fit are to be enough when it is back.
+ * Lets a track of a hidden target end later, and holds its score within twice doubt_mnat of its
+ * highest: misses of a hidden target are no evidence, and two plots should confirm its return.
  */
-static void widen_limits_of_hidden(struct rho_track *track, struct rho_track_limits *limits)
+static void widen_limits_and_raise_score(struct rho_track *track, struct rho_track_limits *limits)
 {
     const float misses = HIDE_SHARE * (float)limits->misses_in_row_max;
     const int32_t most_mnat = 2 * limits->doubt_mnat;
@@ -105,8 +108,8 @@ void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
     const int is_low = track->score_max_mnat - track->score_mnat > 2 * limits->doubt_mnat;
     const int is_late = track->misses_in_row >= limits->misses_in_row_max;
     struct rho_track_limits own = *limits;
-    if ((is_low || is_late) && may_be_hidden(step, track)) {
-        widen_limits_of_hidden(track, &own);
+    if ((is_low || is_late) && may_be_hidden_target(step, track)) {
+        widen_limits_and_raise_score(track, &own);
     }
     if (is_late || rho_tracker_lacks_evidence(step, track)) {
         own.doubt_mnat = 0;

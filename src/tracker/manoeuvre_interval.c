@@ -2,28 +2,31 @@
 /*
  * manoeuvre_interval: learns the mean time between manoeuvres of calm targets.
  *
- * The probability that a calm target begins to turn (imm.h) is weighed at every plot of every
- * straight track. Where no target turns for hours, it makes covariances too large and estimates
- * worse than necessary. Over all established tracks of the last half an hour, while they were seen,
- * with Y the seconds in which they surely manoeuvred and X the others, the mean time between
- * manoeuvres is
+ * The probability that a calm target begins to turn (imm.h) enters the estimate of every straight
+ * track at every plot. Where no target turns for hours, it makes covariances too large and
+ * estimates worse than necessary. Of all established tracks of the last half an hour, let Y be the
+ * seconds of confirmed track in which the target surely manoeuvred and X the other seconds. The
+ * mean time between manoeuvres is then
  *
  *      (4 300 s + X) / (4 + Y / maneuver_s)
  *
  * as if four manoeuvres had been seen at the default of 300 s. A manoeuvre that is only likelier
- * than not does not count: noise above the stated one looks so. calm_s is doubled where that is
- * twice as long, up to 2400 s, so that the first manoeuvre is still followed in a sky without any.
- * It is halved where that is less than three quarters, down to 300 s: noise above the stated one is
- * not learned where tracks are taken to manoeuvre all the time. With such coarse steps a few tracks
- * change nothing for the others. After a silence it is 300 s again: nothing was learned meanwhile.
+ * than not does not count, as noise above the stated one also looks like a manoeuvre. The model's
+ * calm_s is doubled where this mean is twice calm_s, up to 2400 s, so that a first manoeuvre is
+ * still followed. It is halved where the mean is below three quarters of calm_s, down to 300 s:
+ * where tracks seem to manoeuvre all the time, noise above the stated one could not be learned.
+ * With steps of two a few tracks do not change the model of the others. After a silence calm_s is
+ * 300 s again, as nothing was learned meanwhile.
  */
 #include "step.h"
 
+/* Weight of the default mean time between manoeuvres, in manoeuvres seen. */
 #define PRIOR 4.0f
 #define LONGEST_S (8.0f * RHO_IMM_CALM_S)
+/* Probability of the manoeuvring model above which a target surely manoeuvres. */
 #define SURELY 0.9f
 
-/* Longer gaps between steps teach nothing. */
+/* Longest time between two steps that is counted. */
 #define LOOKED_S 60.0f
 
 void rho_tracker_reset_manoeuvre_interval(struct rho_tracker *tracker, int64_t time_us)

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * out_of_sequence: scans that are older than the newest one, but not by much. Tracks go back to the
- * scan's time without process noise, claim its plots, and return before the next scan.
+ * out_of_sequence: scans that are older than the newest one by late_max_s at most. Tracks are moved
+ * back to the scan's time without process noise, claim its plots, and return to the newest time at
+ * the end of the step.
  */
 #include "step.h"
 
@@ -44,10 +45,10 @@ int rho_tracker_is_sound_ahead(const struct rho_track *track)
 }
 
 /*
- * A track that was moved back returns to its time before; one that was not so far stays. 0 where
- * the estimate cannot be moved there any more.
+ * Moves a track that an out-of-sequence scan moved back to its time before; other tracks stay.
+ * Merges its estimates. Returns 0 where the filter refuses the move.
  */
-static int return_track(struct step *step, struct rho_track *track)
+static int return_track_to_newest_time(struct step *step, struct rho_track *track)
 {
     const int was_ahead = track->ahead_us > track->time_us;
     if (!was_ahead && track->time_us != step->time_us) {
@@ -71,12 +72,12 @@ void rho_tracker_refuse_stale_plots(struct step *step)
     }
 }
 
-/* Tracks return to the newest time, of which the report is. */
+/* Tracks return to the newest time, which the report then has; tracks that cannot return end. */
 void rho_tracker_end_late_scan(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
-        if (!return_track(step, &tracker->tracks[i])) {
+        if (!return_track_to_newest_time(step, &tracker->tracks[i])) {
             tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
             rho_tracker_end_track(step, &tracker->tracks[i]);
         }

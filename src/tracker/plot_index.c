@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_index: the scan's plots by strips of x, so that a track looks at those near it alone.
+ * plot_index: the scan's plots sorted by strips of x, so that the plots near a track are found
+ * without a pass over the whole scan.
  *
- * A track's box is as wide as its uncertainty, a strip as the scan over RHO_PLOT_STRIPS. Within a
- * strip plots keep their order. With one strip nothing is sorted: plots that follow each other
- * share a box, one of RHO_PLOT_BOXES, and boxes that are elsewhere are passed over. Radars send
- * plots as the antenna turns, so that their boxes are small.
+ * A strip is as wide as the extent of the plots over RHO_PLOT_STRIPS. Within a strip plots keep
+ * their order. With one strip nothing is sorted: the scan is cut into RHO_PLOT_BOXES runs of
+ * successive plots, and runs whose bounding box is elsewhere are skipped. Radars send plots as the
+ * antenna turns, so that these boxes are small.
  */
 #include <string.h>
 
 #include "step.h"
 
-/* The strip of x: plots of any place, and limits of any size, have one. */
-static unsigned strip_of(const struct rho_tracker_strips *strips, float x_m)
+/* The strip that holds x; the first or the last one where x is outside of all strips. */
+static unsigned strip_of_x(const struct rho_tracker_strips *strips, float x_m)
 {
     const float place = (x_m - strips->x_min_m) * strips->per_m;
     if (!(place > 0.0f)) {
@@ -21,7 +22,7 @@ static unsigned strip_of(const struct rho_tracker_strips *strips, float x_m)
     return place < (float)(RHO_PLOT_STRIPS - 1) ? (unsigned)place : RHO_PLOT_STRIPS - 1u;
 }
 
-/* Lays the strips over the extent of the plots that count. */
+/* Lays the strips over the extent in x of the held plots. */
 static void lay_strips(struct rho_tracker_strips *strips, const struct step *step)
 {
     float x_min_m = RHO_LIMIT_POSITION_M, x_max_m = -RHO_LIMIT_POSITION_M;
@@ -37,10 +38,10 @@ static void lay_strips(struct rho_tracker_strips *strips, const struct step *ste
 }
 
 /*
- * Counting sort: the plots of strip s are counted two places on, then put one place on, which moves
- * to their end.
+ * Counting sort. starts[s + 2] first counts the plots of strip s; after the sums starts[s + 1] is
+ * where the next plot of strip s goes, and so ends as the start of strip s + 1.
  */
-static void sort_by_strips(struct step *step)
+static void sort_plots_by_strip(struct step *step)
 {
     struct rho_tracker_strips *strips = &step->tracker->strips;
     uint16_t *starts = strips->starts;
@@ -48,7 +49,7 @@ static void sort_by_strips(struct step *step)
     memset(starts, 0, sizeof strips->starts);
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD) {
-            starts[strip_of(strips, step->scan->plots[i].x_m) + 2u]++;
+            starts[strip_of_x(strips, step->scan->plots[i].x_m) + 2u]++;
         }
     }
     for (unsigned s = 2; s < RHO_PLOT_STRIPS; s++) {
@@ -56,12 +57,13 @@ static void sort_by_strips(struct step *step)
     }
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD) {
-            strips->plots[starts[strip_of(strips, step->scan->plots[i].x_m) + 1u]++] = (uint16_t)i;
+            strips->plots[starts[strip_of_x(strips, step->scan->plots[i].x_m) + 1u]++] =
+                (uint16_t)i;
         }
     }
 }
 
-static void bound_boxes(struct step *step)
+static void bound_plot_boxes(struct step *step)
 {
     step->plots_of_box = (step->num_gated + RHO_PLOT_BOXES - 1u) / RHO_PLOT_BOXES;
     for (unsigned k = 0; k < RHO_PLOT_BOXES; k++) {
@@ -84,9 +86,9 @@ static void bound_boxes(struct step *step)
 void rho_tracker_sort_plots(struct step *step)
 {
     if (RHO_PLOT_STRIPS > 1) {
-        sort_by_strips(step);
+        sort_plots_by_strip(step);
     } else {
-        bound_boxes(step);
+        bound_plot_boxes(step);
     }
 }
 
@@ -96,8 +98,8 @@ struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m,
     struct plots_near near = {.within = {x_min_m, x_max_m, y_min_m, y_max_m}};
     if (RHO_PLOT_STRIPS > 1) {
         const struct rho_tracker_strips *strips = &step->tracker->strips;
-        near.next = strips->starts[strip_of(strips, x_min_m)];
-        near.end = strips->starts[strip_of(strips, x_max_m) + 1u];
+        near.next = strips->starts[strip_of_x(strips, x_min_m)];
+        near.end = strips->starts[strip_of_x(strips, x_max_m) + 1u];
     }
     return near;
 }

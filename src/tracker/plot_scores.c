@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_scores: how much likelier a plot is a track's than clutter, ln; and the pairs of a track and
- * a plot or bearing that are offered to the assignment.
+ * plot_scores: log-likelihood ratio of a plot, a track's against clutter; and the pairs of a track
+ * and a plot or bearing that enter the assignment.
  */
 #include "rhotrack/detail/measurement.h"
 #include "step.h"
@@ -57,10 +57,12 @@ void rho_tracker_assign(struct step *step)
 
 /* ---- scores ---------------------------------------------------------------------------------- */
 
-/* ln of the plot's density as the track's over its density as clutter, whose range rates are any
- * that a target may have. */
-static float log_ratio(const struct step *step, const struct rho_gate_result *result,
-                       float log_density)
+/*
+ * ln of the density of a gated plot by the track, over that by clutter, which is uniform in height
+ * and in all range rates that a target may have.
+ */
+static float log_likelihood_ratio(const struct step *step, const struct rho_gate_result *result,
+                                  float log_density)
 {
     float dimensions = 2.0f;
     if (result->has_z) {
@@ -74,7 +76,7 @@ static float log_ratio(const struct step *step, const struct rho_gate_result *re
     return -0.5f * (dimensions * LOG_TWO_PI + result->log_det + result->distance2) - log_density;
 }
 
-static float repeats_nat(const struct step *step, uint32_t row)
+static float log_echo_density_ratio(const struct step *step, uint32_t row)
 {
     return RHO_MAX_ECHOES > 0 ? rho_tracker_repeats_nat(step, row) : 0.0f;
 }
@@ -83,7 +85,7 @@ float rho_tracker_score_plot(const struct step *step, const struct rho_track *tr
                              const struct rho_gate_result *result, float log_density, uint32_t row)
 {
     return rho_tracker_detection(step, track).log_pd +
-           log_ratio(step, result, log_density + repeats_nat(step, row));
+           log_likelihood_ratio(step, result, log_density + log_echo_density_ratio(step, row));
 }
 
 float rho_tracker_log_miss(const struct step *step, const struct rho_track *track)
@@ -108,7 +110,8 @@ struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row)
 /* ---- hypotheses ------------------------------------------------------------------------------ */
 
 /*
- * Plots between the limits may be in the gate of a hypothesis, whatever their noise and own time.
+ * Plots in the box of a track's hypotheses, widened by the largest noise and time offset of the
+ * scan's plots, so that it holds every plot in the gate of a hypothesis.
  */
 static struct plots_near plots_near_track(const struct step *step, const struct rho_track *track,
                                           struct rho_hypotheses_box *box)
@@ -119,36 +122,36 @@ static struct plots_near plots_near_track(const struct step *step, const struct 
                                   box->y_min_m - slack_m, box->y_max_m + slack_m);
 }
 
-/* Of so few plots each has a box, which was compared with the limits. */
-static int has_own_box(const struct step *step)
+/* True where each box of the plot index holds one plot, so that the box decides on the plot. */
+static int has_box_per_plot(const struct step *step)
 {
     return RHO_PLOT_STRIPS <= 1 && step->plots_of_box == 1u;
 }
 
 /*
- * Near the track, and not assigned to another one (before the assignment none is). Most plots are
- * outside of the limits for any noise: they need no box for their own.
+ * True where a plot is in the gate box of the track's hypotheses for its own noise, and is not
+ * assigned to another track. The limits for any noise are tested first: most plots fail there.
  */
-static int is_free_and_near(const struct step *step, struct plot_scores *scores, uint32_t i)
+static int is_unassigned_and_near(const struct step *step, struct plot_scores *scores, uint32_t i)
 {
     const struct rho_tracker *tracker = step->tracker;
     const struct rho_plot *plot = &step->scan->plots[i];
     const int owner = tracker->assignment.column_row[i];
-    return (has_own_box(step) || rho_tracker_is_within(&scores->near, plot)) &&
+    return (has_box_per_plot(step) || rho_tracker_is_within(&scores->near, plot)) &&
            step->report->fates[i] == RHO_FATE_HELD &&
            !(owner >= 0 && owner != (int)scores->track_row) &&
            rho_hypotheses_is_in_box(&tracker->hypotheses, tracker->tracks[scores->track_row].slot,
                                     &scores->box, plot, step->scan->measures);
 }
 
-static void choose_plots(struct step *step, const struct rho_track *track,
-                         struct plot_scores *scores)
+static void choose_plots_to_score(struct step *step, const struct rho_track *track,
+                                  struct plot_scores *scores)
 {
     struct plots_near counted = scores->near;
     scores->choice = rho_tracker_choose_plots(step, track);
     for (uint32_t i; scores->choice.most < rho_tracker_max_plots_near(step, &scores->near) &&
                      rho_tracker_next_plot_near(step, &counted, &i);) {
-        if (is_free_and_near(step, scores, i)) {
+        if (is_unassigned_and_near(step, scores, i)) {
             rho_tracker_note_choice(&scores->choice, track, &step->scan->plots[i]);
         }
     }
@@ -170,7 +173,7 @@ void rho_tracker_begin_scores(struct step *step, unsigned row, struct plot_score
     rho_hypotheses_begin_scan(&tracker->hypotheses, track->slot, &scores->box);
     scores->box.sigma_factor = rho_measurement_widest_factor(step->sensor);
     scores->near = plots_near_track(step, track, &scores->box);
-    choose_plots(step, track, scores);
+    choose_plots_to_score(step, track, scores);
 }
 
 int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
@@ -181,13 +184,13 @@ int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32
     struct rho_imm_plot seen;
     while (rho_tracker_next_plot_near(step, &scores->near, plot)) {
         const struct rho_plot *at = &step->scan->plots[*plot];
-        if (!is_free_and_near(step, scores, *plot) ||
+        if (!is_unassigned_and_near(step, scores, *plot) ||
             !rho_tracker_is_chosen(step, &scores->choice, track, at)) {
             continue;
         }
         rho_imm_open_plot(&seen, at, step->scan->measures, step->sensor);
         struct rho_hypotheses_clutter clutter = scores->clutter;
-        clutter.log_per_m2 += repeats_nat(step, *plot);
+        clutter.log_per_m2 += log_echo_density_ratio(step, *plot);
         if (rho_hypotheses_score_plot(&tracker->hypotheses, track->slot, &seen,
                                       step->time_us + at->offset_us, (int16_t)*plot, scores->log_pd,
                                       &clutter, gain_nat)) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * reflectors: images of tracks in the walls that the tracker knows: their plots start nothing, and
- * tracks that are images end.
+ * reflectors: mirror images of tracks in the walls that the tracker knows. Unclaimed plots of an
+ * image start no track, and tracks of images end.
  */
 #include "rhotrack/reflectors.h"
 
@@ -12,27 +12,28 @@
 #include "rhotrack/detail/linalg.h"
 #include "step.h"
 
-/* The line of sight to an image may miss the wall by so many of its sigmas. */
+/* Standard deviations of a track's place by which the line of sight to its image may miss the wall.
+ */
 #define BESIDE_SIGMAS 3.0f
 
-/* Hits from which a track has images: fewer may be clutter. */
+/* Fewest hits of a track whose images are looked for; one with fewer may be of clutter. */
 #define IMAGED_HITS 3
 
 /*
- * A track that is not established, and is where another one's image would be, by place and
- * velocity, is that image. 99.9 % of images are within the limit of chi-square in four dimensions.
+ * Limit of the NIS between a track and the image of another one, in place and velocity: the 99.9 %
+ * quantile of chi-square in four dimensions.
  */
 #define IMAGE_CHI2 18.5f
-/* One that is seen less often than so may be one for longer: hits over looks. */
+/* Hits over looks below which also an established track may be an image. */
 #define IMAGE_SHARE 0.6f
 
-/* Units of work: a gate test; an image that is made, or compared with a track. */
+/* Units of work for a gate test, and for computing the image of a track. */
 #define TEST_UNITS 3u
 #define IMAGE_UNITS 12u
 
 /* ---- walls ----------------------------------------------------------------------------------- */
 
-static int is_usable(const struct rho_reflector *reflector)
+static int is_usable_wall(const struct rho_reflector *reflector)
 {
     const float x_m = reflector->to_x_m - reflector->from_x_m,
                 y_m = reflector->to_y_m - reflector->from_y_m;
@@ -41,10 +42,10 @@ static int is_usable(const struct rho_reflector *reflector)
            x_m * x_m + y_m * y_m >= RHO_REFLECTOR_LEAST_M * RHO_REFLECTOR_LEAST_M;
 }
 
-static int are_usable(const struct rho_reflector *reflectors, unsigned num_reflectors)
+static int are_usable_walls(const struct rho_reflector *reflectors, unsigned num_reflectors)
 {
     unsigned i = 0;
-    while (i < num_reflectors && is_usable(&reflectors[i])) {
+    while (i < num_reflectors && is_usable_wall(&reflectors[i])) {
         i++;
     }
     return i == num_reflectors;
@@ -63,7 +64,7 @@ enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
     if (num_reflectors > RHO_MAX_REFLECTORS) {
         return RHO_ERROR_CAPACITY;
     }
-    if (!are_usable(reflectors, num_reflectors)) {
+    if (!are_usable_walls(reflectors, num_reflectors)) {
         return RHO_ERROR_VALUE;
     }
     memset(tracker->reflectors, 0, sizeof tracker->reflectors);
@@ -77,10 +78,10 @@ enum rho_status rho_tracker_set_reflectors(struct rho_tracker *tracker,
 int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker)
 {
     return tracker->num_reflectors <= RHO_MAX_REFLECTORS &&
-           are_usable(tracker->reflectors, tracker->num_reflectors);
+           are_usable_walls(tracker->reflectors, tracker->num_reflectors);
 }
 
-/* A wall: its direction and length. */
+/* A wall: its beginning, unit vector along it, and length. */
 struct wall {
     float x_m, y_m, along_x, along_y, length_m;
 };
@@ -94,8 +95,8 @@ static struct wall wall_of(const struct rho_reflector *reflector)
                          length_m};
 }
 
-/* How far before the wall a place is, below 0 behind it; and how far along. */
-static float distance_before(const struct wall *wall, float x_m, float y_m, float *along_m)
+/* Signed distance of a place from the wall's line, > 0 on its left; and position along the line. */
+static float distance_before_wall(const struct wall *wall, float x_m, float y_m, float *along_m)
 {
     const float dx_m = x_m - wall->x_m, dy_m = y_m - wall->y_m;
     *along_m = dx_m * wall->along_x + dy_m * wall->along_y;
@@ -104,8 +105,8 @@ static float distance_before(const struct wall *wall, float x_m, float y_m, floa
 
 /* ---- images ---------------------------------------------------------------------------------- */
 
-/* The components of x and y from `first` on: those along the wall stay, those across turn round. */
-static void reflect(const struct wall *wall, float *x, float *y)
+/* Reflects a vector in the wall's line: the component across the wall changes its sign. */
+static void reflect_components(const struct wall *wall, float *x, float *y)
 {
     const float along = *x * wall->along_x + *y * wall->along_y;
     const float kept = 2.0f * along;
@@ -114,8 +115,8 @@ static void reflect(const struct wall *wall, float *x, float *y)
 }
 
 /*
- * A covariance is turned into the directions of the wall, where signs change, and back: row and
- * column of a component across the wall.
+ * Reflects a covariance: rotates it into the axes of the wall, changes the signs of the rows and
+ * columns of components across the wall, and rotates it back.
  */
 static void reflect_covariance(const struct wall *wall, float p[21])
 {
@@ -143,14 +144,14 @@ int rho_reflector_image(const struct rho_reflector *reflector, const struct rho_
     *image = *of;
     image->state[RHO_X] -= wall.x_m;
     image->state[RHO_Y] -= wall.y_m;
-    reflect(&wall, &image->state[RHO_X], &image->state[RHO_Y]);
-    reflect(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
+    reflect_components(&wall, &image->state[RHO_X], &image->state[RHO_Y]);
+    reflect_components(&wall, &image->state[RHO_VX], &image->state[RHO_VY]);
     image->state[RHO_X] += wall.x_m;
     image->state[RHO_Y] += wall.y_m;
-    const float sensor_m = distance_before(&wall, sensor ? sensor->x_m : 0.0f,
-                                           sensor ? sensor->y_m : 0.0f, &sensor_along_m);
+    const float sensor_m = distance_before_wall(&wall, sensor ? sensor->x_m : 0.0f,
+                                                sensor ? sensor->y_m : 0.0f, &sensor_along_m);
     const float image_m =
-        distance_before(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
+        distance_before_wall(&wall, image->state[RHO_X], image->state[RHO_Y], &image_along_m);
     if (!(sensor_m * image_m < 0.0f)) {
         return 0;
     }
@@ -163,9 +164,9 @@ int rho_reflector_image(const struct rho_reflector *reflector, const struct rho_
     return 1;
 }
 
-/* The image of a track in a reflector. 0: the sensor sees none. */
-static int make_image(struct step *step, unsigned reflector, const struct rho_track *track,
-                      struct rho_kalman *image)
+/* Computes the image of a track in a wall. Returns 0 where the sensor cannot see it. */
+static int make_image_of_track(struct step *step, unsigned reflector, const struct rho_track *track,
+                               struct rho_kalman *image)
 {
     float crossing_m;
     rho_tracker_spend(step, IMAGE_UNITS);
@@ -174,8 +175,8 @@ static int make_image(struct step *step, unsigned reflector, const struct rho_tr
                                &crossing_m);
 }
 
-/* A target may have images where it has plots of its own, and not from behind. */
-static int has_images(const struct step *step, unsigned row)
+/* True of a live track at the step's time with enough hits: the scan may also show its images. */
+static int may_have_images(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     return track->status != RHO_TRACK_FREE && track->hits >= IMAGED_HITS &&
@@ -184,7 +185,7 @@ static int has_images(const struct step *step, unsigned row)
 
 /* ---- plots ----------------------------------------------------------------------------------- */
 
-static void mark_plots_of_image(struct step *step, const struct rho_kalman *image)
+static void mark_plots_at_image_as_ghosts(struct step *step, const struct rho_kalman *image)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
@@ -212,13 +213,13 @@ void rho_tracker_mark_images(struct step *step)
     struct rho_kalman image;
     rho_tracker_begin_share(step, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < step->tracker->num_tracks; row++) {
-        for (unsigned i = 0; has_images(step, row) && i < step->tracker->num_reflectors; i++) {
+        for (unsigned i = 0; may_have_images(step, row) && i < step->tracker->num_reflectors; i++) {
             if (rho_tracker_is_spent(step)) {
                 step->is_partial = 1;
                 return;
             }
-            if (make_image(step, i, &step->tracker->tracks[row], &image)) {
-                mark_plots_of_image(step, &image);
+            if (make_image_of_track(step, i, &step->tracker->tracks[row], &image)) {
+                mark_plots_at_image_as_ghosts(step, &image);
             }
         }
     }
@@ -226,14 +227,14 @@ void rho_tracker_mark_images(struct step *step)
 
 /* ---- tracks ---------------------------------------------------------------------------------- */
 
-static int may_be_image(const struct step *step, const struct rho_track *track)
+static int may_be_image_track(const struct step *step, const struct rho_track *track)
 {
     const float looks = (float)track->hits + (float)track->misses;
     return track->status != RHO_TRACK_FREE && track->time_us == step->time_us &&
            (!rho_tracker_is_established(track) || (float)track->hits < IMAGE_SHARE * looks);
 }
 
-/* Whether a track has the place and velocity of the image, in the plane. */
+/* True where a track agrees with an image in horizontal place and velocity. */
 static int is_at_image(const struct rho_track *track, const struct rho_kalman *image)
 {
     static const uint8_t of[4] = {RHO_X, RHO_Y, RHO_VX, RHO_VY};
@@ -249,19 +250,20 @@ static int is_at_image(const struct rho_track *track, const struct rho_kalman *i
     return rho_linalg_match(4, s, off, IMAGE_CHI2, &chi2, &log_det);
 }
 
-static int is_image(struct step *step, unsigned row)
+static int is_image_of_other_track(struct step *step, unsigned row)
 {
     const struct rho_tracker *tracker = step->tracker;
     struct rho_kalman image;
     for (unsigned other = 0; other < tracker->num_tracks; other++) {
         const struct rho_track *of = &tracker->tracks[other];
-        for (unsigned i = 0; other != row && has_images(step, other) && i < tracker->num_reflectors;
-             i++) {
+        for (unsigned i = 0;
+             other != row && may_have_images(step, other) && i < tracker->num_reflectors; i++) {
             if (rho_tracker_is_spent(step)) {
                 step->is_partial = 1;
                 return 0;
             }
-            if (make_image(step, i, of, &image) && is_at_image(&tracker->tracks[row], &image)) {
+            if (make_image_of_track(step, i, of, &image) &&
+                is_at_image(&tracker->tracks[row], &image)) {
                 return 1;
             }
         }
@@ -275,7 +277,7 @@ void rho_tracker_end_images(struct step *step)
     rho_tracker_begin_share(step, RHO_WORK_IMAGES_SHARE);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (may_be_image(step, track) && is_image(step, row)) {
+        if (may_be_image_track(step, track) && is_image_of_other_track(step, row)) {
             rho_tracker_end_track(step, track);
         }
     }

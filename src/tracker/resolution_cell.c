@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * resolution_cell: how near each other two targets are of which a sensor makes one plot; as stated,
- * or learned from pairs of tracks that have one plot, or each its own.
+ * resolution_cell: the distance at which a sensor no longer resolves two targets and gives one
+ * plot; stated, or learned from pairs of near tracks that get one merged plot or two plots.
  *
  * Two targets d apart are not resolved with the probability (W. Koch, G. van Keuk, Multiple
  * Hypothesis Track Maintenance with Possibly Unresolved Measurements, IEEE Transactions on
@@ -9,41 +9,42 @@
  *
  *     p = e^-(d1^2 / 2 n1 + d2^2 / 2 n2)        n = cell^2 / 2 ln 2
  *
- * along the line of sight and across it: at a distance of one cell it is a half. Where no cell was
- * stated n is e^l (2 sigma)^2, of the plot's sigma on that axis, and l is 0 at first. Each pair
- * says p, or 1 - p; their logarithms' slopes with respect to l are
+ * with d1 along the line of sight and d2 across it: at a distance of one cell p is a half. Where no
+ * cell was stated, n = e^l (2 sigma)^2 with the plot's sigma on that axis, and l is 0 at first. A
+ * pair with a merged plot has the likelihood p, a pair with two plots 1 - p. The derivatives of
+ * their logarithms by l are
  *
  *     d^2 / 2 n        -p / (1 - p) d^2 / 2 n
  *
- * and the expectation of their squares is p / (1 - p) (d^2 / 2 n)^2, which is summed as the weight
- * of what is known. l moves by slope over weight (Fisher's scoring).
+ * and the expectation of their squares is p / (1 - p) (d^2 / 2 n)^2, whose sum is the weight of the
+ * estimate. l moves by the derivative over the weight (Fisher's scoring).
  */
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 #include "step.h"
 
-/* n of a cell of 1: 1 / 2 ln 2. */
+/* Variance n over the squared resolution cell: 1 / (2 ln 2). */
 #define NEAR_OF_CELL 0.72134752f
-/* What is known at first, in weight, and the most that is remembered. */
+/* Weight of the default resolution cell, and the largest weight that pairs of tracks add up to. */
 #define WEIGHT_FIRST 4.0f
 #define WEIGHT_MAX 200.0f
-/* l moves so far in all: cells of 0.3 to 19 sigmas. */
+/* Limit of l, the learned logarithm, either way: cells of 0.3 to 19 sigmas. */
 #define LOG_MAX 4.2f
-/* Least 1 - p, the probability that two targets are resolved: rounding may leave 0. */
+/* Least probability 1 - p that two targets are resolved: rounding may leave 0, a divisor. */
 #define RESOLVED_EPSILON 1e-3f
 
-static float learned_nat(const struct step *step, int axis)
+static float learned_log_cell(const struct step *step, int axis)
 {
     return step->learned ? step->learned->log_cell[axis] : 0.0f;
 }
 
-static int is_stated(const struct rho_sensor *sensor, int axis)
+static int is_cell_stated(const struct rho_sensor *sensor, int axis)
 {
     return sensor &&
            (axis == 0 ? sensor->resolution_range_m : sensor->resolution_azimuth_rad) > 0.0f;
 }
 
-static float stated_m(const struct rho_sensor *sensor, const struct rho_plot *plot, int axis)
+static float stated_cell_m(const struct rho_sensor *sensor, const struct rho_plot *plot, int axis)
 {
     const float x_m = plot->x_m - sensor->x_m, y_m = plot->y_m - sensor->y_m;
     return axis == 0 ? sensor->resolution_range_m
@@ -54,11 +55,11 @@ void rho_tracker_cell_at(const struct step *step, const struct rho_plot *plot,
                          const struct rho_measurement *seen, float near_m2[2])
 {
     for (int axis = 0; axis < 2; axis++) {
-        if (is_stated(step->sensor, axis)) {
-            const float cell_m = stated_m(step->sensor, plot, axis);
+        if (is_cell_stated(step->sensor, axis)) {
+            const float cell_m = stated_cell_m(step->sensor, plot, axis);
             near_m2[axis] = NEAR_OF_CELL * cell_m * cell_m;
         } else {
-            near_m2[axis] = 4.0f * seen->variance_m2[axis] * rho_exp(learned_nat(step, axis));
+            near_m2[axis] = 4.0f * seen->variance_m2[axis] * rho_exp(learned_log_cell(step, axis));
         }
     }
 }
@@ -94,7 +95,7 @@ void rho_tracker_learn_cell(struct step *step, const struct apart *apart)
     const float odds = merged / rho_larger(1.0f - merged, RESOLVED_EPSILON);
     for (int axis = 0; axis < 2; axis++) {
         float *weight = &learned->cell_weight[axis], *nat = &learned->log_cell[axis];
-        if (is_stated(step->sensor, axis)) {
+        if (is_cell_stated(step->sensor, axis)) {
             continue;
         }
         const float slope =
@@ -107,7 +108,7 @@ void rho_tracker_learn_cell(struct step *step, const struct apart *apart)
 
 float rho_tracker_cell_sigmas(const struct rho_tracker_learned *learned, int axis)
 {
-    /* of n = e^l (2 sigma)^2 */
+    /* cell = sqrt(n / NEAR_OF_CELL) with n = e^l (2 sigma)^2 */
     return learned->cell_weight[axis] >= WEIGHT_FIRST
                ? 2.0f * rho_sqrt(rho_exp(learned->log_cell[axis]) / NEAR_OF_CELL)
                : 0.0f;

@@ -19,10 +19,10 @@
 #include "rhotrack/detail/measurement.h"
 #include "step.h"
 
-/* Standard deviations from a track's place to the end of where its plot is expected. */
+/* Half width of a track's gate across the line of sight, standard deviations of its place. */
 #define GATE_SIGMAS 3.0f
 
-/* Place of a sensor's record among the looks; num_looks where it is not known. */
+/* Index of a sensor's record in tracker->looks; num_looks where it has none. */
 static unsigned place_of_look(const struct rho_tracker *tracker, int32_t sensor_id)
 {
     unsigned place = 0;
@@ -32,14 +32,14 @@ static unsigned place_of_look(const struct rho_tracker *tracker, int32_t sensor_
     return place;
 }
 
-static struct rho_tracker_look *find_look(struct rho_tracker *tracker, int32_t sensor_id)
+static struct rho_tracker_look *find_look_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
 {
     const unsigned place = place_of_look(tracker, sensor_id);
     return place < tracker->num_looks ? &tracker->looks[place] : 0;
 }
 
-/* Tracks forget that the sensor saw them: one that comes back is counted anew. */
-static void forget_sights(struct rho_tracker *tracker, int32_t sensor_id)
+/* Clears in all tracks that this sensor saw them: the count of its scans begins anew. */
+static void forget_sensor_in_tracks(struct rho_tracker *tracker, int32_t sensor_id)
 {
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         struct rho_track *track = &tracker->tracks[i];
@@ -49,8 +49,9 @@ static void forget_sights(struct rho_tracker *tracker, int32_t sensor_id)
     }
 }
 
-/* A new sensor replaces the one that was heard longest ago, where there is no free place. */
-static struct rho_tracker_look *add_look(struct rho_tracker *tracker, int32_t sensor_id)
+/* Adds a record for a new sensor; in a full table it replaces the sensor with the oldest scan. */
+static struct rho_tracker_look *add_look_or_replace_oldest(struct rho_tracker *tracker,
+                                                           int32_t sensor_id)
 {
     struct rho_tracker_look *oldest = &tracker->looks[0];
     for (unsigned i = 1; i < tracker->num_looks; i++) {
@@ -59,7 +60,7 @@ static struct rho_tracker_look *add_look(struct rho_tracker *tracker, int32_t se
     if (tracker->num_looks < RHO_MAX_SENSORS) {
         oldest = &tracker->looks[tracker->num_looks++];
     }
-    forget_sights(tracker, sensor_id);
+    forget_sensor_in_tracks(tracker, sensor_id);
     *oldest = (struct rho_tracker_look){.sensor_id = sensor_id};
     return oldest;
 }
@@ -73,12 +74,12 @@ const struct rho_tracker_look *rho_tracker_look_of(const struct rho_tracker *tra
 
 struct rho_tracker_look *rho_tracker_own_look(struct step *step)
 {
-    return find_look(step->tracker, step->scan->sensor_id);
+    return find_look_of_sensor(step->tracker, step->scan->sensor_id);
 }
 
 void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id)
 {
-    struct rho_tracker_look *look = find_look(tracker, sensor_id);
+    struct rho_tracker_look *look = find_look_of_sensor(tracker, sensor_id);
     if (look) {
         *look = tracker->looks[--tracker->num_looks];
         memset(&tracker->looks[tracker->num_looks], 0, sizeof *look);
@@ -92,12 +93,12 @@ void rho_tracker_note_look(struct step *step)
     if (step->is_late) {
         return;
     }
-    look = look ? look : add_look(step->tracker, scan->sensor_id);
+    look = look ? look : add_look_or_replace_oldest(step->tracker, scan->sensor_id);
     if (look->count > 0) {
         const unsigned ends =
             rho_angle_sector_continues(look->sector_from_rad, look->sector_to_rad,
                                        scan->sector_from_rad, scan->sector_to_rad, 0.0f);
-        /* the two halves of a turn meet at both ends, which do not tell the direction */
+        /* sectors that meet at both ends, as two halves of a turn do, do not tell the direction */
         step->turning = ends == RHO_ANGLE_CONTINUES_LEFT    ? 1.0f
                         : ends == RHO_ANGLE_CONTINUES_RIGHT ? -1.0f
                                                             : 0.0f;
@@ -110,8 +111,8 @@ void rho_tracker_note_look(struct step *step)
 }
 
 /*
- * A track of one radar is tested at another radar's scans, too: it falls by the lower threshold and
- * rises by the higher.
+ * Takes the lowest start threshold and the highest confirm threshold of all sensors' initiators:
+ * the tracks of one radar are tested at the scans of another radar, too.
  */
 void rho_tracker_note_thresholds(struct step *step)
 {
@@ -163,8 +164,8 @@ void rho_tracker_note_sight(const struct step *step, struct rho_track *track)
     track->look[0] = step->look;
 }
 
-/* Is the gate's end in the sector that lies counter-clockwise (+1), or clockwise (-1)? */
-static int holds_gate_end(const struct step *step, const struct rho_track *track, float way)
+/* True where the scan's sector holds the gate's counter-clockwise (+1) or clockwise (-1) end. */
+static int sector_holds_gate_end(const struct step *step, const struct rho_track *track, float way)
 {
     const struct rho_scan *scan = step->scan;
     const float width_rad = rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad);
@@ -175,14 +176,14 @@ static int holds_gate_end(const struct step *step, const struct rho_track *track
     if (!(margin_rad < 0.5f * width_rad)) {
         margin_rad = 0.5f * width_rad;
     }
-    /* turned by a small angle */
+    /* the track's place, rotated about the sensor by a small angle */
     const float turn = way * margin_rad;
     return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
                                   track->kalman.state[0] - turn * dy_m,
                                   track->kalman.state[1] + turn * dx_m);
 }
 
-static int is_sector(const struct rho_scan *scan)
+static int is_scan_sector(const struct rho_scan *scan)
 {
     return rho_angle_sector_width(scan->sector_from_rad, scan->sector_to_rad) < RHO_TWO_PI;
 }
@@ -191,11 +192,12 @@ int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track 
 {
     const struct rho_scan *scan = step->scan;
     if (is_antenna_turning(step)) {
-        return holds_gate_end(step, track, step->turning); /* the far one */
+        return sector_holds_gate_end(step, track, step->turning); /* the end that is passed last */
     }
-    if (step->is_late && is_sector(scan)) {
-        /* the scan before or after may have had its plot */
-        return holds_gate_end(step, track, 1.0f) && holds_gate_end(step, track, -1.0f);
+    if (step->is_late && is_scan_sector(scan)) {
+        /* where the sector does not hold the whole gate, a neighbouring sector may have the plot */
+        return sector_holds_gate_end(step, track, 1.0f) &&
+               sector_holds_gate_end(step, track, -1.0f);
     }
     return rho_measurement_covers(step->sensor, scan->sector_from_rad, scan->sector_to_rad,
                                   track->kalman.state[0], track->kalman.state[1]);

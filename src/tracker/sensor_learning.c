@@ -1,72 +1,77 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * sensor_learning: sensors that are not as stated. Tracks that are surely targets' show what a
- * sensor's noise is, and how often it sees them.
+ * sensor_learning: estimates the noise, the detection probability and the Doppler notch of a sensor
+ * from established tracks, where they differ from the stated ones.
  *
- * Noise: of a plot that the assignment gives to a steady track the innovation v on an axis, along
- * the line of sight or across it, has the variance p + f r: p of the steady filter's prediction, r
- * of the plot's noise as stated, f what is learned. Of white innovations u = v / sqrt(p + f r) half
- * of the squared difference of one and the one before is 1 on average; where the target turns, or
- * the prediction is off otherwise, they lie on one side for some scans, and that is left out so.
- * With e = (u - u_before)^2 / 2, cut at c^2 (plots of others are among them), and b the mean of it,
+ * Noise: when a steady track claims a plot, its innovation v on an axis, along the line of sight or
+ * across it, has the variance p + f r: p of the steady filter's prediction, r of the plot's stated
+ * noise, f the learned factor. The normalised innovations u = v / sqrt(p + f r) are white, so that
+ * half of the squared difference of two successive ones is 1 on average. The difference removes
+ * errors of the prediction that last for some scans, as in a turn. With e = (u - u_before)^2 / 2,
+ * cut at c^2 because of plots of clutter, and b the mean of min(e, c^2),
  *
  *      ln f += g (min(e, c^2) / b - 1),        g = 3 / (n + 40) of the n-th innovation
  *
- * Tracks that two sensors have seen say nothing here: one that is off would look noisy to the
- * other. Where noise is more than some 2.5 times what is stated, tracks seem to manoeuvre all the
- * time, and show little: `rhotrack calibrate` finds it.
+ * Tracks that two sensors have seen are left out: a bias of one sensor would look like noise of the
+ * other. Where the noise is more than about 2.5 times the stated one, tracks seem to manoeuvre all
+ * the time and teach little: `rhotrack calibrate` finds such noise.
  *
- * P_D: of the looks that follow one that saw the track, how many see it; one that does not counts
- * when the track is seen again, so that targets that are gone have no misses. Tracks that end early
- * for being seen seldom are counted for as long as they are there. Of a target that fades the first
- * miss counts alone: the pd that is learned is rather too high, and is never above the one stated.
+ * P_D: of all looks at a track that follow a look with a plot, the share with a plot. A look
+ * without a plot is counted when the track is seen again, so that targets that have gone count no
+ * misses. Of several misses in a row the first alone is counted, so that the learned pd is rather
+ * too high; it is never above the stated one.
  */
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/linalg.h"
 #include "rhotrack/detail/measurement.h"
 #include "step.h"
 
-/* Tracks that are likelier to turn teach nothing of noise. */
+/* Largest probability of the manoeuvring model at which a track teaches the sensor's noise. */
 #define MANEUVER_MAX 0.2f
 enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
+/* Units of track->shown for an innovation of one sigma, and the largest that an int8_t holds. */
 #define SHOWN_PER_SIGMA 16.0f
-#define SIGMAS_MAX (127.0f / SHOWN_PER_SIGMA) /* what int8_t holds */
+#define SIGMAS_MAX (127.0f / SHOWN_PER_SIGMA)
 
-/* Squared innovations count so far; their mean then, of a normal distribution. */
+/* c^2, at which e is cut, and b, the mean of min(e, c^2) with normal noise. */
 #define CUT2 2.25f
 #define MEAN_CUT 0.7785f
+/* The gain g of the n-th innovation is GAIN / (n + INNOVATIONS_PRIOR). */
 #define GAIN 3.0f
 #define INNOVATIONS_PRIOR 40.0f
-#define LOG_NOISE_MAX 4.6f /* 10 times the sigma */
+#define LOG_NOISE_MAX 4.6f /* limit of ln f, either way: 10 times the sigma */
+/* Fewest innovations for learned noise to be used; the count stops at the second. */
 #define INNOVATIONS_MIN 100
 #define INNOVATIONS_MAX 1000
-/* Where the prediction is less certain than this, its own errors would count as noise. */
+/* Least share of the plot's noise in an innovation's variance; the rest is of the prediction. */
 #define NOISE_SHARE_MIN 0.4f
 /*
- * ln of variances: smaller differences count as none; and smaller than this over the root of
- * innovations.
+ * Largest ln f, either way, at which the noise counts as stated: AS_STATED, plus CHANCE over the
+ * root of the number of innovations for chance.
  */
 #define AS_STATED 0.25f
 #define CHANCE 4.0f
 
-/* Prior looks: at all rings, with the stated pd; at one ring, with the pd of all rings. */
+/* Prior weights in looks: of the stated pd for all rings; of the pd of all rings for one ring. */
 #define PRIOR_OF_ALL 30.0f
 #define PRIOR_OF_RING 20.0f
+/* Looks at a ring of range at which its looks and hits are halved. */
 #define LOOKS_MAX 1000
-/* Looks of which the notch takes more say nothing of pd. */
+/* Largest share of blind looks, per cent, at which a look teaches the pd of a ring. */
 #define BLIND_PERCENT_MAX 2
 /*
- * Standard deviations: below so many, pd is as stated; learned pd is raised by so many, to be
- * cautious.
+ * Standard deviations by which the learned pd must be below the stated one to be used, and by which
+ * it is then raised.
  */
 #define SURELY 2.5f
 #define CAUTION 1.0f
 
 /*
- * Range rates at which a sensor is blind: seen less than the first share of what faster targets
- * are, by so many standard deviations, of so many looks there and above; the fastest of them by the
- * last share. Tracks that end in a notch teach little of it: once it is used, misses there are all
- * known, and its fastest interval is held against the share in use, of so many looks.
+ * A learned notch: the pd in its intervals of range rates is below BLIND_SHARE of the pd at faster
+ * ones, by BLIND_SURELY standard deviations, and in its fastest interval below BLIND_LAST_SHARE;
+ * with at least BLIND_LOOKS looks in it and FASTER_LOOKS above. A notch in use loses its fastest
+ * interval where the pd there is above BLIND_USED_SHARE, after BLIND_USED_LOOKS looks: all misses
+ * count then, as tracks coast in the notch instead of ending.
  */
 #define BLIND_SHARE 0.65f
 #define BLIND_LAST_SHARE 0.85f
@@ -75,33 +80,33 @@ enum { HAS_INNOVATION = 1, IS_MISSED = 2 }; /* bits of has_shown */
 #define BLIND_SURELY 4.0f
 #define BLIND_LOOKS 20.0f
 #define FASTER_LOOKS 60.0f
-#define RATE_MIN2 0.0625f   /* square of the first interval's end */
-#define FLOAT_EXPONENT 127u /* of 1.0f in its bits */
-#define RATE_LOOKS_MAX 250
-#define LOOKS_A_NOTCH 8u /* at an interval, from one search for a notch to the next */
-#define RATES_LEAST 4u   /* intervals: a narrower notch is not told from targets that stop */
-#define FORGOTTEN_MAX 3u /* notches: a sensor that is blind elsewhere would have one now and then */
+#define RATE_MIN2 0.0625f   /* square of the upper limit of the first interval, m^2/s^2 */
+#define FLOAT_EXPONENT 127u /* biased exponent in the bits of 1.0f */
+#define RATE_LOOKS_MAX 250  /* looks in an interval at which its looks and hits are halved */
+#define LOOKS_A_NOTCH 8u    /* looks in an interval from one search for a notch to the next */
+#define RATES_LEAST 4u      /* fewest intervals of a notch: targets that stop look like fewer */
+#define FORGOTTEN_MAX 3u    /* false notches after which no notch is learned any more */
 
-/* One Kalman filter takes manoeuvres for noise, and loses targets that are there. */
-static int learns_sensors(const struct rho_tracker_config *config)
+/* Sensors are learned with hypotheses alone: one Kalman filter takes manoeuvres for noise. */
+static int is_sensor_learning_on(const struct rho_tracker_config *config)
 {
     return RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) && config->gate == RHO_TRACKER_BEST;
 }
 
-static int learns_noise(const struct rho_tracker_config *config)
+static int is_noise_learning_on(const struct rho_tracker_config *config)
 {
-    return learns_sensors(config) &&
+    return is_sensor_learning_on(config) &&
            (config->learn_noise_min < 1.0f || config->learn_noise_max > 1.0f);
 }
 
 /* ---- use of noise ---------------------------------------------------------------------------- */
 
-static float factor_of(const struct rho_tracker *tracker, const struct rho_tracker_learned *learned,
-                       int axis)
+static float usable_sigma_factor(const struct rho_tracker *tracker,
+                                 const struct rho_tracker_learned *learned, int axis)
 {
     const float log_noise = learned->log_noise[axis];
     const float most = AS_STATED + CHANCE / rho_sqrt(1.0f + (float)learned->innovations);
-    if (!learns_noise(&tracker->config) || learned->innovations < INNOVATIONS_MIN ||
+    if (!is_noise_learning_on(&tracker->config) || learned->innovations < INNOVATIONS_MIN ||
         (log_noise <= most && log_noise >= -most)) {
         return 1.0f;
     }
@@ -111,7 +116,7 @@ static float factor_of(const struct rho_tracker *tracker, const struct rho_track
     return least < tracker->config.learn_noise_max ? least : tracker->config.learn_noise_max;
 }
 
-static uint16_t percent_of(float factor)
+static uint16_t percent_of_factor(float factor)
 {
     return (uint16_t)(100.0f * factor + 0.5f);
 }
@@ -120,9 +125,9 @@ void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_
 {
     if (step->learned) {
         sensor->sigma_range_percent =
-            percent_of(suspicion * factor_of(step->tracker, step->learned, 0));
+            percent_of_factor(suspicion * usable_sigma_factor(step->tracker, step->learned, 0));
         sensor->sigma_cross_percent =
-            percent_of(suspicion * factor_of(step->tracker, step->learned, 1));
+            percent_of_factor(suspicion * usable_sigma_factor(step->tracker, step->learned, 1));
     }
 }
 
@@ -136,7 +141,8 @@ void rho_tracker_set_noise(struct step *step, float suspicion)
 
 /* ---- noise learned --------------------------------------------------------------------------- */
 
-static const struct rho_kalman *steady_of(const struct step *step, const struct rho_track *track)
+static const struct rho_kalman *steady_filter_if_not_turning(const struct step *step,
+                                                             const struct rho_track *track)
 {
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
     for (unsigned i = 0; i < rho_hypotheses_count(pool, track->slot); i++) {
@@ -150,13 +156,13 @@ static const struct rho_kalman *steady_of(const struct step *step, const struct 
     return 0;
 }
 
-/* The innovation along a direction, over its sigma, and whether noise dominates it. */
+/* Innovation along a direction, over its sigma; true where enough of its variance is plot noise. */
 struct innovation {
     float sigmas;
     int is_clear;
 };
 
-/* up_m2: variance by the noise of the height, which is not learned. */
+/* noise_m2: variance of the learned noise; up_m2: of the height's noise, which is not learned. */
 static struct innovation innovation_along(const struct rho_kalman *steady,
                                           const struct rho_plot *plot, float x, float y,
                                           float noise_m2, float up_m2)
@@ -178,8 +184,12 @@ static struct innovation innovation_along(const struct rho_kalman *steady,
                                noise_m2 >= NOISE_SHARE_MIN * variance_m2};
 }
 
-/* Half the squared difference to the axis' innovation before, cut; below 0 where it is not used. */
-static float note_excess(struct rho_track *track, int axis, const struct innovation *now)
+/*
+ * Half of the squared difference from the track's last innovation on an axis, cut at CUT2; below 0
+ * where it is not to be used. Stores the new innovation in the track.
+ */
+static float compare_with_last_innovation(struct rho_track *track, int axis,
+                                          const struct innovation *now)
 {
     const float off = now->sigmas - (float)track->shown[axis] * (1.0f / SHOWN_PER_SIGMA);
     const float square = 0.5f * off * off;
@@ -189,7 +199,7 @@ static float note_excess(struct rho_track *track, int axis, const struct innovat
                                                                   : CUT2;
 }
 
-static int add_excess(float *log_noise, float excess, float gain)
+static int update_log_noise(float *log_noise, float excess, float gain)
 {
     if (excess < 0.0f) {
         return 0;
@@ -199,12 +209,12 @@ static int add_excess(float *log_noise, float excess, float gain)
     return 1;
 }
 
-/* factors: learned so far, of the variances. */
-static void learn_noise(struct step *step, struct rho_track *track, const struct rho_plot *plot,
-                        const float factors[2])
+/* factors: learned so far, on the variances along the line of sight and across it. */
+static void learn_noise_from_plot(struct step *step, struct rho_track *track,
+                                  const struct rho_plot *plot, const float factors[2])
 {
     struct rho_tracker_learned *learned = step->learned;
-    const struct rho_kalman *steady = steady_of(step, track);
+    const struct rho_kalman *steady = steady_filter_if_not_turning(step, track);
     const float dx_m = plot->x_m - step->sensor->x_m, dy_m = plot->y_m - step->sensor->y_m;
     const float range_m = rho_sqrt(dx_m * dx_m + dy_m * dy_m);
     if (!steady || !(range_m > 1.0f)) {
@@ -212,10 +222,7 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
         return;
     }
     const float x = dx_m / range_m, y = dy_m / range_m;
-    /*
-     * along a rising line of sight: the noise in the plane, and the part that the height's adds
-     * there
-     */
+    /* the noises along a rising line of sight and of the height, projected into the plane */
     const int has_z = (step->scan->measures & RHO_MEASURES_Z) != 0;
     const float dz_m = has_z ? plot->z_m - step->sensor->z_m : 0.0f;
     const float rise2 = dz_m * dz_m / (dz_m * dz_m + range_m * range_m);
@@ -226,17 +233,17 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
         innovation_along(steady, plot, x, y, (1.0f - rise2) * along_m2 * factors[0], up_m2);
     const struct innovation across =
         innovation_along(steady, plot, -y, x, across_m2 * factors[1], 0.0f);
-    const float along_excess = note_excess(track, 0, &along);
-    const float across_excess = note_excess(track, 1, &across);
+    const float along_excess = compare_with_last_innovation(track, 0, &along);
+    const float across_excess = compare_with_last_innovation(track, 1, &across);
     const float gain = GAIN / (INNOVATIONS_PRIOR + (float)learned->innovations);
     const int is_round = along_m2 <= across_m2 && along_m2 >= across_m2;
-    int is_used = add_excess(&learned->log_noise[0], along_excess, gain);
+    int is_used = update_log_noise(&learned->log_noise[0], along_excess, gain);
     if (is_round) {
-        /* such plots have one noise, and one is learned */
-        is_used |= add_excess(&learned->log_noise[0], across_excess, gain);
+        /* the noise of isotropic plots is learned as one value for both axes */
+        is_used |= update_log_noise(&learned->log_noise[0], across_excess, gain);
         learned->log_noise[1] = learned->log_noise[0];
     } else {
-        is_used |= add_excess(&learned->log_noise[1], across_excess, gain);
+        is_used |= update_log_noise(&learned->log_noise[1], across_excess, gain);
     }
     track->has_shown |= HAS_INNOVATION;
     learned->innovations =
@@ -245,7 +252,7 @@ static void learn_noise(struct step *step, struct rho_track *track, const struct
 
 /* ---- pd -------------------------------------------------------------------------------------- */
 
-static unsigned ring_of(const struct rho_sensor *sensor, const struct rho_track *track)
+static unsigned range_ring_of_track(const struct rho_sensor *sensor, const struct rho_track *track)
 {
     const float dx_m = track->kalman.state[0] - sensor->x_m;
     const float dy_m = track->kalman.state[1] - sensor->y_m;
@@ -253,48 +260,50 @@ static unsigned ring_of(const struct rho_sensor *sensor, const struct rho_track 
     return share < 1.0f ? (unsigned)(share * (float)RHO_LEARN_RINGS) : RHO_LEARN_RINGS - 1u;
 }
 
-/* pd as seen, and how well that is known. */
-struct seen {
+/* Estimate of a detection probability, and its standard deviation. */
+struct pd_estimate {
     float pd, sigma;
 };
 
-static struct seen seen_of(float hits, float looks, float prior, float prior_pd)
+static struct pd_estimate estimate_pd(float hits, float looks, float prior, float prior_pd)
 {
     const float pd = (hits + prior * prior_pd) / (looks + prior);
-    return (struct seen){pd, rho_sqrt(pd * (1.0f - pd) / (looks + prior))};
+    return (struct pd_estimate){pd, rho_sqrt(pd * (1.0f - pd) / (looks + prior))};
 }
 
-static struct seen seen_at_all(const struct rho_tracker_learned *learned, float pd)
+static struct pd_estimate estimate_pd_over_all_rings(const struct rho_tracker_learned *learned,
+                                                     float pd)
 {
     float looks = 0.0f, hits = 0.0f;
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
         looks += (float)learned->looks[ring];
         hits += (float)learned->hits[ring];
     }
-    return seen_of(hits, looks, PRIOR_OF_ALL, pd);
+    return estimate_pd(hits, looks, PRIOR_OF_ALL, pd);
 }
 
-static float usable_pd(const struct rho_tracker_config *config, const struct seen *seen,
-                       float stated)
+static float lowered_or_stated_pd(const struct rho_tracker_config *config,
+                                  const struct pd_estimate *seen, float stated)
 {
     const float pd = seen->pd + CAUTION * seen->sigma;
     const float least = config->learn_pd_min * stated;
     return !(seen->pd + SURELY * seen->sigma < stated) ? stated : pd > least ? pd : least;
 }
 
-static float pd_at(const struct rho_tracker_config *config,
-                   const struct rho_tracker_learned *learned, float stated, unsigned ring)
+static float usable_pd_in_ring(const struct rho_tracker_config *config,
+                               const struct rho_tracker_learned *learned, float stated,
+                               unsigned ring)
 {
-    const struct seen all = seen_at_all(learned, stated);
-    const struct seen seen =
-        seen_of((float)learned->hits[ring], (float)learned->looks[ring], PRIOR_OF_RING, all.pd);
-    return usable_pd(config, &seen, stated);
+    const struct pd_estimate all = estimate_pd_over_all_rings(learned, stated);
+    const struct pd_estimate seen =
+        estimate_pd((float)learned->hits[ring], (float)learned->looks[ring], PRIOR_OF_RING, all.pd);
+    return lowered_or_stated_pd(config, &seen, stated);
 }
 
 /* ---- pd by range rate ------------------------------------------------------------------------ */
 
-/* The range rate at which so many intervals end. */
-static float end_of_rate_intervals(unsigned num_rates)
+/* Upper limit of the first num_rates intervals of range rates, m/s. */
+static float upper_rate_of_intervals(unsigned num_rates)
 {
     float end2 = RATE_MIN2;
     for (unsigned i = 1; i < num_rates; i++) {
@@ -303,33 +312,35 @@ static float end_of_rate_intervals(unsigned num_rates)
     return rho_sqrt(end2);
 }
 
-/* The notch is none, or the one that was learned. */
-static int is_unstated(const struct rho_sensor *sensor, const struct rho_tracker_learned *learned)
+/* True where the sensor's description states no notch: it has none, or the learned one. */
+static int is_notch_unstated(const struct rho_sensor *sensor,
+                             const struct rho_tracker_learned *learned)
 {
     const float learned_mps =
-        learned->used_rates > 0 ? end_of_rate_intervals(learned->used_rates) : 0.0f;
+        learned->used_rates > 0 ? upper_rate_of_intervals(learned->used_rates) : 0.0f;
     return !(sensor->notch_mps > 0.0f) ||
            (sensor->notch_mps >= learned_mps && sensor->notch_mps <= learned_mps);
 }
 
-static int learns_rates(const struct step *step)
+static int is_notch_learning_on(const struct step *step)
 {
     return RHO_DOPPLER_NOTCH && step->tracker->config.learn_pd_min < 1.0f &&
-           is_unstated(step->sensor, step->learned);
+           is_notch_unstated(step->sensor, step->learned);
 }
 
 void rho_tracker_use_notch(struct step *step)
 {
     struct rho_tracker_learned *learned = step->learned;
-    if (learned && learns_sensors(&step->tracker->config) && learns_rates(step)) {
+    if (learned && is_sensor_learning_on(&step->tracker->config) && is_notch_learning_on(step)) {
         learned->used_rates = learned->blind_rates;
         step->tracker->sensors[learned - step->tracker->learned].notch_mps =
-            learned->used_rates > 0 ? end_of_rate_intervals(learned->used_rates) : 0.0f;
+            learned->used_rates > 0 ? upper_rate_of_intervals(learned->used_rates) : 0.0f;
     }
 }
 
-/* The interval of the track's range rate; the last one where it has none. */
-static unsigned rate_interval_of(const struct rho_sensor *sensor, const struct rho_track *track)
+/* Index of the interval of a track's range rate; the last one where the rate is not defined. */
+static unsigned range_rate_interval_of_track(const struct rho_sensor *sensor,
+                                             const struct rho_track *track)
 {
     float row[6], rate_mps;
     if (!rho_measurement_range_rate(track->kalman.state, sensor,
@@ -337,7 +348,7 @@ static unsigned rate_interval_of(const struct rho_sensor *sensor, const struct r
                                     &rate_mps)) {
         return RHO_LEARN_RATES - 1u;
     }
-    /* each ends at twice the square of the one before: the float's own exponent tells it */
+    /* the squares of the intervals' limits double, so that the float's exponent is the index */
     const uint32_t exponent = rho_float_bits(rate_mps * rate_mps / RATE_MIN2) >> 23;
     if (exponent < FLOAT_EXPONENT) {
         return 0;
@@ -346,9 +357,9 @@ static unsigned rate_interval_of(const struct rho_sensor *sensor, const struct r
                                                             : RHO_LEARN_RATES - 1u;
 }
 
-/* The notch that is used: as it is, narrower, or none. */
-static unsigned check_used_notch(unsigned used, float here, float seen, float looks, float hits,
-                                 float pd)
+/* New number of intervals of a notch in use: as before, one less, or 0. */
+static unsigned keep_shrink_or_drop_notch(unsigned used, float here, float seen, float looks,
+                                          float hits, float pd)
 {
     if (hits > BLIND_SHARE * pd * looks) {
         return 0;
@@ -358,8 +369,8 @@ static unsigned check_used_notch(unsigned used, float here, float seen, float lo
                : used;
 }
 
-/* As many intervals as are seen so much worse than those above, all together and the last one. */
-static unsigned find_blind_rates(const struct rho_tracker_learned *learned)
+/* Number of intervals, from range rate 0 on, that make up a notch (BLIND_SHARE); 0: no notch. */
+static unsigned count_blind_rate_intervals(const struct rho_tracker_learned *learned)
 {
     const unsigned used = learned->blind_rates;
     const float last = used > 0 ? BLIND_USED_SHARE : BLIND_LAST_SHARE;
@@ -373,7 +384,7 @@ static unsigned find_blind_rates(const struct rho_tracker_learned *learned)
         const float here = (float)learned->rate_looks[i - 1u],
                     seen = (float)learned->rate_hits[i - 1u];
         if (i == used) {
-            return check_used_notch(used, here, seen, looks, hits, pd);
+            return keep_shrink_or_drop_notch(used, here, seen, looks, hits, pd);
         }
         if (faster >= FASTER_LOOKS && looks >= BLIND_LOOKS && seen < last * pd * here &&
             hits < BLIND_SHARE * pd * looks &&
@@ -388,15 +399,15 @@ static unsigned find_blind_rates(const struct rho_tracker_learned *learned)
     return 0;
 }
 
-static void learn_notch(struct rho_tracker_learned *learned)
+static void update_learned_notch(struct rho_tracker_learned *learned)
 {
     const unsigned found =
-        learned->notches_forgotten < FORGOTTEN_MAX ? find_blind_rates(learned) : 0u;
+        learned->notches_forgotten < FORGOTTEN_MAX ? count_blind_rate_intervals(learned) : 0u;
     if (found == 0 && learned->blind_rates > 0) {
         learned->notches_forgotten = (learned->notches_forgotten + 1u) & FORGOTTEN_MAX;
     }
     if (found > learned->blind_rates) {
-        /* what the rings have learned so far was of slower targets as well */
+        /* the pd of the rings was learned with targets in the notch: it begins anew */
         learned->is_lowered = 0;
         for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
             learned->looks[ring] = learned->hits[ring] = 0;
@@ -405,11 +416,15 @@ static void learn_notch(struct rho_tracker_learned *learned)
     learned->blind_rates = found & 31u;
 }
 
-/* Counts a look in its interval of range rates. 1: not blind, the rings learn from it. */
-static int note_look_at_rate(struct step *step, const struct rho_track *track, unsigned is_seen)
+/*
+ * Counts a look in the interval of the track's range rate, and looks for a notch now and then.
+ * Returns 1 where the interval is outside of the notch.
+ */
+static int count_look_by_range_rate(struct step *step, const struct rho_track *track,
+                                    unsigned is_seen)
 {
     struct rho_tracker_learned *learned = step->learned;
-    const unsigned rate = rate_interval_of(step->sensor, track);
+    const unsigned rate = range_rate_interval_of_track(step->sensor, track);
     learned->rate_looks[rate] = (uint8_t)(learned->rate_looks[rate] + 1u);
     learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] + is_seen);
     if (learned->rate_looks[rate] >= RATE_LOOKS_MAX) {
@@ -417,47 +432,50 @@ static int note_look_at_rate(struct step *step, const struct rho_track *track, u
         learned->rate_hits[rate] = (uint8_t)(learned->rate_hits[rate] / 2u);
     }
     if (learned->rate_looks[rate] % LOOKS_A_NOTCH == 0) {
-        learn_notch(learned);
+        update_learned_notch(learned);
     }
     return rate >= learned->blind_rates;
 }
 
 /* ---- pd of a look ---------------------------------------------------------------------------- */
 
-static int is_pd_lowered(const struct step *step)
+static int is_pd_lowered_in_any_ring(const struct step *step)
 {
-    return learns_sensors(&step->tracker->config) && step->learned && step->learned->is_lowered;
+    return is_sensor_learning_on(&step->tracker->config) && step->learned &&
+           step->learned->is_lowered;
 }
 
 struct detection rho_tracker_usual_detection(const struct step *step, const struct rho_track *track)
 {
     const struct detection stated = {step->log_pd, step->log_miss};
-    if (!is_pd_lowered(step)) {
+    if (!is_pd_lowered_in_any_ring(step)) {
         return stated;
     }
-    const unsigned ring = ring_of(step->sensor, track);
+    const unsigned ring = range_ring_of_track(step->sensor, track);
     if (!(step->learned->is_lowered >> ring & 1u)) {
         return stated;
     }
-    const float pd = pd_at(&step->tracker->config, step->learned, step->sensor->pd, ring);
+    const float pd =
+        usable_pd_in_ring(&step->tracker->config, step->learned, step->sensor->pd, ring);
     return (struct detection){rho_log(pd), rho_log(1.0f - pd)};
 }
 
 float rho_tracker_mean_pd(const struct step *step)
 {
     const float stated = step->sensor->pd;
-    if (!is_pd_lowered(step)) {
+    if (!is_pd_lowered_in_any_ring(step)) {
         return stated;
     }
-    const struct seen all = seen_at_all(step->learned, stated);
-    return usable_pd(&step->tracker->config, &all, stated);
+    const struct pd_estimate all = estimate_pd_over_all_rings(step->learned, stated);
+    return lowered_or_stated_pd(&step->tracker->config, &all, stated);
 }
 
-static void note_look_in_ring(struct step *step, const struct rho_track *track, unsigned is_seen)
+static void count_look_by_range_and_rate(struct step *step, const struct rho_track *track,
+                                         unsigned is_seen)
 {
     struct rho_tracker_learned *learned = step->learned;
-    const unsigned ring = ring_of(step->sensor, track);
-    if (learns_rates(step) && !note_look_at_rate(step, track, is_seen)) {
+    const unsigned ring = range_ring_of_track(step->sensor, track);
+    if (is_notch_learning_on(step) && !count_look_by_range_rate(step, track, is_seen)) {
         return;
     }
     learned->looks[ring] = (uint16_t)(learned->looks[ring] + 1u);
@@ -468,28 +486,32 @@ static void note_look_in_ring(struct step *step, const struct rho_track *track, 
     }
 }
 
-/* The look that follows a hit counts once it is known that the target is still there. */
-static void learn_pd(struct step *step, struct rho_track *track, int is_seen)
+/*
+ * Counts the look that followed a hit when the same sensor next sees the track: as a miss where it
+ * missed the track meanwhile, as a hit otherwise.
+ */
+static void learn_pd_from_look(struct step *step, struct rho_track *track, int is_seen)
 {
     const int is_own = track->sensor_id == step->scan->sensor_id;
     if (RHO_DOPPLER_NOTCH && track->blind_percent > BLIND_PERCENT_MAX) {
-        if (is_own && learns_rates(step)) {
-            (void)note_look_at_rate(step, track, is_seen != 0);
+        if (is_own && is_notch_learning_on(step)) {
+            (void)count_look_by_range_rate(step, track, is_seen != 0);
         }
         return;
     }
     if (is_seen && is_own) {
-        note_look_in_ring(step, track, track->has_shown & IS_MISSED ? 0u : 1u);
+        count_look_by_range_and_rate(step, track, track->has_shown & IS_MISSED ? 0u : 1u);
     }
     track->has_shown &= (uint8_t)~IS_MISSED;
     track->has_shown |= (uint8_t)(!is_seen && is_own ? IS_MISSED : 0u);
 }
 
-/* Whether the learned pd is below the stated one: one ring of range a scan. */
-static void find_lowered_pd(struct step *step)
+/* Tests in one ring of range, another one each scan, whether the learned pd is below the stated. */
+static void update_lowered_pd_of_next_ring(struct step *step)
 {
     struct rho_tracker_learned *learned = step->learned;
-    const float pd = pd_at(&step->tracker->config, learned, step->sensor->pd, learned->ring);
+    const float pd =
+        usable_pd_in_ring(&step->tracker->config, learned, step->sensor->pd, learned->ring);
     const unsigned bit = 1u << learned->ring, others = learned->is_lowered & ~bit;
     learned->is_lowered = (uint8_t)(others | (pd < step->sensor->pd ? bit : 0u));
     learned->ring = (uint8_t)((learned->ring + 1u) % RHO_LEARN_RINGS);
@@ -497,52 +519,53 @@ static void find_lowered_pd(struct step *step)
 
 /* ---- a scan ---------------------------------------------------------------------------------- */
 
-static int is_evidence(const struct step *step, unsigned row)
+static int can_teach_sensor(const struct step *step, unsigned row)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     return track->status != RHO_TRACK_FREE && track->was_confirmed &&
            rho_tracker_is_established(track) && rho_tracker_is_in_view(step, row);
 }
 
-static int is_steady(const struct rho_track *track)
+static int can_teach_noise(const struct rho_track *track)
 {
     return !track->is_shared && RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES) &&
            track->maneuver_probability < MANEUVER_MAX;
 }
 
-static int can_learn(const struct step *step)
+static int can_learn_from_scan(const struct step *step)
 {
     return !step->is_suspect && !step->is_late && step->learned &&
-           learns_sensors(&step->tracker->config);
+           is_sensor_learning_on(&step->tracker->config);
 }
 
 void rho_tracker_learn_sensor(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    /* a group's noise is mostly that of places on a body */
-    const int has_noise = learns_noise(&tracker->config) && !rho_tracker_has_bodies(tracker);
+    /* with bodies no noise is learned: most of a group's noise is the extent of the body */
+    const int has_noise =
+        is_noise_learning_on(&tracker->config) && !rho_tracker_has_bodies(tracker);
     const int has_pd = tracker->config.learn_pd_min < 1.0f;
-    if (!can_learn(step)) {
+    if (!can_learn_from_scan(step)) {
         return;
     }
     const float factors[2] = {rho_exp(step->learned->log_noise[0]),
                               rho_exp(step->learned->log_noise[1])};
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (!is_evidence(step, row)) {
+        if (!can_teach_sensor(step, row)) {
             continue;
         }
         const int plot = rho_assignment_column(&tracker->assignment, row);
-        if (has_noise && plot != RHO_ASSIGNMENT_NONE && is_steady(track)) {
-            learn_noise(step, track, &step->scan->plots[plot], factors);
+        if (has_noise && plot != RHO_ASSIGNMENT_NONE && can_teach_noise(track)) {
+            learn_noise_from_plot(step, track, &step->scan->plots[plot], factors);
         }
         if (plot != RHO_ASSIGNMENT_NONE ||
             (!step->has_more_parts && rho_tracker_scan_looked_at(step, track))) {
-            learn_pd(step, track, plot != RHO_ASSIGNMENT_NONE);
+            learn_pd_from_look(step, track, plot != RHO_ASSIGNMENT_NONE);
         }
     }
     if (has_pd && !step->has_more_parts) {
-        find_lowered_pd(step);
+        update_lowered_pd_of_next_ring(step);
     }
 }
 
@@ -583,18 +606,18 @@ enum rho_status rho_tracker_known_of(const struct rho_tracker *tracker, int32_t 
     }
     const struct rho_tracker_learned *learned = &tracker->learned[sensor - tracker->sensors];
     const int is_blind =
-        RHO_DOPPLER_NOTCH && learned->blind_rates > 0 && is_unstated(sensor, learned);
+        RHO_DOPPLER_NOTCH && learned->blind_rates > 0 && is_notch_unstated(sensor, learned);
     *known = (struct rho_tracker_known){
-        .notch_mps = is_blind ? end_of_rate_intervals(learned->blind_rates) : 0.0f,
-        .range_factor = factor_of(tracker, learned, 0),
-        .cross_factor = factor_of(tracker, learned, 1),
+        .notch_mps = is_blind ? upper_rate_of_intervals(learned->blind_rates) : 0.0f,
+        .range_factor = usable_sigma_factor(tracker, learned, 0),
+        .cross_factor = usable_sigma_factor(tracker, learned, 1),
         .innovations = learned->innovations,
         .resolution_range_sigmas = RHO_SHARES_PLOTS ? rho_tracker_cell_sigmas(learned, 0) : 0.0f,
         .resolution_cross_sigmas = RHO_SHARES_PLOTS ? rho_tracker_cell_sigmas(learned, 1) : 0.0f,
     };
     for (unsigned ring = 0; ring < RHO_LEARN_RINGS; ring++) {
         known->pd[ring] = learned->is_lowered >> ring & 1u
-                              ? pd_at(&tracker->config, learned, sensor->pd, ring)
+                              ? usable_pd_in_ring(&tracker->config, learned, sensor->pd, ring)
                               : sensor->pd;
         known->looks += learned->looks[ring];
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * sensor_table: the sensors that were described (rho_tracker_set_sensor).
+ * sensor_table: looks up the descriptions of sensors (rho_tracker_set_sensor), and tests them.
  */
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/measurement.h"

@@ -3,12 +3,12 @@
  * short_lived_tracks: where many tracks end soon after they were confirmed, new ones need more
  * evidence.
  *
- * The score compares a target with clutter that comes and goes. It knows nothing of objects that
- * move as targets do and are seldom seen: second-time-around echoes, sidelobes, the edge of a
- * weather front. Such an object is a track each time three of its plots follow each other by
- * chance, and is missed then. Tracks that end so early are counted, and established ones, which
- * have 16 hits. For each track the evidence that it is seen as often as targets are, and not 0.3
- * times as often, is (h hits, m misses)
+ * The track score compares a target with clutter that is independent from scan to scan. It does not
+ * model objects that move as targets do and are seldom seen: second-time-around echoes, sidelobes,
+ * the edge of a weather front. Such an object becomes a track whenever three of its plots follow
+ * each other by chance, and is missed then. Tracks that end so early are counted, and so are
+ * established ones, which have 16 hits. The evidence that a track with h hits and m misses is seen
+ * as often as targets are, and not 0.3 times as often, is
  *
  *      e = h ln(1 / 0.3) - m ln((1 - 0.3 p) / (1 - p))
  *
@@ -22,46 +22,49 @@
  * that false_tracks_per_hour allows, and half a standard deviation of D may be chance; where no
  * more tracks end early, no evidence is needed. Until then a track is tentative.
  *
- * A track has ended early whose score was one that confirms, and that misses ended before 16 hits
- * with e below 0. Targets that came and left soon are counted, too: with one in twenty instead of
- * one in ten, all targets would be found later where aircraft come and go.
+ * A track has ended early if its score had reached the confirm threshold, and misses ended it
+ * before 16 hits with e below 0. Targets that stay only for a short time are counted, too: with one
+ * false track in twenty instead of ten, all targets would be confirmed later where aircraft come
+ * and go.
  */
 #include "rhotrack/detail/approx.h"
 #include "step.h"
 
-/* Share of looks that see an object that is no target, over that of targets. */
+/* Detection probability of a seldom seen object that is no target, over that of a target. */
 #define SELDOM 0.3f
-#define HIT_NAT 1.2039728f /* ln(1 / SELDOM) */
+/* Evidence of a hit, ln(1 / SELDOM), and of the three hits that start a track. */
+#define HIT_NAT 1.2039728f
 #define START_NAT (3.0f * HIT_NAT)
-
+/* Evidence from which a track counts as almost established. */
 #define ALMOST_ESTABLISHED_NAT (2.0f * START_NAT)
 
-/* True tracks to a false one among the confirmed tracks; established tracks before any was seen. */
+/* Wanted number of true tracks for each false one, and prior number of established tracks. */
 #define TRUE_PER_FALSE 10.0f
 #define ESTABLISHED_PRIOR 2.0f
 
 /* Standard deviations by which the count of tracks that ended early may exceed its mean. */
 #define EXCESS_SIGMAS 0.5f
 
-/* Time in which counts fade to 1/e. */
+/* Time in which the counts of ended and established tracks fade to 1/e. */
 #define MEMORY_S 1600.0f
 
-/* Prior hits and misses of the share of looks that see an established track. */
+/* Prior hits and misses of established tracks, for the share of looks that see them. */
 #define PRIOR_HITS 9.0f
 #define PRIOR_MISSES 1.0f
 
-static float evidence_of(const struct step *step, const struct rho_track *track)
+static float evidence_of_target(const struct step *step, const struct rho_track *track)
 {
     return (float)track->hits * HIT_NAT - (float)track->misses * step->miss_nat;
 }
 
-/* Evidence of a miss, by the share of looks that see established tracks now. */
-static float miss_nat(const struct rho_tracker *tracker)
+/* Evidence that a miss takes from a track, by the hits and misses of the established tracks. */
+static float evidence_of_miss(const struct rho_tracker *tracker)
 {
     float hits = PRIOR_HITS, misses = PRIOR_MISSES;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (rho_tracker_is_established(track) && track->hits < UINT16_MAX) { /* counts end there */
+        if (rho_tracker_is_established(track) &&
+            track->hits < UINT16_MAX) { /* no saturated counts */
             hits += (float)track->hits;
             misses += (float)track->misses;
         }
@@ -69,16 +72,16 @@ static float miss_nat(const struct rho_tracker *tracker)
     return rho_log(((1.0f - SELDOM) * hits + misses) / misses);
 }
 
-/* Tracks that soon will be established: seen so often that they are of targets. */
-static float count_almost_established(const struct step *step)
+/* Number of tracks not yet established, but with the evidence ALMOST_ESTABLISHED_NAT or more. */
+static float count_almost_established_tracks(const struct step *step)
 {
     float count = 0.0f;
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         const struct rho_track *track = &step->tracker->tracks[i];
-        count +=
-            !rho_tracker_is_established(track) && evidence_of(step, track) >= ALMOST_ESTABLISHED_NAT
-                ? 1.0f
-                : 0.0f;
+        count += !rho_tracker_is_established(track) &&
+                         evidence_of_target(step, track) >= ALMOST_ESTABLISHED_NAT
+                     ? 1.0f
+                     : 0.0f;
     }
     return count;
 }
@@ -87,7 +90,7 @@ void rho_tracker_find_evidence_needed(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     if (!(tracker->ended_early + tracker->established > 0.0f)) {
-        tracker->counted_us = step->time_us; /* nothing to forget yet */
+        tracker->counted_us = step->time_us; /* no track was counted yet: nothing to fade */
     } else if (step->time_us > tracker->counted_us) {
         const float kept =
             rho_exp(-rho_seconds_between(tracker->counted_us, step->time_us) / MEMORY_S);
@@ -106,10 +109,11 @@ void rho_tracker_find_evidence_needed(struct step *step)
     const float wanted = tracker->wanted_per_hour * sensors * (MEMORY_S / 3600.0f);
     const float excess =
         tracker->ended_early - wanted - EXCESS_SIGMAS * rho_sqrt(tracker->ended_early);
-    step->miss_nat = miss_nat(tracker);
-    const float odds = TRUE_PER_FALSE * excess /
-                       (tracker->established + count_almost_established(step) + ESTABLISHED_PRIOR);
-    /* where the threshold is set by hand, no rate of false tracks is wanted */
+    step->miss_nat = evidence_of_miss(tracker);
+    const float odds =
+        TRUE_PER_FALSE * excess /
+        (tracker->established + count_almost_established_tracks(step) + ESTABLISHED_PRIOR);
+    /* wanted_per_hour is 0 where score_min_nat sets the threshold: no evidence is needed then */
     step->needed_nat =
         odds > 1.0f && tracker->wanted_per_hour > 0.0f ? START_NAT + rho_log(odds) : 0.0f;
 }
@@ -117,7 +121,7 @@ void rho_tracker_find_evidence_needed(struct step *step)
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track)
 {
     return step->needed_nat > 0.0f && !rho_tracker_is_established(track) &&
-           evidence_of(step, track) < step->needed_nat;
+           evidence_of_target(step, track) < step->needed_nat;
 }
 
 void rho_tracker_note_established(struct step *step, const struct rho_track *track)
@@ -129,7 +133,7 @@ void rho_tracker_note_established(struct step *step, const struct rho_track *tra
 
 void rho_tracker_note_early_end(struct step *step, const struct rho_track *track)
 {
-    if (!rho_tracker_is_established(track) && evidence_of(step, track) < 0.0f &&
+    if (!rho_tracker_is_established(track) && evidence_of_target(step, track) < 0.0f &&
         track->score_max_mnat >= step->tracker->confirm_mnat) {
         step->tracker->ended_early += 1.0f;
     }

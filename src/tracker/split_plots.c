@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * split_plots: expects second plots of one target near the plots that tracks have claimed, learns
- * how often they come, and ends the younger of two tracks of one target.
+ * split_plots: raises the clutter density near claimed plots by the density of second plots of the
+ * same target, learns how often those come, and ends the younger of two tracks of one target.
  */
 #include <string.h>
 
@@ -11,41 +11,42 @@
 #include "step.h"
 
 /*
- * Bounds of the bins in standard deviations, their prior shares, and the weight of the prior in
- * plots.
+ * Distances of second plots from first ones on an axis: upper bounds of the bins in standard
+ * deviations, prior shares of the bins, and the weight of the prior in plots.
  */
 static const float bin_end[RHO_SECOND_BINS] = {1.0f, 2.0f, 3.0f, 4.0f, 6.0f, 8.0f, 12.0f, 16.0f};
 static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
                                                  0.1f,  0.05f, 0.03f, 0.02f};
 #define BINS_PRIOR_PLOTS 4.0f
+/* Largest distance of a second plot on an axis, standard deviations: the end of the last bin. */
 #define NEAR_SIGMAS 16.0f
-/* Units of work: two plots near each other. */
+/* Units of work for a pair of plots near each other. */
 #define PAIR_UNITS 12u
 
-/* Prior second plots a claimed plot, and its weight in looks. */
+/* Prior number of second plots per claimed plot, and its weight in looks. */
 #define RATE_PRIOR 0.01f
 #define RATE_PRIOR_LOOKS 10.0f
-/* Weight of the sensor's rate in a track's own, in looks. */
+/* Weight of the sensor's rate of second plots in that of a track, in looks. */
 #define TRACK_PRIOR_LOOKS 10.0f
-/* Sums are halved at so many looks. */
+/* Looks at which the sums of second plots of a sensor, and of a track, are halved. */
 #define LOOKS_REMEMBERED 1000.0f
 #define TRACK_LOOKS_REMEMBERED 50.0f
-/* Hits from which a track teaches: another target beside it has its own track by then. */
+/* Fewest hits of a track that teaches: a neighbouring target has a track of its own by then. */
 #define TEACHER_HITS 8
 
-/* A track that has been seen more often is not a second track of another's target. */
+/* Most hits of a track that may be taken for a second track of an older track's target. */
 #define YOUNGER_HITS_MAX 12
 /*
- * ln of the odds of one target against two: where the younger track ends, the least that is
- * remembered, and the most that one scan may add or take.
+ * ln of the odds that two tracks are of one target and not of two: above END the younger track
+ * ends, LEAST is the lower bound, and STEP the largest change by one scan.
  */
 #define ONE_TARGET_END_NAT 3.0f
 #define ONE_TARGET_LEAST_NAT (-4.0f)
 #define ONE_TARGET_STEP_NAT 3.0f
 
 /*
- * Evidence for one target: of a scan in which both tracks took one plot (merged_plots); and of one
- * in which the younger has no plot, and the older's lies outside the younger's gate.
+ * Evidence for one target by a scan in which both tracks claimed one plot (merged_plots), and by a
+ * scan in which the younger track has no plot, and the older one's lies outside the younger's gate.
  */
 #define SHARED_NAT 0.3f
 #define MISS_NAT 1.0f
@@ -53,8 +54,8 @@ static const float bin_prior[RHO_SECOND_BINS] = {0.26f, 0.24f, 0.18f, 0.12f,
 
 /* ---- learned rates --------------------------------------------------------------------------- */
 
-/* A sensor's table of second plots. NULL: no room for another sensor. */
-static struct rho_second_plots *table_of(struct rho_tracker *tracker, int32_t sensor_id)
+/* Finds the sensor's table of second plots, or gives it a free one. NULL: all tables are in use. */
+static struct rho_second_plots *find_or_claim_table(struct rho_tracker *tracker, int32_t sensor_id)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         struct rho_second_plots *table = &tracker->second_plots[i];
@@ -69,7 +70,7 @@ static struct rho_second_plots *table_of(struct rho_tracker *tracker, int32_t se
     return 0;
 }
 
-/* Frees a sensor's table; tables in use come first. */
+/* Frees a sensor's table of second plots; the last table in use takes its place. */
 void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id)
 {
     struct rho_second_plots *tables = tracker->second_plots;
@@ -93,7 +94,7 @@ static float second_plot_rate(const struct rho_second_plots *table, const struct
                  : rate;
 }
 
-static unsigned bin_of(float sigmas)
+static unsigned distance_bin(float sigmas)
 {
     unsigned bin = 0;
     while (bin < RHO_SECOND_BINS && sigmas > bin_end[bin]) {
@@ -102,49 +103,51 @@ static unsigned bin_of(float sigmas)
     return bin;
 }
 
-/* Share of second plots in a bin, an axis and sigma, on both sides. */
-static float share_in(const struct rho_second_plots *table, const float *sums, unsigned bin)
+/* Density of second plots on an axis at a distance in this bin, per sigma, on either side. */
+static float share_per_sigma_in_bin(const struct rho_second_plots *table, const float *sums,
+                                    unsigned bin)
 {
     const float width = bin_end[bin] - (bin > 0 ? bin_end[bin - 1u] : 0.0f);
     return 0.5f * (sums[bin] + BINS_PRIOR_PLOTS * bin_prior[bin]) /
            ((table->plots + BINS_PRIOR_PLOTS) * width);
 }
 
-/* Where another plot lies from a claimed one, in bins. */
-struct offset {
-    unsigned along, across; /* bins; RHO_SECOND_BINS: beyond them */
+/* Distance of a plot from a claimed one, along the line of sight and across it, in bins. */
+struct bin_offset {
+    unsigned along, across; /* indices of bins; RHO_SECOND_BINS: beyond the last bin */
 };
 
-static int is_near(struct offset offset)
+static int is_within_bins(struct bin_offset offset)
 {
     return offset.along < RHO_SECOND_BINS && offset.across < RHO_SECOND_BINS;
 }
 
-static struct offset offset_of(const struct rho_sensor *sensor, const struct rho_plot *first,
-                               const struct rho_plot *second)
+static struct bin_offset bin_offset_of_plots(const struct rho_sensor *sensor,
+                                             const struct rho_plot *first,
+                                             const struct rho_plot *second)
 {
     const struct echo_view view = rho_clutter_map_view(sensor, first->x_m, first->y_m);
     const float dx_m = second->x_m - first->x_m, dy_m = second->y_m - first->y_m;
     const float along_m = dx_m * view.along_x + dy_m * view.along_y;
     const float across_m = dy_m * view.along_x - dx_m * view.along_y;
-    return (struct offset){
-        bin_of((along_m < 0.0f ? -along_m : along_m) / first->sigma_range_m),
-        bin_of((across_m < 0.0f ? -across_m : across_m) / first->sigma_cross_m),
+    return (struct bin_offset){
+        distance_bin((along_m < 0.0f ? -along_m : along_m) / first->sigma_range_m),
+        distance_bin((across_m < 0.0f ? -across_m : across_m) / first->sigma_cross_m),
     };
 }
 
-/* Density of a target's second plot at an offset from its first, 1/m^2, if there is one. */
-static float second_plot_density(const struct rho_second_plots *table, struct offset offset,
+/* Density of a target's second plot, if it has one, at an offset from the first one, 1/m^2. */
+static float second_plot_density(const struct rho_second_plots *table, struct bin_offset offset,
                                  const struct rho_plot *first)
 {
-    return share_in(table, table->along, offset.along) *
-           share_in(table, table->across, offset.across) /
+    return share_per_sigma_in_bin(table, table->along, offset.along) *
+           share_per_sigma_in_bin(table, table->across, offset.across) /
            (first->sigma_range_m * first->sigma_cross_m);
 }
 
-/* Likelihood ratio of the range rates of two plots of one target. */
-static float range_rate_ratio(const struct step *step, uint32_t measures,
-                              const struct rho_plot *first, const struct rho_plot *second)
+/* Likelihood ratio of two plots' range rates, of one target against clutter of any range rate. */
+static float range_rate_ratio_of_plots(const struct step *step, uint32_t measures,
+                                       const struct rho_plot *first, const struct rho_plot *second)
 {
     if (!(measures & RHO_MEASURES_RANGE_RATE)) {
         return 1.0f;
@@ -154,8 +157,8 @@ static float range_rate_ratio(const struct step *step, uint32_t measures,
                                       second->sigma_range_rate_mps * second->sigma_range_rate_mps);
 }
 
-/* The code of ln(e^repeats + ratio). */
-static uint8_t repeats_with(uint8_t repeats, float ratio)
+/* Adds a density ratio to a window plot's stored one, both coded as ln in steps of `repeats`. */
+static uint8_t add_ratio_to_repeats(uint8_t repeats, float ratio)
 {
     const float was = rho_exp((float)repeats / RHO_WINDOW_REPEATS_PER_NAT);
     const float is = RHO_WINDOW_REPEATS_PER_NAT * rho_log(was + ratio) + 0.5f;
@@ -164,8 +167,9 @@ static uint8_t repeats_with(uint8_t repeats, float ratio)
 
 /* ---- pairs of tracks ------------------------------------------------------------------------- */
 
-/* The track of an identity, below row `end`; tracks are in the order of identities. */
-static struct rho_track *track_of(struct rho_tracker *tracker, uint32_t track_id, unsigned end)
+/* Finds the live track with this identity by bisection: rows are in the order of identities. */
+static struct rho_track *find_track_below_row(struct rho_tracker *tracker, uint32_t track_id,
+                                              unsigned end)
 {
     unsigned first = 0;
     while (first < end) {
@@ -185,20 +189,23 @@ static float probability_of_one_target(const struct rho_track *track)
     return 1.0f / (1.0f + rho_exp(-track->one_target_nat));
 }
 
-/* Both have a plot: the younger's is a second plot, or its target's. */
-static float two_plots_nat(const struct step *step, const struct rho_second_plots *table,
-                           unsigned older_row, unsigned row)
+/*
+ * Evidence for one target, ln, by a scan in which each of both tracks claimed a plot: the younger
+ * track's plot is a second plot of the older's target, or of a target of its own.
+ */
+static float evidence_of_two_plots(const struct step *step, const struct rho_second_plots *table,
+                                   unsigned older_row, unsigned row)
 {
     const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
     const struct rho_plot *first = &step->scan->plots[older->plot];
     const struct rho_plot *second = &step->scan->plots[track->plot];
-    const struct offset offset = offset_of(step->sensor, first, second);
+    const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, second);
     float gain_nat = 0.0f, ratio = 0.0f, swap_nat = 0.0f, own_nat = 0.0f;
     (void)rho_tracker_gain_offered(step, row, track->plot, &gain_nat);
     /*
-     * the older's target may have made the younger's plot: then the older's is the second, or the
-     * younger's target made it
+     * the two plots may also be swapped: the younger track's plot is the first one of the only
+     * target, or, with two targets, each made the other's plot
      */
     float ways = 1.0f, older_ways = 1.0f;
     if (rho_tracker_gain_offered(step, older_row, older->plot, &own_nat) &&
@@ -209,9 +216,9 @@ static float two_plots_nat(const struct step *step, const struct rho_second_plot
             ways += rho_exp(swap_nat - own_nat + other_nat - gain_nat);
         }
     }
-    if (is_near(offset)) {
+    if (is_within_bins(offset)) {
         ratio = second_plot_rate(table, older) * second_plot_density(table, offset, first) *
-                range_rate_ratio(step, step->scan->measures, first, second) /
+                range_rate_ratio_of_plots(step, step->scan->measures, first, second) /
                 rho_tracker_density_at_plot(step, second) *
                 rho_exp(-rho_tracker_repeats_nat(step, (uint32_t)track->plot));
     }
@@ -219,10 +226,11 @@ static float two_plots_nat(const struct step *step, const struct rho_second_plot
 }
 
 /*
- * One has a plot, or both the same. Where either could have it, two targets explain it in two ways.
+ * Evidence for one target, ln, by a scan in which one of both tracks has a plot, or both have the
+ * same. A plot in both gates could be of either of two targets: two ways, which LOG_TWO counts.
  */
-static float one_plot_nat(const struct step *step, const struct rho_second_plots *table,
-                          unsigned older_row, unsigned row)
+static float evidence_of_one_plot(const struct step *step, const struct rho_second_plots *table,
+                                  unsigned older_row, unsigned row)
 {
     const struct rho_track *older = &step->tracker->tracks[older_row];
     const struct rho_track *track = &step->tracker->tracks[row];
@@ -236,14 +244,16 @@ static float one_plot_nat(const struct step *step, const struct rho_second_plots
     if (older->plot < 0) {
         if (!is_in_olders_gate) {
             /*
-             * a second plot, of a first that another track has; or clutter, if it was not the
-             * younger's target
+             * at the older track's place it may be a second plot of its target, which is no
+             * evidence; elsewhere it is the younger's target or clutter
              */
             struct rho_plot place = step->scan->plots[plot];
             place.x_m = older->kalman.state[0];
             place.y_m = older->kalman.state[1];
-            return is_near(offset_of(step->sensor, &place, &step->scan->plots[plot])) ? 0.0f
-                                                                                      : -gain_nat;
+            return is_within_bins(
+                       bin_offset_of_plots(step->sensor, &place, &step->scan->plots[plot]))
+                       ? 0.0f
+                       : -gain_nat;
         }
         nat += older_gain_nat - gain_nat;
     }
@@ -253,7 +263,7 @@ static float one_plot_nat(const struct step *step, const struct rho_second_plots
     return nat - rho_tracker_detection(step, track).log_miss - (is_in_olders_gate ? LOG_TWO : 0.0f);
 }
 
-static void add_one_target_nat(struct rho_track *track, float nat)
+static void add_evidence_of_one_target(struct rho_track *track, float nat)
 {
     nat = nat < ONE_TARGET_STEP_NAT ? nat : ONE_TARGET_STEP_NAT;
     track->one_target_nat += nat > -ONE_TARGET_STEP_NAT ? nat : -ONE_TARGET_STEP_NAT;
@@ -261,11 +271,12 @@ static void add_one_target_nat(struct rho_track *track, float nat)
         track->one_target_nat > ONE_TARGET_LEAST_NAT ? track->one_target_nat : ONE_TARGET_LEAST_NAT;
 }
 
-static void decide_one_target(struct step *step, const struct rho_second_plots *table, unsigned row)
+static void test_and_end_younger_track(struct step *step, const struct rho_second_plots *table,
+                                       unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
-    struct rho_track *older = track_of(tracker, track->older_id, row);
+    struct rho_track *older = find_track_below_row(tracker, track->older_id, row);
     if (!older) {
         track->older_id = 0;
         track->one_target_nat = 0.0f;
@@ -280,9 +291,9 @@ static void decide_one_target(struct step *step, const struct rho_second_plots *
         return;
     }
     const float nat = track->plot >= 0 && older->plot >= 0 && track->plot != older->plot
-                          ? two_plots_nat(step, table, older_row, row)
-                          : one_plot_nat(step, table, older_row, row);
-    add_one_target_nat(track, nat);
+                          ? evidence_of_two_plots(step, table, older_row, row)
+                          : evidence_of_one_plot(step, table, older_row, row);
+    add_evidence_of_one_target(track, nat);
     if (track->one_target_nat > ONE_TARGET_END_NAT) {
         track->one_target_nat = ONE_TARGET_END_NAT;
         if (older->plot >= 0) {
@@ -293,19 +304,22 @@ static void decide_one_target(struct step *step, const struct rho_second_plots *
 
 /* ---- plots near a claimed one ---------------------------------------------------------------- */
 
-struct found {
+struct second_plot_sums {
     float plots;
     float along[RHO_SECOND_BINS], across[RHO_SECOND_BINS];
 };
 
-static int is_teacher(const struct rho_track *track)
+static int can_teach_second_plots(const struct rho_track *track)
 {
     return track->was_confirmed && track->hits >= TEACHER_HITS;
 }
 
-/* Another plot near the track's: its share that is the target's second one. */
-static float score_second_plot(struct step *step, const struct rho_second_plots *table,
-                               unsigned row, uint32_t other, struct offset offset)
+/*
+ * Probability that a plot near the track's plot is its target's second one. Raises the density of
+ * clutter at an unclaimed plot; a younger track that claimed the plot becomes one to be tested.
+ */
+static float score_plot_near_claimed(struct step *step, const struct rho_second_plots *table,
+                                     unsigned row, uint32_t other, struct bin_offset offset)
 {
     struct rho_tracker *tracker = step->tracker;
     const struct rho_track *track = &tracker->tracks[row];
@@ -316,19 +330,20 @@ static float score_second_plot(struct step *step, const struct rho_second_plots 
     if (step->report->fates[other] != RHO_FATE_HELD) {
         if (owner <= (int)row || tracker->tracks[owner].plot != (int)other ||
             tracker->config.gate == RHO_TRACKER_HOUGH) {
-            /* an older's, or no plot at all; the Hough gate's gains are no likelihoods */
+            /* no second plot: an older track's, or invalid; the Hough gate has no likelihoods */
             return 0.0f;
         }
         struct rho_track *younger = &tracker->tracks[owner];
         if (younger->older_id == 0 && younger->hits <= YOUNGER_HITS_MAX && track->was_confirmed) {
             younger->older_id = track->track_id;
             younger->one_target_nat = 0.0f;
-            add_one_target_nat(younger, two_plots_nat(step, table, row, (unsigned)owner));
+            add_evidence_of_one_target(younger,
+                                       evidence_of_two_plots(step, table, row, (unsigned)owner));
         }
         share = younger->older_id == track->track_id ? probability_of_one_target(younger) : 0.0f;
     }
     const float ratio = second_plot_rate(table, track) * second_plot_density(table, offset, first) *
-                        range_rate_ratio(step, step->scan->measures, first, second) /
+                        range_rate_ratio_of_plots(step, step->scan->measures, first, second) /
                         rho_tracker_density_at_plot(step, second);
     float *denser = &tracker->clutter_map.denser[other];
     const float known = rho_exp(*denser);
@@ -338,8 +353,8 @@ static float score_second_plot(struct step *step, const struct rho_second_plots 
     return share * ratio / (known + ratio);
 }
 
-static void score_plots_near(struct step *step, const struct rho_second_plots *table, unsigned row,
-                             struct found *found)
+static void score_plots_near_claimed(struct step *step, const struct rho_second_plots *table,
+                                     unsigned row, struct second_plot_sums *found)
 {
     const struct rho_track *track = &step->tracker->tracks[row];
     const struct rho_plot *first = &step->scan->plots[track->plot];
@@ -354,10 +369,10 @@ static void score_plots_near(struct step *step, const struct rho_second_plots *t
             (int)i == track->plot || step->report->fates[i] == RHO_FATE_INVALID) {
             continue;
         }
-        const struct offset offset = offset_of(step->sensor, first, plot);
+        const struct bin_offset offset = bin_offset_of_plots(step->sensor, first, plot);
         rho_tracker_spend(step, PAIR_UNITS);
-        if (is_near(offset)) {
-            const float share = score_second_plot(step, table, row, i, offset);
+        if (is_within_bins(offset)) {
+            const float share = score_plot_near_claimed(step, table, row, i, offset);
             found->plots += share;
             found->along[offset.along] += share;
             found->across[offset.across] += share;
@@ -366,7 +381,7 @@ static void score_plots_near(struct step *step, const struct rho_second_plots *t
     rho_tracker_spend(step, passed / RHO_WORK_PASSED_A_UNIT);
 }
 
-static void teach_track(struct rho_track *track, float plots, float share)
+static void add_second_plots_to_track(struct rho_track *track, float plots, float share)
 {
     if (track->second_looks >= TRACK_LOOKS_REMEMBERED) {
         track->second_looks *= 0.5f;
@@ -376,7 +391,8 @@ static void teach_track(struct rho_track *track, float plots, float share)
     track->second_plots += share * plots;
 }
 
-static void teach_sensor(struct rho_second_plots *table, const struct found *found, float looks)
+static void add_second_plots_to_sensor(struct rho_second_plots *table,
+                                       const struct second_plot_sums *found, float looks)
 {
     const float keep = table->looks >= LOOKS_REMEMBERED ? 0.5f : 1.0f;
     table->looks = keep * table->looks + looks;
@@ -387,8 +403,8 @@ static void teach_sensor(struct rho_second_plots *table, const struct found *fou
     }
 }
 
-/* No work is left for the plots near this one: none counts as its second. */
-static void count_not_tried(struct step *step)
+/* Counts a claimed plot whose neighbours are not scored, as the share of work is used up. */
+static void count_plot_not_tried(struct step *step)
 {
     step->is_partial = 1;
     step->plots_not_tried = rho_count(step->plots_not_tried, 1);
@@ -397,8 +413,8 @@ static void count_not_tried(struct step *step)
 void rho_tracker_expect_second_plots(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
-    struct rho_second_plots *table = table_of(tracker, step->scan->sensor_id);
-    struct found found = {.plots = 0.0f};
+    struct rho_second_plots *table = find_or_claim_table(tracker, step->scan->sensor_id);
+    struct second_plot_sums found = {.plots = 0.0f};
     float looks = 0.0f;
     if (!table || step->is_late || step->num_inputs > RHO_MAX_PLOTS) {
         return;
@@ -406,11 +422,11 @@ void rho_tracker_expect_second_plots(struct step *step)
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         tracker->tracks[row].second_share = 1.0f;
     }
-    /* the Hough gate's gains are no likelihoods */
+    /* not with the Hough gate, whose gains are no likelihoods */
     for (unsigned row = 1; row < tracker->num_tracks && tracker->config.gate != RHO_TRACKER_HOUGH;
          row++) {
         if (tracker->tracks[row].older_id > 0 && tracker->tracks[row].status != RHO_TRACK_FREE) {
-            decide_one_target(step, table, row);
+            test_and_end_younger_track(step, table, row);
         }
     }
     rho_tracker_begin_share(step, RHO_WORK_SECOND_SHARE);
@@ -420,14 +436,14 @@ void rho_tracker_expect_second_plots(struct step *step)
             continue;
         }
         if (rho_tracker_is_spent(step)) {
-            count_not_tried(step);
+            count_plot_not_tried(step);
             continue;
         }
-        struct found near = {.plots = 0.0f};
-        score_plots_near(step, table, row, &near);
-        if (is_teacher(track)) {
+        struct second_plot_sums near = {.plots = 0.0f};
+        score_plots_near_claimed(step, table, row, &near);
+        if (can_teach_second_plots(track)) {
             const float share = track->second_share;
-            teach_track(track, near.plots, share);
+            add_second_plots_to_track(track, near.plots, share);
             looks += share;
             found.plots += share * near.plots;
             for (unsigned bin = 0; bin < RHO_SECOND_BINS; bin++) {
@@ -437,14 +453,14 @@ void rho_tracker_expect_second_plots(struct step *step)
         }
     }
     if (looks > 0.0f) {
-        teach_sensor(table, &found, looks);
+        add_second_plots_to_sensor(table, &found, looks);
     }
 }
 
 /* ---- plots in the window --------------------------------------------------------------------- */
 
-static void score_window_plots_near(struct step *step, const struct rho_second_plots *table,
-                                    struct rho_window_scan *scan, unsigned own)
+static void raise_density_near_window_plot(struct step *step, const struct rho_second_plots *table,
+                                           struct rho_window_scan *scan, unsigned own)
 {
     const struct rho_plot first = rho_window_plot_of(scan, own);
     const struct rho_sensor *sensor = rho_window_sensor(scan);
@@ -456,14 +472,14 @@ static void score_window_plots_near(struct step *step, const struct rho_second_p
             continue;
         }
         const struct rho_plot plot = rho_window_plot_of(scan, i);
-        const struct offset offset = offset_of(sensor, &first, &plot);
+        const struct bin_offset offset = bin_offset_of_plots(sensor, &first, &plot);
         rho_tracker_spend(step, PAIR_UNITS);
-        if (is_near(offset)) {
+        if (is_within_bins(offset)) {
             const float ratio = second_plot_rate(table, 0) *
                                 second_plot_density(table, offset, &first) *
-                                range_rate_ratio(step, scan->measures, &first, &plot) /
+                                range_rate_ratio_of_plots(step, scan->measures, &first, &plot) /
                                 rho_tracker_density_at_plot(step, &plot);
-            scan->repeats[i] = repeats_with(scan->repeats[i], ratio);
+            scan->repeats[i] = add_ratio_to_repeats(scan->repeats[i], ratio);
         }
     }
 }
@@ -474,12 +490,13 @@ void rho_tracker_expect_earlier_second_plots(struct step *step,
     struct rho_window *window = &step->initiator->window;
     for (unsigned m = 0; m < window->num_scans; m++) {
         struct rho_window_scan *scan = rho_window_scan_at(window, m);
-        const struct rho_second_plots *table = table_of(step->tracker, scan->sensor.sensor_id);
+        const struct rho_second_plots *table =
+            find_or_claim_table(step->tracker, scan->sensor.sensor_id);
         if (((unsigned)candidate->mask >> m & 1u) && table && rho_tracker_is_spent(step)) {
-            count_not_tried(step);
+            count_plot_not_tried(step);
         } else if (((unsigned)candidate->mask >> m & 1u) && table) {
             rho_tracker_spend(step, scan->num_plots / RHO_WORK_PASSED_A_UNIT);
-            score_window_plots_near(step, table, scan, candidate->plot[m]);
+            raise_density_near_window_plot(step, table, scan, candidate->plot[m]);
         }
     }
 }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * step: the state of one step, and the functions below the phases of src/step: those call them, and
- * none of them calls a phase. Private to src/tracker, src/bodies, src/step and src/walls.
+ * step: the state of one step, and the functions of src/tracker and src/bodies. The phases of a
+ * step in src/step call these functions, which call no phase. Private to src/tracker, src/bodies,
+ * src/step and src/walls.
  *
- * Options of config.h: every build compiles every function, and callers ask the option first
- * (`if (RHO_SECTORS)`), so that the linker leaves out what a build does not need.
+ * Options of config.h: every build compiles every function, and callers test the option first
+ * (`if (RHO_SECTORS)`), so that the linker leaves out functions that a build does not need.
  */
 #ifndef RHOTRACK_STEP_H
 #define RHOTRACK_STEP_H
@@ -15,69 +16,70 @@
 
 #define LOG_TWO_PI 1.83787707f
 
-/* The least side of an area that clutter is spread over. */
+/* Least side of the area over which unclaimed plots are spread for a clutter density. */
 #define RHO_CLUTTER_SIDE_MIN_M 1000.0f
 
-/* The work of a phase; each track that waits has a share of it. */
+/* Budget of the phase that runs, in units of work. */
 struct work_share {
-    uint32_t end, kept; /* units: total at which the phase ends; reserved for each waiting track */
-    unsigned waiting;
+    uint32_t end, kept; /* step->work at which the phase ends; reserved for each waiting track */
+    unsigned waiting;   /* tracks of which no plots were scored yet */
 };
 
-/* Limits of places, inclusive. */
+/* A rectangle of places, sides included. */
 struct plot_box {
     float x_min_m, x_max_m, y_min_m, y_max_m;
 };
 
+/* Runs of successive plots with a bounding box each, where the plot index has one strip. */
 #define RHO_PLOT_BOXES 8
 
-/* Parts of RHO_MAX_PLOTS plots that a large scan is claimed in; plots beyond are ignored. */
+/* Most parts of RHO_MAX_PLOTS plots in which a large scan is claimed; further plots are ignored. */
 #define RHO_TRACKER_PARTS_MAX 4u
 
 struct step {
     struct rho_tracker *tracker;
     int64_t time_us;
-    /* a scan of plots, and the initiator that starts tracks from them, or NULL */
+    /* the scan of plots, and the initiator that starts tracks from its plots; NULL: none */
     const struct rho_scan *scan;
     struct rho_initiator *initiator;
-    /* or a frame of bearings, and the initiator of these, or NULL */
+    /* or the frame of bearings, and the initiator for bearings; NULL: none */
     const struct rho_frame *frame;
     struct rho_passive *passive;
     struct rho_report *report;
-    const struct rho_sensor *sensor;     /* of the scan; NULL: not described */
-    struct rho_tracker_learned *learned; /* of it; NULL: likewise, or of a frame */
-    int is_suspect;                      /* the sensor contradicts the others */
+    const struct rho_sensor *sensor;     /* the scan's sensor; NULL: not described */
+    struct rho_tracker_learned *learned; /* of this sensor; NULL: not described, or a frame */
+    int is_suspect;                      /* the scan's sensor contradicts the others */
     uint16_t look;                       /* count of the sensor's scans; 0: not known */
-    /* the scan is the sector after the one before: 1 counter-clockwise, -1 clockwise; else 0 */
+    /* the scan's sector continues the previous one: 1 counter-clockwise, -1 clockwise; else 0 */
     float turning;
-    int is_late;         /* out of sequence: older than the newest step */
-    uint32_t num_inputs; /* plots or bearings */
-    uint32_t num_gated;  /* of them: have a place in report->fates */
-    /* of the plots that have none: claimed, invalid */
+    int is_late;         /* the scan is out of sequence: older than the newest step */
+    uint32_t num_inputs; /* plots or bearings of the step */
+    uint32_t num_gated;  /* inputs with a place in report->fates: the first RHO_MAX_PLOTS */
+    /* plots beyond RHO_MAX_PLOTS that were claimed, and that are invalid */
     uint32_t num_beyond_claimed, num_beyond_invalid;
-    uint32_t first_row; /* in the whole scan, of the part that is claimed (scan_overflow) */
-    int has_more_parts; /* tracks without a plot may find one in a later part */
-    /* of a later part: its own clutter density, and the whole scan's plots over the first part's */
+    uint32_t first_row; /* row in the scan of the first plot of the part that is claimed now */
+    int has_more_parts; /* tracks without a plot may find one in a later part of the scan */
+    /* a later part's own clutter density; and the scan's plots over RHO_MAX_PLOTS, 0: first part */
     float part_per_m2, part_share;
-    /* of the scan's valid plots, the largest: noise on any axis, own time either way */
+    /* largest noise on any axis, and largest time offset either way, of the scan's valid plots */
     float sigma_max_m, offset_max_s;
-    uint32_t work, plots_not_tried; /* units; plots */
-    struct work_share share;        /* of the phase that runs */
-    int is_partial;
+    uint32_t work, plots_not_tried; /* units of work so far; plots left out by the budget */
+    struct work_share share;        /* budget of the phase that runs */
+    int is_partial;                 /* the budget has left out something */
     /* bit i: track i is in the scan's field of view and was predicted */
     uint32_t in_view[(RHO_MAX_TRACKS + 31) / 32];
-    struct plot_box boxes[RHO_PLOT_BOXES]; /* of plots that follow each other, as many in each */
-    uint32_t plots_of_box;
+    struct plot_box boxes[RHO_PLOT_BOXES]; /* bounding boxes of runs of successive plots */
+    uint32_t plots_of_box;                 /* plots in each run */
     struct rho_track_model model;
     float log_pd;
     float log_miss;                   /* ln(1 - pd) of the scan's sensor */
-    struct rho_notch_look notch_look; /* of the scan's sensor; 0 where it has no notch */
+    struct rho_notch_look notch_look; /* a look of the sensor with its Doppler notch; 0: no notch */
     float needed_nat;                 /* evidence that a new track needs to be confirmed; 0: none */
-    float miss_nat;                   /* what a miss takes from it */
-    /* ln of what clutter is spread over: RHO_CLUTTER_HEIGHT_M; velocities of one axis, m/s */
+    float miss_nat;                   /* evidence that a miss takes from a new track */
+    /* ln of the intervals in which clutter is uniform: height, m; velocity on one axis, m/s */
     float log_height, log_rates;
-    float log_range_rates; /* range rates that the sensor tells apart, m/s */
-    float range_rates_mps; /* the same without the logarithm */
+    float log_range_rates; /* ln of range_rates_mps */
+    float range_rates_mps; /* interval of range rates in which clutter is uniform, m/s */
 };
 
 static inline int rho_tracker_is_ready(const struct rho_tracker *tracker)
@@ -85,7 +87,7 @@ static inline int rho_tracker_is_ready(const struct rho_tracker *tracker)
     return tracker->magic == RHO_TRACKER_MAGIC;
 }
 
-/* Scores may be added and subtracted. */
+/* Largest track score either way, mnat: sums of two scores fit 32 bits. */
 #define RHO_SCORE_MAX_MNAT 1000000000
 
 static inline int rho_tracker_is_score(int32_t mnat)
@@ -98,27 +100,29 @@ static inline int rho_tracker_is_score(int32_t mnat)
 /* out_of_sequence.c (RHO_SECTORS): scans older than the newest step that may still update tracks */
 void rho_tracker_set_late_default(struct rho_tracker_config *config);
 int rho_tracker_is_late_max_usable(const struct rho_tracker_config *config);
+/* True of an out-of-sequence scan within late_max_s that is not its sensor's newest one again. */
 int rho_tracker_takes_late_scan(const struct step *step);
 void rho_tracker_count_late_scan(struct step *step);
-/* Remembers the time that an out-of-sequence scan moves the track back from. */
+/* Stores the track's time before an out-of-sequence scan moves the track back. */
 void rho_tracker_note_time_ahead(struct rho_track *track);
 int rho_tracker_is_sound_ahead(const struct rho_track *track);
-/* Unclaimed plots of an out-of-sequence scan that start no track are stale. */
+/* Gives the held plots of an out-of-sequence scan the fate STALE. */
 void rho_tracker_refuse_stale_plots(struct step *step);
-/* Ends an out-of-sequence scan: tracks return to the newest time. */
+/* After an out-of-sequence scan: tracks, step and report return to the newest time. */
 void rho_tracker_end_late_scan(struct step *step);
 
 /*
- * plot_index.c: the rows of the plots near a place. Those between these limits are among them:
+ * plot_index.c: iterates over rows of plots, a superset of the held plots in a rectangle:
  *     struct plots_near near = rho_tracker_plots_near(step, x_min_m, x_max_m, y_min_m, y_max_m);
  *     for (uint32_t row; rho_tracker_next_plot_near(step, &near, &row);)
  */
 struct plots_near {
-    uint32_t next, end; /* places in the order of the strip or box that is read */
-    unsigned box;       /* the next one */
-    struct plot_box within;
+    uint32_t next, end;     /* places in the strip or box that is read */
+    unsigned box;           /* the box that is read next */
+    struct plot_box within; /* the rectangle */
 };
 
+/* Sorts the scan's held plots into strips, or bounds their boxes. */
 void rho_tracker_sort_plots(struct step *step);
 struct plots_near rho_tracker_plots_near(const struct step *step, float x_min_m, float x_max_m,
                                          float y_min_m, float y_max_m);
@@ -136,14 +140,14 @@ static inline int rho_tracker_next_plot_near(const struct step *step, struct plo
     return 1;
 }
 
-/* Between the limits, sides included. */
+/* True where a plot is in the iterator's rectangle, sides included. */
 static inline int rho_tracker_is_within(const struct plots_near *near, const struct rho_plot *plot)
 {
     return plot->x_m >= near->within.x_min_m && plot->x_m <= near->within.x_max_m &&
            plot->y_m >= near->within.y_min_m && plot->y_m <= near->within.y_max_m;
 }
 
-/* An upper bound of the number of those plots. */
+/* Upper bound of the number of plots that the iterator has still to give. */
 static inline uint32_t rho_tracker_max_plots_near(const struct step *step,
                                                   const struct plots_near *near)
 {
@@ -152,59 +156,64 @@ static inline uint32_t rho_tracker_max_plots_near(const struct step *step,
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-/* sensor_table.c: sensors that were described. Place in the table: num_sensors where it is none */
+/* sensor_table.c: descriptions of sensors. Index in tracker->sensors; num_sensors: not described */
 unsigned rho_tracker_place_of_sensor(const struct rho_tracker *tracker, int32_t sensor_id);
 const struct rho_sensor *rho_tracker_find_sensor(const struct rho_tracker *tracker,
                                                  int32_t sensor_id); /* NULL: not described */
 int rho_tracker_is_usable_sensor(const struct rho_sensor *sensor);
 
 /*
- * coverage.c: whether a plot may be a target's in the sensor's stated coverage (NULL: not known);
- * a bearing whose noise is within the margin; whether the scan can see a track at all, and as
- * rho_tracker_predict found that, by the track's row
+ * coverage.c: true where a plot, within its noise, is in the sensor's stated coverage. sensor NULL:
+ * it covers all
  */
 int rho_tracker_covers(const struct rho_sensor *sensor, const struct rho_plot *plot,
                        uint32_t measures);
+/* True where a bearing is in the sensor's stated sector, or nearer to it than the margin. */
 int rho_tracker_covers_bearing(const struct rho_sensor *sensor, float bearing_rad,
                                float margin_rad);
+/* True where the scan may see a track, by sector and range, with a margin. */
 int rho_tracker_may_see(const struct step *step, const struct rho_track *track);
+/* True where the scan may see the track of this row, as found when tracks were predicted. */
 int rho_tracker_is_in_view(const struct step *step, unsigned row);
-/* The sensor looked where the track is: in this sector; in the scan, so that no plot is a miss. */
+/* True where the sensor, looking at this sector, covers the track's place. */
 int rho_tracker_looked_at(const struct step *step, float sector_from_rad, float sector_to_rad,
                           const struct rho_track *track);
+/* True where a track without a plot in this scan counts a miss: sensor not suspect, gate passed. */
 int rho_tracker_scan_looked_at(const struct step *step, const struct rho_track *track);
 
 /* sectors.c (RHO_SECTORS): how the sectors of one turn follow each other */
 #define RHO_TRACKER_SILENT_US 60000000 /* sensors that have been silent longer are ignored */
-/* The record of looks of the scan's sensor; NULL where there is none. */
+/* The record (tracker->looks) of the scan's sensor; NULL where there is none. */
 struct rho_tracker_look *rho_tracker_own_look(struct step *step);
 void rho_tracker_forget_look(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_looks(const struct rho_tracker *tracker);
+/* Records the scan's sector and time for its sensor, and finds which way the antenna turns. */
 void rho_tracker_note_look(struct step *step);
-/* Remembers that the track has a plot of this scan, if it has one. */
+/* Stores in a track with a plot of this scan that the scan's sensor saw it last. */
 void rho_tracker_note_sight(const struct step *step, struct rho_track *track);
-/* One of the two sensors that saw the track last. */
+/* True of the two sensors that saw the track last. */
 int rho_tracker_saw_last(const struct rho_track *track, int32_t sensor_id);
-/* The tracker's thresholds: the initiator's, and those of the other sensors'. */
+/* Sets the tracker's thresholds: lowest start and highest confirm threshold of all sensors. */
 void rho_tracker_note_thresholds(struct step *step);
-/* The track took a plot in the sector before: the antenna is still at the same pass. */
+/* True where the track claimed a plot in the previous sector of the same turn of the antenna. */
 int rho_tracker_was_seen_in_last_sector(const struct step *step, const struct rho_track *track);
 /*
- * The antenna has passed all of the track's gate in this scan, or the sensor looked there at once.
+ * True where the antenna has passed the end of the track's gate in this scan, or, with an antenna
+ * that does not turn, the scan covers the track's place.
  */
 int rho_tracker_has_passed_gate(const struct step *step, const struct rho_track *track);
-/* How many scans of this sector's width make a turn of the antenna; 1 where none do. */
+/* Number of scans of this sector's width in one turn of the antenna; 1 where it does not turn. */
 float rho_tracker_scans_a_turn(const struct step *step);
-/* A held plot came with an earlier sector of the turn that the window's scan is. */
+/* True of a plot of the window's newest scan that came with an earlier sector of the same turn. */
 int rho_tracker_is_of_earlier_sector(const struct rho_window *window,
                                      const struct rho_window_scan *scan, unsigned plot);
 
-/* sensor_health.c (RHO_SECTORS): whether the sensor agrees with the others */
-/* Finds whether it is suspect. Returns how many times its variances count. */
+/* sensor_health.c (RHO_SECTORS): finds sensors that contradict the others */
+/* Decides whether the scan's sensor is suspect. Returns the factor on its plots' sigmas. */
 float rho_tracker_find_suspect(struct step *step);
 /* Compares the assigned plots with the tracks' predictions, before tracks are updated. */
 void rho_tracker_update_sensor_health(struct step *step);
-/* No other sensor has seen the track, and this one is suspect. */
+/* True where the scan's sensor is suspect and no other sensor has seen the track. */
 static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct step *step,
                                                              const struct rho_track *track)
 {
@@ -212,22 +221,23 @@ static inline int rho_tracker_is_only_seen_by_suspect_sensor(const struct step *
 }
 
 /*
- * sensor_learning.c: the sensor's noise and pd, estimated from the tracks' innovations and misses.
- * The noise is set before plots are gated, and learned between assignment and update. suspicion:
- * the factor by which sensor_health widens the noise of a suspect sensor
+ * sensor_learning.c: noise, pd and notch of a sensor, estimated from established tracks. Noise is
+ * set before plots are gated, and learned between assignment and update. suspicion: factor of
+ * sensor_health on the sigmas of a suspect sensor, else 1
  */
 void rho_tracker_set_noise(struct step *step, float suspicion);
-/* Writes the learned noise, times the factor, into a copy of the sensor. */
+/* Writes the learned noise factors, times suspicion, into this description of the sensor. */
 void rho_tracker_use_noise(const struct step *step, float suspicion, struct rho_sensor *sensor);
-/* (RHO_DOPPLER_NOTCH) Writes the learned notch into a sensor of which none was stated. */
+/* (RHO_DOPPLER_NOTCH) Writes the learned notch into a description that states none. */
 void rho_tracker_use_notch(struct step *step);
+/* Learns noise, pd and notch of the scan's sensor from this scan's plots and misses. */
 void rho_tracker_learn_sensor(struct step *step);
 int rho_tracker_is_sound_learned(const struct rho_tracker_learned *learned);
-/* Of the scan's sensor, for its initiator: over all ranges. */
+/* Detection probability of the scan's sensor over all ranges, for its initiator. */
 float rho_tracker_mean_pd(const struct step *step);
 /*
- * ln of the probability that the sensor detects a target where this track is, and that it misses
- * it; whatever its range rate
+ * ln of the probabilities that the sensor detects a target at the track's place and that it misses
+ * it, outside of the Doppler notch
  */
 struct detection {
     float log_pd, log_miss;
@@ -236,12 +246,13 @@ struct detection rho_tracker_usual_detection(const struct step *step,
                                              const struct rho_track *track);
 
 /*
- * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Finds blind_percent of the
- * tracks in view, before they are offered plots; and forgets it
+ * blind_looks.c (RHO_DOPPLER_NOTCH): looks of a sensor with a notch. Sets blind_percent of the
+ * tracks in view, before plots are scored
  */
 void rho_tracker_find_blind(struct step *step);
+/* Sets blind_percent of all tracks to 0, at the end of a step. */
 void rho_tracker_forget_blind(struct step *step);
-/* Detection and miss of a track, with the range rates that the sensor does not see. */
+/* Probabilities, ln, of detection and miss of a track that may be in the sensor's notch. */
 struct detection rho_tracker_detection_beside_notch(const struct step *step,
                                                     const struct rho_track *track);
 static inline struct detection rho_tracker_detection(const struct step *step,
@@ -251,27 +262,29 @@ static inline struct detection rho_tracker_detection(const struct step *step,
                ? rho_tracker_detection_beside_notch(step, track)
                : rho_tracker_usual_detection(step, track);
 }
-/* More looks at the track than not are blind: that it has no plot is no miss. */
+/* True where at least half of the looks at the track are blind: no plot is no miss then. */
 static inline int rho_tracker_is_blind(const struct rho_track *track)
 {
     return RHO_DOPPLER_NOTCH && track->blind_percent >= 50;
 }
-/* A blind look at a track that was confirmed: it coasts, and is not missed. */
+/* After a blind look without a plot: the track coasts, and counts as seen, not as missed. */
 void rho_tracker_note_blind_look(const struct step *step, struct rho_track *track);
 
 /* ---- images ---------------------------------------------------------------------------------- */
 
 /*
- * reflectors.c (RHO_MAX_REFLECTORS): unclaimed plots where a track's image would be are ghosts,
- * before starts; tracks that move as one end, after them
+ * reflectors.c (RHO_MAX_REFLECTORS): gives unclaimed plots at the mirror images of tracks the fate
+ * GHOST, before new tracks start
  */
 void rho_tracker_mark_images(struct step *step);
+/* Ends tracks that move as the mirror image of another track, after new tracks have started. */
 void rho_tracker_end_images(struct step *step);
 int rho_tracker_has_sound_reflectors(const struct rho_tracker *tracker);
 
 /* ---- an operator ---------------------------------------------------------------------------- */
 
-/* excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): unclaimed plots in them are ghosts, before starts */
+/* excluded_areas.c (RHO_MAX_EXCLUDED_AREAS): gives unclaimed plots in excluded areas the fate GHOST
+ */
 void rho_tracker_mark_excluded(struct step *step);
 int rho_tracker_lies_excluded(const struct step *step, uint32_t plot);
 static inline int rho_tracker_is_excluded(const struct step *step, uint32_t plot)
@@ -279,7 +292,7 @@ static inline int rho_tracker_is_excluded(const struct step *step, uint32_t plot
     return RHO_MAX_EXCLUDED_AREAS > 0 && rho_tracker_lies_excluded(step, plot);
 }
 int rho_tracker_has_sound_excluded(const struct rho_tracker *tracker);
-/* A frozen track is in no scan's view, and does not age. */
+/* True of a track that an operator has frozen: it is in no scan's view, and does not age. */
 static inline int rho_tracker_is_frozen(const struct rho_track *track)
 {
     return RHO_MAX_EXCLUDED_AREAS > 0 && track->is_frozen;
@@ -287,58 +300,60 @@ static inline int rho_tracker_is_frozen(const struct rho_track *track)
 
 /* ---- resolution ------------------------------------------------------------------------------ */
 
-/* resolution_cell.c (RHO_SHARES_PLOTS): two targets of which a sensor makes one plot */
+/* resolution_cell.c (RHO_SHARES_PLOTS): distances at which a sensor does not resolve two targets */
 int rho_tracker_is_usable_cell(const struct rho_sensor *sensor);
-/* Variances of the distances at which it does, along the line of sight and across it. */
+/* Variances of such distances at a plot's place, along the line of sight and across it. */
 void rho_tracker_cell_at(const struct step *step, const struct rho_plot *plot,
                          const struct rho_measurement *seen, float near_m2[2]);
-/* ... and of range rates; 0: they do not tell targets apart. */
+/* Variance of differences of range rate that are not resolved, (m/s)^2; 0: the rate is not used. */
 float rho_tracker_rate_cell_mps2(const struct rho_sensor *sensor);
-/* What a pair of tracks says of the cell, along and across. */
+/* A pair of near tracks that the resolution cell is learned from; [2]: along, across. */
 struct apart {
-    float is_one;       /* probability that one plot is of both */
-    float of_one_m2[2]; /* squared distance of both targets, expected if it is */
-    float of_two_m2[2]; /* ... and if it is not */
-    float near_m2[2];
+    float is_one;       /* probability that a plot is merged, of both targets */
+    float of_one_m2[2]; /* expected squared distance of the targets if it is merged */
+    float of_two_m2[2]; /* expected squared distance of the targets if it is of one of them */
+    float near_m2[2];   /* variances by rho_tracker_cell_at */
 };
 void rho_tracker_learn_cell(struct step *step, const struct apart *apart);
+/* Learned resolution cell on an axis, in sigmas of a plot; 0: not learned yet. */
 float rho_tracker_cell_sigmas(const struct rho_tracker_learned *learned, int axis);
 int rho_tracker_has_sound_cell(const struct rho_tracker_learned *learned);
 
 /* ---- bodies ---------------------------------------------------------------------------------- */
 
-/* Of groups: the row of no plot, group or track. */
+/* In struct rho_groups: a row that stands for no plot, no group or no track. */
 #define RHO_NO_ROW UINT16_MAX
-/* The body of a track is known from so many plots on. */
+/* Plots from which the extent of a track's body counts as known. */
 #define RHO_BODY_NEW_PLOTS 30.0f
 
-/* Targets may give several plots a scan. */
+/* True where targets may give several plots a scan (rho_tracker_set_body_max). */
 static inline int rho_tracker_has_bodies(const struct rho_tracker *tracker)
 {
     return RHO_BODIES && tracker->bodies.length_max_m > 0.0f;
 }
 /*
- * plot_groups.c (RHO_BODIES): the scan becomes that of its groups, after the tracks were predicted;
- * and fates and rows become those of the scan's plots, before the report
+ * plot_groups.c (RHO_BODIES): after tracks were predicted, replaces the step's scan by `grouped`,
+ * with one plot for each group
  */
 void rho_tracker_group_plots(struct step *step, struct rho_scan *grouped);
+/* Before the report: restores the scan, and turns fates and rows of groups into those of plots. */
 void rho_tracker_ungroup_plots(struct step *step, const struct rho_scan *scan);
-/* body_extents.c (RHO_BODIES): bodies are in the order of the tracks; before rows become those of
- * plots, each learns from its track's plots */
+/* body_extents.c (RHO_BODIES): puts the bodies in the order of the tracks, with new ones added */
 void rho_tracker_align_bodies(struct step *step);
-/* The heading of a track's body is that of its velocity. */
+/* Sets the heading of a track's body to that of the track's velocity. */
 void rho_tracker_turn_body(struct rho_tracker *tracker, unsigned row);
+/* Updates each track's body with the plots of its group, before rho_tracker_ungroup_plots. */
 void rho_tracker_update_bodies(struct step *step, const struct rho_scan *scan);
 /*
- * A plot's range rate less that of the track's velocity there, and the direction of the line of
- * sight. 0: none was measured.
+ * A plot's range rate less that of a target there with the track's velocity, and the unit vector of
+ * the line of sight. Returns 0 where no range rate was measured, or the plot is at the sensor.
  */
 int rho_tracker_rate_off(const struct step *step, const struct rho_scan *scan,
                          const struct rho_track *track, const struct rho_plot *plot, float line[2],
                          float *off_mps);
 /*
- * A plot of a track: from its estimate, in x and y and on the body; and rho_tracker_rate_off, whose
- * outcome it returns.
+ * A plot relative to its track's estimate: in x and y, and along and across the body; and its range
+ * rate and line of sight by rho_tracker_rate_off, whose result rho_tracker_place_on_body returns.
  */
 struct body_plot {
     float dx_m, dy_m, along_m, across_m, rate_mps, line[2];
@@ -349,7 +364,7 @@ int rho_tracker_place_on_body(const struct step *step, const struct rho_scan *sc
 /* Variances of a plot's own noise in the axes of a body: along, cross, across. */
 void rho_tracker_noise_on_body(const struct step *step, const struct rho_body_filter *body,
                                const struct rho_plot *plot, float axes[3]);
-/* From this plot of a group on, the first that no other track contends for. */
+/* The first plot, from this one of a group on, that no other track contends for; or RHO_NO_ROW. */
 static inline unsigned rho_tracker_uncontested(const struct rho_groups *groups, unsigned plot)
 {
     while (plot != RHO_NO_ROW && groups->contender[plot] != RHO_NO_ROW) {
@@ -358,62 +373,68 @@ static inline unsigned rho_tracker_uncontested(const struct rho_groups *groups, 
     return plot;
 }
 
-/* body_doubt.c: what the plots of a body say of two targets; and for which reason they are two */
+/* body_doubt.c: reasons for which a body is taken to be two targets */
 enum rho_body_split {
-    RHO_BODY_ONE,
+    RHO_BODY_ONE, /* no reason: one target */
     RHO_BODY_TOO_WIDE,
     RHO_BODY_TOO_LONG,
     RHO_BODY_MOVES_APART /* range rates differ from part to part by more than a turn explains */
 };
+/* Adds this scan's plots of a track to the evidence that its body is two targets. */
 void rho_tracker_doubt_body(const struct step *step, const struct rho_scan *scan, unsigned row);
+/* The reason, by that evidence, for which a track's body is two targets; or RHO_BODY_ONE. */
 enum rho_body_split rho_tracker_why_two(const struct step *step, unsigned row);
+/* True of a live track in view within RHO_BODY_TRACKS: plots may be grouped for it. */
 static inline int rho_tracker_may_own_plots(const struct step *step, unsigned row)
 {
     return RHO_BODIES && row < RHO_BODY_TRACKS &&
            step->tracker->tracks[row].status != RHO_TRACK_FREE && rho_tracker_is_in_view(step, row);
 }
-/* doubled_bodies.c: of two tracks of one target the younger ends, and the other has its plots */
+/* doubled_bodies.c: ends one of two tracks of one target; the other track gets its plots */
 void rho_tracker_end_doubled(struct step *step);
-/* Variance of a place on a body that nothing is known of, on each axis. */
+/* Prior variance of a place on a body, on each axis. */
 float rho_tracker_body_prior_m2(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_bodies(const struct rho_tracker *tracker);
 
 /* ---- work ------------------------------------------------------------------------------------ */
 
 /*
- * work_budget.c: which of the plots near a track are scored within work_max. A phase begins; then
- * for each track that waits a choice is made: where there may be more plots than `most`, all near
- * it are counted, and the choice is made by distance
+ * work_budget.c: chooses the plots near a track that are scored within work_max. A phase begins;
+ * then for each waiting track, where there may be more plots near it than its share allows, they
+ * are counted by octaves of squared distance, and the nearest are chosen
  */
 #define RHO_WORK_OCTAVES 40u
-/* Shares of work_max, 1 / N: of echoes; of claims and of updates each; of second plots; of the
- * tracks that start; of images; of groups. */
+/*
+ * A phase may do work_max / N units of work, with N for echoes of clutter; for claims and for
+ * updates each; for second plots; for second plots of new tracks; for images; for groups.
+ */
 #define RHO_WORK_ECHOES_SHARE 8u
 #define RHO_WORK_TRACKS_SHARE 4u
 #define RHO_WORK_SECOND_SHARE 16u
 #define RHO_WORK_STARTS_SHARE 16u
 #define RHO_WORK_IMAGES_SHARE 16u
 #define RHO_WORK_GROUPS_SHARE 4u
-/* So many plots that a box passes over cost one unit. */
+/* Plots that an iteration passes over for one unit of work. */
 #define RHO_WORK_PASSED_A_UNIT 4u
+/* The plots near a track that are to be scored: the nearest ones that its share allows. */
 struct plot_choice {
-    uint32_t most, units; /* plots; units for each */
-    uint32_t num_near;
-    int is_partial;
-    unsigned last; /* all plots of the octaves of distance before; of this one: */
-    uint32_t of_last;
-    uint16_t in_octave[RHO_WORK_OCTAVES];
+    uint32_t most, units;                 /* plots that may be scored; units of work for each */
+    uint32_t num_near;                    /* plots counted near the track */
+    int is_partial;                       /* not all plots near the track are chosen */
+    unsigned last;                        /* farthest octave of distance with chosen plots */
+    uint32_t of_last;                     /* plots of that octave that may still be chosen */
+    uint16_t in_octave[RHO_WORK_OCTAVES]; /* plots counted in each octave */
 };
-/* Begins the tracks' share of a phase. */
+/* Begins a phase in which tracks score plots, with a reserved share for each track in view. */
 void rho_tracker_begin_work(struct step *step);
-/* Begins another phase's share. */
+/* Begins a phase that may do work_max / part units of work. */
 void rho_tracker_begin_share(struct step *step, uint32_t part);
 static inline void rho_tracker_spend(struct step *step, uint32_t units)
 {
     step->work = rho_count(step->work, units);
 }
 
-/* One waiting track gives up its reserved share of the work. */
+/* Releases the reserved share of one waiting track. */
 static inline void rho_tracker_release_share(struct step *step)
 {
     step->share.waiting -= step->share.waiting > 0 ? 1u : 0u;
@@ -428,97 +449,107 @@ struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_
 void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
                              const struct rho_plot *plot);
 void rho_tracker_end_choice(struct step *step, struct plot_choice *choice);
-/* True where the plot is to be scored: it costs its units. */
+/* True where a plot is chosen; its units of work are spent. */
 int rho_tracker_is_chosen(struct step *step, struct plot_choice *choice,
                           const struct rho_track *track, const struct rho_plot *plot);
-/* The units of the step's budget that are left for the search. */
+/* Units of work that are left for the initiator's search; 0: no limit. */
 uint32_t rho_tracker_work_left(const struct step *step);
 void rho_tracker_end_work(struct step *step);
 
 /* ---- clutter --------------------------------------------------------------------------------- */
 
-/* expected_clutter.c: density of false plots, 1/m^2. Of clutter that does not come back */
+/* expected_clutter.c: density of clutter plots at a place, without echoes and strobes, 1/m^2 */
 float rho_tracker_usual_density(const struct step *step, float x_m, float y_m);
-/* Density of false plots where a plot is, but never 0. */
+/* Density of clutter at a plot's place, without echoes and strobes, 1/m^2; above 0. */
 float rho_tracker_density_at_plot(const struct step *step, const struct rho_plot *plot);
-/* ln of the density where the track is, in the part of the scan that is claimed. */
+/* ln of the density of clutter at the track's place, in the part of the scan that is claimed. */
 float rho_tracker_log_clutter_density(const struct step *step, const struct rho_track *track);
-/* False plots expected within three standard deviations of the track's place; 0 in a frame. */
+/* Clutter plots expected within three standard deviations of the track's place; 0 in a frame. */
 float rho_tracker_clutter_in_gate(const struct step *step, const struct rho_track *track);
-/* Measures the density of a later part of the scan. */
+/* Measures the clutter density of a later part of the scan, from its held plots. */
 void rho_tracker_measure_part_density(struct step *step);
-/* The smoothed number of unclaimed plots, after the starts; any such mean. */
+/* Smooths the number of unclaimed plots, after new tracks have started. */
 void rho_tracker_learn_unclaimed(struct step *step);
+/* Moves a mean of ten scans by a tenth of its difference to the newest value. */
 void rho_tracker_smooth_mean(float *mean, float newest);
 
-/* clutter_update.c (RHO_MAX_ECHOES): the map of clutter that comes back */
+/* clutter_update.c (RHO_MAX_ECHOES): the clutter map in a step */
 void rho_tracker_open_clutter_map(struct rho_tracker *tracker);
 int rho_tracker_has_sound_clutter_map(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_returns(const struct rho_track *track);
-/* Echoes' densities at the plots of a scan or its first part, before claims. */
+/* Computes the density of echoes and strobes at the plots of a scan (first part), before claims. */
 void rho_tracker_look_at_clutter(struct step *step);
-/* ln of how much denser clutter is at this plot than near it; 0 in later parts of a scan. */
+/*
+ * ln of the clutter density at a plot with echoes, strobes and second plots, over that without; 0
+ * in later parts of a scan.
+ */
 float rho_tracker_repeats_nat(const struct step *step, uint32_t row);
-/* The window's plots keep that ratio until they start tracks. */
+/* Stores rho_tracker_repeats_nat of the scan's plots with the held plots in the window. */
 void rho_tracker_keep_repeats(struct step *step);
-/* The map learns from the scan's plots, after starts. */
+/* Updates the clutter map with the scan's plots, after new tracks have started. */
 void rho_tracker_learn_clutter(struct step *step);
 /*
- * Likelihood of a range rate that differs so much from the expected one, over its likelihood as
- * clutter, which is spread over all rates: half of such rates are as expected, with 1 m/s beside
- * the variance, and half are any.
+ * Likelihood ratio of a range rate that is off_mps from the expected one, against clutter that is
+ * uniform in all range rates. Half of such rates are taken to be as expected, with the variance and
+ * that of 1 m/s, and half to be uniform, too.
  */
 float rho_tracker_rate_ratio(const struct step *step, float off_mps, float variance);
-/* The place where a track starts; how far echoes explained its candidate's plots. */
+/* Stores the place where a track starts, to tell later whether it has moved. */
 void rho_tracker_note_start_place(struct rho_track *track);
+/* Sums into a new track the probabilities that its candidate's plots were returns of echoes. */
 void rho_tracker_note_start_echoes(struct step *step, const struct rho_candidate *candidate,
                                    struct rho_track *track);
-/* The track has moved as targets do, and not only from echo to echo. */
+/* True where a track was found to be of a moving target, and its returns left the clutter map. */
 int rho_tracker_has_moved(const struct rho_track *track);
 
 /*
- * split_plots.c (RHO_MAX_ECHOES): second plots of one target near those that tracks have just
- * claimed; of two tracks of one target the younger ends. Before tracks age
+ * split_plots.c (RHO_MAX_ECHOES): near claimed plots, before tracks age, learns how often second
+ * plots of a target come, raises the clutter density there, and ends the younger of two tracks of
+ * one target
  */
 void rho_tracker_expect_second_plots(struct step *step);
 void rho_tracker_forget_second_plots(struct rho_tracker *tracker, int32_t sensor_id);
 int rho_tracker_has_sound_second_plots(const struct rho_tracker *tracker);
 int rho_tracker_has_sound_older_track(const struct rho_track *track);
 /*
- * A track has started with the candidate's plots: others near them, in the window, may be its own.
+ * After a start: raises the clutter density at the window's plots near the candidate's plots, as
+ * they may be second plots of the same target.
  */
 void rho_tracker_expect_earlier_second_plots(struct step *step,
                                              const struct rho_candidate *candidate);
 
 /* ---- plots and tracks ------------------------------------------------------------------------ */
 
-/* plot_scores.c: pairs of a track and a plot or bearing are offered to the assignment */
-/* Thousandths of a nat, within the assignment's range. */
+/* plot_scores.c: scores of pairs of a track and a plot or bearing, for the assignment */
+/* Converts nats to integer thousandths, within the range of the assignment's costs. */
 int32_t rho_tracker_mnat(float nat);
-/* The gate of a track at its one estimate. measures: of the scan; 0 of bearings. */
+/* Makes the gate of a track about its merged estimate. measures: of the scan; 0 for bearings. */
 void rho_tracker_open_gate(const struct step *step, const struct rho_track *track,
                            uint32_t measures, struct rho_gate *gate);
-/* A gated plot always costs less than a miss. gain_nat: over a miss. */
+/*
+ * Adds a track (row) and an input (column) as a pair to the assignment. gain_nat: score over that
+ * of a miss; a pair always costs less than a miss.
+ */
 void rho_tracker_offer(struct step *step, unsigned row, uint32_t column, float gain_nat);
-/* The gain of an offer over clutter, not over a miss; 0 where there was none, *gain_nat stays. */
+/* Score of a pair over clutter. Returns 0 where the pair was not added; *gain_nat stays. */
 int rho_tracker_gain_offered(const struct step *step, unsigned row, int column, float *gain_nat);
-/* Tracks behind a row that is no track's any more have moved up by one: so do their offers. */
+/* Removes an ended track's row from the assignment, and moves later rows up by one. */
 void rho_tracker_remove_offer_row(struct rho_tracker *tracker, unsigned row);
 
-/* Solves the assignment, and counts the plots that gates had no room for. */
+/* Solves the assignment, and counts plots that were dropped for lack of room in gates. */
 void rho_tracker_assign(struct step *step);
 
 /*
- * ln of how much likelier a plot is the track's than clutter. With a Kalman filter,
- * of a plot in its gate; log_density: rho_tracker_log_clutter_density
+ * Log-likelihood ratio of a plot in a track's Kalman gate, against clutter. log_density:
+ * rho_tracker_log_clutter_density of the track
  */
 float rho_tracker_score_plot(const struct step *step, const struct rho_track *track,
                              const struct rho_gate_result *result, float log_density, uint32_t row);
-/* ln of the probability of a miss; 0 where the sensor did not look. */
+/* ln of the probability of a miss; 0 where the scan counts no miss of the track. */
 float rho_tracker_log_miss(const struct step *step, const struct rho_track *track);
 /*
- * With hypotheses: every plot near the track that no other track has been assigned is scored by
- * each hypothesis.
+ * Iterates over the plots near a track with hypotheses that are not assigned to another track, each
+ * scored by every hypothesis; gain_nat is the score over clutter:
  *     rho_tracker_begin_scores(step, row, &scores);
  *     while (rho_tracker_next_score(step, &scores, &plot, &gain_nat))
  */
@@ -533,46 +564,57 @@ struct plot_scores {
 void rho_tracker_begin_scores(struct step *step, unsigned row, struct plot_scores *scores);
 int rho_tracker_next_score(struct step *step, struct plot_scores *scores, uint32_t *plot,
                            float *gain_nat);
-/* The plot as a track takes it. */
+/* A plot of the scan with its time, sensor and row, as rho_track_update takes it. */
 struct rho_track_plot rho_tracker_plot_of(const struct step *step, int row);
 
 /* ---- life cycle ------------------------------------------------------------------------------ */
 
-/* life_cycle.c: thresholds confirm and end tracks. Ended ones are FREE until they are removed */
+/* life_cycle.c: limits of score and misses that confirm and end the tracks of a step */
 struct rho_track_limits rho_tracker_limits(const struct step *step);
+/* Confirms a track, makes it tentative or ends it, and counts it. */
 void rho_tracker_apply_thresholds(struct step *step, struct rho_track *track,
                                   const struct rho_track_limits *limits);
+/* Ends a track: it stays in the table as FREE until rho_tracker_remove_ended. */
 void rho_tracker_end_track(struct step *step, struct rho_track *track);
+/* Removes the FREE tracks from the table, with their rows of the assignment. */
 void rho_tracker_remove_ended(struct rho_tracker *tracker);
 
-/* short_lived_tracks.c: evidence that new tracks need to be confirmed, found once a step */
+/* short_lived_tracks.c: more evidence for new tracks where many end early */
 #define RHO_ESTABLISHED_HITS 16
 static inline int rho_tracker_is_established(const struct rho_track *track)
 {
     return track->hits >= RHO_ESTABLISHED_HITS;
 }
+/* Fades the counts of tracks, learns the manoeuvre interval, and sets needed_nat and miss_nat. */
 void rho_tracker_find_evidence_needed(struct step *step);
+/* True of a track that is not established and has less evidence than needed_nat. */
 int rho_tracker_lacks_evidence(const struct step *step, const struct rho_track *track);
+/* Counts a track that becomes established in this step. */
 void rho_tracker_note_established(struct step *step, const struct rho_track *track);
+/* Counts an ended track if it ended early. */
 void rho_tracker_note_early_end(struct step *step, const struct rho_track *track);
 
 /* manoeuvre_interval.c: mean time between manoeuvres; learned from established tracks over dt_s */
 void rho_tracker_learn_manoeuvre_interval(struct step *step, float dt_s);
-/* After a silence the mean time between manoeuvres is the default again. */
+/* Sets the mean time between manoeuvres to its default where no scan came for long. */
 void rho_tracker_reset_manoeuvre_interval(struct rho_tracker *tracker, int64_t time_us);
 
-/* unobserved_tracks.c: how often sensors look; 1 where a track was not observed for too long */
+/* unobserved_tracks.c: scan intervals of sensors, and tracks that no sensor looks at */
 void rho_tracker_forget_pace(struct rho_tracker *tracker, int32_t sensor_id);
-/* sensor: where it looks from; NULL: the origin */
+/* Measures the scan interval of a sensor, which is at the origin if NULL. */
 void rho_tracker_note_pace(struct rho_tracker *tracker, int32_t sensor_id,
                            const struct rho_sensor *sensor, int64_t time_us, float sector_from_rad,
                            float sector_to_rad);
+/*
+ * Returns 1 where a track is to end, as it was not observed for too long. Also smooths the time
+ * between the track's hits, and lowers its score where it is doubtful after a long silence.
+ */
 int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *track, int is_missed,
                                    const struct rho_track_limits *limits);
-/* The track's place is less well known than the range of its sensor. */
+/* True where sigma of the track's place exceeds the maximum range of its last sensor. */
 int rho_tracker_is_place_unknown(const struct step *step, const struct rho_track *track);
 
-/* tracker.c: the filter of tracks of plots */
+/* tracker.c: the filter that a configuration gives to tracks of plots */
 enum rho_track_filter rho_tracker_filter_of(const struct rho_tracker_config *config);
 int rho_tracker_is_usable(const struct rho_tracker_config *config);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * track: one target's life cycle, its evidence, and its estimate by the filter that it was started
- * with.
+ * track: life cycle, score and state estimate of one track. The filter is chosen at the start: a
+ * Kalman filter, input estimation, or hypotheses.
  */
 #include "rhotrack/detail/track.h"
 
@@ -29,16 +29,16 @@ const char *rho_track_status_name(enum rho_track_status status)
 enum rho_track_status rho_track_next_status(enum rho_track_status status,
                                             enum rho_track_event event)
 {
-    /* one row a status, one column an event: start, confirm, update, miss, doubt, drop */
+    /* rows: statuses; columns: the events start, confirm, update, miss, doubt, drop */
     static const uint8_t next[RHO_NUM_TRACK_STATUS][RHO_NUM_TRACK_EVENTS] = {
         [RHO_TRACK_FREE] = {RHO_TRACK_TENTATIVE, RHO_TRACK_FREE, RHO_TRACK_FREE, RHO_TRACK_FREE,
                             RHO_TRACK_FREE, RHO_TRACK_FREE},
-        /* neither plots nor misses are belief: only the score's threshold makes it, or ends it */
+        /* a plot or a miss alone changes nothing: thresholds of the score confirm and drop */
         [RHO_TRACK_TENTATIVE] = {RHO_TRACK_TENTATIVE, RHO_TRACK_CONFIRMED, RHO_TRACK_TENTATIVE,
                                  RHO_TRACK_TENTATIVE, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
         [RHO_TRACK_CONFIRMED] = {RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED, RHO_TRACK_CONFIRMED,
                                  RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
-        /* once confirmed, a plot is enough to go on */
+        /* one plot is enough for a coasting track to be confirmed again */
         [RHO_TRACK_COASTING] = {RHO_TRACK_COASTING, RHO_TRACK_COASTING, RHO_TRACK_CONFIRMED,
                                 RHO_TRACK_COASTING, RHO_TRACK_TENTATIVE, RHO_TRACK_FREE},
     };
@@ -87,13 +87,13 @@ void rho_track_lower_score(struct rho_track *track, int32_t loss_mnat)
     add_score(track, -loss_mnat);
 }
 
-/* How far the score has fallen since it was highest. */
+/* Fall of the track score below its highest value so far, mnat. */
 static int32_t fall_of_score(const struct rho_track *track)
 {
     return track->score_max_mnat - track->score_mnat;
 }
 
-static int has_reached_end(const struct rho_track *track, const struct rho_track_limits *limits)
+static int must_be_dropped(const struct rho_track *track, const struct rho_track_limits *limits)
 {
     if (track->misses_in_row >= limits->misses_in_row_max) {
         return 1;
@@ -105,13 +105,13 @@ static int has_reached_end(const struct rho_track *track, const struct rho_track
 enum rho_track_status rho_track_apply_thresholds(struct rho_track *track,
                                                  const struct rho_track_limits *limits)
 {
-    enum rho_track_event event = RHO_TRACK_DOUBT; /* of tracks that were never confirmed, too */
+    enum rho_track_event event = RHO_TRACK_DOUBT; /* a tentative track stays tentative by it */
     if (fall_of_score(track) < limits->doubt_mnat &&
         (track->was_confirmed || track->score_mnat >= limits->confirm_mnat)) {
         event = RHO_TRACK_CONFIRM;
         track->was_confirmed = 1;
     }
-    apply_event(track, has_reached_end(track, limits) ? RHO_TRACK_DROP : event);
+    apply_event(track, must_be_dropped(track, limits) ? RHO_TRACK_DROP : event);
     return (enum rho_track_status)track->status;
 }
 
@@ -142,8 +142,8 @@ float rho_track_sigma_mps(const struct rho_track *track)
 
 /* ---- a plain Kalman filter ------------------------------------------------------------------- */
 
-static enum rho_status update_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
-                                       int has_z)
+static enum rho_status update_by_velocity(struct rho_kalman *kalman, const struct rho_plot *plot,
+                                          int has_z)
 {
     float variance = plot->sigma_mps * plot->sigma_mps;
     enum rho_status status = rho_kalman_update(kalman, 3, plot->vx_mps, variance, 0);
@@ -157,11 +157,12 @@ static enum rho_status update_velocity(struct rho_kalman *kalman, const struct r
 }
 
 /*
- * Takes all that a plot measures, at its own time; the range rate last, linearised at the position
- * found.
+ * Updates a state at the plot's time with position, velocity and range rate, as far as measured;
+ * the range rate comes last, as it is linearised at the updated position.
  */
-static enum rho_status update_by_plot(struct rho_kalman *kalman, const struct rho_track_plot *seen,
-                                      const struct rho_track_model *model)
+static enum rho_status update_state_by_plot(struct rho_kalman *kalman,
+                                            const struct rho_track_plot *seen,
+                                            const struct rho_track_model *model)
 {
     const struct rho_plot *plot = &seen->plot;
     struct rho_measurement measurement;
@@ -169,7 +170,7 @@ static enum rho_status update_by_plot(struct rho_kalman *kalman, const struct rh
     enum rho_status status = rho_kalman_update_position(
         kalman, &measurement, model->speed_sigma_mps * model->speed_sigma_mps);
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_VELOCITY)) {
-        status = update_velocity(kalman, plot, measurement.has_z);
+        status = update_by_velocity(kalman, plot, measurement.has_z);
     }
     if (status == RHO_OK && (seen->measures & RHO_MEASURES_RANGE_RATE)) {
         status =
@@ -179,14 +180,15 @@ static enum rho_status update_by_plot(struct rho_kalman *kalman, const struct rh
     return status;
 }
 
-static enum rho_status update_kalman(struct rho_track *track, const struct rho_track_plot *seen,
-                                     const struct rho_track_model *model)
+static enum rho_status predict_and_update_kalman(struct rho_track *track,
+                                                 const struct rho_track_plot *seen,
+                                                 const struct rho_track_model *model)
 {
     struct rho_kalman kalman = track->kalman;
     enum rho_status status = rho_kalman_predict(
         &kalman, rho_seconds_between(track->time_us, seen->time_us), model->noise_density);
     if (status == RHO_OK) {
-        status = update_by_plot(&kalman, seen, model);
+        status = update_state_by_plot(&kalman, seen, model);
     }
     if (status == RHO_OK) {
         track->kalman = kalman;
@@ -196,8 +198,8 @@ static enum rho_status update_kalman(struct rho_track *track, const struct rho_t
 
 /* ---- with input estimation ------------------------------------------------------------------- */
 
-/* Copies the filter's estimate to the track. */
-static void show_input_estimate(struct rho_track *track)
+/* Copies the estimate of the input estimation filter, and its inputs, to the track. */
+static void copy_input_estimate_to_track(struct rho_track *track)
 {
     rho_input_estimate(&track->input, &track->kalman);
     for (int axis = 0; axis < 3; axis++) {
@@ -229,8 +231,9 @@ static enum rho_status update_input_by_plot(struct rho_input *input,
     return status;
 }
 
-static enum rho_status update_input(struct rho_track *track, const struct rho_track_plot *seen,
-                                    const struct rho_track_model *model)
+static enum rho_status predict_and_update_input(struct rho_track *track,
+                                                const struct rho_track_plot *seen,
+                                                const struct rho_track_model *model)
 {
     struct rho_input input = track->input;
     enum rho_status status =
@@ -242,25 +245,29 @@ static enum rho_status update_input(struct rho_track *track, const struct rho_tr
         rho_input_decide(&input, model->input);
         track->input = input;
         track->is_undecided = 0;
-        show_input_estimate(track);
+        copy_input_estimate_to_track(track);
     }
     return status;
 }
 
-/* A bearing alone says nothing along its line: only those of all sensors show an input. */
+/*
+ * Decides which inputs are present after all bearings of a step: a bearing measures nothing along
+ * its line of sight, so that bearings of several sensors are needed.
+ */
 static void decide_inputs_by_bearings(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) && track->is_undecided && model->input) {
         rho_input_decide(&track->input, model->input);
-        show_input_estimate(track);
+        copy_input_estimate_to_track(track);
         track->is_undecided = 0;
     }
 }
 
 /* ---- hypotheses ------------------------------------------------------------------------------ */
 
-static enum rho_status update_hypotheses(struct rho_track *track, const struct rho_track_plot *seen,
-                                         const struct rho_track_model *model)
+static enum rho_status predict_and_update_hypotheses(struct rho_track *track,
+                                                     const struct rho_track_plot *seen,
+                                                     const struct rho_track_model *model)
 {
     struct rho_imm_plot plot;
     enum rho_status status = rho_hypotheses_predict(model->hypotheses, track->slot, seen->time_us);
@@ -299,18 +306,19 @@ void rho_track_expect(const struct rho_track *track, struct rho_kalman *expected
 
 /* ---- start and end --------------------------------------------------------------------------- */
 
-static enum rho_status update_filter(struct rho_track *track, const struct rho_track_plot *seen,
-                                     const struct rho_track_model *model)
+static enum rho_status update_filter_by_plot(struct rho_track *track,
+                                             const struct rho_track_plot *seen,
+                                             const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        return update_hypotheses(track, seen, model);
+        return predict_and_update_hypotheses(track, seen, model);
     }
-    return RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? update_input(track, seen, model)
-                                                   : update_kalman(track, seen, model);
+    return RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) ? predict_and_update_input(track, seen, model)
+                                                   : predict_and_update_kalman(track, seen, model);
 }
 
-/* The filter that the model asks for. */
-static enum rho_track_filter filter_of(const struct rho_track_model *model)
+/* The filter that new tracks get from a model: hypotheses, else input estimation, else Kalman. */
+static enum rho_track_filter filter_of_model(const struct rho_track_model *model)
 {
     if (model->hypotheses) {
         return RHO_TRACK_HYPOTHESES;
@@ -318,10 +326,10 @@ static enum rho_track_filter filter_of(const struct rho_track_model *model)
     return model->input ? RHO_TRACK_INPUT : RHO_TRACK_KALMAN;
 }
 
-/* Opens the filter at the estimate of one plot. */
+/* Sets the filter that the model asks for, and starts it from the track's Kalman estimate. */
 static enum rho_status open_filter(struct rho_track *track, const struct rho_track_model *model)
 {
-    const enum rho_track_filter filter = filter_of(model);
+    const enum rho_track_filter filter = filter_of_model(model);
     if (!RHO_HAS_FILTER(filter)) {
         return RHO_ERROR_CONFIG;
     }
@@ -334,8 +342,8 @@ static enum rho_status open_filter(struct rho_track *track, const struct rho_tra
                : RHO_OK;
 }
 
-/* After a hit; a plot of another sensor in the same step only refines the newest velocity. */
-static void note_velocity(struct rho_track *track, int is_first)
+/* Stores the velocity after a hit; is_first 0: a step's later plot replaces the newest velocity. */
+static void store_velocity_after_hit(struct rho_track *track, int is_first)
 {
     if (is_first && track->num_velocities < UINT8_MAX) {
         track->num_velocities++;
@@ -348,23 +356,24 @@ static void note_velocity(struct rho_track *track, int is_first)
     }
 }
 
-static enum rho_status run_filter(struct rho_track *track, const struct rho_track_plot *plots,
-                                  unsigned num_plots, const struct rho_track_model *model)
+static enum rho_status run_filter_over_plots(struct rho_track *track,
+                                             const struct rho_track_plot *plots, unsigned num_plots,
+                                             const struct rho_track_model *model)
 {
     enum rho_status status = RHO_OK;
-    note_velocity(track, 1);
+    store_velocity_after_hit(track, 1);
     for (unsigned i = 1; i < num_plots && status == RHO_OK; i++) {
-        status = update_filter(track, &plots[i], model);
+        status = update_filter_by_plot(track, &plots[i], model);
         track->time_us = plots[i].time_us;
-        note_velocity(track, 1);
+        store_velocity_after_hit(track, 1);
     }
     rho_track_merge_estimates(track, track->time_us, model);
     return status;
 }
 
-/* Input estimation with a covariance of its own begins at the estimate of all plots. */
-static enum rho_status begin_input_of_paper(struct rho_track *track,
-                                            const struct rho_track_model *model)
+/* With a configured initial variance, input estimation begins at the estimate of all plots. */
+static enum rho_status restart_input_with_initial_variance(struct rho_track *track,
+                                                           const struct rho_track_model *model)
 {
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT) || !(model->input->initial_variance > 0.0f)) {
         return RHO_OK;
@@ -373,8 +382,8 @@ static enum rho_status begin_input_of_paper(struct rho_track *track,
     return rho_input_start(&track->input, model->input, &track->kalman);
 }
 
-/* Clears its padding, too: the same plots give the same bytes. */
-static void clear_track(struct rho_track *track, uint32_t track_id, int32_t score_mnat)
+/* Clears all bytes, padding too, so that the same plots give the same bytes; sets id and score. */
+static void init_track(struct rho_track *track, uint32_t track_id, int32_t score_mnat)
 {
     memset(track, 0, sizeof *track);
     track->track_id = track_id;
@@ -395,23 +404,23 @@ enum rho_status rho_track_start(struct rho_track *track, uint32_t track_id,
     }
     const struct rho_track_plot *last = &plots[num_plots - 1];
     struct rho_track start;
-    clear_track(&start, track_id, score_mnat);
+    init_track(&start, track_id, score_mnat);
     start.hits = (uint16_t)num_plots;
     start.plot = last->row;
     start.sensor_id = last->sensor_id;
     start.time_us = plots[0].time_us;
     start.updated_us = last->time_us;
     rho_kalman_init(&start.kalman);
-    enum rho_status status = update_by_plot(&start.kalman, &plots[0], model);
+    enum rho_status status = update_state_by_plot(&start.kalman, &plots[0], model);
     if (status == RHO_OK) {
         status = open_filter(&start, model);
     }
     if (status != RHO_OK) {
         return status;
     }
-    status = run_filter(&start, plots, num_plots, model);
+    status = run_filter_over_plots(&start, plots, num_plots, model);
     if (status == RHO_OK) {
-        status = begin_input_of_paper(&start, model);
+        status = restart_input_with_initial_variance(&start, model);
     }
     if (status != RHO_OK) {
         rho_track_end(&start, model);
@@ -437,7 +446,7 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
         return RHO_ERROR_VALUE;
     }
     struct rho_track start;
-    clear_track(&start, track_id, score_mnat);
+    init_track(&start, track_id, score_mnat);
     start.hits = hits;
     start.plot = -1;
     start.sensor_id = sensor_id;
@@ -446,13 +455,13 @@ enum rho_status rho_track_start_estimate(struct rho_track *track, uint32_t track
     start.kalman = *estimate;
     enum rho_status status = open_filter(&start, model);
     if (status == RHO_OK) {
-        status = begin_input_of_paper(&start, model);
+        status = restart_input_with_initial_variance(&start, model);
     }
     if (status != RHO_OK) {
         return status;
     }
     rho_track_merge_estimates(&start, time_us, model);
-    note_velocity(&start, 1);
+    store_velocity_after_hit(&start, 1);
     apply_event(&start, RHO_TRACK_START);
     *track = start;
     return RHO_OK;
@@ -462,18 +471,18 @@ void rho_track_end(struct rho_track *track, const struct rho_track_model *model)
 {
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         rho_hypotheses_close(model->hypotheses, track->slot);
-        track->slot = RHO_HYPOTHESES_SLOTS; /* none: it may be another's soon */
+        track->slot = RHO_HYPOTHESES_SLOTS; /* none: the freed slot may go to another track */
     }
 }
 
 /* ---- predict and update ---------------------------------------------------------------------- */
 
 /*
- * Hypotheses have moved: the one estimate follows roughly; rho_track_merge_estimates finds it once
- * a step.
+ * Predicts the merged estimate of a track with hypotheses without noise, which is a rough value
+ * until rho_track_merge_estimates computes it at the end of the step. Passes errors on.
  */
-static enum rho_status move_estimate(struct rho_track *track, int64_t time_us,
-                                     enum rho_status status)
+static enum rho_status move_merged_estimate(struct rho_track *track, int64_t time_us,
+                                            enum rho_status status)
 {
     return status == RHO_OK ? rho_kalman_predict(&track->kalman,
                                                  rho_seconds_between(track->time_us, time_us), 0.0f)
@@ -489,11 +498,11 @@ enum rho_status rho_track_predict(struct rho_track *track, int64_t time_us,
     }
     float dt_s = rho_seconds_between(track->time_us, time_us);
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        status = move_estimate(track, time_us,
-                               rho_hypotheses_predict(model->hypotheses, track->slot, time_us));
+        status = move_merged_estimate(
+            track, time_us, rho_hypotheses_predict(model->hypotheses, track->slot, time_us));
     } else if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
         status = rho_input_predict(&track->input, model->input, dt_s);
-        show_input_estimate(track);
+        copy_input_estimate_to_track(track);
     } else {
         status = rho_kalman_predict(&track->kalman, dt_s, model->noise_density);
     }
@@ -510,12 +519,12 @@ enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
         return RHO_ERROR_NULL;
     }
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_INPUT)) {
-        return rho_track_predict(track, time_us, model); /* its noise is a scan's, not a second's */
+        return rho_track_predict(track, time_us, model); /* input estimation has noise per scan */
     }
     enum rho_status status =
         RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
-            ? move_estimate(track, time_us,
-                            rho_hypotheses_return(model->hypotheses, track->slot, time_us))
+            ? move_merged_estimate(track, time_us,
+                                   rho_hypotheses_return(model->hypotheses, track->slot, time_us))
             : rho_kalman_predict(&track->kalman, rho_seconds_between(track->time_us, time_us),
                                  0.0f);
     if (status == RHO_OK) {
@@ -524,13 +533,14 @@ enum rho_status rho_track_return(struct rho_track *track, int64_t time_us,
     return status;
 }
 
-/* A plot of an out-of-sequence scan is not the last one. */
-static int64_t last_seen_us(const struct rho_track *track, int64_t time_us)
+/* The later one of a plot's time and the last update's: a plot may be out of sequence. */
+static int64_t later_update_time_us(const struct rho_track *track, int64_t time_us)
 {
     return RHO_SECTORS && time_us < track->updated_us ? track->updated_us : time_us;
 }
 
-static void note_hit(struct rho_track *track, int64_t time_us, int32_t sensor_id, int16_t row)
+static void store_claimed_plot(struct rho_track *track, int64_t time_us, int32_t sensor_id,
+                               int16_t row)
 {
     track->is_shared |= (uint8_t)(RHO_SECTORS && track->sensor_id != sensor_id);
     track->updated_us = time_us;
@@ -544,15 +554,16 @@ enum rho_status rho_track_update(struct rho_track *track, const struct rho_track
     if (!track || !plot || !model) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = update_filter(track, plot, model);
+    enum rho_status status = update_filter_by_plot(track, plot, model);
     if (status != RHO_OK) {
         return status;
     }
     track->time_us = plot->time_us;
     if (!RHO_SECTORS || plot->time_us >= track->updated_us) {
-        note_velocity(track, 1); /* one that came late does not come between the last two */
+        store_velocity_after_hit(track, 1); /* an older plot leaves both velocities */
     }
-    note_hit(track, last_seen_us(track, plot->time_us), plot->sensor_id, plot->row);
+    store_claimed_plot(track, later_update_time_us(track, plot->time_us), plot->sensor_id,
+                       plot->row);
     count_hit(track);
     add_score(track, gain_mnat);
     apply_event(track, RHO_TRACK_UPDATE);
@@ -579,8 +590,9 @@ enum rho_status rho_track_commit(struct rho_track *track, const struct rho_hypot
                                    : outcome.gain_nat > SCORE_LIMIT_NAT ? SCORE_LIMIT_NAT
                                                                         : outcome.gain_nat)));
     if (outcome.row >= 0) {
-        note_hit(track, last_seen_us(track, scan->time_us + scan->plots[outcome.row].offset_us),
-                 sensor_id, outcome.row);
+        store_claimed_plot(
+            track, later_update_time_us(track, scan->time_us + scan->plots[outcome.row].offset_us),
+            sensor_id, outcome.row);
         count_hit(track);
         apply_event(track, RHO_TRACK_UPDATE);
     }
@@ -620,7 +632,7 @@ static enum rho_status update_input_by_bearing(struct rho_track *track,
     if (status == RHO_OK) {
         track->input = input;
         track->is_undecided = 1;
-        show_input_estimate(track);
+        copy_input_estimate_to_track(track);
     }
     return status;
 }
@@ -638,7 +650,7 @@ static enum rho_status update_by_bearing(struct rho_track *track,
     enum rho_status status = rho_hypotheses_update_bearing(
         model->hypotheses, track->slot, bearing->time_us, bearing->x_m, bearing->y_m,
         bearing->bearing_rad, bearing->sigma_rad);
-    /* the next sensor's gate is to be the narrower for it */
+    /* hypotheses are merged at once, so that the gate for the next sensor's bearings is narrower */
     rho_track_merge_estimates(track, bearing->time_us, model);
     return status;
 }
@@ -654,14 +666,14 @@ enum rho_status rho_track_update_bearing(struct rho_track *track,
     if (status != RHO_OK) {
         return status;
     }
-    note_velocity(track, track->plot < 0);
+    store_velocity_after_hit(track, track->plot < 0);
     if (track->plot < 0) {
         count_hit(track);
     }
-    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) { /* these have settled there */
+    if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) { /* else merging has set the time */
         track->time_us = bearing->time_us;
     }
-    note_hit(track, bearing->time_us, bearing->sensor_id, bearing->row);
+    store_claimed_plot(track, bearing->time_us, bearing->sensor_id, bearing->row);
     add_score(track, gain_mnat);
     apply_event(track, RHO_TRACK_UPDATE);
     return RHO_OK;

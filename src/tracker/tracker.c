@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker: configuration of a tracker, and the sensors that it is told of. step.c runs a scan.
+ * tracker: initialises and reconfigures a tracker, and adds and removes descriptions of sensors.
+ * src/step/step.c processes a scan.
  */
 #include "rhotrack/tracker.h"
 
@@ -67,7 +68,7 @@ int rho_tracker_is_usable(const struct rho_tracker_config *config)
            config->work_max <= RHO_LIMIT_WORK;
 }
 
-static struct rho_imm_model model_of(const struct rho_tracker_config *config)
+static struct rho_imm_model motion_model_of_config(const struct rho_tracker_config *config)
 {
     struct rho_imm_model model;
     rho_imm_model_default(&model, config->accel_max_mps2, config->v_max_mps);
@@ -78,9 +79,9 @@ static struct rho_imm_model model_of(const struct rho_tracker_config *config)
     return model;
 }
 
-static enum rho_status open_hypotheses(struct rho_tracker *tracker)
+static enum rho_status init_hypotheses(struct rho_tracker *tracker)
 {
-    const struct rho_imm_model model = model_of(&tracker->config);
+    const struct rho_imm_model model = motion_model_of_config(&tracker->config);
     return rho_hypotheses_init(&tracker->hypotheses, sizeof tracker->hypotheses, &model);
 }
 
@@ -106,7 +107,7 @@ enum rho_status rho_tracker_init(struct rho_tracker *tracker, size_t size,
     if (RHO_MAX_ECHOES > 0) {
         rho_tracker_open_clutter_map(tracker);
     }
-    status = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? open_hypotheses(tracker) : RHO_OK;
+    status = RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ? init_hypotheses(tracker) : RHO_OK;
     if (status != RHO_OK) {
         return status;
     }
@@ -131,7 +132,7 @@ enum rho_status rho_tracker_reconfigure(struct rho_tracker *tracker,
         return RHO_ERROR_STATE;
     }
     if (RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES)) {
-        const struct rho_imm_model model = model_of(config);
+        const struct rho_imm_model model = motion_model_of_config(config);
         const enum rho_status status = rho_hypotheses_set_model(&tracker->hypotheses, &model);
         if (status != RHO_OK) {
             return status;

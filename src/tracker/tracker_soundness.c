@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * tracker_soundness: whether a tracker of unknown origin (a snapshot) can be worked with.
+ * tracker_soundness: tests whether a tracker of unknown origin, as a loaded snapshot, is safe to
+ * use: its counts are in range and its numbers are finite and within their limits.
  */
 #include "rhotrack/detail/angle.h"
 #include "step.h"
 
-/* Slots that one pass over the tracks checks. */
+/* Slots of the hypotheses' pool that are checked in one pass over the tracks. */
 #define PASS_SLOTS 256u
 
 /* ---- tracks ---------------------------------------------------------------------------------- */
 
-/* The configured filter of tracks of plots, or that of tracks of bearings. */
+/* True of the filter that tracks of plots are configured with, and of the Kalman filter (bearings).
+ */
 static int is_sound_filter(const struct rho_tracker *tracker, const struct rho_track *track)
 {
     const unsigned own = (unsigned)rho_tracker_filter_of(&tracker->config);
@@ -56,8 +58,8 @@ static int is_sound_track(const struct rho_tracker *tracker, const struct rho_tr
            rho_is_within(track->maneuver_probability, 0.0f, 1.0f);
 }
 
-/* No two tracks have the same hypotheses. */
-static int has_own_slots(const struct rho_tracker *tracker)
+/* True where no two tracks have the same slot in the pool of hypotheses. */
+static int has_no_shared_slots(const struct rho_tracker *tracker)
 {
     for (unsigned first = 0; first < RHO_HYPOTHESES_SLOTS; first += PASS_SLOTS) {
         uint8_t is_met[PASS_SLOTS] = {0};
@@ -86,7 +88,7 @@ static int has_sound_tracks(const struct rho_tracker *tracker)
         }
     }
     return !RHO_HAS_FILTER(RHO_TRACK_HYPOTHESES) ||
-           (rho_hypotheses_is_sound(&tracker->hypotheses) && has_own_slots(tracker));
+           (rho_hypotheses_is_sound(&tracker->hypotheses) && has_no_shared_slots(tracker));
 }
 
 /* ---- sensors --------------------------------------------------------------------------------- */

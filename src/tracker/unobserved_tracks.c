@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * unobserved_tracks: ends tracks by time, where no sensor looks.
+ * unobserved_tracks: ends tracks that no sensor has looked at for too long.
  *
- * Only a scan that looked at a track can miss it. A track that left the coverage, or whose radar is
- * switched off, has no misses. It may coast for the time of coast_scans_max scans of the sensors
- * that saw it last:
+ * A track counts a miss only in a scan that looked at it. A track that left the coverage, or whose
+ * radar is switched off, has no misses. It may coast for the time of coast_scans_max scans of the
+ * sensors that saw it last:
  *
  *      hit   hit   leaves the coverage           the radar is silent, and back
  *       |-----|-----x. . . . . . . . x ends       |-----|-----x . . . . . |  claims a plot: goes on
  *             '-- coast_scans_max --'                                     |  missed: tentative
  *                                                                         |  third miss: ends
  *
- * Where a sensor that covers its place might still look, the track has UNLOOKED times as long. How
- * often a sensor looks at a place is measured from one scan that holds a fixed direction to the
- * next one. Where the track is hit less often than that, the time between its hits counts: a sensor
- * that turns where it likes looks at some directions more often than at others.
+ * Where a sensor covers its place and might still look there, the track may coast UNLOOKED times as
+ * long. A sensor's scan interval is measured between scans that hold one fixed direction. Where the
+ * track is hit less often, the time between its hits counts instead: a sensor that steers its beam
+ * freely looks in some directions more often than in others.
  */
 #include <string.h>
 
@@ -24,41 +24,41 @@
 #include "step.h"
 
 /*
- * Weight of the newest interval in the mean, and how many times the mean one counts at most: an
- * outage is no interval.
+ * Weight of the newest interval in a smoothed interval, and its upper limit over the smoothed one:
+ * an outage is not a long interval.
  */
 #define INTERVAL_SMOOTHING 0.25f
 #define INTERVAL_LONGEST 2.0f
 
-/* After so many intervals without a look the sensor looks elsewhere. */
+/* Scan intervals without a look in the fixed direction after which another one is chosen. */
 #define INTERVALS_GONE 16.0f
 
-/* Smoothing of the interval between a track's hits. */
+/* Weight of the newest time between a track's hits in the smoothed one: if shorter; if longer. */
 #define SHORTER_SMOOTHING 0.5f
 #define LONGER_SMOOTHING 0.0625f
 
 /*
- * Shares of an interval: a look may be so much later; the last one that counts may be so much
- * earlier.
+ * Tolerances in scan intervals: a look may be late by OVERDUE; a track that no sensor covers ends
+ * up to JITTER before coast_scans_max intervals are over.
  */
 #define OVERDUE 0.5f
 #define JITTER 0.7f
 
-/* Times that a track may coast, while a sensor that sees its place might still look. */
+/* Factor on the coasting time of a track whose place a sensor covers, but does not look at. */
 #define UNLOOKED 4.0f
 
-/* Misses in a row, including those before the silence, that end a track not seen for so long. */
+/* Misses in a row that end a track after a silence; those before the silence are included. */
 #define OVERDUE_MISSES 3
 
-/* False plots expected in a gate from which the plot of a track not seen for long is doubtful. */
+/* Clutter plots expected in the gate above which a plot after a long silence is doubtful. */
 #define DOUBTFUL_PLOTS 0.1f
 
-/* Ratio of sigma to the sensor's range from which a track's place is unknown. */
+/* Largest sigma of a track's place over its sensor's maximum range; above it the track ends. */
 #define UNKNOWN_SHARE 1.0f
 
 /* ---- how often sensors look ------------------------------------------------------------------ */
 
-static struct rho_tracker_pace *find_pace(struct rho_tracker *tracker, int32_t sensor_id)
+static struct rho_tracker_pace *find_pace_of_sensor(struct rho_tracker *tracker, int32_t sensor_id)
 {
     for (unsigned i = 0; i < tracker->num_paces; i++) {
         if (tracker->paces[i].sensor_id == sensor_id) {
@@ -68,8 +68,8 @@ static struct rho_tracker_pace *find_pace(struct rho_tracker *tracker, int32_t s
     return 0;
 }
 
-/* A new sensor replaces the one that was heard longest ago, where there is no free place. */
-static struct rho_tracker_pace *add_pace(struct rho_tracker *tracker)
+/* A free entry for a new sensor; in a full table that of the sensor heard longest ago. */
+static struct rho_tracker_pace *add_pace_or_replace_oldest(struct rho_tracker *tracker)
 {
     struct rho_tracker_pace *oldest = &tracker->paces[0];
     if (tracker->num_paces < RHO_MAX_SENSORS) {
@@ -83,14 +83,14 @@ static struct rho_tracker_pace *add_pace(struct rho_tracker *tracker)
 
 void rho_tracker_forget_pace(struct rho_tracker *tracker, int32_t sensor_id)
 {
-    struct rho_tracker_pace *pace = find_pace(tracker, sensor_id);
+    struct rho_tracker_pace *pace = find_pace_of_sensor(tracker, sensor_id);
     if (pace) {
         *pace = tracker->paces[--tracker->num_paces];
         memset(&tracker->paces[tracker->num_paces], 0, sizeof *pace);
     }
 }
 
-static void average_interval(struct rho_tracker_pace *pace, float gap_s)
+static void smooth_scan_interval(struct rho_tracker_pace *pace, float gap_s)
 {
     if (!(pace->interval_s > 0.0f)) {
         pace->interval_s = gap_s;
@@ -106,10 +106,10 @@ void rho_tracker_note_pace(struct rho_tracker *tracker, int32_t sensor_id,
 {
     const float middle_rad = rho_angle_wrap(
         sector_from_rad + 0.5f * rho_angle_sector_width(sector_from_rad, sector_to_rad));
-    struct rho_tracker_pace *pace = find_pace(tracker, sensor_id);
+    struct rho_tracker_pace *pace = find_pace_of_sensor(tracker, sensor_id);
     if (!pace) {
-        pace = add_pace(tracker);
-        memset(pace, 0, sizeof *pace); /* padding, too: snapshots hold it */
+        pace = add_pace_or_replace_oldest(tracker);
+        memset(pace, 0, sizeof *pace); /* clears the padding, too, as snapshots hold it */
         pace->sensor_id = sensor_id;
         pace->azimuth_rad = middle_rad;
         pace->time_us = time_us;
@@ -119,7 +119,7 @@ void rho_tracker_note_pace(struct rho_tracker *tracker, int32_t sensor_id,
     const float gap_s = rho_seconds_between(pace->time_us, time_us);
     const int looks_there = rho_angle_in_sector(pace->azimuth_rad, sector_from_rad, sector_to_rad);
     if (looks_there && gap_s > 0.0f) {
-        average_interval(pace, gap_s);
+        smooth_scan_interval(pace, gap_s);
         pace->time_us = time_us;
     } else if (gap_s > INTERVALS_GONE * pace->interval_s && pace->interval_s > 0.0f) {
         pace->azimuth_rad = middle_rad;
@@ -129,46 +129,44 @@ void rho_tracker_note_pace(struct rho_tracker *tracker, int32_t sensor_id,
 
 /* ---- sensors that could see a track ---------------------------------------------------------- */
 
-struct wait {
-    int is_awaited; /* a sensor sees the place, if it still looks */
-    float
-        /*
-         * the longest interval of these sensors and of the one that saw it last; 0: none is known
-         */
-        interval_s;
-    float scans_per_s; /* of the sensors that saw it last */
+struct expected_looks {
+    int is_awaited; /* a sensor covers the track's place, and may still look there */
+    /* longest scan interval of the sensors that cover the track or saw it last; 0: unknown */
+    float interval_s;
+    float scans_per_s; /* total scan rate of the sensors that saw the track last */
 };
 
-/* A sensor that was not described may see any place. */
-static int may_see(const struct rho_tracker *tracker, const struct rho_tracker_pace *pace,
-                   float x_m, float y_m)
+/* True where the sensor's coverage holds a place; a sensor without description covers all. */
+static int may_sensor_see_place(const struct rho_tracker *tracker,
+                                const struct rho_tracker_pace *pace, float x_m, float y_m)
 {
     const struct rho_sensor *known = rho_tracker_find_sensor(tracker, pace->sensor_id);
     if (!known) {
         return 1;
     }
-    /* bearings say themselves where it is: the place is moved as far as it is off */
+    /* the sensor of bearing scans may be elsewhere than described: the place moves along */
     return rho_measurement_covers(known, 0.0f, 0.0f, x_m + (known->x_m - pace->x_m),
                                   y_m + (known->y_m - pace->y_m));
 }
 
-/* One of the sensors that saw the track last: two are known of where there are sectors. */
-static int saw_last(const struct rho_track *track, int32_t sensor_id)
+/* True of the sensor that saw the track last; with RHO_SECTORS also of the one before it. */
+static int is_last_seeing_sensor(const struct rho_track *track, int32_t sensor_id)
 {
     return track->sensor_id == sensor_id || (RHO_SECTORS && rho_tracker_saw_last(track, sensor_id));
 }
 
-static struct wait wait_for(const struct step *step, const struct rho_track *track)
+static struct expected_looks expect_looks_at_track(const struct step *step,
+                                                   const struct rho_track *track)
 {
     const struct rho_tracker *tracker = step->tracker;
     const float *state = track->kalman.state;
     const float dt_s = rho_seconds_between(track->time_us, step->time_us);
     const float x_m = state[0] + state[3] * dt_s, y_m = state[1] + state[4] * dt_s;
-    struct wait wait = {0, track->seen_every_s, 0.0f};
+    struct expected_looks wait = {0, track->seen_every_s, 0.0f};
     for (unsigned i = 0; i < tracker->num_paces; i++) {
         const struct rho_tracker_pace *pace = &tracker->paces[i];
-        const int is_seen = may_see(tracker, pace, x_m, y_m);
-        const int is_last = saw_last(track, pace->sensor_id);
+        const int is_seen = may_sensor_see_place(tracker, pace, x_m, y_m);
+        const int is_last = is_last_seeing_sensor(track, pace->sensor_id);
         const float interval_s =
             pace->interval_s > track->seen_every_s ? pace->interval_s : track->seen_every_s;
         if ((is_seen || is_last) && interval_s > wait.interval_s) {
@@ -184,8 +182,11 @@ static struct wait wait_for(const struct step *step, const struct rho_track *tra
 
 /* ---- time goes by ---------------------------------------------------------------------------- */
 
-/* Longer times between hits are scans that missed it rather than the sensor's interval. */
-static void note_hit(struct rho_track *track, int64_t time_us)
+/*
+ * Smooths the time between a track's hits. Longer times count little: they are rather missed scans
+ * than a longer interval of the sensor.
+ */
+static void smooth_hit_interval(struct rho_track *track, int64_t time_us)
 {
     const float gap_s = rho_seconds_between(track->seen_us, time_us);
     track->seen_us = time_us;
@@ -204,11 +205,11 @@ static void note_hit(struct rho_track *track, int64_t time_us)
 }
 
 /*
- * A target that was out of sight for longer than tracks may coast has probably gone. When it is
- * missed, or its plot may be clutter, the track must be seen once more before it is confirmed
- * again. Where a fall of doubt_mnat would end the track, only misses end it.
+ * Lowers the score by doubt_mnat, which makes a track tentative: a target that was not observed for
+ * longer than tracks may coast has probably gone. The score stays where that fall would end the
+ * track.
  */
-static void make_tentative(struct rho_track *track, const struct rho_track_limits *limits)
+static void lower_score_to_tentative(struct rho_track *track, const struct rho_track_limits *limits)
 {
     if (limits->doubt_mnat < limits->fall_mnat) {
         rho_track_lower_score(track, limits->doubt_mnat);
@@ -224,23 +225,23 @@ int rho_tracker_is_long_unobserved(const struct step *step, struct rho_track *tr
         }
         return 0;
     }
-    const struct wait wait = wait_for(step, track);
+    const struct expected_looks wait = expect_looks_at_track(step, track);
     const float coast = (float)step->tracker->config.coast_scans_max;
     const float unseen_s = rho_seconds_between(track->seen_us, step->time_us);
     const int is_overdue =
         wait.interval_s > 0.0f && unseen_s >= (coast + OVERDUE) * wait.interval_s;
     if (is_overdue && track->status != RHO_TRACK_TENTATIVE &&
         (track->plot < 0 ? is_missed : rho_tracker_clutter_in_gate(step, track) > DOUBTFUL_PLOTS)) {
-        make_tentative(track, limits);
+        lower_score_to_tentative(track, limits);
     }
     if (track->plot >= 0) {
-        note_hit(track, step->time_us);
+        smooth_hit_interval(track, step->time_us);
         return 0;
     }
     if (!wait.is_awaited && wait.scans_per_s > 0.0f) {
         return unseen_s * wait.scans_per_s >= coast - JITTER;
     }
-    /* unseen time less the scans that missed it */
+    /* time without a hit, less the scans that looked and missed */
     const float silent_s = unseen_s - (float)track->misses_in_row * wait.interval_s;
     const int is_back = silent_s >= (coast + OVERDUE) * wait.interval_s;
     return is_overdue && ((is_back && track->misses_in_row >= OVERDUE_MISSES) ||

@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * work_budget: how much work the tracks of a step may do, and on which plots it is spent first.
+ * work_budget: shares of work_max for the phases of a step and for each track, and the plots that a
+ * track scores where its share is too small for all.
  *
- * A quarter of work_max is for claims, another for tracks that score plots again because others
- * were assigned theirs. Half of each quarter is reserved, in even shares for the tracks that wait;
- * of the rest a track takes a quarter at most. A track that has more plots near it than it may
- * score takes those nearest to its expected place. Before the claims an eighth of work_max is for
- * echoes of clutter; after them a sixteenth is for second plots, and another is reserved for those
- * of tracks that start. Where walls are told, a sixteenth is for their images before the search,
- * and another is reserved for those after it. The search has what is left.
+ * A quarter of work_max is for claims, another for tracks that score plots again because other
+ * tracks were assigned their plots. Half of each quarter is reserved, in even shares for the tracks
+ * that wait; of the rest a track takes a quarter at most. A track with more plots near it than its
+ * share allows scores the plots nearest to its expected place. Before the claims an eighth of
+ * work_max is for echoes of clutter; after them a sixteenth is for second plots, and another is
+ * reserved for second plots of new tracks. With reflectors, a sixteenth is for plots of images
+ * before the search, and another is reserved for tracks of images after it. The search has the
+ * rest.
  */
 #include "step.h"
 
+/* 1 / share of a phase that is reserved for the tracks, and 1 / share of the rest for one track. */
 #define KEPT_SHARE 2u
 #define FREE_PARTS 4u
 
 /*
- * Units of scoring a plot with one hypothesis; more of them at the plot's own time, to which the
- * hypothesis is moved; with a velocity in two or three axes; with a Kalman filter's gate.
+ * Units of work: to score a plot with one hypothesis; in addition to predict the hypothesis to the
+ * plot's own time, and for a measured velocity in two or three axes; for a Kalman filter's gate.
  */
 #define SCORE_UNITS 20u
 #define MOVE_UNITS 60u
@@ -25,8 +28,8 @@
 #define VELOCITY_3D_UNITS 140u
 #define GATE_UNITS 12u
 
-/* A scan of more plots than there is room for is claimed part by part, in as many phases. */
-static uint32_t num_parts(const struct step *step)
+/* Number of parts of RHO_MAX_PLOTS plots in which a large scan is claimed, one phase each. */
+static uint32_t num_parts_of_scan(const struct step *step)
 {
     const uint32_t parts = (step->num_inputs + RHO_MAX_PLOTS - 1u) / RHO_MAX_PLOTS;
     return !RHO_CLAIMS_BEYOND || parts < 1u ? 1u
@@ -43,7 +46,7 @@ void rho_tracker_begin_share(struct step *step, uint32_t part)
 void rho_tracker_begin_work(struct step *step)
 {
     const struct rho_tracker *tracker = step->tracker;
-    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts(step);
+    const uint32_t part = RHO_WORK_TRACKS_SHARE * num_parts_of_scan(step);
     unsigned waiting = 0;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         waiting +=
@@ -54,7 +57,7 @@ void rho_tracker_begin_work(struct step *step)
     step->share.waiting = waiting;
 }
 
-static uint32_t units_of_plot(const struct step *step, const struct rho_track *track)
+static uint32_t units_to_score_plot(const struct step *step, const struct rho_track *track)
 {
     if (!RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
         return GATE_UNITS;
@@ -66,8 +69,9 @@ static uint32_t units_of_plot(const struct step *step, const struct rho_track *t
     return units * rho_hypotheses_count(&step->tracker->hypotheses, track->slot);
 }
 
-/* Units that the next track may spend. */
-static uint32_t next_share(struct step *step)
+/* Units of work that the next waiting track may spend: its reserved share, and a part of the rest.
+ */
+static uint32_t take_share_of_next_track(struct step *step)
 {
     struct work_share *share = &step->share;
     if (share->end == UINT32_MAX) {
@@ -81,13 +85,13 @@ static uint32_t next_share(struct step *step)
 
 struct plot_choice rho_tracker_choose_plots(struct step *step, const struct rho_track *track)
 {
-    struct plot_choice choice = {.units = units_of_plot(step, track)};
-    choice.most = next_share(step) / choice.units;
+    struct plot_choice choice = {.units = units_to_score_plot(step, track)};
+    choice.most = take_share_of_next_track(step) / choice.units;
     return choice;
 }
 
-/* By octaves of the squared distance from the expected place, the nearest first. */
-static unsigned octave_of(const struct rho_track *track, const struct rho_plot *plot)
+/* Octave of the squared distance between plot and predicted place; 0: nearer than 1 m. */
+static unsigned distance_octave_of_plot(const struct rho_track *track, const struct rho_plot *plot)
 {
     const float dx_m = plot->x_m - track->kalman.state[0];
     const float dy_m = plot->y_m - track->kalman.state[1];
@@ -103,7 +107,7 @@ static unsigned octave_of(const struct rho_track *track, const struct rho_plot *
 void rho_tracker_note_choice(struct plot_choice *choice, const struct rho_track *track,
                              const struct rho_plot *plot)
 {
-    choice->in_octave[octave_of(track, plot)]++;
+    choice->in_octave[distance_octave_of_plot(track, plot)]++;
     choice->num_near++;
 }
 
@@ -126,7 +130,7 @@ int rho_tracker_is_chosen(struct step *step, struct plot_choice *choice,
                           const struct rho_track *track, const struct rho_plot *plot)
 {
     if (choice->is_partial) {
-        const unsigned octave = octave_of(track, plot);
+        const unsigned octave = distance_octave_of_plot(track, plot);
         if (octave > choice->last || (octave == choice->last && choice->of_last == 0)) {
             return 0;
         }
@@ -146,7 +150,7 @@ uint32_t rho_tracker_work_left(const struct step *step)
     const uint32_t kept =
         all / RHO_WORK_STARTS_SHARE + (has_images ? all / RHO_WORK_IMAGES_SHARE : 0u);
     const uint32_t used = rho_count(step->work, kept);
-    const uint32_t left = all > used ? all - used : 1u; /* 0 is no limit */
+    const uint32_t left = all > used ? all - used : 1u; /* 1, as 0 would be no limit */
     return most > 0 && most < left ? most : left;
 }
 
