@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * command: an operator's messages, command_t on RHO_COMMANDS, and what a tracker answers to them,
- * command_answer_t on RHO_COMMAND_ANSWERS. And settings, setting_t on RHO_SETTINGS, with
- * setting_answer_t on RHO_SETTING_ANSWERS.
+ * command: does the commands and settings of an operator that come as messages: command_t on
+ * RHO_COMMANDS, answered by command_answer_t on RHO_COMMAND_ANSWERS; setting_t on RHO_SETTINGS,
+ * answered by setting_answer_t on RHO_SETTING_ANSWERS.
  *
  *     if (rho_message_command_decode(data, size, &command) == RHO_OK &&
  *         rho_message_command_validate(&command, NULL) == RHO_OK) {
@@ -12,8 +12,9 @@
  *         answer.epoch = node.epoch;
  *     }
  *
- * before the step's messages are made, which then show what has changed. Nothing proves who sent a
- * command: a node takes them only where its network is its own, and it was told so.
+ * The command is run before the step's messages are made, which then show the change. Nothing
+ * proves who sent a command: a node is to take commands only on a private network, and when told
+ * to.
  */
 #ifndef RHOTRACK_COMMAND_H
 #define RHOTRACK_COMMAND_H
@@ -28,9 +29,9 @@ extern "C" {
 #endif
 
 /*
- * Does what a command says, and fills the answer but for scan and epoch, which are 0.
- *   report  of the last step
- * Errors: NULL, VALUE (an action that is none), and those of the functions of operator.h, which are
+ * Runs a command, and fills the answer but for scan and epoch, which are 0.
+ *   report  report of the last step
+ * Errors: NULL, VALUE (an unknown action), and those of the functions of operator.h, which are
  * the answer's status, too; the tracker is unchanged. Stack: 3.3 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_command_run(const struct rho_message_command *command,
@@ -52,8 +53,8 @@ RHO_MUST_CHECK enum rho_status rho_command_set(const struct rho_message_setting 
                                                struct rho_message_setting_answer *answer);
 
 /*
- * The name of a message's field, as in struct rho_settings; NULL: there is none. Constant cost.
- * Stack: 8 bytes.
+ * Name of the parameter in struct rho_settings that a message's field number stands for; NULL:
+ * there is none. Constant cost. Stack: 8 bytes.
  */
 const char *rho_command_setting_name(int field);
 

@@ -2,9 +2,9 @@
 /* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
 /* clang-format off */
 /*
- * message: the bytes of rhotrack's LCM messages, to and from structs. No heap, no liblcm, no state.
+ * message: encodes structs as LCM messages of rhotrack, and decodes them. No heap, liblcm or state.
  *
- * A message is its fingerprint (8 bytes: which struct, which version of it) and its members in
+ * A message is a fingerprint (8 bytes, different for each struct and version) and the members in
  * their order, big endian, without gaps. Fields have the names, units and ranges of lcm_types/. The
  * capacity of a list is RHO_MESSAGE_<STRUCT>_MAX_<LIST>. The longest message of a struct has
  * RHO_MESSAGE_<STRUCT>_MAX_SIZE bytes, which fit one datagram.
@@ -16,17 +16,17 @@
  *   rho_message_S_decode    bytes to struct, all of them. Errors: NULL, SHORT, TYPE (another
  *                           fingerprint), COUNT, TRAILING; *message is unchanged. Elements beyond
  *                           the list's count are unchanged in any case.
- *   rho_message_S_validate  are all values finite, in their ranges, one of their constants? Errors:
- *                           NULL, COUNT, VALUE; *place (may be NULL) tells which member, and
- *                           rho_message_S_field its name.
- * and where S ends with a list, to write it without a copy of the list:
+ *   rho_message_S_validate  tests that all values are finite, in their ranges, and one of their
+ *                           constants. Errors: NULL, COUNT, VALUE; *place (may be NULL) tells the
+ *                           member, and rho_message_S_field its name.
+ * and where S ends with a list, to write a message without a copy of the list:
  *   rho_message_S_begin     the members before the count (struct rho_message_S_head) go to the
  *                           buffer. Errors: NULL, CAPACITY; *writer is unchanged, and is not to be
  *                           added to.
- *   rho_message_S_add       one element more. Errors: NULL, STATE (not begun, or begun as another
+ *   rho_message_S_add       adds one element. Errors: NULL, STATE (not begun, or begun as another
  *                           struct), CAPACITY (of the buffer or the list); the message so far stays
  *                           whole.
- *   rho_message_end         the message's length; the writer is empty then.
+ *   rho_message_end         returns the message's length, and empties the writer.
  *
  * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent
  * of one another.
@@ -86,28 +86,28 @@ enum rho_message_type {
     RHO_NUM_MESSAGE_TYPES /* count of the values above, not a message */
 };
 
-/* A member that validate refuses. */
+/* Place of the first member that a validate function refuses. */
 struct rho_message_place {
-    uint16_t offset; /* in its struct */
-    int16_t element; /* of the list; -1: before it */
+    uint16_t offset; /* offset of the member in its struct, bytes */
+    int16_t element; /* index of the list element that has the member; -1: it is before the list */
 };
 
-/* A message that is written; the caller's buffer holds a whole message at any time. */
+/* A message that is written element by element; the buffer holds a whole message at any time. */
 struct rho_message_writer {
     uint8_t *buffer;
-    size_t capacity, size; /* bytes; size: so far */
+    size_t capacity, size; /* bytes of the buffer, and of the message so far */
     uint64_t fingerprint;
-    uint16_t count; /* elements so far */
+    uint16_t count; /* list elements written so far */
 };
 
-/* The type by its fingerprint; RHO_NUM_MESSAGE_TYPES: none of these. Constant cost. */
+/* Type of a message by its fingerprint; RHO_NUM_MESSAGE_TYPES: an unknown one. Constant cost. */
 enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size);
 
-/* The fingerprint, and the name as in lcm_types/ ("plot_scan_t"); 0 and "unknown" for others. */
+/* Fingerprint and name ("plot_scan_t") of a message type; 0 and "unknown" for any other value. */
 uint64_t rho_message_fingerprint(enum rho_message_type type);
 const char *rho_message_type_name(enum rho_message_type type);
 
-/* The length of what was begun and added. Errors: NULL, STATE (not begun). Constant cost. */
+/* Ends a message; *size: its length. Errors: NULL, STATE (not begun). Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size);
 
 /* ---- accumulator_cell_t ---- */
@@ -118,13 +118,20 @@ RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer
 #define RHO_MESSAGE_ACCUMULATOR_CELL_MAX_SIZE 30u
 
 struct rho_message_accumulator_cell {
-    float rho_m; /* of the cell's centre, from the accumulator's origin; signed, m */
-    float theta_rad; /* of its centre, rad; 0 .. 6.3 */
-    float votes; /* of the cell; of a neutrosophic transform the sum of memberships; 0 .. 1e9 */
-    /* bit m: scan m of the window voted, 0 the oldest; 0: not known; 0 .. 65535 */
+    /* signed distance of the cell's line from the accumulator's origin, at the cell's centre, m */
+    float rho_m;
+    /* angle of the normal of the cell's line, at the cell's centre, rad; range 0 .. 6.3 */
+    float theta_rad;
+    /* votes of the cell; of a neutrosophic transform the sum of memberships; range 0 .. 1e9 */
+    float votes;
+    /*
+     * bit m is set where scan m of the window voted for the cell, 0 the oldest; 0: not known; range
+     * 0 .. 65535
+     */
     int32_t scan_mask;
-    int16_t plots; /* or crossings, that voted; stays at 32767; 0 .. 32767 */
-    /* of the track that the line started in this step; 0: none; 0 .. 2147483647 */
+    /* plots or crossings that voted for the cell; stays at 32767; range 0 .. 32767 */
+    int16_t plots;
+    /* track that the cell's line started in this step; 0: it started none; range 0 .. 2147483647 */
     int32_t track_id;
 };
 RHO_MUST_CHECK enum rho_status rho_message_accumulator_cell_encode(
@@ -143,21 +150,23 @@ const char *rho_message_accumulator_cell_field(const struct rho_message_place *p
 #define RHO_MESSAGE_BODY_MAX_SIZE 64u
 
 struct rho_message_body {
-    int32_t track_id; /* as in RHO_TRACKS */
-    float x_m; /* centre of the body, m */
-    float y_m;
-    /* what the track follows, its place in RHO_TRACKS: the mean of what was seen, m */
-    float reference_x_m;
+    int32_t track_id; /* identity of the body's track, as in RHO_TRACKS */
+    float x_m; /* centre of the body, east, m */
+    float y_m; /* centre of the body, north, m */
+    float reference_x_m; /* track's position in RHO_TRACKS, the mean of the body's plots, east, m */
+    /* track's position in RHO_TRACKS, the mean of the body's plots, north, m */
     float reference_y_m;
-    float length_m; /* 0 .. 1e5 */
-    float width_m; /* 0 .. 1e5 */
-    float heading_rad; /* counter-clockwise from +x; -4 .. 4 */
-    float sigma_length_m; /* standard deviations; 0 .. 1e5 */
-    float sigma_width_m; /* 0 .. 1e5 */
-    float sigma_heading_rad; /* 0 .. 10 */
-    float sigma_along_m; /* of the centre about the reference, along the heading, m; 0 .. 1e5 */
-    float sigma_across_m; /* and across it; 0 .. 1e5 */
-    float plots; /* that all this comes from; 0 .. 1e9 */
+    float length_m; /* length of the body along its heading, m; range 0 .. 1e5 */
+    float width_m; /* width of the body across its heading, m; range 0 .. 1e5 */
+    float heading_rad; /* heading of the body, counter-clockwise from +x, rad; range -4 .. 4 */
+    float sigma_length_m; /* standard deviation of the length, m; range 0 .. 1e5 */
+    float sigma_width_m; /* standard deviation of the width, m; range 0 .. 1e5 */
+    float sigma_heading_rad; /* standard deviation of the heading, rad; range 0 .. 10 */
+    /* standard deviation of the centre from the reference, along the heading, m; range 0 .. 1e5 */
+    float sigma_along_m;
+    /* standard deviation of the centre from the reference, across the heading, m; range 0 .. 1e5 */
+    float sigma_across_m;
+    float plots; /* number of plots that the body's size and heading come from; range 0 .. 1e9 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_body_encode(
     const struct rho_message_body *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -169,7 +178,7 @@ const char *rho_message_body_field(const struct rho_message_place *place);
 
 /* ---- command_answer_t ---- */
 
-/* What has become of a command_t. Channel RHO_COMMAND_ANSWERS. */
+/* Outcome of a command_t. Channel RHO_COMMAND_ANSWERS. */
 
 #define RHO_MESSAGE_COMMAND_ANSWER_CHANNEL "RHO_COMMAND_ANSWERS"
 #define RHO_MESSAGE_COMMAND_ANSWER_FINGERPRINT UINT64_C(0x7eb8e21727770191)
@@ -177,16 +186,22 @@ const char *rho_message_body_field(const struct rho_message_place *place);
 
 struct rho_message_command_answer {
     /*
-     * of the step after which it was done or refused, us; -4000000000000000000 ..
-     * 4000000000000000000
+     * time of the step after which the command was done or refused, us; range -4000000000000000000
+     * .. 4000000000000000000
      */
     int64_t utime;
-    int32_t scan; /* number of this step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int32_t number; /* of the command */
-    int8_t action; /* of the command; 1 .. 127 */
-    int8_t status; /* 0: done; else refused, by enum rho_status of rhotrack/types.h; 0 .. 127 */
-    int32_t track_id; /* that was started, or changed; 0: none; 0 .. 2147483647 */
+    /* number of the tracker's step after which the command was done, as in RHO_TRACKS */
+    int32_t scan;
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int32_t number; /* number of the answered command */
+    int8_t action; /* action of the answered command; range 1 .. 127 */
+    /*
+     * 0: the command was done; else it was refused, by enum rho_status of rhotrack/types.h; range 0
+     * .. 127
+     */
+    int8_t status;
+    /* track that the command started or changed; 0: none; range 0 .. 2147483647 */
+    int32_t track_id;
 };
 RHO_MUST_CHECK enum rho_status rho_message_command_answer_encode(
     const struct rho_message_command_answer *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -198,8 +213,10 @@ const char *rho_message_command_answer_field(const struct rho_message_place *pla
 
 /* ---- command_t ---- */
 
-/* What an operator wants of a tracker: after the next step it is done, and answered by */
-/* command_answer_t. Members that an action does not use are 0. Channel RHO_COMMANDS. */
+/*
+ * An operator's command to a tracker, which does it after the next step, and answers by a
+ * command_answer_t. Members that an action does not use are 0. Channel RHO_COMMANDS.
+ */
 
 #define RHO_MESSAGE_COMMAND_CHANNEL "RHO_COMMANDS"
 #define RHO_MESSAGE_COMMAND_FINGERPRINT UINT64_C(0x159912556be04c2f)
@@ -213,19 +230,33 @@ const char *rho_message_command_answer_field(const struct rho_message_place *pla
 #define RHO_MESSAGE_COMMAND_INCLUDE 7
 
 struct rho_message_command {
-    int64_t utime; /* when it was sent, us; -4000000000000000000 .. 4000000000000000000 */
-    int32_t number; /* the sender's: the answer repeats it */
-    int8_t action; /* one of START, DROP, RENUMBER, FREEZE, THAW, EXCLUDE, INCLUDE */
-    int32_t track_id; /* of DROP, RENUMBER, FREEZE, THAW; 0 .. 2147483647 */
-    int32_t new_id; /* of RENUMBER; 0 .. 2147483647 */
-    float x_m; /* of START, INCLUDE; of EXCLUDE the least ones, m; -2e6 .. 2e6 */
-    float y_m; /* -2e6 .. 2e6 */
-    float x_max_m; /* of EXCLUDE, m; -2e6 .. 2e6 */
-    float y_max_m; /* -2e6 .. 2e6 */
-    float sigma_m; /* of START, m; 0 .. 1e5 */
-    float vx_mps; /* of START, m/s; -2e4 .. 2e4 */
-    float vy_mps; /* -2e4 .. 2e4 */
-    float sigma_mps; /* of START, m/s; 0 .. 1e5 */
+    /* time at which the command was sent, us; range -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
+    int32_t number; /* the sender's number of the command, which the answer repeats */
+    /* what the tracker is to do; one of START, DROP, RENUMBER, FREEZE, THAW, EXCLUDE, INCLUDE */
+    int8_t action;
+    int32_t track_id; /* track of DROP, RENUMBER, FREEZE or THAW; range 0 .. 2147483647 */
+    int32_t new_id; /* new identity of the track, for RENUMBER; range 0 .. 2147483647 */
+    /*
+     * position for START or INCLUDE, lower limit of the area for EXCLUDE, east, m; range -2e6 ..
+     * 2e6
+     */
+    float x_m;
+    /*
+     * position for START or INCLUDE, lower limit of the area for EXCLUDE, north, m; range -2e6 ..
+     * 2e6
+     */
+    float y_m;
+    float x_max_m; /* upper limit of the area for EXCLUDE, east, m; range -2e6 .. 2e6 */
+    float y_max_m; /* upper limit of the area for EXCLUDE, north, m; range -2e6 .. 2e6 */
+    float sigma_m; /* standard deviation of the position for START, m; range 0 .. 1e5 */
+    float vx_mps; /* velocity for START, east, m/s; range -2e4 .. 2e4 */
+    float vy_mps; /* velocity for START, north, m/s; range -2e4 .. 2e4 */
+    /*
+     * standard deviation of the velocity for START, m/s; 0: the velocity is not known; range 0 ..
+     * 1e5
+     */
+    float sigma_mps;
 };
 RHO_MUST_CHECK enum rho_status rho_message_command_encode(
     const struct rho_message_command *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -237,23 +268,33 @@ const char *rho_message_command_field(const struct rho_message_place *place);
 
 /* ---- echo_t ---- */
 
-/* One echo of a clutter_map_t: something that gave clutter plots again and again in its place. */
+/* One echo of a clutter_map_t: an object that gave clutter plots again and again in its place. */
 
 #define RHO_MESSAGE_ECHO_FINGERPRINT UINT64_C(0xd5072401d660f823)
 #define RHO_MESSAGE_ECHO_MAX_SIZE 42u
 
 struct rho_message_echo {
-    int16_t sensor_id; /* whose echo it is; -1: beyond int16_t */
-    int16_t hits; /* plots of it; stays at 32767; 1 .. 32767 */
-    int16_t unseen; /* scans of the sensor that looked there since the last one; 0 .. 32767 */
-    float x_m; /* east, m, when the sensor looked there last; -2e6 .. 2e6 */
-    float y_m; /* north, m; -2e6 .. 2e6 */
-    float vx_mps; /* velocity, m/s; 0: it stands; -2e4 .. 2e4 */
-    float vy_mps; /* m/s; -2e4 .. 2e4 */
-    /* standard deviation of the place along the sensor's line of sight, m; 0 .. 1e6 */
+    int16_t sensor_id; /* sensor that sees the echo; -1: its number is beyond int16_t */
+    int16_t hits; /* plots that the echo gave; stays at 32767; range 1 .. 32767 */
+    /* scans of the sensor over the echo's place since its last plot; range 0 .. 32767 */
+    int16_t unseen;
+    /* position of the echo when the sensor looked there last, east, m; range -2e6 .. 2e6 */
+    float x_m;
+    /* position of the echo when the sensor looked there last, north, m; range -2e6 .. 2e6 */
+    float y_m;
+    float vx_mps; /* velocity of the echo, east, m/s; 0: it stands; range -2e4 .. 2e4 */
+    float vy_mps; /* velocity of the echo, north, m/s; 0: it stands; range -2e4 .. 2e4 */
+    /*
+     * standard deviation of the echo's position along the sensor's line of sight, m; range 0 .. 1e6
+     */
     float sigma_range_m;
-    float sigma_cross_m; /* across it, m; 0 .. 1e6 */
-    float chance; /* that the sensor's next look there sees it; 0 .. 1 */
+    /*
+     * standard deviation of the echo's position across the sensor's line of sight, m; range 0 ..
+     * 1e6
+     */
+    float sigma_cross_m;
+    /* probability that the sensor's next look there gives a plot of the echo; range 0 .. 1 */
+    float chance;
 };
 RHO_MUST_CHECK enum rho_status rho_message_echo_encode(
     const struct rho_message_echo *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -278,22 +319,29 @@ const char *rho_message_echo_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_GHOST_UNMATCHED 6
 
 struct rho_message_ghost {
-    /* bearing of sensor a, among those that no track had claimed, from 0; 0 .. 32767 */
-    int16_t row;
-    int16_t column; /* bearing of sensor b, likewise; 0 .. 32767 */
     /*
-     * it was pruned for: different sides of the base, diverging, beyond range_max_m, another
-     * bearing's only crossing in its column or row, in no complete matching; one of KEPT, SIDES,
-     * APART, RANGE, ROW, COLUMN, UNMATCHED
+     * bearing of sensor a, its place among those that no track had claimed, from 0; range 0 ..
+     * 32767
+     */
+    int16_t row;
+    /*
+     * bearing of sensor b, its place among those that no track had claimed, from 0; range 0 ..
+     * 32767
+     */
+    int16_t column;
+    /*
+     * why the crossing was pruned: bearings on different sides of the base, diverging bearings,
+     * beyond range_max_m, another bearing's only crossing in the row or column, in no complete
+     * matching; one of KEPT, SIDES, APART, RANGE, ROW, COLUMN, UNMATCHED
      */
     int8_t reason;
     /*
-     * angle between the bearings, before pruning; 0 or less where they diverge, -pi on different
-     * sides; -3.15 .. 3.15
+     * angle between the two bearings before pruning; 0 or less where they diverge, -pi on different
+     * sides of the base; range -3.15 .. 3.15
      */
     float delta_rad;
-    float x_m; /* of the crossing, east, m; 0 where there is none within range_max_m */
-    float y_m; /* north, m */
+    float x_m; /* position of the crossing, east, m; 0 where there is none within range_max_m */
+    float y_m; /* position of the crossing, north, m; 0 where there is none within range_max_m */
 };
 RHO_MUST_CHECK enum rho_status rho_message_ghost_encode(
     const struct rho_message_ghost *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -305,21 +353,24 @@ const char *rho_message_ghost_field(const struct rho_message_place *place);
 
 /* ---- hypothesis_t ---- */
 
-/* One hypothesis of a hypotheses_t: which plots were the track's, and where its target is then. */
+/*
+ * One hypothesis of a hypotheses_t: plots that may be the track's, and the target's state by them.
+ */
 
 #define RHO_MESSAGE_HYPOTHESIS_FINGERPRINT UINT64_C(0xf01a62a086282722)
 #define RHO_MESSAGE_HYPOTHESIS_MAX_SIZE 38u
 
 struct rho_message_hypothesis {
-    float share; /* of the likelihood of all hypotheses of the track; they add up to 1; 0 .. 1 */
-    float x_m; /* east, m, at the track's last look */
-    float y_m; /* north, m */
-    float vx_mps; /* velocity, m/s */
-    float vy_mps;
-    float maneuver_probability; /* 0 .. 1 */
+    /* probability of the hypothesis among all of the track; they add up to 1; range 0 .. 1 */
+    float share;
+    float x_m; /* position of the target at the track's last look, east, m */
+    float y_m; /* position of the target at the track's last look, north, m */
+    float vx_mps; /* velocity of the target, east, m/s */
+    float vy_mps; /* velocity of the target, north, m/s */
+    float maneuver_probability; /* probability that the target manoeuvres; range 0 .. 1 */
     /*
-     * rows of the plots that it took in the track's last three looks, the newest last; -1: none;
-     * -2: not known
+     * rows of the plots of the hypothesis in the track's last three looks, the newest last; -1: no
+     * plot; -2: not known
      */
     int16_t plots[3];
 };
@@ -334,28 +385,42 @@ const char *rho_message_hypothesis_field(const struct rho_message_place *place);
 /* ---- learned_t ---- */
 
 /*
- * Noise and detection probability of one described sensor, as the tracker has learned and uses
- * them.
+ * Noise and detection probability that the tracker has learned for one described sensor, and uses.
+ * One message a second, of each sensor in turn, with status_t. Channel RHO_LEARNED.
  */
-/* One message a second, of each sensor in turn, with status_t. Channel RHO_LEARNED. */
 
 #define RHO_MESSAGE_LEARNED_CHANNEL "RHO_LEARNED"
 #define RHO_MESSAGE_LEARNED_FINGERPRINT UINT64_C(0x267a29e3c0e96835)
 #define RHO_MESSAGE_LEARNED_MAX_SIZE 72u
 
 struct rho_message_learned {
-    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of the last scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000
+     */
     int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int16_t sensor_id;
-    int16_t innovations; /* that the factors come from; 0: none is learned; 0 .. 32767 */
-    float sigma_range_factor; /* on the stated sigma of range; 0 .. 100 */
-    float sigma_cross_factor; /* on the stated sigma across; 0 .. 100 */
-    int32_t looks; /* that they come from, of all rings; 0 .. 2147483647 */
-    float range_max_m; /* outer edge of the last ring, m; 0 .. 1e9 */
-    float pd_stated; /* 0 .. 1 */
-    /* from the innermost ring outwards; below pd_stated where targets are seen less; 0 .. 1 */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int16_t sensor_id; /* number of the sensor */
+    /*
+     * number of innovations that the noise factors come from; 0: no factor is learned; range 0 ..
+     * 32767
+     */
+    int16_t innovations;
+    /* learned noise in range, over the stated sigma of range; range 0 .. 100 */
+    float sigma_range_factor;
+    /* learned noise across the line of sight, over the stated sigma across; range 0 .. 100 */
+    float sigma_cross_factor;
+    /*
+     * number of looks that the detection probabilities come from, in all rings; range 0 ..
+     * 2147483647
+     */
+    int32_t looks;
+    float range_max_m; /* outer edge of the last ring, m; range 0 .. 1e9 */
+    float pd_stated; /* stated detection probability of the sensor; range 0 .. 1 */
+    /*
+     * learned detection probability of each ring, the innermost first; below pd_stated where
+     * targets are seen less; range 0 .. 1
+     */
     float pd[6];
 };
 RHO_MUST_CHECK enum rho_status rho_message_learned_encode(
@@ -374,12 +439,13 @@ const char *rho_message_learned_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_PEAK_MAX_SIZE 28u
 
 struct rho_message_peak {
-    float rho_m; /* signed, m */
-    float theta_rad; /* rad; 0 .. 3.1415927 */
-    float speed_mps; /* along the line, m/s; 0 .. 1e6 */
-    float score_nat; /* logarithm of the likelihood that it is a target against clutter */
-    int16_t scans_hit; /* scans of the window that voted for it; 0 .. 32767 */
-    int16_t sensor_pairs; /* pairs of sensors that confirm it; 0 for plots; 0 .. 32767 */
+    float rho_m; /* signed distance of the line from the origin of the frame, m */
+    float theta_rad; /* angle of the line's normal, rad; range 0 .. 3.1415927 */
+    float speed_mps; /* speed of the candidate along the line, m/s; range 0 .. 1e6 */
+    float score_nat; /* logarithm of the likelihood ratio of a target against clutter */
+    int16_t scans_hit; /* scans of the window that voted for the candidate; range 0 .. 32767 */
+    /* pairs of sensors that confirm the candidate; 0 for plots; range 0 .. 32767 */
+    int16_t sensor_pairs;
 };
 RHO_MUST_CHECK enum rho_status rho_message_peak_encode(
     const struct rho_message_peak *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -391,14 +457,14 @@ const char *rho_message_peak_field(const struct rho_message_place *place);
 
 /* ---- plane_row_t ---- */
 
-/* One row of a plane_t: a range of theta. */
+/* One row of a plane_t: the votes of a range of theta. */
 
 #define RHO_MESSAGE_PLANE_ROW_FINGERPRINT UINT64_C(0x2e90f16ccca051ec)
 #define RHO_MESSAGE_PLANE_ROW_MAX_SIZE 72u
 
 struct rho_message_plane_row {
     /*
-     * from rho_min_m to rho_max_m: the most votes of a cell in each block of cells, 0 .. 127:
+     * largest votes of a cell in each of 64 blocks from rho_min_m to rho_max_m; 127 stands for
      * votes_max
      */
     int8_t votes[64];
@@ -413,22 +479,32 @@ const char *rho_message_plane_row_field(const struct rho_message_place *place);
 
 /* ---- plot_t ---- */
 
-/* One plot of a plot_scan_t: a place, and what else its kind says. What is not measured is 0. */
+/*
+ * One plot of a plot_scan_t: a position, and the other values that its kind states. Values that are
+ * not measured are 0.
+ */
 
 #define RHO_MESSAGE_PLOT_FINGERPRINT UINT64_C(0x788ad26d7448d55b)
 #define RHO_MESSAGE_PLOT_MAX_SIZE 48u
 
 struct rho_message_plot {
-    int32_t dt_us; /* own time after the scan's utime, us; -60000000 .. 60000000 */
-    float x_m; /* east, m; -2e6 .. 2e6 */
-    float y_m; /* north, m; -2e6 .. 2e6 */
-    float z_m; /* up, m; -2e6 .. 2e6 */
-    float vx_mps; /* velocity, m/s; -2e4 .. 2e4 */
-    float vy_mps; /* -2e4 .. 2e4 */
-    float vz_mps; /* -2e4 .. 2e4 */
-    float sigma_m; /* sd of the noise, each axis, m; 0: not said; 0 .. 1e5 */
-    float sigma_mps; /* sd of the velocity's noise, each axis, m/s; 0: not said; 0 .. 1e5 */
-    float snr_db; /* 0 where unknown; passed on, not used; -1000 .. 1000 */
+    int32_t dt_us; /* the plot's own time after the scan's utime, us; range -60000000 .. 60000000 */
+    float x_m; /* position of the plot, east, m; range -2e6 .. 2e6 */
+    float y_m; /* position of the plot, north, m; range -2e6 .. 2e6 */
+    float z_m; /* position of the plot, up, m; range -2e6 .. 2e6 */
+    float vx_mps; /* velocity of the plot, east, m/s; range -2e4 .. 2e4 */
+    float vy_mps; /* velocity of the plot, north, m/s; range -2e4 .. 2e4 */
+    float vz_mps; /* velocity of the plot, up, m/s; range -2e4 .. 2e4 */
+    /* standard deviation of the position's noise on each axis, m; 0: not stated; range 0 .. 1e5 */
+    float sigma_m;
+    /*
+     * standard deviation of the velocity's noise on each axis, m/s; 0: not stated; range 0 .. 1e5
+     */
+    float sigma_mps;
+    /*
+     * signal-to-noise ratio of the plot, dB; passed on, not used; 0: not known; range -1000 .. 1000
+     */
+    float snr_db;
 };
 RHO_MUST_CHECK enum rho_status rho_message_plot_encode(
     const struct rho_message_plot *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -440,18 +516,25 @@ const char *rho_message_plot_field(const struct rho_message_place *place);
 
 /* ---- polar_plot_t ---- */
 
-/* One plot of a polar_scan_t, as the radar measures it. What is not measured is 0. */
+/* One plot of a polar_scan_t, as the radar measures it. Values that are not measured are 0. */
 
 #define RHO_MESSAGE_POLAR_PLOT_FINGERPRINT UINT64_C(0x5482c658708a4062)
 #define RHO_MESSAGE_POLAR_PLOT_MAX_SIZE 32u
 
 struct rho_message_polar_plot {
-    int32_t dt_us; /* own time after the scan's utime, us; -60000000 .. 60000000 */
-    float range_m; /* slant range; without elevation it counts as ground range, m; 0 .. 2e6 */
-    float azimuth_rad; /* counter-clockwise from +x (east), rad; -3.1415927 .. 3.1415927 */
-    float elevation_rad; /* up from the horizontal, rad; -1.5707964 .. 1.5707964 */
-    float range_rate_mps; /* positive: receding, m/s; -2e4 .. 2e4 */
-    float snr_db; /* 0 where unknown; passed on, not used; -1000 .. 1000 */
+    int32_t dt_us; /* the plot's own time after the scan's utime, us; range -60000000 .. 60000000 */
+    /* slant range of the plot; without elevation it counts as ground range, m; range 0 .. 2e6 */
+    float range_m;
+    /* azimuth of the plot, counter-clockwise from +x (east), rad; range -3.1415927 .. 3.1415927 */
+    float azimuth_rad;
+    /* elevation of the plot, up from the horizontal, rad; range -1.5707964 .. 1.5707964 */
+    float elevation_rad;
+    /* range rate of the plot, positive where it recedes, m/s; range -2e4 .. 2e4 */
+    float range_rate_mps;
+    /*
+     * signal-to-noise ratio of the plot, dB; passed on, not used; 0: not known; range -1000 .. 1000
+     */
+    float snr_db;
 };
 RHO_MUST_CHECK enum rho_status rho_message_polar_plot_encode(
     const struct rho_message_polar_plot *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -463,7 +546,10 @@ const char *rho_message_polar_plot_field(const struct rho_message_place *place);
 
 /* ---- sensor_t ---- */
 
-/* One sensor of a sensor_list_t: whether it is heard, and whether the other sensors bear it out. */
+/*
+ * State of one sensor in a sensor_list_t: whether it is heard, and whether the other sensors
+ * confirm it.
+ */
 
 #define RHO_MESSAGE_SENSOR_FINGERPRINT UINT64_C(0x3384d71d72b4cd6c)
 #define RHO_MESSAGE_SENSOR_MAX_SIZE 46u
@@ -472,35 +558,55 @@ const char *rho_message_polar_plot_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_SENSOR_BEARINGS 3
 
 struct rho_message_sensor {
-    int16_t sensor_id;
-    /* of its messages; one number may send several kinds; one of PLOTS, POLAR, BEARINGS */
+    int16_t sensor_id; /* number of the sensor */
+    /*
+     * kind of the sensor's messages; one number may send several kinds; one of PLOTS, POLAR,
+     * BEARINGS
+     */
     int8_t kind;
     /*
-     * 1: nothing was heard of it for so long (jump_max) that no scan waits for it any more; 0 .. 1
+     * 1: the sensor was not heard for so long (jump_max) that no scan waits for it any more; range
+     * 0 .. 1
      */
     int8_t is_silent;
     /*
-     * 1: its clock is not the common one: its scans are refused until enough of them agree; 0 .. 1
+     * 1: the sensor's clock is not the common one: its scans are refused until enough of them
+     * agree; range 0 .. 1
      */
     int8_t is_off_clock;
     /*
-     * 1: it contradicts the others: it starts no tracks, its misses say nothing, its plots count
-     * little; 0 .. 1
+     * 1: the sensor contradicts the others: it starts no tracks, its misses are ignored, its plots
+     * count little; range 0 .. 1
      */
     int8_t is_doubted;
-    int32_t scans; /* whose number was believed; stays at 65535; 0 .. 2147483647 */
-    /* time of measurement of the newest of them, us; -4000000000000000000 .. 4000000000000000000 */
-    int64_t scan_utime;
-    /* since that was received, by the receiver's clock; stays at 2147483647; 0 .. 2147483647 */
-    int32_t heard_age_us;
-    /* from scan to scan, smoothed; 0: not known; stays at 2147483647; 0 .. 2147483647 */
-    int32_t interval_us;
-    int16_t watched; /* looks that the next one is of; below 12 it says little; 0 .. 32767 */
-    int16_t watched_hits; /* plots that the last one is of; below 12 it says little; 0 .. 32767 */
-    float seen_share; /* of those tracks where it looked, so many had a plot of it; 0 .. 1 */
+    int32_t scans; /* accepted scans of the sensor; stays at 65535; range 0 .. 2147483647 */
     /*
-     * their innovations' variance over what its sigmas and the tracks' say: 1 where all is well; 0
-     * .. 1e12
+     * time of measurement of the sensor's newest accepted scan, us; range -4000000000000000000 ..
+     * 4000000000000000000
+     */
+    int64_t scan_utime;
+    /*
+     * time since the sensor's newest accepted scan was received; stays at 2147483647, us; range 0
+     * .. 2147483647
+     */
+    int32_t heard_age_us;
+    /*
+     * smoothed time between scans of the sensor, us; 0: not known; stays at 2147483647; range 0 ..
+     * 2147483647
+     */
+    int32_t interval_us;
+    /* looks of the sensor that seen_share comes from; below 12 it says little; range 0 .. 32767 */
+    int16_t watched;
+    /*
+     * plots of the sensor that innovation_factor comes from; below 12 it says little; range 0 ..
+     * 32767
+     */
+    int16_t watched_hits;
+    /* share of the confirmed tracks in the sensor's view of which it gave a plot; range 0 .. 1 */
+    float seen_share;
+    /*
+     * variance of the sensor's innovations over the variance that its sigmas and the tracks'
+     * predict: 1 where all is well; range 0 .. 1e12
      */
     float innovation_factor;
 };
@@ -514,7 +620,7 @@ const char *rho_message_sensor_field(const struct rho_message_place *place);
 
 /* ---- setting_answer_t ---- */
 
-/* What has become of a setting_t. Channel RHO_SETTING_ANSWERS. */
+/* Outcome of a setting_t. Channel RHO_SETTING_ANSWERS. */
 
 #define RHO_MESSAGE_SETTING_ANSWER_CHANNEL "RHO_SETTING_ANSWERS"
 #define RHO_MESSAGE_SETTING_ANSWER_FINGERPRINT UINT64_C(0x9badd0eed11621c3)
@@ -527,20 +633,31 @@ const char *rho_message_sensor_field(const struct rho_message_place *place);
 
 struct rho_message_setting_answer {
     /*
-     * of the step after which it was changed or refused, us; -4000000000000000000 ..
-     * 4000000000000000000
+     * time of the step after which the setting was changed or refused, us; range
+     * -4000000000000000000 .. 4000000000000000000
      */
     int64_t utime;
-    int32_t scan; /* number of this step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int32_t number; /* of the setting_t */
-    int16_t field; /* of the setting_t; 0 .. 32767 */
-    int8_t status; /* 0: changed; else refused, by enum rho_status of rhotrack/types.h; 0 .. 127 */
-    int8_t applies; /* when; one of NEVER, STEP, WINDOW, SENSOR, PLOT */
-    int16_t fault_field; /* that would be outside its range, this one or another; 0 .. 32767 */
-    float value; /* that the field has; refused: that it would have, or that of the fault's field */
-    float min; /* of a fault: the range that is allowed */
-    float max;
+    /* number of the tracker's step after which the setting was changed, as in RHO_TRACKS */
+    int32_t scan;
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int32_t number; /* number of the answered setting_t */
+    int16_t field; /* field of the answered setting_t; range 0 .. 32767 */
+    /*
+     * 0: the setting was changed; else it was refused, by enum rho_status of rhotrack/types.h;
+     * range 0 .. 127
+     */
+    int8_t status;
+    int8_t applies; /* when the change takes effect; one of NEVER, STEP, WINDOW, SENSOR, PLOT */
+    /*
+     * field that would be outside its range, the answered one or another; 0: none; range 0 .. 32767
+     */
+    int16_t fault_field;
+    /*
+     * new value of the field; refused: the value that was asked for, or that of the fault's field
+     */
+    float value;
+    float min; /* lower limit of the fault's field */
+    float max; /* upper limit of the fault's field */
 };
 RHO_MUST_CHECK enum rho_status rho_message_setting_answer_encode(
     const struct rho_message_setting_answer *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -553,9 +670,9 @@ const char *rho_message_setting_answer_field(const struct rho_message_place *pla
 /* ---- setting_t ---- */
 
 /*
- * One setting of a tracker that an operator wants another way (struct rho_settings): after the next
+ * An operator's change of one parameter of a tracker (struct rho_settings), made after the next
+ * step, and answered by a setting_answer_t. Channel RHO_SETTINGS.
  */
-/* step it is changed, and answered by setting_answer_t. Channel RHO_SETTINGS. */
 
 #define RHO_MESSAGE_SETTING_CHANNEL "RHO_SETTINGS"
 #define RHO_MESSAGE_SETTING_FINGERPRINT UINT64_C(0x54c7e8e8af12efbd)
@@ -579,10 +696,11 @@ const char *rho_message_setting_answer_field(const struct rho_message_place *pla
 #define RHO_MESSAGE_SETTING_WORK_MAX 17
 
 struct rho_message_setting {
-    int64_t utime; /* when it was sent, us; -4000000000000000000 .. 4000000000000000000 */
-    int32_t number; /* the sender's: the answer repeats it */
-    int16_t field; /* which setting; 1 .. 17 */
-    float value; /* that it is to have */
+    /* time at which the setting was sent, us; range -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
+    int32_t number; /* the sender's number of the setting, which the answer repeats */
+    int16_t field; /* parameter that is to be set; range 1 .. 17 */
+    float value; /* new value of the parameter */
 };
 RHO_MUST_CHECK enum rho_status rho_message_setting_encode(
     const struct rho_message_setting *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -594,57 +712,92 @@ const char *rho_message_setting_field(const struct rho_message_place *place);
 
 /* ---- status_t ---- */
 
-/* How a tracker is doing: once a second, also when nothing comes. Channel RHO_STATUS. */
-/* Counters count since the start and stay at 2147483647. */
+/*
+ * Status of a tracker: once a second, also when no message comes. Channel RHO_STATUS. Counters
+ * count since the start and stay at 2147483647.
+ */
 
 #define RHO_MESSAGE_STATUS_CHANNEL "RHO_STATUS"
 #define RHO_MESSAGE_STATUS_FINGERPRINT UINT64_C(0xa49e27d2cd6c4484)
 #define RHO_MESSAGE_STATUS_MAX_SIZE 146u
 
 struct rho_message_status {
-    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of the last scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000
+     */
     int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int32_t scans_accepted; /* taken for a step, whole or not; 0 .. 2147483647 */
-    /* older than one of the same sensor that was taken before; 0 .. 2147483647 */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    /* scans that were accepted for a step, complete or not; range 0 .. 2147483647 */
+    int32_t scans_accepted;
+    /* scans older than an accepted scan of the same sensor; range 0 .. 2147483647 */
     int32_t scans_late;
-    int32_t scans_duplicate; /* scans or parts of them that were there already; 0 .. 2147483647 */
-    /* numbers that were skipped; one that comes after all is late, too; 0 .. 2147483647 */
+    /* scans, or parts of scans, that had been received before; range 0 .. 2147483647 */
+    int32_t scans_duplicate;
+    /*
+     * scan numbers that were skipped; one that comes after all is counted in scans_late, too; range
+     * 0 .. 2147483647
+     */
     int32_t scans_lost;
-    /* good messages that contradict the sensor's earlier ones or each other; 0 .. 2147483647 */
+    /*
+     * valid messages that contradict the sensor's earlier ones, or other parts of their scan; range
+     * 0 .. 2147483647
+     */
     int32_t scans_bad;
-    /* not a message of this type: length, count, values, sensor; 0 .. 2147483647 */
+    /*
+     * messages that are invalid: length, count, a value or the sensor's number; range 0 ..
+     * 2147483647
+     */
     int32_t messages_bad;
-    /* another fingerprint: another version, or something else; 0 .. 2147483647 */
+    /*
+     * messages of another fingerprint: of another version, or of another type; range 0 ..
+     * 2147483647
+     */
     int32_t messages_wrong_type;
-    int32_t messages_flooded; /* beyond what one channel may send in a second; 0 .. 2147483647 */
-    int32_t frames_incomplete; /* of bearings, a sensor is missing in them; 0 .. 2147483647 */
-    int32_t scans_incomplete; /* stepped with parts missing; 0 .. 2147483647 */
-    /* datagrams of messages in fragments, or no LCM at all; 0 .. 2147483647 */
+    /* messages beyond what one channel may send in a second; range 0 .. 2147483647 */
+    int32_t messages_flooded;
+    /* frames of bearings in which a sensor is missing; range 0 .. 2147483647 */
+    int32_t frames_incomplete;
+    /* scans that were stepped with parts missing; range 0 .. 2147483647 */
+    int32_t scans_incomplete;
+    /*
+     * datagrams refused as fragments of longer messages, or as no LCM at all; range 0 .. 2147483647
+     */
     int32_t fragments_refused;
-    int32_t clock_jumps; /* scans whose time is far off the common clock; 0 .. 2147483647 */
-    int32_t sensor_restarts; /* sensors whose numbers began anew; 0 .. 2147483647 */
-    int32_t plots_in; /* 0 .. 2147483647 */
-    int32_t plots_claimed; /* updated a track; 0 .. 2147483647 */
-    int32_t plots_held; /* kept for initiation; 0 .. 2147483647 */
-    int32_t plots_initiated; /* of the held: started a track; 0 .. 2147483647 */
-    int32_t plots_clutter; /* of the held: left the window unused; 0 .. 2147483647 */
-    int32_t inputs_stale; /* older than what was stepped; 0 .. 2147483647 */
-    int32_t inputs_invalid; /* not finite, or beyond the limits; 0 .. 2147483647 */
-    int32_t inputs_no_room; /* beyond a capacity; 0 .. 2147483647 */
-    int32_t bearings_in; /* of plots_in; 0 .. 2147483647 */
-    int32_t ghosts_pruned; /* bearings whose crossings are all false; 0 .. 2147483647 */
-    int16_t tracks_tentative; /* 0 .. 32767 */
-    int16_t tracks_confirmed; /* 0 .. 32767 */
-    int16_t tracks_coasting; /* 0 .. 32767 */
-    float step_us; /* mean since the last status, us; 0 .. 1e12 */
-    float step_max_us; /* longest since the last status, us; 0 .. 1e12 */
-    float clutter_per_km2; /* mean over the area, a scan; 0 .. 1e12 */
-    /* of the local frame; all three 0: not said; -900000000 .. 900000000 */
+    int32_t clock_jumps; /* scans whose time is far off the common clock; range 0 .. 2147483647 */
+    /* restarts of sensors, whose numbers began anew; range 0 .. 2147483647 */
+    int32_t sensor_restarts;
+    int32_t plots_in; /* plots and bearings that came in; range 0 .. 2147483647 */
+    int32_t plots_claimed; /* plots and bearings that updated a track; range 0 .. 2147483647 */
+    /* plots and bearings that were kept for initiation; range 0 .. 2147483647 */
+    int32_t plots_held;
+    /* held plots and bearings that started a track; range 0 .. 2147483647 */
+    int32_t plots_initiated;
+    /* held plots and bearings that left the window unused; range 0 .. 2147483647 */
+    int32_t plots_clutter;
+    /* plots and bearings of scans older than the steps made; range 0 .. 2147483647 */
+    int32_t inputs_stale;
+    /* plots and bearings that are not finite, or outside the limits; range 0 .. 2147483647 */
+    int32_t inputs_invalid;
+    int32_t inputs_no_room; /* plots and bearings beyond a capacity; range 0 .. 2147483647 */
+    /* bearings that came in; plots_in counts them, too; range 0 .. 2147483647 */
+    int32_t bearings_in;
+    int32_t ghosts_pruned; /* bearings whose crossings are all false; range 0 .. 2147483647 */
+    int16_t tracks_tentative; /* number of tentative tracks; range 0 .. 32767 */
+    int16_t tracks_confirmed; /* number of confirmed tracks; range 0 .. 32767 */
+    int16_t tracks_coasting; /* number of coasting tracks; range 0 .. 32767 */
+    float step_us; /* mean duration of a step since the last status, us; range 0 .. 1e12 */
+    float step_max_us; /* longest duration of a step since the last status, us; range 0 .. 1e12 */
+    /* mean density of clutter plots in a scan, over the area, 1/km^2; range 0 .. 1e12 */
+    float clutter_per_km2;
+    /*
+     * latitude of the local frame's origin, 1e-7 degrees; origin all 0: not stated; range
+     * -900000000 .. 900000000
+     */
     int32_t origin_lat_1e7deg;
-    int32_t origin_lon_1e7deg; /* -1800000000 .. 1800000000 */
-    int32_t origin_alt_mm;
+    /* longitude of the local frame's origin, 1e-7 degrees; range -1800000000 .. 1800000000 */
+    int32_t origin_lon_1e7deg;
+    int32_t origin_alt_mm; /* altitude of the local frame's origin, mm */
 };
 RHO_MUST_CHECK enum rho_status rho_message_status_encode(
     const struct rho_message_status *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -666,28 +819,32 @@ const char *rho_message_status_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_TRACK_DELETED 4
 
 struct rho_message_track {
-    int32_t track_id; /* never used twice between two restarts */
+    int32_t track_id; /* identity of the track, never used twice between two restarts */
     /*
-     * DELETED: this list names it for the last time; one of TENTATIVE, CONFIRMED, COASTING, DELETED
+     * state of the track; DELETED: it has ended, and this list names it for the last time; one of
+     * TENTATIVE, CONFIRMED, COASTING, DELETED
      */
     int8_t status;
-    int16_t hits; /* looks that updated it; stays at 32767; 0 .. 32767 */
-    int16_t misses; /* looks that did not; stays at 32767; 0 .. 32767 */
-    int16_t sensor_id; /* of the last update */
-    int16_t plot; /* row of the update in this scan, from 0; -1: none; -1 .. 32767 */
-    int32_t update_age_us; /* the list's time after the last update's own, us; 0 .. 2147483647 */
-    float x_m; /* east, m */
-    float y_m; /* north, m */
-    float z_m; /* up, m; 0 where not measured */
-    float vx_mps; /* velocity, m/s */
-    float vy_mps;
-    float vz_mps;
-    float ax_mps2; /* acceleration, m/s^2; 0 where not estimated */
-    float ay_mps2;
-    float az_mps2;
-    float score_nat; /* logarithm of the likelihood that it is a target against clutter */
-    float maneuver_probability; /* 0 .. 1 */
-    float covariance[21]; /* of x y z vx vy vz: lower triangle, row by row: xx, yx, yy, zx, ... */
+    int16_t hits; /* looks that updated the track; stays at 32767; range 0 .. 32767 */
+    int16_t misses; /* looks that missed the track; stays at 32767; range 0 .. 32767 */
+    int16_t sensor_id; /* sensor of the track's last update */
+    /* row of the plot that updated the track in this scan, from 0; -1: none; range -1 .. 32767 */
+    int16_t plot;
+    /* time from the track's last update to the list's time, us; range 0 .. 2147483647 */
+    int32_t update_age_us;
+    float x_m; /* position of the track, east, m */
+    float y_m; /* position of the track, north, m */
+    float z_m; /* position of the track, up, m; 0 where not measured */
+    float vx_mps; /* velocity of the track, east, m/s */
+    float vy_mps; /* velocity of the track, north, m/s */
+    float vz_mps; /* velocity of the track, up, m/s */
+    float ax_mps2; /* acceleration of the track, east, m/s^2; 0 where not estimated */
+    float ay_mps2; /* acceleration of the track, north, m/s^2; 0 where not estimated */
+    float az_mps2; /* acceleration of the track, up, m/s^2; 0 where not estimated */
+    float score_nat; /* track score, log-likelihood ratio of target against clutter */
+    float maneuver_probability; /* probability that the target manoeuvres; range 0 .. 1 */
+    /* covariance of x y z vx vy vz: lower triangle, row by row: xx, yx, yy, zx, ... */
+    float covariance[21];
 };
 RHO_MUST_CHECK enum rho_status rho_message_track_encode(
     const struct rho_message_track *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -705,13 +862,13 @@ const char *rho_message_track_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_TRUTH_MAX_SIZE 36u
 
 struct rho_message_truth {
-    int32_t target_id;
-    float x_m; /* east, m; -2e6 .. 2e6 */
-    float y_m; /* north, m; -2e6 .. 2e6 */
-    float z_m; /* up, m; -2e6 .. 2e6 */
-    float vx_mps; /* velocity, m/s; -2e4 .. 2e4 */
-    float vy_mps; /* -2e4 .. 2e4 */
-    float vz_mps; /* -2e4 .. 2e4 */
+    int32_t target_id; /* identity of the target */
+    float x_m; /* true position of the target, east, m; range -2e6 .. 2e6 */
+    float y_m; /* true position of the target, north, m; range -2e6 .. 2e6 */
+    float z_m; /* true position of the target, up, m; range -2e6 .. 2e6 */
+    float vx_mps; /* true velocity of the target, east, m/s; range -2e4 .. 2e4 */
+    float vy_mps; /* true velocity of the target, north, m/s; range -2e4 .. 2e4 */
+    float vz_mps; /* true velocity of the target, up, m/s; range -2e4 .. 2e4 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_truth_encode(
     const struct rho_message_truth *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -723,27 +880,39 @@ const char *rho_message_truth_field(const struct rho_message_place *place);
 
 /* ---- work_t ---- */
 
-/* Counters of a tracker's limits: on the work of its steps, and on the room of its outputs. */
-/* Once a second, with status_t. Channel RHO_WORK. */
-/* Counters count since the start and stay at the largest number that they may have. */
+/*
+ * Counters of a tracker's limits: on the work of its steps, and on the room of its outputs. Once a
+ * second, with status_t. Channel RHO_WORK. Counters count since the start and stay at their largest
+ * value.
+ */
 
 #define RHO_MESSAGE_WORK_CHANNEL "RHO_WORK"
 #define RHO_MESSAGE_WORK_FINGERPRINT UINT64_C(0x7bc3d15e8fc5de7a)
 #define RHO_MESSAGE_WORK_MAX_SIZE 88u
 
 struct rho_message_work {
-    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of the last scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000
+     */
     int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int64_t num_steps; /* made so far; 0 .. 9223372036854775807 */
-    int64_t work_max; /* that a step may do; 0: any; 0 .. 9223372036854775807 */
-    int64_t work; /* of the last step; 0 .. 9223372036854775807 */
-    int64_t work_worst; /* of the worst step; 0 .. 9223372036854775807 */
-    int64_t partial_steps; /* steps that left something out; 0 .. 9223372036854775807 */
-    int64_t plots_not_tried; /* with all that they might go with; 0 .. 9223372036854775807 */
-    int64_t reports_not_printed; /* standard output took no more; 0 .. 9223372036854775807 */
-    int64_t events_not_logged; /* the log's disk took no more; 0 .. 9223372036854775807 */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int64_t num_steps; /* number of steps made so far; range 0 .. 9223372036854775807 */
+    /* limit on the work of a step, units; 0: no limit; range 0 .. 9223372036854775807 */
+    int64_t work_max;
+    int64_t work; /* work of the last step, units; range 0 .. 9223372036854775807 */
+    int64_t work_worst; /* largest work of a step, units; range 0 .. 9223372036854775807 */
+    /* steps that left something out for their limit of work; range 0 .. 9223372036854775807 */
+    int64_t partial_steps;
+    /*
+     * plots that a limit of work kept from being tried with all tracks or kernels; range 0 ..
+     * 9223372036854775807
+     */
+    int64_t plots_not_tried;
+    /* reports that standard output had no room for; range 0 .. 9223372036854775807 */
+    int64_t reports_not_printed;
+    /* messages that the log's disk had no room for; range 0 .. 9223372036854775807 */
+    int64_t events_not_logged;
 };
 RHO_MUST_CHECK enum rho_status rho_message_work_encode(
     const struct rho_message_work *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -764,12 +933,15 @@ const char *rho_message_work_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_ZONE_EVENT_ENDS 2
 
 struct rho_message_zone_event {
-    int32_t zone_id;
-    int32_t track_id;
-    int8_t change; /* one of ENTERS, LEAVES, ENDS */
-    int8_t direction; /* 1: along the zone's heading, -1: against it, 0: neither; -1 .. 1 */
-    float speed_mps; /* m/s; 0 .. 1e6 */
-    float dwell_s; /* since it entered, s; 0 .. 1e9 */
+    int32_t zone_id; /* identity of the zone */
+    int32_t track_id; /* identity of the track */
+    int8_t change; /* what the track did; one of ENTERS, LEAVES, ENDS */
+    /*
+     * direction of the track: 1 along the zone's heading, -1 against it, 0 neither; range -1 .. 1
+     */
+    int8_t direction;
+    float speed_mps; /* speed of the track, m/s; range 0 .. 1e6 */
+    float dwell_s; /* time since the track entered the zone, s; range 0 .. 1e9 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_zone_event_encode(
     const struct rho_message_zone_event *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -781,24 +953,24 @@ const char *rho_message_zone_event_field(const struct rho_message_place *place);
 
 /* ---- zone_t ---- */
 
-/* What one zone has counted. Counters stay at the largest number that they may have. */
+/* Counts of one zone. Counters stay at their largest value. */
 
 #define RHO_MESSAGE_ZONE_FINGERPRINT UINT64_C(0xaaaa5228616ec1c3)
 #define RHO_MESSAGE_ZONE_MAX_SIZE 52u
 
 struct rho_message_zone {
-    int32_t zone_id;
-    int16_t inside; /* tracks in it now; 0 .. 32767 */
-    int16_t queued; /* of them in its queue; 0 .. 32767 */
-    int32_t entered; /* tracks, since the start; 0 .. 2147483647 */
-    int32_t left; /* 0 .. 2147483647 */
-    int32_t ended; /* whose track ended inside; 0 .. 2147483647 */
-    int32_t along; /* of those that left: along the zone's heading; 0 .. 2147483647 */
-    int32_t against; /* 0 .. 2147483647 */
-    float speed_mps; /* mean of those inside, m/s; 0 of none; 0 .. 1e6 */
-    float queue_m; /* from the first queued track to the last, m; 0 .. 1e9 */
-    float dwell_mean_s; /* of those that left, s; 0 .. 1e9 */
-    float dwell_max_s; /* 0 .. 1e9 */
+    int32_t zone_id; /* identity of the zone */
+    int16_t inside; /* tracks in the zone now; range 0 .. 32767 */
+    int16_t queued; /* tracks in the zone's queue now; range 0 .. 32767 */
+    int32_t entered; /* tracks that entered the zone, since the start; range 0 .. 2147483647 */
+    int32_t left; /* tracks that left the zone, since the start; range 0 .. 2147483647 */
+    int32_t ended; /* tracks that ended inside the zone, since the start; range 0 .. 2147483647 */
+    int32_t along; /* tracks that left along the zone's heading; range 0 .. 2147483647 */
+    int32_t against; /* tracks that left against the zone's heading; range 0 .. 2147483647 */
+    float speed_mps; /* mean speed of the tracks inside, m/s; 0 of none; range 0 .. 1e6 */
+    float queue_m; /* distance from the first queued track to the last, m; range 0 .. 1e9 */
+    float dwell_mean_s; /* mean time inside of the tracks that left, s; range 0 .. 1e9 */
+    float dwell_max_s; /* longest time inside of the tracks that left, s; range 0 .. 1e9 */
 };
 RHO_MUST_CHECK enum rho_status rho_message_zone_encode(
     const struct rho_message_zone *message, uint8_t *buffer, size_t capacity, size_t *size);
@@ -811,8 +983,8 @@ const char *rho_message_zone_field(const struct rho_message_place *place);
 /* ---- accumulator_t ---- */
 
 /*
- * The last search in an accumulator: its plane, and the fullest cells, best first. Sent when asked
- * for. Channel RHO_ACCUMULATOR.
+ * The accumulator of the last search: its extent, and the fullest cells, best first. Sent when
+ * asked for. Channel RHO_ACCUMULATOR.
  */
 
 #define RHO_MESSAGE_ACCUMULATOR_CHANNEL "RHO_ACCUMULATOR"
@@ -826,32 +998,38 @@ const char *rho_message_zone_field(const struct rho_message_place *place);
 #define RHO_MESSAGE_ACCUMULATOR_PASSIVE_PAPER 5
 
 struct rho_message_accumulator {
-    /* of the window's newest scan, us; -4000000000000000000 .. 4000000000000000000 */
+    /* time of the window's newest scan, us; range -4000000000000000000 .. 4000000000000000000 */
     int64_t utime;
     int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
     int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int8_t method; /* one of HT, MHT, IHT, NHT, PASSIVE_PAPER */
-    int8_t has_pair; /* 1: of the crossings of one pair of sensors; 0: of all; 0 .. 1 */
-    int16_t sensor_a_id; /* of the pair; 0 without one */
-    int16_t sensor_b_id;
-    int16_t num_scans; /* of the window; 1 .. 16 */
-    /* of the window's oldest scan, us; -4000000000000000000 .. 4000000000000000000 */
-    int64_t oldest_utime;
-    float origin_x_m; /* rho is the distance from here, m; -2e6 .. 2e6 */
-    float origin_y_m; /* -2e6 .. 2e6 */
-    float rho_min_m; /* edges of the plane, m */
-    float rho_max_m;
-    int16_t rho_cells; /* from rho_min_m to rho_max_m; 1 .. 32767 */
-    int16_t theta_cells; /* from 0 to pi; 1 .. 32767 */
-    float votes_max; /* most votes of a cell; 0 .. 1e9 */
-    float votes_min; /* of a cell that is listed; 0 .. 1e9 */
+    /* Hough transform that made the accumulator; one of HT, MHT, IHT, NHT, PASSIVE_PAPER */
+    int8_t method;
     /*
-     * messages of this channel and of RHO_PLANE that were left out for their rate, so far; 0 ..
-     * 2147483647
+     * 1: the accumulator has the crossings of one pair of sensors; 0: those of all sensors; range 0
+     * .. 1
+     */
+    int8_t has_pair;
+    int16_t sensor_a_id; /* first sensor of the pair; 0 without a pair */
+    int16_t sensor_b_id; /* second sensor of the pair; 0 without a pair */
+    int16_t num_scans; /* number of scans in the window; range 1 .. 16 */
+    /* time of the window's oldest scan, us; range -4000000000000000000 .. 4000000000000000000 */
+    int64_t oldest_utime;
+    float origin_x_m; /* point from which rho is measured, east, m; range -2e6 .. 2e6 */
+    float origin_y_m; /* point from which rho is measured, north, m; range -2e6 .. 2e6 */
+    float rho_min_m; /* lower edge of the accumulator in rho, m */
+    float rho_max_m; /* upper edge of the accumulator in rho, m */
+    int16_t rho_cells; /* number of cells from rho_min_m to rho_max_m; range 1 .. 32767 */
+    int16_t theta_cells; /* number of cells from theta 0 to pi; range 1 .. 32767 */
+    float votes_max; /* votes of the fullest cell; range 0 .. 1e9 */
+    float votes_min; /* least votes of a cell that is listed; range 0 .. 1e9 */
+    /*
+     * messages of this channel and of RHO_PLANE that were left out for their rate, so far; range 0
+     * .. 2147483647
      */
     int32_t not_sent;
-    int16_t num_cells_total; /* found; the list has the best of them; 0 .. 32767 */
-    int16_t num_cells;
+    /* number of cells that the search found; the list has the best of them; range 0 .. 32767 */
+    int16_t num_cells_total;
+    int16_t num_cells; /* number of cells in the list */
     struct rho_message_accumulator_cell cells[RHO_MESSAGE_ACCUMULATOR_MAX_CELLS];
 };
 
@@ -891,27 +1069,32 @@ RHO_MUST_CHECK enum rho_status rho_message_accumulator_add(
 
 /* ---- bearing_scan_t ---- */
 
-/* Bearings of one look of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. */
+/* Bearings of one scan of one passive sensor. Channel RHO_BEARINGS_<sensor_id>. */
 
-#define RHO_MESSAGE_BEARING_SCAN_CHANNEL "RHO_BEARINGS_" /* and the sensor's number */
+#define RHO_MESSAGE_BEARING_SCAN_CHANNEL "RHO_BEARINGS_" /* prefix: the sensor's number follows */
 #define RHO_MESSAGE_BEARING_SCAN_FINGERPRINT UINT64_C(0x66d140164191753b)
 #define RHO_MESSAGE_BEARING_SCAN_MAX_SIZE 1064u
 #define RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD 256
 
 struct rho_message_bearing_scan {
     /*
-     * time of measurement, us of the sensors' common clock; -4000000000000000000 ..
+     * time of measurement, us of the sensors' common clock; range -4000000000000000000 ..
      * 4000000000000000000
      */
     int64_t utime;
-    int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
-    int32_t epoch; /* the sender's boot number: another one after each restart */
-    int16_t sensor_id; /* the number in the channel's name */
-    float sensor_x_m; /* the sensor's place, the same at every look, m; -2e6 .. 2e6 */
-    float sensor_y_m; /* -2e6 .. 2e6 */
-    float sigma_rad; /* sd of the noise, rad; 0: not said; 0 .. 0.5 */
-    int16_t num_bearings;
-    /* to the targets, counter-clockwise from +x (east), rad; -3.1415927 .. 3.1415927 */
+    int32_t scan; /* number of this scan, one more each; after 2147483647 comes -2147483648 */
+    int32_t epoch; /* the sender's boot number, another one after each restart */
+    int16_t sensor_id; /* number of the sensor, as in the channel's name */
+    /* position of the sensor, the same in every scan, east, m; range -2e6 .. 2e6 */
+    float sensor_x_m;
+    /* position of the sensor, the same in every scan, north, m; range -2e6 .. 2e6 */
+    float sensor_y_m;
+    /* standard deviation of the bearings' noise, rad; 0: not stated; range 0 .. 0.5 */
+    float sigma_rad;
+    int16_t num_bearings; /* number of bearings in the list */
+    /*
+     * bearings to the targets, counter-clockwise from +x (east), rad; range -3.1415927 .. 3.1415927
+     */
     float bearing_rad[RHO_MESSAGE_BEARING_SCAN_MAX_BEARING_RAD];
 };
 
@@ -941,8 +1124,8 @@ RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_add(
 
 /*
  * The bodies of tracks after one step of a tracker that was told how long targets may be, or a part
+ * of the list; a track has no body before two of its plots came in one scan. Channel RHO_BODIES.
  */
-/* of them; tracks of which no two plots came in one scan have none. Channel RHO_BODIES. */
 
 #define RHO_MESSAGE_BODY_LIST_CHANNEL "RHO_BODIES"
 #define RHO_MESSAGE_BODY_LIST_FINGERPRINT UINT64_C(0xd468c7e7b0d084a9)
@@ -950,13 +1133,13 @@ RHO_MUST_CHECK enum rho_status rho_message_bearing_scan_add(
 #define RHO_MESSAGE_BODY_LIST_MAX_BODIES 24
 
 struct rho_message_body_list {
-    /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* time of the scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000 */
     int64_t utime;
     int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the list; an empty list has one; 1 .. 32767 */
-    int16_t num_bodies; /* in this part */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int16_t part; /* number of this part of the list, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the list; an empty list has one; range 1 .. 32767 */
+    int16_t num_bodies; /* number of bodies in this part of the list */
     struct rho_message_body bodies[RHO_MESSAGE_BODY_LIST_MAX_BODIES];
 };
 
@@ -983,8 +1166,8 @@ RHO_MUST_CHECK enum rho_status rho_message_body_list_add(
 /* ---- clutter_map_t ---- */
 
 /*
- * Echoes that a tracker knows: clutter that comes back to its place; or a part of them, every few
- * seconds. Channel RHO_CLUTTER.
+ * Echoes in a tracker's clutter map: clutter that comes back to its place. All of them, or a part,
+ * every few seconds. Channel RHO_CLUTTER.
  */
 
 #define RHO_MESSAGE_CLUTTER_MAP_CHANNEL "RHO_CLUTTER"
@@ -993,14 +1176,16 @@ RHO_MUST_CHECK enum rho_status rho_message_body_list_add(
 #define RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES 40
 
 struct rho_message_clutter_map {
-    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of the last scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000
+     */
     int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int16_t num_echoes_total; /* of all parts; 0 .. 32767 */
-    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the list; an empty list has one; 1 .. 32767 */
-    int16_t num_echoes; /* in this part */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int16_t num_echoes_total; /* number of echoes in all parts of the list; range 0 .. 32767 */
+    int16_t part; /* number of this part of the list, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the list; an empty list has one; range 1 .. 32767 */
+    int16_t num_echoes; /* number of echoes in this part of the list */
     struct rho_message_echo echoes[RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES];
 };
 
@@ -1028,7 +1213,7 @@ RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
 /* ---- ghost_matrix_t ---- */
 
 /*
- * The ghost matrix of the newest scans of two passive sensors; or a part of it. Sent when asked
+ * The ghost matrix of the newest scans of two passive sensors, or a part of it. Sent when asked
  * for. Channel RHO_GHOSTS.
  */
 
@@ -1041,24 +1226,24 @@ RHO_MUST_CHECK enum rho_status rho_message_clutter_map_add(
 #define RHO_MESSAGE_GHOST_MATRIX_SAFE 2
 
 struct rho_message_ghost_matrix {
-    int64_t utime; /* of the frame, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime; /* time of the frame, us; range -4000000000000000000 .. 4000000000000000000 */
     int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int16_t sensor_a_id; /* rows */
-    int16_t sensor_b_id; /* columns */
-    float sensor_a_x_m; /* place, east, m; -2e6 .. 2e6 */
-    float sensor_a_y_m; /* north, m; -2e6 .. 2e6 */
-    float sensor_b_x_m; /* -2e6 .. 2e6 */
-    float sensor_b_y_m; /* -2e6 .. 2e6 */
-    float range_max_m; /* of both sensors, m; 0 .. 1e9 */
-    int8_t rule; /* of pruning; one of NO_RULE, LITERAL, SAFE */
-    int16_t num_rows; /* bearings of sensor a; 0 .. 255 */
-    int16_t num_columns; /* bearings of sensor b; 0 .. 255 */
-    /* messages of this channel that were left out for its rate, so far; 0 .. 2147483647 */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int16_t sensor_a_id; /* sensor whose bearings are the rows of the matrix */
+    int16_t sensor_b_id; /* sensor whose bearings are the columns of the matrix */
+    float sensor_a_x_m; /* position of sensor a, east, m; range -2e6 .. 2e6 */
+    float sensor_a_y_m; /* position of sensor a, north, m; range -2e6 .. 2e6 */
+    float sensor_b_x_m; /* position of sensor b, east, m; range -2e6 .. 2e6 */
+    float sensor_b_y_m; /* position of sensor b, north, m; range -2e6 .. 2e6 */
+    float range_max_m; /* longest range of both sensors, m; range 0 .. 1e9 */
+    int8_t rule; /* rule by which ghosts are pruned; one of NO_RULE, LITERAL, SAFE */
+    int16_t num_rows; /* number of bearings of sensor a; range 0 .. 255 */
+    int16_t num_columns; /* number of bearings of sensor b; range 0 .. 255 */
+    /* messages of this channel that were left out for its rate, so far; range 0 .. 2147483647 */
     int32_t not_sent;
-    int16_t part; /* which part of the matrix this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the matrix; an empty one has one; 1 .. 32767 */
-    int16_t num_elements; /* in this part; row by row */
+    int16_t part; /* number of this part of the matrix, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the matrix; an empty one has one; range 1 .. 32767 */
+    int16_t num_elements; /* number of elements in this part of the matrix, row by row */
     struct rho_message_ghost elements[RHO_MESSAGE_GHOST_MATRIX_MAX_ELEMENTS];
 };
 
@@ -1096,22 +1281,13 @@ RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_add(
 /* ---- hypotheses_t ---- */
 
 /*
- * Of one track: its score, its motion models, the evidence of its last look, and its hypotheses,
- * best first. Sent when asked for. Channel RHO_HYPOTHESES.
+ * The hypotheses of one track, best first, with its score, motion models, and evidence of the last
+ * look. Sent when asked for. Channel RHO_HYPOTHESES. Support, shared and clutter are truth,
+ * indeterminacy and falsity of neutrosophic sets, and add up to 1. With evidence PLOTS a plot in
+ * the track's gate is the target's with probability p, before plots are assigned to one track each,
+ * and this track's with probability r rather than another's. With evidence LINE they are shares of
+ * the sums C_T, C_I and C_F of the cell by which a neutrosophic Hough transform started the track.
  */
-/*
- * support, shared and clutter are truth, indeterminacy and falsity of neutrosophic sets, and add up
- * to 1. With evidence PLOTS a
- */
-/*
- * plot in the track's gate has the probability p to be the target's, before plots are given to one
- * track each, and r is how much
- */
-/*
- * likelier it is this track's than another's. With evidence LINE they are of the cell by which a
- * neutrosophic Hough transform
- */
-/* started the track: shares of its sums C_T, C_I and C_F. */
 
 #define RHO_MESSAGE_HYPOTHESES_CHANNEL "RHO_HYPOTHESES"
 #define RHO_MESSAGE_HYPOTHESES_FINGERPRINT UINT64_C(0xe526c2edcb9c898f)
@@ -1122,27 +1298,31 @@ RHO_MUST_CHECK enum rho_status rho_message_ghost_matrix_add(
 #define RHO_MESSAGE_HYPOTHESES_LINE 2
 
 struct rho_message_hypotheses {
-    int64_t utime; /* of the step, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime; /* time of the step, us; range -4000000000000000000 .. 4000000000000000000 */
     int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int32_t track_id; /* as in RHO_TRACKS */
-    float score_nat;
-    /* probabilities of the motion models, which add up to 1: flies straight for minutes; 0 .. 1 */
-    float calm;
-    float steady; /* flies straight, and may turn soon; 0 .. 1 */
-    float maneuver; /* manoeuvres; 0 .. 1 */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int32_t track_id; /* identity of the track, as in RHO_TRACKS */
+    float score_nat; /* track score, log-likelihood ratio of target against clutter */
     /*
-     * PLOTS: of the plots of this step; LINE: of the line by which it started in this step;
-     * NO_EVIDENCE: not looked at, or not known; one of NO_EVIDENCE, PLOTS, LINE
+     * probability that the target flies straight for minutes; calm, steady and maneuver add up to
+     * 1; range 0 .. 1
+     */
+    float calm;
+    float steady; /* probability that the target flies straight, and may turn soon; range 0 .. 1 */
+    float maneuver; /* probability that the target manoeuvres; range 0 .. 1 */
+    /*
+     * source of the evidence. PLOTS: plots of this step; LINE: the line by which the track started
+     * in this step; NO_EVIDENCE: none was sought, or none is known; one of NO_EVIDENCE, PLOTS, LINE
      */
     int8_t evidence;
-    float support; /* evidence that is the track's own: sum of p r over its plots; C_T; 0 .. 1 */
-    /* evidence that other tracks or lines claim, too: sum of p (1 - r); C_I; 0 .. 1 */
+    /* evidence that is the track's own: sum of p r over its plots; C_T; range 0 .. 1 */
+    float support;
+    /* evidence that other tracks or lines claim, too: sum of p (1 - r); C_I; range 0 .. 1 */
     float shared;
-    float clutter; /* that none of it is the target's: 1 - sum of p; C_F; 0 .. 1 */
-    /* messages of this channel that were left out for its rate, so far; 0 .. 2147483647 */
+    float clutter; /* evidence that no plot is the target's: 1 - sum of p; C_F; range 0 .. 1 */
+    /* messages of this channel that were left out for its rate, so far; range 0 .. 2147483647 */
     int32_t not_sent;
-    int16_t num_hypotheses;
+    int16_t num_hypotheses; /* number of hypotheses in the list */
     struct rho_message_hypothesis hypotheses[RHO_MESSAGE_HYPOTHESES_MAX_HYPOTHESES];
 };
 
@@ -1184,10 +1364,10 @@ RHO_MUST_CHECK enum rho_status rho_message_hypotheses_add(
 #define RHO_MESSAGE_PEAK_LIST_MAX_PEAKS 48
 
 struct rho_message_peak_list {
-    /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* time of the scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000 */
     int64_t utime;
     int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
-    int16_t num_peaks;
+    int16_t num_peaks; /* number of candidates in the list */
     struct rho_message_peak peaks[RHO_MESSAGE_PEAK_LIST_MAX_PEAKS];
 };
 
@@ -1211,8 +1391,8 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_list_add(
 /* ---- plane_t ---- */
 
 /*
- * The plane of an accumulator_t of the same scan and pair, made small; a part of it. Sent when
- * asked for. Channel RHO_PLANE.
+ * A reduced picture of the accumulator of an accumulator_t of the same scan and pair; a part of it.
+ * Sent when asked for. Channel RHO_PLANE.
  */
 
 #define RHO_MESSAGE_PLANE_CHANNEL "RHO_PLANE"
@@ -1222,19 +1402,25 @@ RHO_MUST_CHECK enum rho_status rho_message_peak_list_add(
 
 struct rho_message_plane {
     /*
-     * as in the accumulator_t, as all that follow, us; -4000000000000000000 .. 4000000000000000000
+     * time of the window's newest scan, as in the accumulator_t, us; range -4000000000000000000 ..
+     * 4000000000000000000
      */
     int64_t utime;
-    int32_t scan;
-    int32_t epoch;
-    int8_t method; /* 1 .. 5 */
-    int8_t has_pair; /* 0 .. 1 */
-    int16_t sensor_a_id;
-    int16_t sensor_b_id;
-    float votes_max; /* that 127 in the rows stands for; 0 .. 1e9 */
-    int16_t part; /* which part of the rows this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the rows, at most 64, from theta 0 to pi; 1 .. 32767 */
-    int16_t num_rows; /* in this part */
+    int32_t scan; /* number of the tracker's step, as in the accumulator_t */
+    int32_t epoch; /* the tracker's boot number, as in the accumulator_t */
+    int8_t method; /* Hough transform, as in the accumulator_t; range 1 .. 5 */
+    /* 1: votes of one pair of sensors; 0: votes of all, as in the accumulator_t; range 0 .. 1 */
+    int8_t has_pair;
+    int16_t sensor_a_id; /* first sensor of the pair; 0 without a pair */
+    int16_t sensor_b_id; /* second sensor of the pair; 0 without a pair */
+    float votes_max; /* number of votes that 127 in the rows stands for; range 0 .. 1e9 */
+    int16_t part; /* number of this part of the rows, from 0; range 0 .. num_parts - 1 */
+    /*
+     * number of parts of the rows, of which there are at most 64, from theta 0 to pi; range 1 ..
+     * 32767
+     */
+    int16_t num_parts;
+    int16_t num_rows; /* number of rows in this part */
     struct rho_message_plane_row rows[RHO_MESSAGE_PLANE_MAX_ROWS];
 };
 
@@ -1265,9 +1451,9 @@ RHO_MUST_CHECK enum rho_status rho_message_plane_add(
 
 /* ---- plot_scan_t ---- */
 
-/* Plots of one look of one sensor, or a part of them. Channel RHO_PLOTS_<sensor_id>. */
+/* Plots of one scan of one sensor, or a part of them. Channel RHO_PLOTS_<sensor_id>. */
 
-#define RHO_MESSAGE_PLOT_SCAN_CHANNEL "RHO_PLOTS_" /* and the sensor's number */
+#define RHO_MESSAGE_PLOT_SCAN_CHANNEL "RHO_PLOTS_" /* prefix: the sensor's number follows */
 #define RHO_MESSAGE_PLOT_SCAN_FINGERPRINT UINT64_C(0x0ec35bb85bc4cbde)
 #define RHO_MESSAGE_PLOT_SCAN_MAX_SIZE 1401u
 #define RHO_MESSAGE_PLOT_SCAN_POSITION_2D 2
@@ -1278,24 +1464,28 @@ RHO_MUST_CHECK enum rho_status rho_message_plane_add(
 
 struct rho_message_plot_scan {
     /*
-     * time of measurement, us of the sensors' common clock; -4000000000000000000 ..
+     * time of measurement, us of the sensors' common clock; range -4000000000000000000 ..
      * 4000000000000000000
      */
     int64_t utime;
-    int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
-    int32_t epoch; /* the sender's boot number: another one after each restart */
-    int16_t sensor_id; /* the number in the channel's name */
+    int32_t scan; /* number of this scan, one more each; after 2147483647 comes -2147483648 */
+    int32_t epoch; /* the sender's boot number, another one after each restart */
+    int16_t sensor_id; /* number of the sensor, as in the channel's name */
     /*
      * what the plots measure; one of POSITION_2D, POSITION_3D, POSITION_VELOCITY_2D,
      * POSITION_VELOCITY_3D
      */
     int8_t kind;
-    int16_t part; /* which part of the scan this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the scan; 1 .. 32767 */
-    /* looked at, counter-clockwise from here; rad from +x (east); -6.2831855 .. 6.2831855 */
+    int16_t part; /* number of this part of the scan, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the scan; range 1 .. 32767 */
+    /*
+     * sector that was looked at, first edge of it counter-clockwise, rad from +x (east); range
+     * -6.2831855 .. 6.2831855
+     */
     float sector_from_rad;
-    float sector_to_rad; /* to here; both 0: the whole circle; -6.2831855 .. 6.2831855 */
-    int16_t num_plots; /* in this part */
+    /* last edge of the sector; both edges 0: the whole circle; range -6.2831855 .. 6.2831855 */
+    float sector_to_rad;
+    int16_t num_plots; /* number of plots in this part of the scan */
     struct rho_message_plot plots[RHO_MESSAGE_PLOT_SCAN_MAX_PLOTS];
 };
 
@@ -1325,37 +1515,45 @@ RHO_MUST_CHECK enum rho_status rho_message_plot_scan_add(
 
 /* ---- polar_scan_t ---- */
 
-/* Polar plots of one look of one radar, or a part of them. Channel RHO_POLAR_<sensor_id>. */
+/* Polar plots of one scan of one radar, or a part of them. Channel RHO_POLAR_<sensor_id>. */
 
-#define RHO_MESSAGE_POLAR_SCAN_CHANNEL "RHO_POLAR_" /* and the sensor's number */
+#define RHO_MESSAGE_POLAR_SCAN_CHANNEL "RHO_POLAR_" /* prefix: the sensor's number follows */
 #define RHO_MESSAGE_POLAR_SCAN_FINGERPRINT UINT64_C(0x0570bdbf57d4a221)
 #define RHO_MESSAGE_POLAR_SCAN_MAX_SIZE 1366u
 #define RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS 54
 
 struct rho_message_polar_scan {
     /*
-     * time of measurement, us of the sensors' common clock; -4000000000000000000 ..
+     * time of measurement, us of the sensors' common clock; range -4000000000000000000 ..
      * 4000000000000000000
      */
     int64_t utime;
-    int32_t scan; /* number of this look, one more each; after 2147483647 comes -2147483648 */
-    int32_t epoch; /* the sender's boot number: another one after each restart */
-    int16_t sensor_id; /* the number in the channel's name */
-    int8_t has_elevation; /* 1: the plots' elevations count; 0 .. 1 */
-    int8_t has_range_rate; /* 1: the plots' range rates count; 0 .. 1 */
-    int16_t part; /* which part of the scan this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the scan; 1 .. 32767 */
-    float sensor_x_m; /* the radar's place, m; -2e6 .. 2e6 */
-    float sensor_y_m; /* -2e6 .. 2e6 */
-    float sensor_z_m; /* -2e6 .. 2e6 */
-    float sigma_range_m; /* sd of the noise, m; 0: not said; 0 .. 1e5 */
-    float sigma_azimuth_rad; /* rad; 0: not said; 0 .. 0.5 */
-    float sigma_elevation_rad; /* rad; 0: not said; 0 .. 0.5 */
-    float sigma_range_rate_mps; /* m/s; 0: not said; 0 .. 1e5 */
-    /* looked at, counter-clockwise from here; rad from +x (east); -6.2831855 .. 6.2831855 */
+    int32_t scan; /* number of this scan, one more each; after 2147483647 comes -2147483648 */
+    int32_t epoch; /* the sender's boot number, another one after each restart */
+    int16_t sensor_id; /* number of the sensor, as in the channel's name */
+    int8_t has_elevation; /* 1: the plots' elevations are measured; range 0 .. 1 */
+    int8_t has_range_rate; /* 1: the plots' range rates are measured; range 0 .. 1 */
+    int16_t part; /* number of this part of the scan, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the scan; range 1 .. 32767 */
+    float sensor_x_m; /* position of the radar, east, m; range -2e6 .. 2e6 */
+    float sensor_y_m; /* position of the radar, north, m; range -2e6 .. 2e6 */
+    float sensor_z_m; /* position of the radar, up, m; range -2e6 .. 2e6 */
+    /* standard deviation of the range's noise, m; 0: not stated; range 0 .. 1e5 */
+    float sigma_range_m;
+    /* standard deviation of the azimuth's noise, rad; 0: not stated; range 0 .. 0.5 */
+    float sigma_azimuth_rad;
+    /* standard deviation of the elevation's noise, rad; 0: not stated; range 0 .. 0.5 */
+    float sigma_elevation_rad;
+    /* standard deviation of the range rate's noise, m/s; 0: not stated; range 0 .. 1e5 */
+    float sigma_range_rate_mps;
+    /*
+     * sector that was looked at, first edge of it counter-clockwise, rad from +x (east); range
+     * -6.2831855 .. 6.2831855
+     */
     float sector_from_rad;
-    float sector_to_rad; /* to here; both 0: the whole circle; -6.2831855 .. 6.2831855 */
-    int16_t num_polar_plots; /* in this part */
+    /* last edge of the sector; both edges 0: the whole circle; range -6.2831855 .. 6.2831855 */
+    float sector_to_rad;
+    int16_t num_polar_plots; /* number of plots in this part of the scan */
     struct rho_message_polar_plot polar_plots[RHO_MESSAGE_POLAR_SCAN_MAX_POLAR_PLOTS];
 };
 
@@ -1394,7 +1592,7 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_scan_add(
 /* ---- sensor_list_t ---- */
 
 /*
- * How the sensors are doing that a tracker hears, or a part of them: once a second, with status_t.
+ * State of the sensors that a tracker hears, or a part of the list: once a second, with status_t.
  * Channel RHO_SENSORS.
  */
 
@@ -1404,14 +1602,16 @@ RHO_MUST_CHECK enum rho_status rho_message_polar_scan_add(
 #define RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS 36
 
 struct rho_message_sensor_list {
-    /* of the last scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of the last scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000
+     */
     int64_t utime;
     int32_t scan; /* number of the tracker's last step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int16_t num_sensors_total; /* of all parts; 0 .. 32767 */
-    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the list; an empty list has one; 1 .. 32767 */
-    int16_t num_sensors; /* in this part */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int16_t num_sensors_total; /* number of sensors in all parts of the list; range 0 .. 32767 */
+    int16_t part; /* number of this part of the list, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the list; an empty list has one; range 1 .. 32767 */
+    int16_t num_sensors; /* number of sensors in this part of the list */
     struct rho_message_sensor sensors[RHO_MESSAGE_SENSOR_LIST_MAX_SENSORS];
 };
 
@@ -1446,14 +1646,14 @@ RHO_MUST_CHECK enum rho_status rho_message_sensor_list_add(
 #define RHO_MESSAGE_TRACK_LIST_MAX_TRACKS 9
 
 struct rho_message_track_list {
-    /* of the scan that was stepped, us; -4000000000000000000 .. 4000000000000000000 */
+    /* time of the scan that was stepped, us; range -4000000000000000000 .. 4000000000000000000 */
     int64_t utime;
     int32_t scan; /* number of the tracker's step, one more each */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int16_t num_tracks_total; /* of all parts; 0 .. 32767 */
-    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the list; an empty list has one; 1 .. 32767 */
-    int16_t num_tracks; /* in this part */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int16_t num_tracks_total; /* number of tracks in all parts of the list; range 0 .. 32767 */
+    int16_t part; /* number of this part of the list, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the list; an empty list has one; range 1 .. 32767 */
+    int16_t num_tracks; /* number of tracks in this part of the list */
     struct rho_message_track tracks[RHO_MESSAGE_TRACK_LIST_MAX_TRACKS];
 };
 
@@ -1481,7 +1681,8 @@ RHO_MUST_CHECK enum rho_status rho_message_track_list_add(
 /* ---- truth_list_t ---- */
 
 /*
- * Where the targets of a simulation or a trial really were, or a part of them. Channel RHO_TRUTH.
+ * True positions of the targets of a simulation or a trial, or a part of the list. Channel
+ * RHO_TRUTH.
  */
 
 #define RHO_MESSAGE_TRUTH_LIST_CHANNEL "RHO_TRUTH"
@@ -1490,12 +1691,15 @@ RHO_MUST_CHECK enum rho_status rho_message_track_list_add(
 #define RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS 50
 
 struct rho_message_truth_list {
-    /* us of the sensors' common clock; -4000000000000000000 .. 4000000000000000000 */
+    /*
+     * time of the true states, us of the sensors' common clock; range -4000000000000000000 ..
+     * 4000000000000000000
+     */
     int64_t utime;
     int32_t scan; /* number of the list, one more each */
-    int16_t part; /* which part of the list this is, from 0; 0 .. num_parts - 1 */
-    int16_t num_parts; /* of the list; 1 .. 32767 */
-    int16_t num_targets; /* in this part */
+    int16_t part; /* number of this part of the list, from 0; range 0 .. num_parts - 1 */
+    int16_t num_parts; /* number of parts of the list; range 1 .. 32767 */
+    int16_t num_targets; /* number of targets in this part of the list */
     struct rho_message_truth targets[RHO_MESSAGE_TRUTH_LIST_MAX_TARGETS];
 };
 
@@ -1521,9 +1725,9 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_list_add(
 /* ---- zone_event_list_t ---- */
 
 /*
- * Tracks that have entered and left zones in one step; of a step without any there is no message.
+ * Tracks that have entered and left zones in one step; a step without events sends no message.
+ * Channel RHO_ZONE_EVENTS.
  */
-/* Channel RHO_ZONE_EVENTS. */
 
 #define RHO_MESSAGE_ZONE_EVENT_LIST_CHANNEL "RHO_ZONE_EVENTS"
 #define RHO_MESSAGE_ZONE_EVENT_LIST_FINGERPRINT UINT64_C(0x4945d33ac51d2c5c)
@@ -1531,10 +1735,10 @@ RHO_MUST_CHECK enum rho_status rho_message_truth_list_add(
 #define RHO_MESSAGE_ZONE_EVENT_LIST_MAX_EVENTS 64
 
 struct rho_message_zone_event_list {
-    int64_t utime; /* of the step, us; -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime; /* time of the step, us; range -4000000000000000000 .. 4000000000000000000 */
     int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    int16_t num_events;
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    int16_t num_events; /* number of events in the list */
     struct rho_message_zone_event events[RHO_MESSAGE_ZONE_EVENT_LIST_MAX_EVENTS];
 };
 
@@ -1558,7 +1762,7 @@ RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_add(
 
 /* ---- zone_list_t ---- */
 
-/* What the tracker's zones have counted. Once a second, with status_t. Channel RHO_ZONES. */
+/* Counts of the tracker's zones. Once a second, with status_t. Channel RHO_ZONES. */
 
 #define RHO_MESSAGE_ZONE_LIST_CHANNEL "RHO_ZONES"
 #define RHO_MESSAGE_ZONE_LIST_FINGERPRINT UINT64_C(0xe6266bbc90e0975c)
@@ -1566,12 +1770,15 @@ RHO_MUST_CHECK enum rho_status rho_message_zone_event_list_add(
 #define RHO_MESSAGE_ZONE_LIST_MAX_ZONES 30
 
 struct rho_message_zone_list {
-    int64_t utime; /* of the last step, us; -4000000000000000000 .. 4000000000000000000 */
+    /* time of the last step, us; range -4000000000000000000 .. 4000000000000000000 */
+    int64_t utime;
     int32_t scan; /* number of the tracker's step, as in RHO_TRACKS */
-    int32_t epoch; /* the tracker's boot number: another one after each restart */
-    /* of steps with more than zone_event_list_t holds, since the start; 0 .. 2147483647 */
+    int32_t epoch; /* the tracker's boot number, another one after each restart */
+    /*
+     * events beyond the room of a step's zone_event_list_t, since the start; range 0 .. 2147483647
+     */
     int32_t events_dropped;
-    int16_t num_zones;
+    int16_t num_zones; /* number of zones in the list */
     struct rho_message_zone zones[RHO_MESSAGE_ZONE_LIST_MAX_ZONES];
 };
 

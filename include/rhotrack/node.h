@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node: a live tracker without its network: messages of sensors in, messages of tracks out.
+ * node: a live tracker without its network: takes messages of sensors, makes messages of tracks.
  *
  *     for (;;) {
  *         if (a message has come) {
@@ -32,13 +32,14 @@
  * Order      Scans are stepped in the order in which the scan assembler gives them. Scans of
  *            bearings become frames; scans of plots wait for the open frame where that began before
  *            them, as far as there is room (waiting_max): else the frame closes. An open frame
- *            closes when nothing has come for as long as its sensors may differ and messages wait.
+ *            closes when no scan has come for tolerance_us of the frames and hold_us together.
  * Sensors    Each sensor is described to the tracker before its scan is stepped. Where the tracker
  *            has no room for another one, it forgets those that have been silent for jump_max_us.
- *            A passive sensor that is silent for so long and keeps another one out of the frames,
- *            and one that stands at another place in 16 scans in a row, make the frames begin anew.
- * Restart    The sensors' clock was set: tracks do not go on across that. RHO_NODE_RESTART says so
- *            after the last step of the old time; frames and search have begun anew by then.
+ *            Frames begin anew where a passive sensor that is silent for jump_max_us keeps another
+ *            one out of them, and where 16 successive scans of a passive sensor are refused: it may
+ *            have moved.
+ * Restart    Where the sensors' clock was set, tracks cannot go on. RHO_NODE_RESTART says so after
+ *            the last step of the old time; frames and passive search are empty again by then.
  * Snapshot   After a snapshot of the tracker was loaded, is_restored = 1 makes the node restart
  *            where the first scan is more than jump_max_us older than the snapshot.
  *
@@ -63,7 +64,7 @@
 extern "C" {
 #endif
 
-/* A scan of plots that waits for the open frame. */
+/* A scan of plots that waits for the step of the open frame. */
 struct rho_node_waiting {
     struct rho_scan scan;
     struct rho_sensor sensor;
@@ -74,75 +75,89 @@ struct rho_node_waiting {
 struct rho_node_config {
     struct rho_scan_assembler *assembler;
     struct rho_tracker *tracker;
-    struct rho_report *report; /* of the last step */
-    struct rho_frames *frames; /* NULL: scans of bearings are refused; then passive is NULL, too */
+    struct rho_report *report; /* report of the last step */
+    /* frames of bearings; NULL: scans of bearings are refused, and passive is NULL, too */
+    struct rho_frames *frames;
     /*
      * NULL: after rho_node_step the caller starts tracks from the frame that rho_frames_closed
      * shows, as rho_passive_paper_step does; sensors farther apart than apart_max_m (of its
      * batch) are refused
      */
     struct rho_passive *passive;
-    float apart_max_m;                /* above 0 with frames and without passive; else not used */
-    struct rho_node_waiting *waiting; /* waiting_max of them; NULL where that is 0 */
+    /* largest distance of two passive sensors, above 0; used with frames and without passive */
+    float apart_max_m;
+    /* array of waiting_max entries; NULL where waiting_max is 0 */
+    struct rho_node_waiting *waiting;
     uint16_t waiting_max;
-    /* Range of passive sensors of which no range is known (2 RHO_LIMIT_POSITION_M); 0: that one. */
+    /* largest range of passive sensors whose range is not described; 0: 2 RHO_LIMIT_POSITION_M */
     float passive_range_max_m;
-    int32_t epoch; /* boot number, in the messages */
+    int32_t epoch; /* boot number in the messages that are published */
 };
 
-/* Since init; all saturate. */
+/* Counters of a node since rho_node_init; all saturate. */
 struct rho_node_counters {
     uint32_t steps;
     uint32_t restarts;
-    uint32_t scans_early;      /* given before hold_us had passed: another scan needed their room */
-    uint32_t scans_refused;    /* the tracker does not take the scan, or not its sensor */
-    uint32_t plots_refused;    /* of scans whose sensor the tracker does not take */
-    uint32_t frames_refused;   /* likewise by the tracker */
-    uint32_t bearings_refused; /* scans: the sensor is too far from the others, or one too many */
-    uint32_t sensors_refused;  /* descriptions */
-    uint32_t sensors_forgotten; /* descriptions of silent sensors */
+    /* scans stepped before hold_us had passed, because another scan needed their room */
+    uint32_t scans_early;
+    uint32_t scans_refused;  /* scans that the tracker refused, or whose sensor it refused */
+    uint32_t plots_refused;  /* plots of scans whose sensor the tracker refused */
+    uint32_t frames_refused; /* frames that the tracker refused */
+    /* scans of bearings whose sensor is too far from the others, or has no room in the frames */
+    uint32_t bearings_refused;
+    uint32_t sensors_refused; /* descriptions of sensors that the tracker refused */
+    /* descriptions of silent sensors that the tracker was made to forget */
+    uint32_t sensors_forgotten;
 };
 
-/* Step times since the last rho_node_status. */
+/* Durations of the steps since the last rho_node_status. */
 struct rho_node_timing {
     uint32_t sum_us, max_us, steps;
 };
 
 enum rho_node_due {
     RHO_NODE_NOTHING = 0,
-    RHO_NODE_SCAN,   /* rho_node_step steps a scan of plots: `scan` of the node */
-    RHO_NODE_FRAME,  /* rho_node_step steps a frame of bearings */
-    RHO_NODE_RESTART /* tracker and initiators have to begin anew */
+    RHO_NODE_SCAN,   /* a scan of plots, `scan` of the node, is due: rho_node_step steps it */
+    RHO_NODE_FRAME,  /* a frame of bearings is due: rho_node_step steps it */
+    RHO_NODE_RESTART /* tracker and initiators are to be initialised anew */
 };
 
 struct rho_node {
     uint32_t magic;
     int32_t step;  /* number of the last step; wraps */
-    int32_t epoch; /* the caller's: to be another one after each restart */
+    int32_t epoch; /* boot number, set by the caller: to be another one after each restart */
     struct rho_node_config config;
     struct rho_node_counters counters;
     struct rho_node_timing timing;
-    struct rho_scan scan;                /* to be stepped */
-    struct rho_scan_assembler_item item; /* private: the scan that was taken last */
-    int64_t now_us;                      /* reception clock, of the last call that told it */
-    int64_t frame_due_us; /* private: when the open frame closes; INT64_MAX: with another scan */
-    uint16_t first_waiting, num_waiting; /* private: in the order of time */
-    uint8_t
-        is_restored;  /* the caller's: 1: the tracker is a snapshot's, and no scan has come since */
-    uint8_t has_item; /* private, as all that follow */
+    struct rho_scan scan; /* scan that rho_node_step steps */
+    /* private: the scan that was taken last from the assembler */
+    struct rho_scan_assembler_item item;
+    int64_t now_us; /* reception time that the caller gave last */
+    /*
+     * private: reception time at which the open frame closes; INT64_MAX: only another scan does it
+     */
+    int64_t frame_due_us;
+    uint16_t first_waiting, num_waiting; /* private: ring of waiting scans in the order of time */
+    /*
+     * set by the caller. 1: the tracker was loaded from a snapshot, and no scan has come since
+     */
+    uint8_t is_restored;
+    /* private: item holds a scan that is not given yet; all following fields are private, too */
+    uint8_t has_item;
     uint8_t is_making_room;
     uint8_t is_forgetting;
     uint8_t has_closed;
-    uint8_t due;          /* enum rho_node_due */
-    uint8_t stepped;      /* likewise, of the last step */
-    uint8_t next_learned; /* place of the sensor that rho_node_learned tells of next */
-    uint8_t refused_scans[RHO_MAX_PASSIVE_SENSORS]; /* in a row, of each of the frames' sensors */
+    uint8_t due;          /* enum rho_node_due: the task that rho_node_next gave last */
+    uint8_t stepped;      /* enum rho_node_due: the task that was stepped last */
+    uint8_t next_learned; /* place of the sensor whose learned_t rho_node_learned makes next */
+    /* successive refused scans of each sensor of the frames */
+    uint8_t refused_scans[RHO_MAX_PASSIVE_SENSORS];
 };
 
 /*
- * Prepares a node; the config is copied. The objects are initialised and empty, or a snapshot's.
+ * Prepares a node; the config is copied. Its objects are initialised and empty, or from a snapshot.
  *   size   sizeof(struct rho_node) of the caller
- * Errors: NULL (also of an object that is not there), SIZE, STATE (frames that are not
+ * Errors: NULL (also where an object is missing), SIZE, STATE (frames that are not
  * initialised), CONFIG (a range that is negative or not finite). Cost: sizeof(node) bytes cleared.
  * Stack: 120 bytes.
  */
@@ -150,54 +165,54 @@ RHO_MUST_CHECK enum rho_status rho_node_init(struct rho_node *node, size_t size,
                                              const struct rho_node_config *config);
 
 /*
- * Takes one message; any bytes may be given: rho_scan_assembler_take says what becomes of them.
- * Errors: NULL, STATE (not initialised), TYPE (no sensor's channel), CAPACITY: do what
- * rho_node_next says until it is RHO_NODE_NOTHING, and take the message again.
+ * Takes one message of any bytes, as rho_scan_assembler_take does.
+ * Errors: NULL, STATE (not initialised), TYPE (not a sensor's channel), CAPACITY: do the tasks of
+ * rho_node_next until it returns RHO_NODE_NOTHING, and take the message again.
  * Stack: 2 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_take(struct rho_node *node, const char *channel,
                                              const uint8_t *data, size_t size, int64_t now_us);
 
 /*
- * The next task of the caller. now_us INT64_MAX: all that is there is stepped.
- * RHO_NODE_NOTHING also where the node is not initialised. Cost: that of rho_scan_assembler_next,
- * the plots of a scan copied where it waits, of passive sensors that of rho_frames_push.
+ * Returns the next task of the caller; RHO_NODE_NOTHING also where the node is not initialised.
+ * now_us INT64_MAX: no scan waits any longer. Cost: that of rho_scan_assembler_next; the plots of a
+ * scan are copied where it waits; with passive sensors, that of rho_frames_push.
  * Stack: 450 bytes.
  */
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us);
 
 /*
- * Steps what rho_node_next has given, once.
- *   initiator  of a scan: where its plots start tracks; NULL: nowhere. Of a frame it is not used.
- * Errors: NULL (node), STATE (nothing is due), those of rho_tracker_step, which are counted; the
- * report is that of the step before, then. Cost: that of rho_tracker_step.
+ * Steps the scan or frame that rho_node_next has given, once.
+ *   initiator  starts tracks from a scan's plots; NULL: none start. Not used for a frame.
+ * Errors: NULL (node), STATE (nothing is due), and those of rho_tracker_step, which are counted;
+ * the report then stays that of the step before. Cost: that of rho_tracker_step.
  * Stack: 4 KB.
  */
 RHO_MUST_CHECK enum rho_status rho_node_step(struct rho_node *node,
                                              struct rho_initiator *initiator);
 
-/* Counts the time that a step took, for rho_node_status. Constant cost. */
+/* Counts the duration of a step for rho_node_status. Constant cost. */
 void rho_node_count_time(struct rho_node *node, int64_t took_us);
 
 /*
- * When rho_node_next is to be called though no message has come, by the reception clock;
- * INT64_MAX: not before one comes. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS.
+ * Reception time at which rho_node_next is to be called even if no message has come; INT64_MAX:
+ * only after a message. Cost: RHO_MAX_OPEN_SCANS times RHO_MAX_SENSORS.
  * Stack: 190 bytes.
  */
 int64_t rho_node_due_us(const struct rho_node *node);
 
 /*
- * Messages of the last step: its tracks in parts, then its peaks, then the bodies of its tracks in
- * parts, where the tracker was told of bodies. Cost: then that of rho_publish_num_body_parts.
+ * Number of messages of the last step: tracks in parts, then peaks, then the tracks' bodies in
+ * parts where the tracker estimates bodies. Cost: with bodies, that of rho_publish_num_body_parts.
  */
 uint16_t rho_node_num_messages(const struct rho_node *node);
 
-/* The channel of such a message. Constant cost. */
+/* Channel of a message of the last step; part: as in rho_node_publish. Constant cost. */
 const char *rho_node_channel(const struct rho_node *node, uint16_t part);
 
 /*
  * Writes a message of the last step.
- *   initiator  that of the step: its candidates are the peaks; NULL: none. Of a frame not used.
+ *   initiator  the step's: its candidates are the peaks; NULL: no peaks. Not used after a frame.
  *   part       0 .. rho_node_num_messages - 1
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: that of
  * rho_publish_tracks, rho_publish_bodies and rho_publish_peaks. Stack: 480 bytes.
@@ -208,22 +223,22 @@ RHO_MUST_CHECK enum rho_status rho_node_publish(const struct rho_node *node,
                                                 size_t *size);
 
 /*
- * Fills status_t but for fragments_refused and the origin, which are the caller's; step times begin
- * anew.
- *   initiator  its density of clutter is told; NULL: 0
+ * Fills status_t but for fragments_refused and the origin, which the caller fills; the node's step
+ * times begin anew.
+ *   initiator  tells the density of clutter; NULL: the density is 0
  * Cost: that of rho_publish_status. Stack: 200 bytes.
  */
 void rho_node_status(struct rho_node *node, const struct rho_initiator *initiator,
                      struct rho_message_status *status);
 
 /*
- * Fills work_t but for reports_not_printed and events_not_logged, which are the caller's.
+ * Fills work_t but for reports_not_printed and events_not_logged, which the caller fills.
  * Constant cost. Stack: 120 bytes.
  */
 void rho_node_work(const struct rho_node *node, struct rho_message_work *work);
 
 /*
- * Fills learned_t of one described sensor: at each call of the next one.
+ * Fills learned_t of one described sensor; successive calls go through all described sensors.
  * Returns 0 where no sensor is described; *learned is unchanged then. Cost: that of
  * rho_publish_learned. Stack: 248 bytes.
  */

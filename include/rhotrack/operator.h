@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * operator: tracks that a person starts, drops, renumbers and freezes by hand, and areas that a
- * person excludes: places in which no tracks are to start, as a wind farm, a junction, a harbour
- * basin. All between two steps.
+ * operator: lets a person start, drop, renumber and freeze tracks by hand, and exclude areas in
+ * which no tracks are to start, such as a wind farm, a junction or a harbour basin. All functions
+ * are called between two steps.
  *
  *     rho_tracker_step(&tracker, &initiator, &scan, &report);
  *     if (rho_tracker_drop_track(&tracker, 12, &report) != RHO_OK) {
  *         ... there is no such track
  *     }
  *
- * Functions that take a report take the last step's, and change what it says of the tracks: they
- * are to be called before the report is used, or published. What is refused changes nothing.
+ * Functions with a report update the tracks in the last step's report: they are to be called before
+ * the report is used or published. A refused call changes nothing.
  *
- * Tracks by hand are counted as all others (tracks_started, tracks_ended), those that were dropped
- * in tracks_dropped, too. rhotrack/command.h does the same by messages.
+ * Tracks that start or end by hand are counted in tracks_started and tracks_ended, dropped ones in
+ * tracks_dropped, too. rhotrack/command.h does the same by messages.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -30,13 +30,15 @@
 extern "C" {
 #endif
 
-/* The highest identity that a person can give: there is room above it for those of later tracks. */
+/* Highest track identity that a person can give; later tracks get identities above it. */
 #define RHO_LIMIT_TRACK_ID (1u << 30)
 
-/* A target as a person sees it, at the time of the last step. */
+/* Start of a track by an operator: position and velocity at the time of the last step. */
 struct rho_operator_start {
-    float x_m, y_m, sigma_m;         /* place, within RHO_LIMIT_POSITION_M; 1e-3 .. 1e5 m */
-    float vx_mps, vy_mps, sigma_mps; /* velocity, 1e-3 .. 1e5 m/s; sigma 0: not known */
+    /* position, within RHO_LIMIT_POSITION_M, and its sigma, 1e-3 .. 1e5 m */
+    float x_m, y_m, sigma_m;
+    /* velocity, and its sigma, 1e-3 .. 1e5 m/s; sigma 0: the velocity is not known */
+    float vx_mps, vy_mps, sigma_mps;
 };
 
 /*
@@ -60,8 +62,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_drop_track(struct rho_tracker *tracke
                                                       uint32_t track_id, struct rho_report *report);
 
 /*
- * Gives a track another identity, as that of a lost track which it continues. The report says of
- * the old one that it has ended.
+ * Gives a track another identity, for example that of a lost track which it continues. The report
+ * lists the old identity as ended.
  *   new_id  1 .. RHO_LIMIT_TRACK_ID, of no live track; the next track's is above it
  * Errors: as rho_tracker_drop_track, and VALUE for new_id. Cost: the report. Stack: 2 KB.
  */
@@ -94,8 +96,8 @@ RHO_MUST_CHECK enum rho_status rho_tracker_exclude_area(struct rho_tracker *trac
                                                         const struct rho_extent *area);
 
 /*
- * Takes back the excluded areas that hold a place. Errors: NULL, STATE (not initialised), VALUE
- * (none does). Cost: areas.
+ * Removes the excluded areas that contain a place. Errors: NULL, STATE (not initialised), VALUE (no
+ * area contains it). Cost: areas.
  */
 RHO_MUST_CHECK enum rho_status rho_tracker_include_place(struct rho_tracker *tracker, float x_m,
                                                          float y_m);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * publish: what a step of the tracker made, and what it thought, as messages.
+ * publish: messages of the results of a tracker's step, and of its intermediate results.
  *
- * What it made: tracks, bodies, peaks, counters, sensors, echoes and zones, for RHO_TRACKS,
+ * Results: tracks, bodies, peaks, counters, sensors, echoes and zones, for RHO_TRACKS,
  * RHO_BODIES, RHO_PEAKS, RHO_STATUS, RHO_WORK, RHO_SENSORS, RHO_LEARNED, RHO_CLUTTER, RHO_ZONES and
  * RHO_ZONE_EVENTS.
  *
@@ -11,23 +11,23 @@
  *         send(RHO_MESSAGE_TRACK_LIST_CHANNEL, buffer, size);
  *     }
  *
- * Messages are written element by element: nothing but the buffer is needed. `step` is the
- * tracker's own number, one more each, and `epoch` its boot number: receivers see by them what they
- * missed.
+ * Messages are written element by element: nothing but the buffer is needed. `step` is the number
+ * of the step, one more each, and `epoch` the tracker's boot number: receivers detect missed
+ * messages by them.
  *
- * What it thought is shown: ghost matrices (RHO_GHOSTS), accumulators and their planes
- * (RHO_ACCUMULATOR, RHO_PLANE), hypotheses of tracks (RHO_HYPOTHESES).
+ * Intermediate results are sent by a `show`: ghost matrices (RHO_GHOSTS), accumulators and their
+ * planes (RHO_ACCUMULATOR, RHO_PLANE), hypotheses of tracks (RHO_HYPOTHESES).
  *
  *     rho_show_begin(&show, &source, now_us);                    after a step and its starts
  *     while ((channel = rho_show_next(&show, &source, buffer, sizeof buffer, &size))) {
  *         send(channel, buffer, size);
  *     }
  *
- * A show changes nothing of what it shows, and nothing pays for it that is not linked with it. Each
- * kind has a rate. A picture (all pairs of sensors of a frame, or all planes of a search) is sent
- * whole or not at all: it begins while the kind is within its rate, and what is beyond it delays
- * the next one. Tracks take turns. Messages that were left out are counted, and told in each
- * message.
+ * A show does not change the results, and costs nothing where it is not linked. Each kind of
+ * message has a rate. A picture (all pairs of sensors of a frame, or all planes of a search) is
+ * sent whole or not at all: it begins while the kind is within its rate, and its excess over the
+ * rate delays the next picture. Tracks take turns. Messages that were left out are counted, and
+ * each message has their number.
  *
  * Stack: 32 bytes at most where nothing else is said.
  */
@@ -53,14 +53,14 @@
 extern "C" {
 #endif
 
-/* ---- What a step made ------------------------------------------------------------------------ */
+/* ---- Results of a step ----------------------------------------------------------------------- */
 
-/* Messages that the report's tracks take; 1 where there are none. Constant cost. */
+/* Number of messages (parts) of a report's tracks; 1 where it has none. Constant cost. */
 uint16_t rho_publish_num_parts(const struct rho_report *report);
 
 /*
- * One part of the report's tracks (track_list_t): first the live ones, then those that ended,
- * DELETED, of which only the identity is said. sensor_id beyond int16_t becomes -1, counts stay at
+ * Writes one part of the report's tracks (track_list_t): first the live tracks, then ended ones
+ * with status DELETED and their identity alone. sensor_id beyond int16_t becomes -1, counts stay at
  * 32767.
  *   part  0 .. rho_publish_num_parts - 1
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: the
@@ -72,16 +72,16 @@ RHO_MUST_CHECK enum rho_status rho_publish_tracks(const struct rho_report *repor
                                                   size_t capacity, size_t *size);
 
 /*
- * Messages that the bodies of the report's tracks take, 1 where none has one yet; 0: the tracker
- * was not told that its targets have bodies (rhotrack/body.h), or there is no tracker or report.
- *   report  of the tracker's last step
+ * Number of messages (parts) of the bodies of the report's tracks; 1 where no track has a body yet;
+ * 0: the tracker estimates no bodies (rhotrack/body.h), or there is no tracker or report.
+ *   report  report of the tracker's last step
  * Cost: tracks. Stack: 160 bytes.
  */
 uint16_t rho_publish_num_body_parts(const struct rho_tracker *tracker,
                                     const struct rho_report *report);
 
 /*
- * One part of these bodies (body_list_t), in the order of the tracks.
+ * Writes one part of the bodies of the report's tracks (body_list_t), in the order of the tracks.
  *   part  0 .. rho_publish_num_body_parts - 1
  * Errors: NULL, VALUE (no such part), CAPACITY (of the buffer); *size is unchanged. Cost: tracks.
  * Stack: 340 bytes.
@@ -92,8 +92,8 @@ RHO_MUST_CHECK enum rho_status rho_publish_bodies(const struct rho_tracker *trac
                                                   size_t capacity, size_t *size);
 
 /*
- * The best candidates of the last searches (peak_list_t), those of plots before those of bearings;
- * each may be NULL.
+ * Writes the best candidates of the last searches (peak_list_t): those of plots (initiator), then
+ * those of bearings (passive); each may be NULL.
  * Errors: NULL (buffer, size), CAPACITY (of the buffer); *size is unchanged. Cost: the message's
  * bytes, and a square root and an arctangent a peak. Stack: 280 bytes.
  */
@@ -103,25 +103,25 @@ RHO_MUST_CHECK enum rho_status rho_publish_peaks(const struct rho_initiator *ini
                                                  size_t *size);
 
 /*
- * Fills the counters and numbers of tracks that these objects tell; each may be NULL, and counts as
- * zeros. All other fields are 0: scan, epoch, fragments_refused, step_us, step_max_us and the
- * origin are the caller's. Cost: RHO_MAX_TRACKS. Stack: 120 bytes.
+ * Fills status_t with the counters of these objects and the numbers of tracks; an object that is
+ * NULL counts as zeros. All other fields are 0: the caller fills scan, epoch, fragments_refused,
+ * step_us, step_max_us and the origin. Cost: RHO_MAX_TRACKS. Stack: 120 bytes.
  */
 void rho_publish_status(const struct rho_scan_assembler *assembler, const struct rho_frames *frames,
                         const struct rho_tracker *tracker, const struct rho_initiator *initiator,
                         struct rho_message_status *status);
 
 /*
- * Fills what the limit on work did, work_max itself among it; a tracker that is NULL counts as
- * zeros. scan, epoch, num_steps, reports_not_printed and events_not_logged are 0: they are the
- * caller's. Constant cost. Stack: 80 bytes.
+ * Fills work_t with the limit on work, work_max, and its counters; a tracker that is NULL counts as
+ * zeros. scan, epoch, num_steps, reports_not_printed and events_not_logged are 0: the caller fills
+ * them. Constant cost. Stack: 80 bytes.
  */
 void rho_publish_work(const struct rho_tracker *tracker, struct rho_message_work *work);
 
 /*
- * How one sensor is doing (sensor_t): what the assembler hears of it, and of a sensor of plots what
- * the tracker makes of it.
- *   tracker  NULL, or without RHO_SECTORS: nothing is known of that, and is_doubted is 0
+ * Fills the state of one sensor (sensor_t): its reception by the assembler, and, for a sensor of
+ * plots, its health by the tracker.
+ *   tracker  NULL, or a build without RHO_SECTORS: the health is not known, and is_doubted is 0
  *   now_us   the assembler's reception clock
  *   place    in the assembler: 0 .. RHO_MAX_SENSORS - 1; a sensor keeps its place while it is known
  * Returns 0 where there is no sensor at this place, or assembler or sensor is NULL; *sensor is
@@ -131,12 +131,15 @@ int rho_publish_sensor(const struct rho_scan_assembler *assembler,
                        const struct rho_tracker *tracker, int64_t now_us, unsigned place,
                        struct rho_message_sensor *sensor);
 
-/* Messages that the assembler's sensors take; 1 where there are none. Cost: RHO_MAX_SENSORS. */
+/*
+ * Number of messages (parts) of the assembler's sensors; 1 where it has none. Cost:
+ * RHO_MAX_SENSORS.
+ */
 uint16_t rho_publish_num_sensor_parts(const struct rho_scan_assembler *assembler);
 
 /*
  * Fills one part of the list of the sensors that the assembler hears, in the order of their places.
- * `utime` is the tracker's time, 0 without one; scan and epoch are 0: they are the caller's.
+ * `utime` is the tracker's time, 0 without one; scan and epoch are 0: the caller fills them.
  *   part  0 .. rho_publish_num_sensor_parts - 1
  * Errors: NULL (assembler, list), VALUE (no such part); *list is unchanged. Cost: RHO_MAX_SENSORS
  * squared. Stack: 320 bytes.
@@ -147,8 +150,8 @@ RHO_MUST_CHECK enum rho_status rho_publish_sensors(const struct rho_scan_assembl
                                                    struct rho_message_sensor_list *list);
 
 /*
- * What the tracker has learned of one described sensor, and uses. scan and epoch are 0: they are
- * the caller's. sensor_id beyond int16_t becomes -1.
+ * Fills learned_t: noise and pd that the tracker has learned of one described sensor. scan and
+ * epoch are 0: the caller fills them. sensor_id beyond int16_t becomes -1.
  *   place  among the tracker's sensors: 0 .. num_sensors - 1
  * Returns 0 where there is no sensor at this place, or tracker or learned is NULL; *learned is
  * unchanged then. Cost: RHO_MAX_SENSORS. Stack: 232 bytes.
@@ -157,14 +160,14 @@ int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,
                         struct rho_message_learned *learned);
 
 /*
- * Messages that the known echoes of the tracker's clutter map take; 1 where there are none. Cost:
- * RHO_MAX_ECHOES.
+ * Number of messages (parts) of the known echoes in a tracker's clutter map; 1 where there are
+ * none. Cost: RHO_MAX_ECHOES.
  */
 uint16_t rho_publish_num_clutter_parts(const struct rho_tracker *tracker);
 
 /*
  * Fills one part of the list of known echoes (clutter_map_t). `utime` is the tracker's time; scan
- * and epoch are 0: they are the caller's. sensor_id beyond int16_t becomes -1, hits stay at 32767.
+ * and epoch are 0: the caller fills them. sensor_id beyond int16_t becomes -1, hits stay at 32767.
  *   part  0 .. rho_publish_num_clutter_parts - 1
  * Errors: NULL, VALUE (no such part); *list is unchanged. Cost: RHO_MAX_ECHOES. Stack: 120 bytes.
  */
@@ -172,51 +175,57 @@ RHO_MUST_CHECK enum rho_status rho_publish_clutter(const struct rho_tracker *tra
                                                    struct rho_message_clutter_map *list);
 
 /*
- * What the zones have counted (zone_list_t), and who entered and left in their last step
- * (zone_event_list_t). scan and epoch are 0: they are the caller's. Zones that are NULL have none;
- * counters stay at INT32_MAX. Cost: zones, events. Stack: 80 bytes.
+ * Fill the zones' counts (zone_list_t), and the entries and exits of tracks in their last step
+ * (zone_event_list_t). scan and epoch are 0: the caller fills them. With zones NULL the lists are
+ * empty; counters stay at INT32_MAX. Cost: zones, events. Stack: 80 bytes.
  */
 void rho_publish_zones(const struct rho_zones *zones, struct rho_message_zone_list *list);
 void rho_publish_zone_events(const struct rho_zones *zones,
                              struct rho_message_zone_event_list *list);
 
-/* ---- What a step thought --------------------------------------------------------------------- */
+/* ---- Intermediate results of a step ---------------------------------------------------------- */
 
 enum rho_show_kind {
-    RHO_SHOW_GHOSTS,     /* ghost_matrix_t: each pair of sensors in the newest frame */
-    RHO_SHOW_VOTES,      /* accumulator_t and plane_t: the last search */
-    RHO_SHOW_HYPOTHESES, /* hypotheses_t: each track */
+    RHO_SHOW_GHOSTS,     /* ghost_matrix_t of each pair of sensors in the newest frame */
+    RHO_SHOW_VOTES,      /* accumulator_t and plane_t of the last search */
+    RHO_SHOW_HYPOTHESES, /* hypotheses_t of each track */
     RHO_NUM_SHOW_KINDS
 };
 
-/* Rows and columns of a plane_t, and the words that its picture takes. */
+/* Rows and columns of a plane_t's picture, and the number of words in its buffer. */
 #define RHO_SHOW_SIDE 64u
 #define RHO_SHOW_PICTURE (RHO_SHOW_SIDE * RHO_SHOW_SIDE)
 
-/* Longest message. */
+/* Bytes of the longest message that a show writes. */
 #define RHO_SHOW_MAX_SIZE 1472u
 
 struct rho_show_config {
-    uint16_t kinds;          /* bit k: kind k is shown */
-    uint16_t messages_per_s; /* of a kind, 1 .. 10000: over a second, or a picture */
-    uint32_t *picture;       /* RHO_SHOW_PICTURE words of the caller; NULL: no plane_t */
+    uint16_t kinds; /* bit k is set: messages of kind k are made */
+    /* largest rate of each kind, 1 .. 10000, over a second or a whole picture */
+    uint16_t messages_per_s;
+    /* the caller's buffer of RHO_SHOW_PICTURE words for pictures; NULL: no plane_t is made */
+    uint32_t *picture;
 };
 
-/* The objects after a step. */
+/* Objects of a step whose contents a show makes messages of. */
 struct rho_show_source {
     const struct rho_tracker *tracker;
     const struct rho_report *report;
-    /* that took part in the step; else NULL. Their scratch is used: no result of theirs changes */
+    /* searches that took part in the step, else NULL; their scratch is used, their results stay */
     struct rho_paper_starts *starts;
     struct rho_passive_paper *paper;
-    int32_t step, epoch; /* in the messages */
+    int32_t step, epoch; /* number of the step, and boot number, for the messages */
 };
 
 struct rho_show_rate {
-    int64_t since_us;  /* of now_us: up to when credit_us counts */
-    int64_t credit_us; /* time in which nothing was sent, a second at most; below 0: too much was */
-    uint32_t not_sent; /* messages, since init; saturates */
-    uint32_t left, at; /* messages of this step: to come; the number of the next one */
+    int64_t since_us; /* time now_us up to which credit_us was counted */
+    /*
+     * credit for sending: time without messages, at most a second; below 0: the rate was exceeded
+     */
+    int64_t credit_us;
+    uint32_t not_sent; /* messages that were left out since rho_show_init; saturates */
+    /* messages of this step that are still to be written; number of the next message */
+    uint32_t left, at;
     uint8_t has_time;
 };
 
@@ -224,24 +233,26 @@ struct rho_show {
     uint32_t magic;
     struct rho_show_config config;
     struct rho_show_rate rates[RHO_NUM_SHOW_KINDS];
-    uint32_t last_track_id; /* that was shown */
-    uint32_t votes_max;     /* of the picture */
+    uint32_t last_track_id; /* identity of the track that was shown last */
+    uint32_t votes_max;     /* most votes of a cell in the picture */
 };
 
-/* All kinds, 50 messages a second, no picture. Constant cost. */
+/* Default: all kinds, 50 messages a second, no picture. Constant cost. */
 void rho_show_config_default(struct rho_show_config *config);
 
 /*
- * Errors: NULL, SIZE, CONFIG (no kind or an unknown one, the rate). The picture stays the caller's.
+ * Prepares a show; the config is copied, the picture's buffer stays the caller's.
+ *   size   sizeof(struct rho_show) of the caller
+ * Errors: NULL, SIZE, CONFIG (no kind or an unknown one, or a rate outside its range).
  * Constant cost. Stack: 160 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_show_init(struct rho_show *show, size_t size,
                                              const struct rho_show_config *config);
 
 /*
- * Decides which messages the step has: one of which rho_show_next has not told all is over.
- *   now_us  clock of the rates; one that goes back begins them anew
- * Without a show that is initialised, a tracker or a report nothing is shown. Cost: tracks, and
+ * Plans the messages of a step; messages of the step before that were not written are dropped.
+ *   now_us  clock of the rates; where it goes back the rates begin anew
+ * Nothing is planned without an initialised show, a tracker or a report. Cost: tracks, and
  * pairs of sensors. Stack: 330 bytes.
  */
 void rho_show_begin(struct rho_show *show, const struct rho_show_source *source, int64_t now_us);
@@ -249,15 +260,15 @@ void rho_show_begin(struct rho_show *show, const struct rho_show_source *source,
 /*
  * Writes the next message of the step, whose objects have not changed since rho_show_begin.
  *   buffer  of RHO_SHOW_MAX_SIZE bytes or more
- * Returns its channel; NULL: there is no more, or the buffer is too small. Cost: of a ghost matrix
- * rho_passive_paper_ghosts a part; of an accumulator_t rho_passive_paper_cells, and with a picture
- * rho_hough_plane or rho_passive_paper_plane; of a track rho_tracker_evidence_of. Stack: 4.5 KB
- * with 8 bearings a scan, 7 KB with 16.
+ * Returns the message's channel; NULL: no message is left, or the buffer is too small. Cost: for a
+ * part of a ghost matrix rho_passive_paper_ghosts; for an accumulator_t rho_passive_paper_cells,
+ * and with a picture rho_hough_plane or rho_passive_paper_plane; for a track
+ * rho_tracker_evidence_of. Stack: 4.5 KB with 8 bearings a scan, 7 KB with 16.
  */
 const char *rho_show_next(struct rho_show *show, const struct rho_show_source *source,
                           uint8_t *buffer, size_t capacity, size_t *size);
 
-/* Messages of a kind that its rate has left out so far; 0 of no such kind. Constant cost. */
+/* Number of a kind's messages that its rate has left out; 0 for an unknown kind. Constant cost. */
 uint32_t rho_show_not_sent(const struct rho_show *show, enum rho_show_kind kind);
 
 #ifdef __cplusplus

@@ -106,10 +106,10 @@
 extern "C" {
 #endif
 
-/* Numbers that a sensor may skip and still be accepted at once. */
+/* Largest number of scan numbers that a sensor may skip and still be accepted at once. */
 #define RHO_SCAN_ASSEMBLER_SKIP_MAX 64
 
-/* Series of refused scans that are remembered for each sensor. */
+/* Number of series of refused scans that are remembered for each sensor. */
 #define RHO_SCAN_ASSEMBLER_STRAYS 4
 
 /*
@@ -119,11 +119,14 @@ extern "C" {
 #define RHO_SCAN_ASSEMBLER_TRUST_US 600000000u
 #define RHO_SCAN_ASSEMBLER_EQUALS_US 60000000u
 
-/* Noise where the messages say 0; each above 0 and within the limits of types.h. */
+/*
+ * Noise of measurements whose message states none; each above 0 and within the limits of types.h.
+ */
 struct rho_scan_assembler_noise {
-    float sigma_m, sigma_mps; /* of plots */
-    float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps; /* polar */
-    float sigma_rad; /* bearings */
+    float sigma_m, sigma_mps; /* noise of Cartesian plots */
+    /* noise of polar plots */
+    float sigma_range_m, sigma_azimuth_rad, sigma_elevation_rad, sigma_range_rate_mps;
+    float sigma_rad; /* noise of bearings */
 };
 
 /*
@@ -139,55 +142,76 @@ struct rho_scan_assembler_sensor {
 };
 
 struct rho_scan_assembler_config {
-    /* 0 .. 10 s; 0: nothing waits for other sensors, and parts wait for a newer scan alone */
+    /*
+     * longest time that a scan waits, 0 .. 10 s; 0: no scan waits for other sensors, and parts only
+     * for a newer scan
+     */
     int64_t hold_us;
-    /* 0 .. 60 s; 0: a scan behind a newer one that has gone out is dropped */
+    /*
+     * longest delay of an out-of-sequence scan behind the newest scan that went out, 0 .. 60 s; 0:
+     * such scans are dropped
+     */
     int64_t late_max_us;
-    int64_t jump_max_us;   /* 1 s .. 1 h */
-    uint32_t flood_per_s;  /* 1 .. 1e6 */
-    uint32_t follow_scans; /* 2 .. 255 */
-    uint16_t
-        gives_other; /* 1: items of sensors that were not described have `other` as their sensor */
-    uint16_t is_record;            /* 1: no sensor is a newcomer: for files */
-    uint32_t stranger_plots_per_s; /* 1 .. 1e6: of all newcomers that are not named, together */
-    uint32_t reserved;             /* 0 */
-    uint32_t num_allowed;          /* 0 .. RHO_MAX_SENSORS; 0: all sensors are */
-    /* sensor_ids; messages of any other are dropped; an even count leaves no padding */
+    /*
+     * silence that ends a sensor's part in the order and clock, and largest jump of a clock, 1 s ..
+     * 1 h
+     */
+    int64_t jump_max_us;
+    uint32_t flood_per_s; /* largest number of messages of a sensor in a second, 1 .. 1e6 */
+    /* scans that must agree before a restarted sensor or another clock is followed, 2 .. 255 */
+    uint32_t follow_scans;
+    uint16_t gives_other; /* 1: items of sensors that were not described have the sensor `other` */
+    uint16_t is_record;   /* 1: scans come from a file, and no sensor is a newcomer */
+    /*
+     * largest number of plots in a second, 1 .. 1e6, of all newcomers together that the config does
+     * not name
+     */
+    uint32_t stranger_plots_per_s;
+    uint32_t reserved; /* padding: 0 */
+    /* number of sensor_ids in `allowed`, 0 .. RHO_MAX_SENSORS; 0: all sensors are allowed */
+    uint32_t num_allowed;
+    /* sensor_ids whose messages are not dropped; an even count leaves no padding */
     int16_t allowed[(RHO_MAX_SENSORS + 1) / 2 * 2];
-    /* of sensors that are not described; its sensor_id is not used */
+    /* description of sensors that are not described; its sensor_id is not used */
     struct rho_scan_assembler_sensor other;
 };
 
-/* Since init; all saturate. */
+/* Counters of a scan assembler since rho_scan_assembler_init; all saturate. */
 struct rho_scan_assembler_counters {
-    uint32_t messages_bad;        /* length, count, a value, the sensor's number */
-    uint32_t messages_wrong_type; /* the fingerprint is not the channel's */
-    /* and those of newcomers beyond stranger_plots_per_s, or their turn */
+    uint32_t messages_bad; /* messages with an invalid length, count, value or sensor number */
+    uint32_t messages_wrong_type; /* messages whose fingerprint is not that of the channel */
+    /*
+     * messages beyond flood_per_s; and newcomers' messages beyond stranger_plots_per_s, or out of
+     * turn
+     */
     uint32_t messages_flooded;
-    uint32_t messages_not_allowed; /* of a sensor that is not in `allowed` */
-    uint32_t scans_accepted;       /* of which a first part came */
+    uint32_t messages_not_allowed; /* messages of a sensor that is not in `allowed` */
+    uint32_t scans_accepted;       /* scans of which a first part was accepted */
     /*
      * older than one of the same sensor that was accepted, whatever becomes of them (those that
      * found room are accepted, too), but for those of newcomers without a turn; and those of a
      * clock that was given up
      */
     uint32_t scans_late;
-    /* scans, or parts of one, that were there before; parts that come when the scan is closed */
+    /* scans or parts that were received before, and parts of scans that were closed before */
     uint32_t scans_duplicate;
     /*
-     * of those, not counted there: with another content, so that two senders use one sensor_id (or
-     * damage)
+     * duplicates with other contents, not counted in scans_duplicate: two senders use one
+     * sensor_id, or a message was damaged
      */
     uint32_t scans_other;
-    uint32_t scans_lost;       /* numbers skipped; those that come after all are late, too */
-    uint32_t scans_bad;        /* contradict the other parts, or the sensor's numbers */
-    uint32_t scans_incomplete; /* went out without some of their parts */
-    /* refused for their time: far off the sensor's own, or the common clock */
+    /* scan numbers that were skipped; scans that come after all are counted in scans_late, too */
+    uint32_t scans_lost;
+    /* messages that contradict other parts of their scan, or the sensor's numbers */
+    uint32_t scans_bad;
+    uint32_t scans_incomplete; /* scans that went out without some of their parts */
+    /* scans refused for their time: far off the sensor's other scans, or off the common clock */
     uint32_t clock_jumps;
-    uint32_t sensor_restarts; /* new numbers or times followed */
-    uint32_t sensors_no_room; /* messages of sensors beyond RHO_MAX_SENSORS or RHO_MAX_OPEN_SCANS */
-    uint32_t bearings_in;     /* of accepted scans */
-    /* of accepted scans beyond RHO_MAX_PLOTS or RHO_MAX_BEARINGS: the last ones */
+    uint32_t sensor_restarts; /* restarts of a sensor: new numbers or times that were followed */
+    /* messages of sensors beyond RHO_MAX_SENSORS, or without room in RHO_MAX_OPEN_SCANS */
+    uint32_t sensors_no_room;
+    uint32_t bearings_in; /* bearings of accepted scans */
+    /* last plots or bearings of accepted scans, beyond RHO_MAX_PLOTS or RHO_MAX_BEARINGS */
     uint32_t plots_no_room;
 };
 
@@ -198,68 +222,74 @@ enum rho_scan_assembler_kind {
     RHO_NUM_SCAN_ASSEMBLER_KINDS
 };
 
-/* True of kinds that the library is built with. */
+/* 1 for kinds of scans that the library is built with. */
 #define RHO_SCAN_ASSEMBLER_HAS(kind) (((RHO_SCAN_KINDS) >> (kind)&1) != 0)
 
-/* True of that kind: known to the compiler where there is no such, or no other. */
+/* 1 where a kind is `which`; a constant where the build has no such kind, or no other. */
 #define RHO_SCAN_ASSEMBLER_IS(kind, which)                                                         \
     ((RHO_SCAN_KINDS) == 1 << (which) || (RHO_SCAN_ASSEMBLER_HAS(which) && (kind) == (which)))
 
-/* Position in a sensor's sequence of scans. */
+/* Position of a scan in its sensor's sequence: time, number and epoch. */
 struct rho_scan_assembler_place {
     int64_t time_us;
     int32_t scan, epoch;
 };
 
-/* Scans that were refused for their number or time, and agree with one another. */
+/* Series of scans that were refused for their number or time, and agree with one another. */
 struct rho_scan_assembler_stray {
-    struct rho_scan_assembler_place place; /* the newest of them */
-    uint32_t scans;                        /* how many; 0: none */
-    uint32_t reserved;                     /* 0 */
+    struct rho_scan_assembler_place place; /* position of the newest scan of the series */
+    uint32_t scans;    /* number of scans in the series; 0: there is no series */
+    uint32_t reserved; /* padding: 0 */
 };
 
-/* Rate limit: what is left until it is filled again, once a second. */
+/* Token bucket of a rate limit: the tokens left until it is filled again, once a second. */
 struct rho_scan_assembler_bucket {
-    int64_t full_us; /* reception clock: when it was full */
+    int64_t full_us; /* reception time at which the bucket was full */
     uint32_t left;
-    uint32_t reserved; /* 0 */
+    uint32_t reserved; /* padding: 0 */
 };
 
 /* One sensor's stream of messages. */
 struct rho_scan_assembler_source {
-    struct rho_scan_assembler_place place; /* its newest accepted scan */
-    struct rho_scan_assembler_stray strays[RHO_SCAN_ASSEMBLER_STRAYS]; /* the last one first */
-    int64_t heard_us; /* reception clock: its last accepted scan */
+    struct rho_scan_assembler_place place; /* position of the newest accepted scan */
+    /* series of refused scans, the last extended first */
+    struct rho_scan_assembler_stray strays[RHO_SCAN_ASSEMBLER_STRAYS];
+    int64_t heard_us; /* reception time of the last accepted scan */
     struct rho_scan_assembler_bucket messages;
-    uint32_t seen;        /* bit i: number place.scan - i was there */
-    uint32_t skipped;     /* bit i: it was not, and may still come */
-    uint32_t interval_us; /* from number to number, smoothed; 0: not known yet */
-    /* reception clock: for how long it was heard; up to RHO_SCAN_ASSEMBLER_TRUST_US */
+    uint32_t seen;    /* bit i is set: scan number place.scan - i was received */
+    uint32_t skipped; /* bit i is set: scan number place.scan - i was skipped, and may still come */
+    uint32_t interval_us; /* smoothed time from one scan number to the next; 0: not known yet */
+    /*
+     * time for which the sensor was heard, by the reception clock, up to
+     * RHO_SCAN_ASSEMBLER_TRUST_US
+     */
     uint32_t known_us;
-    uint32_t check;          /* private; of the newest scan's first part, as it came first */
-    uint16_t scans;          /* accepted; saturates */
-    uint8_t off_clock;       /* scans in a row; saturates; 0: it tells the common time */
-    uint8_t has_two_senders; /* 1: a scan came twice, with different contents */
+    /* private: checksum of the newest scan's first part, as it was received first */
+    uint32_t check;
+    uint16_t scans; /* number of accepted scans; saturates */
+    /* successive scans off the common clock; saturates; 0: the sensor is on the common clock */
+    uint8_t off_clock;
+    uint8_t has_two_senders; /* 1: a scan was received twice, with different contents */
     int16_t sensor_id;
-    uint8_t kind; /* enum rho_scan_assembler_kind */
+    uint8_t kind; /* kind of the sensor's scans, enum rho_scan_assembler_kind */
     uint8_t is_used;
 };
 
-/* A scan that is assembled of its parts. */
+/* A slot in which a scan is assembled of its parts. */
 struct rho_scan_assembler_slot {
     struct rho_scan_assembler_place place;
-    int64_t heard_us; /* reception clock: its last part */
+    int64_t heard_us; /* reception time of the last part */
     uint32_t measures;
     float sector_from_rad, sector_to_rad;
     struct rho_sensor sensor;
-    uint16_t source; /* index */
+    uint16_t source; /* index of the scan's sensor in `sources` */
     uint16_t num_parts, parts_here;
-    uint16_t num_inputs; /* plots or bearings that are kept */
-    uint8_t state;       /* private */
-    uint8_t kind;        /* enum rho_scan_assembler_kind */
+    uint16_t num_inputs; /* number of plots or bearings that are kept */
+    uint8_t state;       /* private: state of the slot */
+    uint8_t kind;        /* kind of the scan, enum rho_scan_assembler_kind */
     uint8_t has_sensor;
-    uint8_t order; /* private */
-    /* of each part that is here, 1 more than its inputs; 0: missing */
+    uint8_t order; /* private: position in the sensor's sequence */
+    /* for each received part, 1 more than its plots or bearings; 0: the part is missing */
     uint16_t parts[RHO_MAX_PARTS];
     struct rho_bearing bearings[RHO_MAX_BEARINGS];
     struct rho_plot plots[RHO_MAX_PLOTS];
@@ -268,33 +298,34 @@ struct rho_scan_assembler_slot {
 struct rho_scan_assembler {
     uint32_t magic;
     uint16_t num_known;
-    uint16_t is_pressed; /* a scan found no room: the oldest goes out at the next call */
-    int64_t clock_us;    /* of the newest accepted scan */
-    int64_t out_us;      /* of the newest one that went out; INT64_MIN: none */
+    uint16_t is_pressed; /* 1: a scan found no room, and the oldest goes out at the next call */
+    int64_t clock_us;    /* time of the newest accepted scan: the common clock */
+    int64_t out_us;      /* time of the newest scan that went out; INT64_MIN: none has */
     uint16_t has_clock;
-    uint16_t is_restart; /* the next scan that goes out is the first on another clock */
-    uint32_t newcomers;  /* scans, since the last one of a sensor that is none */
+    uint16_t is_restart; /* 1: the next scan that goes out is the first on another clock */
+    uint32_t newcomers;  /* scans of newcomers since the last scan of an established sensor */
     struct rho_scan_assembler_config config;
     struct rho_scan_assembler_counters counters;
-    struct rho_scan_assembler_bucket strangers; /* messages of sensors that are new or unknown */
+    /* rate limit of the messages of newcomers and unknown sensors together */
+    struct rho_scan_assembler_bucket strangers;
     struct rho_scan_assembler_bucket stranger_plots;
     struct rho_scan_assembler_source sources[RHO_MAX_SENSORS];
     struct rho_scan_assembler_sensor known[RHO_MAX_SENSORS];
     struct rho_scan_assembler_slot slots[RHO_MAX_OPEN_SCANS];
 };
 
-/* A scan to step. It points into the object. */
+/* A scan to be stepped. Its pointers point into the assembler. */
 struct rho_scan_assembler_item {
     enum rho_scan_assembler_kind kind;
-    struct rho_scan scan;             /* PLOTS, POLAR */
-    struct rho_bearing_scan bearings; /* BEARINGS */
-    /* the sensor, for rho_tracker_set_sensor; has_sensor 0: nothing is known but the defaults */
+    struct rho_scan scan;             /* the scan, where its kind is PLOTS or POLAR */
+    struct rho_bearing_scan bearings; /* the scan, where its kind is BEARINGS */
+    /* the sensor, for rho_tracker_set_sensor; has_sensor 0: only defaults are known of it */
     struct rho_sensor sensor;
     int has_sensor;
-    /* the common clock was set anew: trackers start anew as well, before this scan */
+    /* 1: the common clock was set anew: trackers are to start anew, too, before this scan */
     int is_restart;
     uint16_t parts_missing;
-    int64_t heard_us; /* reception clock: its last part */
+    int64_t heard_us; /* reception time of the scan's last part */
 };
 
 /*

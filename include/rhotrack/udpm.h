@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * udpm: datagrams of LCM's UDP multicast, one message each.
+ * udpm: writes and parses datagrams of LCM's UDP multicast, one message each.
  *
  * A datagram is "LC02", a sequence number (4 bytes, big endian), the channel's name with a NUL, and
  * the message. Longer messages go out in fragments ("LC03"), which this module refuses: all of
@@ -13,10 +13,10 @@
  *     rho_message_..._encode(&message, buffer + head, sizeof buffer - head, &size);
  *     send(buffer, head + size);
  *
- * Anybody on the network can send. Where that matters, datagrams are looked at before
- * rho_udpm_parse: whether they come from an allowed address (rho_udpm_admits), and whether the code
- * behind the message, if the senders put one there, is the right one. That code is the caller's,
- * with the caller's key: this library has no cryptography. It counts in the same guard what fails:
+ * Anybody on the network can send. Where that matters, the caller tests each datagram before
+ * rho_udpm_parse: for an allowed address (rho_udpm_admits), and for the right authentication code
+ * behind the message, if the senders append one. The caller computes that code with its own key, as
+ * this library has no cryptography, and counts failures in the guard:
  *
  *     if (!rho_udpm_admits(&guard, source)) {
  *         return;
@@ -27,7 +27,8 @@
  *     }
  *     rho_udpm_parse(data, size, &datagram)
  *
- * An address alone stops what comes by mistake and over routers. Within a network it can be forged.
+ * A list of addresses stops datagrams that come by mistake or over routers; within a network an
+ * address can be forged.
  *
  * Stack: 32 bytes at most where nothing else is said.
  */
@@ -46,33 +47,35 @@ extern "C" {
 
 #define RHO_UDPM_GROUP "239.255.76.67"
 #define RHO_UDPM_PORT 7667
-#define RHO_UDPM_MAX_CHANNEL 63 /* characters of a channel's name, 1 at least */
+#define RHO_UDPM_MAX_CHANNEL 63 /* longest name of a channel, characters; the shortest has 1 */
 #define RHO_UDPM_MAX_DATAGRAM                                                                      \
-    1472u /* bytes that an Ethernet frame takes: the longest that is built */
+    1472u /* longest datagram, bytes: the UDP payload of an Ethernet frame */
 #define RHO_UDPM_MAX_HEAD (8u + RHO_UDPM_MAX_CHANNEL + 1u)
 
-/* A datagram to read: it points into the bytes that were parsed, and lives as long. */
+/* A parsed datagram: its pointers point into the bytes that were parsed. */
 struct rho_udpm_datagram {
     uint32_t sequence;
-    const char *channel; /* ends with NUL */
+    const char *channel; /* name of the channel; ends with NUL */
     const uint8_t *payload;
     size_t payload_size;
 };
 
-/* As many addresses as there may be sensors. */
+/* Largest number of permitted senders: as many as there may be sensors. */
 #define RHO_UDPM_MAX_SOURCES RHO_MAX_SENSORS
 
-/* The permitted senders, and counters of refusals; zeros: everybody may send. Counters saturate. */
+/* Permitted senders of datagrams, and counters of refusals, which saturate. All 0: any sender. */
 struct rho_udpm_guard {
-    uint32_t refused_source;                /* datagrams: from another address */
-    uint32_t refused_mac;                   /* the caller's: without the right code */
-    uint32_t num_sources;                   /* 0: any address */
-    uint32_t sources[RHO_UDPM_MAX_SOURCES]; /* IPv4, 10.9.0.1 as 0x0a090001 */
+    uint32_t refused_source; /* datagrams refused for the sender's address */
+    /* datagrams without the right authentication code; counted by the caller */
+    uint32_t refused_mac;
+    uint32_t num_sources;                   /* number of permitted addresses; 0: any address */
+    uint32_t sources[RHO_UDPM_MAX_SOURCES]; /* permitted IPv4 addresses, 10.9.0.1 as 0x0a090001 */
 };
 
 /*
- * Whether a datagram may come from this address; where not, refused_source moves. 0 where guard is
- * NULL or its num_sources is beyond RHO_UDPM_MAX_SOURCES, which nothing counts. Cost: num_sources.
+ * 1 where datagrams may come from this address; other datagrams are counted in refused_source. 0,
+ * without counting, where guard is NULL or num_sources is beyond RHO_UDPM_MAX_SOURCES. Cost:
+ * num_sources.
  */
 int rho_udpm_admits(struct rho_udpm_guard *guard, uint32_t source_ipv4);
 
@@ -85,8 +88,8 @@ RHO_MUST_CHECK enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, 
                                               const char *channel, size_t *head);
 
 /*
- * Opens a datagram; any bytes of any length may be given. The message itself is not looked into,
- * and may be empty.
+ * Parses the head of a datagram; any bytes of any length may be given. The message behind it is not
+ * decoded, and may be empty.
  * Errors: NULL, SHORT (no whole head), TYPE (not "LC02": a fragment, or no LCM), VALUE (a channel
  * that is empty, longer than 63 characters, or without its end); *datagram is unchanged. Cost: the
  * channel's length. Stack: 88 bytes.
@@ -94,7 +97,7 @@ RHO_MUST_CHECK enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, 
 RHO_MUST_CHECK enum rho_status rho_udpm_parse(const uint8_t *data, size_t size,
                                               struct rho_udpm_datagram *datagram);
 
-/* True for what liblcm sends to itself to try the network: channel LCM_SELF_TEST. Constant cost. */
+/* 1 for the datagram by which liblcm tests the network: channel LCM_SELF_TEST. Constant cost. */
 int rho_udpm_is_self_test(const struct rho_udpm_datagram *datagram);
 
 #ifdef __cplusplus

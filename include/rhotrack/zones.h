@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * zones: polygons on the ground that count the tracks in them, as a lane, a stop line, a berth, a
- * fairway does.
+ * zones: counts the tracks that enter, stay in and leave polygons on the ground, such as a lane, a
+ * stop line, a berth or a fairway.
  *
  *     rho_zones_init(&zones, sizeof zones);
  *     rho_zones_add(&zones, &zone);                              each one once
@@ -14,8 +14,8 @@
  * margin_m outside: noise at the border counts once. A coasting track stays, and can leave. A track
  * that ends in a zone has not left it. Places are x and y of the tracker's frame.
  *
- * A track in a zone stands in its queue once it is slower than queue_mps, until it is faster than
- * twice that.
+ * A track in a zone joins its queue when it is slower than queue_mps, and leaves the queue when it
+ * is faster than twice that.
  *
  * Stack: 100 bytes at most where nothing else is said.
  */
@@ -34,21 +34,24 @@ extern "C" {
 #endif
 
 #define RHO_ZONE_CORNERS 8
-#define RHO_ZONE_EVENTS 64 /* of a step */
+#define RHO_ZONE_EVENTS 64 /* largest number of events of a step */
 
-/* Largest values of a zone's fields, either way of the heading. */
+/* Largest values of a zone's fields; the heading may have either sign. */
 #define RHO_ZONE_HEADING_MAX_RAD 7.0f
 #define RHO_ZONE_MARGIN_MAX_M 1e5f
 #define RHO_ZONE_QUEUE_MAX_MPS 1e3f
 
 struct rho_zone {
-    int32_t zone_id;      /* another one for each zone */
-    uint16_t num_corners; /* 3 .. RHO_ZONE_CORNERS, in either sense; sides must not cross */
-    uint16_t has_heading; /* 1: a lane, whose tracks go along it or against it */
-    float x_m[RHO_ZONE_CORNERS], y_m[RHO_ZONE_CORNERS]; /* within RHO_LIMIT_POSITION_M */
-    float heading_rad;                                  /* of the lane, from +x; within 7 rad */
-    float margin_m;                                     /* 0 .. 1e5 */
-    float queue_mps;                                    /* 0 .. 1e3; 0: there is no queue */
+    int32_t zone_id; /* identity of the zone, different for each zone */
+    /* number of corners, 3 .. RHO_ZONE_CORNERS, in either sense; sides must not cross */
+    uint16_t num_corners;
+    uint16_t has_heading; /* 1: the zone is a lane, and tracks go along it or against it */
+    float x_m[RHO_ZONE_CORNERS], y_m[RHO_ZONE_CORNERS]; /* corners, within RHO_LIMIT_POSITION_M */
+    float heading_rad; /* heading of the lane, counter-clockwise from +x; -7 .. 7 rad */
+    /* distance outside of the polygon at which a track leaves the zone, 0 .. 1e5 m */
+    float margin_m;
+    /* speed below which a track joins the queue, 0 .. 1e3 m/s; 0: there is no queue */
+    float queue_mps;
 };
 
 enum rho_zone_change {
@@ -61,28 +64,35 @@ enum rho_zone_change {
 struct rho_zone_event {
     int32_t zone_id;
     uint32_t track_id;
-    uint8_t change; /* enum rho_zone_change */
-    /* 1: along the lane's heading, -1: against it; 0: it stands, or the zone is no lane */
+    uint8_t change; /* enum rho_zone_change: what the track did */
+    /*
+     * 1: the track goes along the lane's heading, -1: against it; 0: it stands, or the zone is no
+     * lane
+     */
     int8_t direction;
-    float speed_mps; /* of a track that has ended the last one */
-    float dwell_s;   /* since it entered */
+    float speed_mps; /* speed of the track; of an ended track its last speed */
+    float dwell_s;   /* time since the track entered the zone */
 };
 
-/* Of one zone; counters saturate. */
+/* Counts of one zone; counters saturate. */
 struct rho_zone_counts {
-    uint32_t entered, left, ended; /* since rho_zones_add */
-    uint32_t along, against;       /* of those that left */
-    uint16_t inside, queued;       /* now */
-    float speed_mps;               /* mean of those inside; 0 of none */
-    /* from the first queued track to the last: along the heading, or of an area its diagonal */
+    /* tracks since rho_zones_add that entered, left, and ended inside */
+    uint32_t entered, left, ended;
+    uint32_t along, against; /* tracks that left along the lane's heading, and against it */
+    uint16_t inside, queued; /* tracks inside now, and in the queue */
+    float speed_mps;         /* mean speed of the tracks inside; 0 where there are none */
+    /*
+     * distance from the first queued track to the last along the heading; without a lane, the
+     * diagonal of their extent
+     */
     float queue_m;
-    float dwell_mean_s, dwell_max_s; /* of those that left */
+    float dwell_mean_s, dwell_max_s; /* mean and longest time inside of the tracks that left */
 };
 
-/* A track that is in some zone. */
+/* A track that is in one or more zones. */
 struct rho_zone_visitor {
     uint32_t track_id;
-    uint32_t inside, queued; /* a bit a zone */
+    uint32_t inside, queued; /* bit i is set: the track is inside zone i, and in its queue */
     float speed_mps;
     int64_t since_us[RHO_MAX_ZONES];
 };
@@ -90,17 +100,20 @@ struct rho_zone_visitor {
 struct rho_zones {
     uint32_t magic;
     uint16_t num_zones, num_events, num_visitors;
-    uint32_t
-        events_dropped; /* beyond RHO_ZONE_EVENTS of a step, since init; they count as all do */
-    int64_t time_us;    /* of the last step */
+    /*
+     * events beyond RHO_ZONE_EVENTS in a step, since rho_zones_init; their tracks are counted
+     */
+    uint32_t events_dropped;
+    int64_t time_us; /* time of the last step */
     struct rho_zone zones[RHO_MAX_ZONES];
-    struct rho_extent bounds[RHO_MAX_ZONES];       /* private: of the zones with their margins */
-    struct rho_zone_counts counts[RHO_MAX_ZONES];  /* of the zones in their order */
-    struct rho_zone_event events[RHO_ZONE_EVENTS]; /* of the last step */
+    struct rho_extent bounds[RHO_MAX_ZONES]; /* private: limits of the zones with their margins */
+    /* counts of the zones, in the order of the zones */
+    struct rho_zone_counts counts[RHO_MAX_ZONES];
+    struct rho_zone_event events[RHO_ZONE_EVENTS]; /* events of the last step */
     struct rho_zone_visitor visitors[RHO_MAX_TRACKS];
 };
 
-/* No zone. Errors: NULL, SIZE. Cost: sizeof(zones) bytes cleared. */
+/* Prepares an empty set of zones. Errors: NULL, SIZE. Cost: sizeof(zones) bytes cleared. */
 RHO_MUST_CHECK enum rho_status rho_zones_init(struct rho_zones *zones, size_t size);
 
 /*
@@ -111,15 +124,15 @@ RHO_MUST_CHECK enum rho_status rho_zones_init(struct rho_zones *zones, size_t si
 RHO_MUST_CHECK enum rho_status rho_zones_add(struct rho_zones *zones, const struct rho_zone *zone);
 
 /*
- * Counts the tracks of a report. Of a report whose time is before the last one's all tracks in
- * zones have ended first.
+ * Counts the tracks of a report. Where its time is before that of the last report, all tracks that
+ * were in zones have ended first.
  * Errors: NULL, STATE, VALUE (more than RHO_MAX_TRACKS tracks). Cost: tracks times zones, and
  * corners where a track is near. Stack: 720 bytes.
  */
 RHO_MUST_CHECK enum rho_status rho_zones_step(struct rho_zones *zones,
                                               const struct rho_report *report);
 
-/* "enters", "leaves", "ends"; "unknown" for any other value. */
+/* Name of a change: "enters", "leaves" or "ends"; "unknown" for any other value. */
 const char *rho_zone_change_name(enum rho_zone_change change);
 
 #ifdef __cplusplus

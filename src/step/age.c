@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * age: tracks without a plot have a miss where the sensor looked; evidence and time end tracks.
+ * age: counts misses of tracks without a plot where the sensor looked; confirms tracks, and ends
+ * tracks by their score, silence or speed.
  */
 #include "phases.h"
 
 /* Standard deviations of a speed that is surely below the slowest target's. */
 #define SLOW_SIGMAS 3.0f
 
-/* Speeds beyond the fastest target's: by so much, and by so many standard deviations, in so many
- * updates in a row. */
-#define FAST_SHARE 1.1f
-#define FAST_SIGMAS 2.0f
-#define FAST_UPDATES 3
+#define FAST_SHARE 1.1f  /* speed of a track that is too fast, over v_max_mps */
+#define FAST_SIGMAS 2.0f /* standard deviations by which its speed is above v_max_mps, too */
+#define FAST_UPDATES 3   /* successive updates at such speeds that end a track */
 
-/* The track follows something that stands, however often it is seen. */
+/* 1 where the track is surely slower than v_min_mps: it follows a standing object. */
 static int is_too_slow(const struct step *step, const struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
@@ -25,8 +24,8 @@ static int is_too_slow(const struct step *step, const struct rho_track *track)
                                    least_mps * least_mps;
 }
 
-/* Counts the updates in a row that leave the track surely faster than any target. */
-static int is_too_fast(const struct step *step, struct rho_track *track)
+/* Counts successive updates that leave a track faster than any target. 1: enough to end it. */
+static int count_fast_updates(const struct step *step, struct rho_track *track)
 {
     const float *velocity_mps = &track->kalman.state[3];
     const float v_max_mps = step->tracker->config.v_max_mps;
@@ -44,13 +43,13 @@ static int is_too_fast(const struct step *step, struct rho_track *track)
     return track->fast_in_row >= FAST_UPDATES;
 }
 
-void rho_tracker_age_track(struct step *step, struct rho_track *track, int is_missed,
-                           const struct rho_track_limits *limits)
+void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track, int is_missed,
+                                      const struct rho_track_limits *limits)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const int is_unseen = rho_tracker_is_long_unobserved(step, track, is_missed, limits) ||
                           rho_tracker_is_place_unknown(step, track);
-    const int is_fast = is_too_fast(step, track);
+    const int is_fast = count_fast_updates(step, track);
     rho_tracker_apply_thresholds(step, track, limits);
     if (track->status != RHO_TRACK_FREE && (is_unseen || is_fast || is_too_slow(step, track))) {
         counters->tracks_unseen = rho_count(counters->tracks_unseen, is_unseen ? 1 : 0);
@@ -60,8 +59,8 @@ void rho_tracker_age_track(struct step *step, struct rho_track *track, int is_mi
     }
 }
 
-/* The score of a track with hypotheses counts the miss already. */
-static void count_miss(const struct step *step, struct rho_track *track)
+/* Counts a miss and lowers the score; hypotheses have taken the miss from their score already. */
+static void apply_miss_to_track(const struct step *step, struct rho_track *track)
 {
     rho_track_miss(track, RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)
                               ? 0
@@ -88,12 +87,12 @@ void rho_tracker_age(struct step *step)
             rho_tracker_note_blind_look(step, track);
         }
         if (is_missed) {
-            count_miss(step, track);
+            apply_miss_to_track(step, track);
         }
         if (RHO_SECTORS) {
             rho_tracker_note_sight(step, track);
         }
-        rho_tracker_age_track(step, track, is_missed, &limits);
+        rho_tracker_confirm_or_end_track(step, track, is_missed, &limits);
     }
     rho_tracker_remove_ended(tracker);
 }

@@ -15,21 +15,22 @@
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 
-/* A target at the border of a sector has bearings so many standard deviations beyond it. */
+/* Standard deviations by which a bearing may lie outside of its sensor's sector. */
 #define BEARING_SIGMAS 4.0f
 
 /* One sensor's scan in its frame. */
 struct look {
     const struct rho_bearing_scan *scan;
-    struct rho_sensor sensor; /* at the place that the scan states */
+    struct rho_sensor sensor; /* its description, at the position that the scan states */
     uint8_t *fates;
-    uint32_t num; /* bearings that have a place in the report, and may be claimed */
-    float log_density;
+    uint32_t num;      /* bearings that have a fate in the report, and may be claimed */
+    float log_density; /* of false bearings a radian */
 };
 
 /* ---- looks ----------------------------------------------------------------------------------- */
 
-static struct rho_sensor sensor_of(const struct step *step, const struct rho_bearing_scan *scan)
+static struct rho_sensor sensor_of_bearing_scan(const struct step *step,
+                                                const struct rho_bearing_scan *scan)
 {
     const struct rho_sensor *known = rho_tracker_find_sensor(step->tracker, scan->sensor_id);
     struct rho_sensor sensor = {.sensor_id = scan->sensor_id,
@@ -46,9 +47,10 @@ static struct rho_sensor sensor_of(const struct step *step, const struct rho_bea
 }
 
 /*
- * ln of the false bearings a radian: the unclaimed ones of a scan over its sector or field of view.
+ * ln of the density of false bearings a radian: mean number of unclaimed bearings of a scan, at
+ * least 1, over the angle of its sector or field of view.
  */
-static float log_density(const struct step *step, const struct rho_bearing_scan *scan)
+static float log_false_bearing_density(const struct step *step, const struct rho_bearing_scan *scan)
 {
     float unclaimed = step->tracker->unclaimed_bearings;
     float view_rad = scan->sector_to_rad - scan->sector_from_rad;
@@ -59,8 +61,8 @@ static float log_density(const struct step *step, const struct rho_bearing_scan 
     return rho_log((unclaimed > 1.0f ? unclaimed : 1.0f) / view_rad);
 }
 
-/* Whether a bearing is in its sensor's sector, where that was described. */
-static int is_covered(struct step *step, const struct look *look, uint32_t i)
+/* 1 where a bearing is in its sensor's sector; others are counted in plots_outside. */
+static int is_covered_else_count(struct step *step, const struct look *look, uint32_t i)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     const struct rho_bearing *bearing = &look->scan->bearings[i];
@@ -75,46 +77,49 @@ static int is_covered(struct step *step, const struct look *look, uint32_t i)
 static void validate_bearings(struct step *step, uint32_t first, struct look *look)
 {
     look->fates = step->report->fates + (first < RHO_MAX_PLOTS ? first : 0);
-    look->num = num_held(step, look->scan, first);
+    look->num = num_bearings_with_fate(step, look->scan, first);
     for (uint32_t i = 0; i < look->num; i++) {
-        look->fates[i] = (uint8_t)(is_bearing(&look->scan->bearings[i]) && is_covered(step, look, i)
+        look->fates[i] = (uint8_t)(is_usable_bearing(&look->scan->bearings[i]) &&
+                                           is_covered_else_count(step, look, i)
                                        ? RHO_FATE_HELD
                                        : RHO_FATE_INVALID);
     }
 }
 
-static struct look open_look(struct step *step, const struct rho_bearing_scan *scan, uint32_t first)
+static struct look prepare_look(struct step *step, const struct rho_bearing_scan *scan,
+                                uint32_t first)
 {
-    struct look look = {.scan = scan, .sensor = sensor_of(step, scan)};
-    look.log_density = log_density(step, scan);
+    struct look look = {.scan = scan, .sensor = sensor_of_bearing_scan(step, scan)};
+    look.log_density = log_false_bearing_density(step, scan);
     validate_bearings(step, first, &look);
     return look;
 }
 
-/* Whether a frame may update the track: frozen tracks stay as they are. */
-static int takes_part(const struct rho_track *track)
+/* 1 for a live track; 0 for a frozen one, which bearings do not change. */
+static int may_be_updated(const struct rho_track *track)
 {
     return track->status != RHO_TRACK_FREE && !rho_tracker_is_frozen(track);
 }
 
 /* ---- claim and update ------------------------------------------------------------------------ */
 
-static int64_t time_of(const struct look *look, uint32_t i)
+static int64_t bearing_time_us(const struct look *look, uint32_t i)
 {
     return look->scan->time_us + look->scan->bearings[i].offset_us;
 }
 
 /*
- * ln of pd times the bearing's density as the track's over that of a false one. 0: not in the gate.
+ * *gain_nat: ln of pd times the density of the bearing as one of the track, over the density of
+ * false bearings. Returns 0 where the bearing is outside of the track's gate.
  */
-static int gain_of_bearing(const struct step *step, const struct look *look,
-                           const struct rho_track *track, uint32_t i, float *gain_nat)
+static int gate_and_score_bearing(const struct step *step, const struct look *look,
+                                  const struct rho_track *track, uint32_t i, float *gain_nat)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
     struct rho_bearing bearing = look->scan->bearings[i];
-    /* an earlier look of the frame may have moved the track on a little */
-    bearing.offset_us = (int32_t)(time_of(look, i) - track->time_us);
+    /* the update by an earlier look of the frame may have moved the track from the frame's time */
+    bearing.offset_us = (int32_t)(bearing_time_us(look, i) - track->time_us);
     rho_tracker_open_gate(step, track, 0, &gate);
     if (!rho_gate_test_bearing(&gate, &bearing, look->scan->x_m, look->scan->y_m, &result)) {
         return 0;
@@ -130,32 +135,32 @@ static void offer_gated_bearings(struct step *step, const struct look *look, uns
     float gain_nat;
     for (uint32_t i = 0; i < look->num; i++) {
         if (look->fates[i] == RHO_FATE_HELD &&
-            gain_of_bearing(step, look, &tracker->tracks[row], i, &gain_nat)) {
+            gate_and_score_bearing(step, look, &tracker->tracks[row], i, &gain_nat)) {
             rho_tracker_offer(step, row, i, gain_nat - step->log_miss);
         }
     }
 }
 
-static void claim_look(struct step *step, const struct look *look)
+static void assign_bearings_of_look(struct step *step, const struct look *look)
 {
     struct rho_tracker *tracker = step->tracker;
     /* both counts are within the capacities: nothing to refuse */
     (void)!rho_assignment_begin(&tracker->assignment, tracker->num_tracks, look->num);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
-        if (takes_part(&tracker->tracks[row])) {
+        if (may_be_updated(&tracker->tracks[row])) {
             offer_gated_bearings(step, look, row);
         }
     }
     rho_tracker_assign(step);
 }
 
-static int update_track(struct step *step, const struct look *look, struct rho_track *track,
-                        uint32_t i)
+static int update_track_by_bearing(struct step *step, const struct look *look,
+                                   struct rho_track *track, uint32_t i)
 {
     const struct rho_bearing *bearing = &look->scan->bearings[i];
     float gain_nat = 0.0f;
     struct rho_track_bearing seen = {
-        .time_us = time_of(look, i),
+        .time_us = bearing_time_us(look, i),
         .sensor_id = look->scan->sensor_id,
         .x_m = look->scan->x_m,
         .y_m = look->scan->y_m,
@@ -163,7 +168,7 @@ static int update_track(struct step *step, const struct look *look, struct rho_t
         .sigma_rad = bearing->sigma_rad,
         .row = (int16_t)i,
     };
-    if (!gain_of_bearing(step, look, track, i, &gain_nat) ||
+    if (!gate_and_score_bearing(step, look, track, i, &gain_nat) ||
         rho_track_update_bearing(track, &seen, &step->model, rho_tracker_mnat(gain_nat)) !=
             RHO_OK) {
         step->tracker->counters.updates_refused =
@@ -174,16 +179,17 @@ static int update_track(struct step *step, const struct look *look, struct rho_t
     return 1;
 }
 
-/* A sensor that looked where the track is and missed it is evidence against it, whatever other
- * sensors saw. */
-static void update_by_look(struct step *step, const struct look *look)
+/* Updates tracks by their assigned bearings; the score of a track that the sensor covers but missed
+ * falls, even where other sensors of the frame saw it. */
+static void update_or_penalise_tracks(struct step *step, const struct look *look)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
         int bearing = rho_assignment_column(&tracker->assignment, row);
-        if (!takes_part(track) || (bearing != RHO_ASSIGNMENT_NONE &&
-                                   update_track(step, look, track, (uint32_t)bearing))) {
+        if (!may_be_updated(track) ||
+            (bearing != RHO_ASSIGNMENT_NONE &&
+             update_track_by_bearing(step, look, track, (uint32_t)bearing))) {
             continue;
         }
         if (rho_tracker_looked_at(step, look->scan->sector_from_rad, look->scan->sector_to_rad,
@@ -193,7 +199,7 @@ static void update_by_look(struct step *step, const struct look *look)
     }
 }
 
-static void learn_unclaimed_bearings(struct step *step, const struct look *look)
+static void learn_unclaimed_bearing_count(struct step *step, const struct look *look)
 {
     float unclaimed = 0.0f;
     for (uint32_t i = 0; i < look->num; i++) {
@@ -204,8 +210,8 @@ static void learn_unclaimed_bearings(struct step *step, const struct look *look)
 
 /* ---- the phases ------------------------------------------------------------------------------ */
 
-/* Gates of bearings need the one estimate of each track at the frame's time. */
-static void merge_estimates(struct step *step)
+/* Bearings are gated by one estimate of each track, at the frame's time. */
+static void merge_estimates_per_track(struct step *step)
 {
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         if (!rho_tracker_is_frozen(&step->tracker->tracks[i])) {
@@ -214,7 +220,7 @@ static void merge_estimates(struct step *step)
     }
 }
 
-static void predict(struct step *step)
+static void predict_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -223,37 +229,37 @@ static void predict(struct step *step)
             rho_tracker_note_time_ahead(&tracker->tracks[i]);
         }
         if (!rho_tracker_is_frozen(&tracker->tracks[i])) {
-            rho_tracker_predict_track(step, &tracker->tracks[i]);
+            rho_tracker_predict_or_end_track(step, &tracker->tracks[i]);
         }
     }
-    merge_estimates(step);
+    merge_estimates_per_track(step);
 }
 
-static void claim_and_update(struct step *step)
+static void claim_and_update_look_by_look(struct step *step)
 {
     const struct rho_frame *frame = step->frame;
     uint32_t first = 0;
     for (uint32_t i = 0; i < frame->num_scans; i++) {
         const struct rho_bearing_scan *scan = &frame->scans[i];
-        struct look look = open_look(step, scan, first);
+        struct look look = prepare_look(step, scan, first);
         rho_tracker_note_pace(step->tracker, scan->sensor_id, &look.sensor, step->time_us,
                               scan->sector_from_rad, scan->sector_to_rad);
         step->sensor = &look.sensor;
         rho_tracker_set_pd(step);
-        claim_look(step, &look);
-        update_by_look(step, &look);
-        learn_unclaimed_bearings(step, &look);
+        assign_bearings_of_look(step, &look);
+        update_or_penalise_tracks(step, &look);
+        learn_unclaimed_bearing_count(step, &look);
         step->sensor = 0;
         first = rho_count(first, scan->num_bearings);
     }
 }
 
-static int is_looked_at(struct step *step, const struct rho_track *track)
+static int is_looked_at_by_any_sensor(struct step *step, const struct rho_track *track)
 {
     int is_seen = 0;
     for (uint32_t i = 0; i < step->frame->num_scans && !is_seen; i++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[i];
-        struct rho_sensor sensor = sensor_of(step, scan);
+        struct rho_sensor sensor = sensor_of_bearing_scan(step, scan);
         step->sensor = &sensor;
         is_seen = rho_tracker_looked_at(step, scan->sector_from_rad, scan->sector_to_rad, track);
     }
@@ -262,15 +268,15 @@ static int is_looked_at(struct step *step, const struct rho_track *track)
 }
 
 /*
- * A frame without a bearing of a track is one miss, however many sensors looked; update_by_look has
- * taken the losses from the score.
+ * A frame without a bearing of a track is one miss, however many sensors looked. The score is
+ * left alone: update_or_penalise_tracks has lowered it for each sensor.
  */
-static void age(struct step *step)
+static void count_misses_and_end_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (takes_part(track) && track->plot < 0 && is_looked_at(step, track)) {
+        if (may_be_updated(track) && track->plot < 0 && is_looked_at_by_any_sensor(step, track)) {
             rho_track_miss(track, 0);
         }
     }
@@ -278,9 +284,9 @@ static void age(struct step *step)
     rho_tracker_find_evidence_needed(step);
     for (unsigned row = 0; row < tracker->num_tracks; row++) {
         struct rho_track *track = &tracker->tracks[row];
-        if (takes_part(track)) {
-            rho_tracker_age_track(step, track, track->plot < 0 && track->misses_in_row > 0,
-                                  &limits);
+        if (may_be_updated(track)) {
+            rho_tracker_confirm_or_end_track(step, track,
+                                             track->plot < 0 && track->misses_in_row > 0, &limits);
         }
     }
     rho_tracker_remove_ended(tracker);
@@ -288,7 +294,8 @@ static void age(struct step *step)
 
 /* ---- the step -------------------------------------------------------------------------------- */
 
-static int is_usable_look(const struct rho_frame *frame, const struct rho_bearing_scan *scan)
+static int is_usable_bearing_scan(const struct rho_frame *frame,
+                                  const struct rho_bearing_scan *scan)
 {
     return rho_is_coordinate(scan->x_m) && rho_is_coordinate(scan->y_m) &&
            rho_angle_is_sector(scan->sector_from_rad, scan->sector_to_rad) &&
@@ -297,7 +304,7 @@ static int is_usable_look(const struct rho_frame *frame, const struct rho_bearin
            scan->time_us - frame->time_us >= -RHO_LIMIT_OFFSET_US;
 }
 
-static enum rho_status check_frame(const struct rho_frame *frame)
+static enum rho_status check_frame_values(const struct rho_frame *frame)
 {
     if (frame->num_scans > 0 && !frame->scans) {
         return RHO_ERROR_NULL;
@@ -309,14 +316,14 @@ static enum rho_status check_frame(const struct rho_frame *frame)
         if (frame->scans[i].num_bearings > 0 && !frame->scans[i].bearings) {
             return RHO_ERROR_NULL;
         }
-        if (!is_usable_look(frame, &frame->scans[i])) {
+        if (!is_usable_bearing_scan(frame, &frame->scans[i])) {
             return RHO_ERROR_VALUE;
         }
     }
     return RHO_OK;
 }
 
-static uint32_t count_bearings(const struct rho_frame *frame)
+static uint32_t count_bearings_of_frame(const struct rho_frame *frame)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < frame->num_scans; i++) {
@@ -325,7 +332,7 @@ static uint32_t count_bearings(const struct rho_frame *frame)
     return count;
 }
 
-static void open_frame(struct step *step)
+static void init_fates_and_pd(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     const uint32_t looks =
@@ -333,7 +340,7 @@ static void open_frame(struct step *step)
     if (looks > tracker->looks_max) {
         tracker->looks_max = (uint16_t)looks;
     }
-    rho_tracker_set_pd(step); /* of a sensor that is not described */
+    rho_tracker_set_pd(step); /* default pd: the step has no sensor yet */
     memset(step->report->fates, RHO_FATE_NO_ROOM, step->num_gated);
 }
 
@@ -349,7 +356,7 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
     if (!RHO_SEARCHES && passive) {
         return RHO_ERROR_CONFIG;
     }
-    enum rho_status status = check_frame(frame);
+    enum rho_status status = check_frame_values(frame);
     if (status == RHO_OK && passive && !rho_tracker_is_late(tracker, frame->time_us)) {
         status = rho_passive_accepts(passive, frame);
     }
@@ -362,15 +369,15 @@ enum rho_status rho_tracker_step_frame(struct rho_tracker *tracker, struct rho_p
         .frame = frame,
         .report = report,
         .time_us = frame->time_us,
-        .num_inputs = count_bearings(frame),
+        .num_inputs = count_bearings_of_frame(frame),
     };
     if (rho_tracker_begin_step(&step)) {
-        open_frame(&step);
-        predict(&step);
-        claim_and_update(&step);
-        age(&step);
+        init_fates_and_pd(&step);
+        predict_tracks(&step);
+        claim_and_update_look_by_look(&step);
+        count_misses_and_end_tracks(&step);
         rho_tracker_initiate_passive(&step);
-        merge_estimates(&step);
+        merge_estimates_per_track(&step);
         rho_tracker_end_work(&step);
     }
     rho_tracker_report(&step);

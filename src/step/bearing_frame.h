@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_frame: what the step of a frame of bearings and its initiation share. Private to them.
+ * bearing_frame: usable bearings of a frame, and the frame in the form that a batch takes. Private
+ * to the step and the initiation of bearings.
  */
 #ifndef RHOTRACK_BEARING_FRAME_H
 #define RHOTRACK_BEARING_FRAME_H
@@ -8,33 +9,33 @@
 #include "phases.h"
 #include "rhotrack/detail/measurement.h"
 
-static inline int is_bearing(const struct rho_bearing *bearing)
+static inline int is_usable_bearing(const struct rho_bearing *bearing)
 {
     return rho_measurement_is_bearing(bearing) && bearing->offset_us <= RHO_LIMIT_OFFSET_US &&
            bearing->offset_us >= -RHO_LIMIT_OFFSET_US;
 }
 
 /*
- * The number of bearings of a scan that have a place in the report's fates and in the batch. first:
- * the place of the scan's first bearing among those of the frame.
+ * Number of a scan's bearings that have a place in the report's fates and in the batch.
+ *   first  place of the scan's first bearing among all bearings of the frame
  */
-static inline uint32_t num_held(const struct step *step, const struct rho_bearing_scan *scan,
-                                uint32_t first)
+static inline uint32_t num_bearings_with_fate(const struct step *step,
+                                              const struct rho_bearing_scan *scan, uint32_t first)
 {
     const uint32_t room = first < step->num_gated ? step->num_gated - first : 0;
     const uint32_t num = scan->num_bearings < room ? scan->num_bearings : room;
     return num < RHO_MAX_BEARINGS ? num : RHO_MAX_BEARINGS;
 }
 
-/* The frame as a batch takes it: the bearings that have fates, and these fates in a row. */
-struct held_frame {
+/* A frame in the form that a batch takes: scans cut to the bearings with fates, and their fates. */
+struct batch_frame {
     struct rho_frame frame;
     struct rho_bearing_scan scans[RHO_MAX_PASSIVE_SENSORS];
     uint8_t fates[RHO_MAX_PASSIVE_SENSORS * RHO_MAX_BEARINGS];
 };
 
-/* bearing_initiation.c: fills *held from step->frame, and gives its fates back to the report */
-void rho_tracker_hold_frame(const struct step *step, struct held_frame *held);
-void rho_tracker_return_fates(const struct step *step, struct held_frame *held);
+/* bearing_initiation.c: fills *held from step->frame; copies its fates back to the report */
+void rho_tracker_copy_frame_for_batch(const struct step *step, struct batch_frame *held);
+void rho_tracker_copy_fates_from_batch(const struct step *step, struct batch_frame *held);
 
 #endif

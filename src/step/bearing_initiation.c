@@ -1,27 +1,29 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * bearing_initiation: the phase initiate of a frame. Bearings that no track claimed go into the
- * batch, ghosts among them are marked, and a full batch starts tracks.
+ * bearing_initiation: initiation from a frame of bearings. Unclaimed bearings go into the batch of
+ * passive initiation, ghosts among them are marked, and a full batch starts tracks.
  */
 #include <string.h>
 
 #include "bearing_frame.h"
 #include "rhotrack/detail/crossing.h"
 
-/* ln of the odds, a hundred to one, against any other explanation of a track's bearings. */
+/* Least margin of a found track over rival tracks of its bearings: ln of odds of 100 to 1. */
 #define MARGIN_MIN_MNAT 4605
 
 /* ---- ghosts ---------------------------------------------------------------------------------- */
 
 /*
- * 1 where the bearing may meet one of the other scan in a target. *num counts the crossings tried.
+ * 1 where a bearing crosses one of another sensor's scan at a place that may be a target. *num
+ * counts the crossings tried.
  */
-static int meets_any(const struct step *step, const struct rho_crossing_base *base,
-                     float bearing_rad, const struct rho_bearing_scan *other, uint32_t *num)
+static int has_possible_crossing(const struct step *step, const struct rho_crossing_base *base,
+                                 float bearing_rad, const struct rho_bearing_scan *other,
+                                 uint32_t *num)
 {
     struct rho_crossing crossing;
     for (uint32_t j = 0; j < other->num_bearings && j < RHO_MAX_BEARINGS; j++) {
-        if (is_bearing(&other->bearings[j])) {
+        if (is_usable_bearing(&other->bearings[j])) {
             *num += 1;
             if (rho_crossing_find(base, bearing_rad, other->bearings[j].bearing_rad,
                                   step->passive->config.range_max_m,
@@ -33,8 +35,9 @@ static int meets_any(const struct step *step, const struct rho_crossing_base *ba
     return 0;
 }
 
-/* The bearing has crossings, and none of them can be a target. */
-static int is_ghost(const struct step *step, const struct rho_bearing_scan *scan, uint32_t i)
+/* 1 where a bearing has crossings with those of other sensors, and none can be a target. */
+static int is_ghost_bearing(const struct step *step, const struct rho_bearing_scan *scan,
+                            uint32_t i)
 {
     uint32_t num = 0;
     for (uint32_t k = 0; k < step->frame->num_scans; k++) {
@@ -42,23 +45,23 @@ static int is_ghost(const struct step *step, const struct rho_bearing_scan *scan
         struct rho_crossing_base base;
         if (other != scan &&
             rho_crossing_set_base(&base, scan->x_m, scan->y_m, other->x_m, other->y_m) == RHO_OK &&
-            meets_any(step, &base, scan->bearings[i].bearing_rad, other, &num)) {
+            has_possible_crossing(step, &base, scan->bearings[i].bearing_rad, other, &num)) {
             return 0;
         }
     }
     return num > 0;
 }
 
-/* Ghosts stay in the batch: the other sensors may have missed the target of one. */
-static void mark_ghosts(struct step *step)
+/* Ghosts stay in the batch: the other sensors may have missed the target of such a bearing. */
+static void mark_ghost_bearings(struct step *step)
 {
     uint32_t first = 0;
     for (uint32_t k = 0; k < step->frame->num_scans; k++) {
         const struct rho_bearing_scan *scan = &step->frame->scans[k];
-        uint32_t num = num_held(step, scan, first);
+        uint32_t num = num_bearings_with_fate(step, scan, first);
         for (uint32_t i = 0; i < num; i++) {
             uint8_t *fate = &step->report->fates[first + i];
-            if (*fate == RHO_FATE_HELD && is_ghost(step, scan, i)) {
+            if (*fate == RHO_FATE_HELD && is_ghost_bearing(step, scan, i)) {
                 *fate = RHO_FATE_GHOST;
             }
         }
@@ -68,8 +71,8 @@ static void mark_ghosts(struct step *step)
 
 /* ---- initiate -------------------------------------------------------------------------------- */
 
-/* Copies fates to the held frame's, or back. */
-static void move_fates(const struct step *step, struct held_frame *held, int is_back)
+/* Copies fates from the report to the batch's frame; is_back: from the frame to the report. */
+static void copy_fates(const struct step *step, struct batch_frame *held, int is_back)
 {
     uint8_t *packed = held->fates;
     uint32_t first = 0;
@@ -82,35 +85,36 @@ static void move_fates(const struct step *step, struct held_frame *held, int is_
     }
 }
 
-void rho_tracker_hold_frame(const struct step *step, struct held_frame *held)
+void rho_tracker_copy_frame_for_batch(const struct step *step, struct batch_frame *held)
 {
     uint32_t first = 0;
     held->frame = *step->frame;
     held->frame.scans = held->scans;
     for (uint32_t i = 0; i < held->frame.num_scans; i++) {
         held->scans[i] = step->frame->scans[i];
-        held->scans[i].num_bearings = num_held(step, &held->scans[i], first);
+        held->scans[i].num_bearings = num_bearings_with_fate(step, &held->scans[i], first);
         first = rho_count(first, step->frame->scans[i].num_bearings);
     }
-    move_fates(step, held, 0);
+    copy_fates(step, held, 0);
 }
 
-void rho_tracker_return_fates(const struct step *step, struct held_frame *held)
+void rho_tracker_copy_fates_from_batch(const struct step *step, struct batch_frame *held)
 {
-    move_fates(step, held, 1);
+    copy_fates(step, held, 1);
 }
 
-static void push_frame(struct step *step)
+static void push_frame_into_batch(struct step *step)
 {
-    struct held_frame held;
-    rho_tracker_hold_frame(step, &held);
-    /* the frame was accepted before the step began */
+    struct batch_frame held;
+    rho_tracker_copy_frame_for_batch(step, &held);
+    /* cannot fail: rho_tracker_step_frame has asked whether the batch accepts the frame */
     (void)!rho_passive_push(step->passive, &held.frame, held.fates);
-    rho_tracker_return_fates(step, &held);
+    rho_tracker_copy_fates_from_batch(step, &held);
 }
 
-/* The batch's estimate is of x, y, vx and vy. */
-static void fill_estimate(const struct rho_passive_track *found, struct rho_kalman *estimate)
+/* Copies a found track's x, y, vx and vy, and their covariance, into an estimate of three axes. */
+static void set_estimate_from_found_track(const struct rho_passive_track *found,
+                                          struct rho_kalman *estimate)
 {
     static const uint8_t place[4] = {0, 1, 3, 4};
     const float state[4] = {found->x_m, found->y_m, found->vx_mps, found->vy_mps};
@@ -123,8 +127,9 @@ static void fill_estimate(const struct rho_passive_track *found, struct rho_kalm
     }
 }
 
-/* One of the sensors that saw the found track last. */
-static int32_t last_sensor(const struct rho_passive *passive, const struct rho_passive_track *found)
+/* Identity of a sensor with a bearing in the newest scan of the found track. */
+static int32_t last_sensor_of_found_track(const struct rho_passive *passive,
+                                          const struct rho_passive_track *found)
 {
     int32_t sensor_id = passive->batch.sensors[0].sensor_id;
     for (unsigned k = 0; k < passive->batch.num_scans; k++) {
@@ -135,15 +140,15 @@ static int32_t last_sensor(const struct rho_passive *passive, const struct rho_p
     return sensor_id;
 }
 
-static void start_track(struct step *step, const struct rho_passive_track *found,
-                        const struct rho_track_limits *limits)
+static void start_found_track(struct step *step, const struct rho_passive_track *found,
+                              const struct rho_track_limits *limits)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_kalman estimate;
     struct rho_track track;
-    fill_estimate(found, &estimate);
+    set_estimate_from_found_track(found, &estimate);
     if (rho_track_start_estimate(&track, tracker->next_track_id, &estimate, step->time_us,
-                                 last_sensor(step->passive, found),
+                                 last_sensor_of_found_track(step->passive, found),
                                  (uint16_t)rho_count_bits(found->scans), &step->model,
                                  found->score_mnat) == RHO_OK &&
         rho_tracker_admit_track(step, &track, limits)) {
@@ -152,25 +157,26 @@ static void start_track(struct step *step, const struct rho_passive_track *found
     }
 }
 
-/* Seen in one of the last two scans: no remains of a track that claims its bearings by now. */
-static int is_fresh(const struct rho_passive *passive, const struct rho_passive_track *found)
+/* Guards against a second track of a target whose newer bearings a started track claims. */
+static int is_seen_in_last_two_scans(const struct rho_passive *passive,
+                                     const struct rho_passive_track *found)
 {
     return (unsigned)found->scans >> (passive->batch.num_scans - 2u) != 0;
 }
 
 /*
- * A batch that is not full may hold ghosts that still look straight. A started track has the
- * evidence of a whole batch, and is confirmed at once.
+ * Only a full batch is searched: in a shorter one ghosts may still move on straight lines. A
+ * started track has the evidence of a whole batch, and is confirmed at once.
  */
 void rho_tracker_initiate_passive(struct step *step)
 {
     struct rho_passive *passive = step->passive;
     if (!RHO_SEARCHES || !passive) {
-        rho_tracker_refuse_unclaimed(step);
+        rho_tracker_mark_unclaimed_no_room(step);
         return;
     }
-    push_frame(step);
-    mark_ghosts(step);
+    push_frame_into_batch(step);
+    mark_ghost_bearings(step);
     step->tracker->counters.plots_clutter =
         rho_count(step->tracker->counters.plots_clutter, passive->batch.num_left);
     if (passive->batch.num_scans < passive->batch.scans_max) {
@@ -184,8 +190,8 @@ void rho_tracker_initiate_passive(struct step *step)
     for (unsigned i = 0; i < passive->num_tracks; i++) {
         const struct rho_passive_track *found = &passive->tracks[i];
         if (found->score_mnat >= passive->start_mnat && found->margin_mnat >= MARGIN_MIN_MNAT &&
-            is_fresh(passive, found)) {
-            start_track(step, found, &limits);
+            is_seen_in_last_two_scans(passive, found)) {
+            start_found_track(step, found, &limits);
         }
     }
 }

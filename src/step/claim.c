@@ -1,28 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * claim: gates the scan's plots and assigns them to tracks, each at most one.
+ * claim: gates the scan's plots and assigns them to tracks: at most one plot to each track.
  */
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 
-/* The Hough gate needs two velocities that plots have made: it begins at the fourth, as in the
- * paper. */
+/* Velocities that a track has when its Hough gate begins: at its fourth plot, as in the paper. */
 #define HOUGH_VELOCITIES_MIN 3
 /*
- * The gain of a plot by its Hough residual, in nat a factor of e in m/s: of a confirmed track so
- * much that a tenth less outweighs what a tentative one gains by any plot. And its largest value,
- * the same for both, and the least residual that counts.
+ * Gain of a plot, in nat, when its Hough residual (m/s) falls by a factor of e. That of confirmed
+ * tracks is so large that a residual a tenth smaller outweighs any gain of a tentative track.
  */
 #define HOUGH_CONFIRMED_NAT 200.0f
 #define HOUGH_TENTATIVE_NAT 1.0f
-#define HOUGH_GAIN_MAX 16.0f
-#define HOUGH_RESIDUAL_MIN_MPS 0.001f
+#define HOUGH_GAIN_MAX 16.0f          /* offset that keeps the gain of every plot above a miss */
+#define HOUGH_RESIDUAL_MIN_MPS 0.001f /* residuals below this are equally good */
 
 /* ---- the plots of the scan ------------------------------------------------------------------- */
 
-/* Bounds of noise and own time, for the boxes that gates search. */
-static void note_widest_noise(struct step *step, const struct rho_plot *plot)
+/* Widens the bounds of plot noise and plot time offset, by which gates size their search boxes. */
+static void widen_noise_and_time_bounds(struct step *step, const struct rho_plot *plot)
 {
     float offset_s = (float)plot->offset_us * 1e-6f;
     const float factor = rho_measurement_widest_factor(step->sensor);
@@ -33,7 +31,7 @@ static void note_widest_noise(struct step *step, const struct rho_plot *plot)
     }
 }
 
-/* Plots that are no measurements, or outside of the stated coverage, are invalid. */
+/* Sets each plot's fate: INVALID where it is malformed or outside of the coverage, else HELD. */
 static void validate_plots(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
@@ -47,14 +45,14 @@ static void validate_plots(struct step *step)
         step->report->fates[i] = (uint8_t)(valid ? RHO_FATE_HELD : RHO_FATE_INVALID);
         if (valid) {
             rho_extent_add(&tracker->extent, plot->x_m, plot->y_m);
-            note_widest_noise(step, plot);
+            widen_noise_and_time_bounds(step, plot);
         }
     }
 }
 
 /* ---- tracks with a Kalman filter ------------------------------------------------------------- */
 
-/* Opens the Hough gate by the velocities of the track's last two estimates. */
+/* Opens the Hough gate by the velocities of the track's last two estimates. 0: it has no gate. */
 static int open_hough_gate(const struct step *step, const struct rho_track *track,
                            struct rho_gate_hough *hough)
 {
@@ -70,9 +68,9 @@ static int open_hough_gate(const struct step *step, const struct rho_track *trac
                                track->newest_mps) == RHO_OK;
 }
 
-/* Of the plot; where none is measured, that which brings the target from its last plot here. */
-static void velocity_by_plot(const struct step *step, const struct rho_track *track,
-                             const struct rho_plot *plot, float velocity_mps[3])
+/* The plot's measured velocity, or the one that leads from the track's last update to the plot. */
+static void velocity_implied_by_plot(const struct step *step, const struct rho_track *track,
+                                     const struct rho_plot *plot, float velocity_mps[3])
 {
     const float measured_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     const float place_m[3] = {plot->x_m, plot->y_m, plot->z_m};
@@ -86,29 +84,29 @@ static void velocity_by_plot(const struct step *step, const struct rho_track *tr
         if (step->scan->measures & RHO_MEASURES_VELOCITY) {
             velocity_mps[axis] = measured_mps[axis];
         } else if (dt_s > 0.0f) {
-            /* the prediction is where the newest velocity leads */
+            /* the newest velocity leads to the prediction; add the plot's offset from there */
             velocity_mps[axis] += (place_m[axis] - track->kalman.state[axis]) / dt_s;
         }
     }
 }
 
 /*
- * The gain falls with the Hough residual; the offset makes any plot better than a miss. The paper
- * has one track, whose plots it orders. Between tracks residuals are compared by their ratio: by
- * their difference, a plot that suits nothing would take the place of one that fits.
+ * A plot's gain falls with the log of its Hough residual; the offset makes any plot better than a
+ * miss. The paper orders the plots of one track. Between tracks residuals are compared by their
+ * ratio: by differences, a plot that fits no track could displace one that fits.
  */
-static float hough_gain(const struct step *step, const struct rho_track *track,
-                        const struct rho_gate_hough *hough, const struct rho_plot *plot)
+static float gain_by_hough_residual(const struct step *step, const struct rho_track *track,
+                                    const struct rho_gate_hough *hough, const struct rho_plot *plot)
 {
     float velocity_mps[3];
-    velocity_by_plot(step, track, plot, velocity_mps);
+    velocity_implied_by_plot(step, track, plot, velocity_mps);
     return (track->status == RHO_TRACK_TENTATIVE ? HOUGH_TENTATIVE_NAT : HOUGH_CONFIRMED_NAT) *
            (HOUGH_GAIN_MAX -
             rho_log(HOUGH_RESIDUAL_MIN_MPS + rho_gate_hough_residual_mps(hough, velocity_mps)));
 }
 
-static int is_in_box(const struct step *step, const struct rho_gate *gate, const float half_m[2],
-                     uint32_t i)
+static int is_held_plot_in_box(const struct step *step, const struct rho_gate *gate,
+                               const float half_m[2], uint32_t i)
 {
     const float dx_m = step->scan->plots[i].x_m - gate->predicted.state[0];
     const float dy_m = step->scan->plots[i].y_m - gate->predicted.state[1];
@@ -117,12 +115,12 @@ static int is_in_box(const struct step *step, const struct rho_gate *gate, const
 }
 
 /*
- * The Hough gate chooses among all plots of its window: where a manoeuvre begins, the target's plot
- * lies outside the chi-square gate of a filter that notices an input at the second plot only. That
- * takes measured velocities, which tell a target from clutter; of places alone a far plot fits as
- * well as a near one.
+ * Widens a gate's box to the Hough gate's window: where a manoeuvre begins, the target's plot lies
+ * outside the chi-square gate, as input estimation notices an input at the second plot only. Used
+ * with measured velocities alone: by positions alone a far plot fits as well as a near one.
  */
-static void widen_for_hough(const struct step *step, const struct rho_track *track, float half_m[2])
+static void widen_box_for_hough_gate(const struct step *step, const struct rho_track *track,
+                                     float half_m[2])
 {
     const struct rho_tracker_config *config = &step->tracker->config;
     const float dt_s = rho_seconds_between(track->updated_us, step->time_us);
@@ -148,7 +146,7 @@ static void offer_gated_plots(struct step *step, unsigned row)
     rho_tracker_open_gate(step, track, step->scan->measures, &gate);
     rho_gate_box(&gate, step->sigma_max_m, step->offset_max_s, half_m);
     if (has_window) {
-        widen_for_hough(step, track, half_m);
+        widen_box_for_hough_gate(step, track, half_m);
     }
     struct plots_near near = rho_tracker_plots_near(
         step, gate.predicted.state[0] - half_m[0], gate.predicted.state[0] + half_m[0],
@@ -157,19 +155,19 @@ static void offer_gated_plots(struct step *step, unsigned row)
     struct plot_choice choice = rho_tracker_choose_plots(step, track);
     for (uint32_t i; choice.most < rho_tracker_max_plots_near(step, &near) &&
                      rho_tracker_next_plot_near(step, &counted, &i);) {
-        if (is_in_box(step, &gate, half_m, i)) {
+        if (is_held_plot_in_box(step, &gate, half_m, i)) {
             rho_tracker_note_choice(&choice, track, &step->scan->plots[i]);
         }
     }
     rho_tracker_end_choice(step, &choice);
     for (uint32_t i; rho_tracker_next_plot_near(step, &near, &i);) {
         const struct rho_plot *plot = &step->scan->plots[i];
-        if (is_in_box(step, &gate, half_m, i) &&
+        if (is_held_plot_in_box(step, &gate, half_m, i) &&
             rho_tracker_is_chosen(step, &choice, track, plot) &&
             (has_window || rho_gate_test(&gate, plot, &result))) {
             rho_tracker_offer(
                 step, row, i,
-                by_hough ? hough_gain(step, track, &hough, plot)
+                by_hough ? gain_by_hough_residual(step, track, &hough, plot)
                          : rho_tracker_score_plot(step, track, &result, log_density, i) - log_miss);
         }
     }
@@ -177,7 +175,7 @@ static void offer_gated_plots(struct step *step, unsigned row)
 
 /* ---- tracks with hypotheses ------------------------------------------------------------------ */
 
-static void offer_scored_plots(struct step *step, unsigned row)
+static void offer_plots_scored_by_hypotheses(struct step *step, unsigned row)
 {
     const float log_miss = rho_tracker_log_miss(step, &step->tracker->tracks[row]);
     struct plot_scores scores;
@@ -211,7 +209,7 @@ void rho_tracker_claim(struct step *step)
             continue;
         }
         if (RHO_TRACK_IS_BY(&tracker->tracks[row], RHO_TRACK_HYPOTHESES)) {
-            offer_scored_plots(step, row);
+            offer_plots_scored_by_hypotheses(step, row);
         } else {
             offer_gated_plots(step, row);
         }

@@ -4,8 +4,8 @@
  */
 #include "phases.h"
 
-/* A better candidate of this search has started with the newest plot. If there is another target,
- * the next scan will show it. */
+/* 1 where a better candidate of this search has started a track with the same newest plot. If there
+ * is another target, the next scan will show it. */
 static int is_newest_plot_used(struct rho_initiator *initiator,
                                const struct rho_candidate *candidate)
 {
@@ -14,13 +14,13 @@ static int is_newest_plot_used(struct rho_initiator *initiator,
     return (scan->marks[candidate->plot[newest]] & RHO_WINDOW_INITIATED) != 0;
 }
 
-static void start_track(struct step *step, const struct rho_candidate *candidate,
-                        const struct rho_track_limits *limits)
+static void start_track_from_candidate(struct step *step, const struct rho_candidate *candidate,
+                                       const struct rho_track_limits *limits)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_track_plot plots[RHO_MAX_SCANS];
     struct rho_track track;
-    unsigned n = rho_tracker_gather_plots(&step->initiator->window, candidate, plots);
+    unsigned n = rho_tracker_copy_candidate_plots(&step->initiator->window, candidate, plots);
     if (rho_track_start(&track, tracker->next_track_id, plots, n, &step->model,
                         candidate->score_mnat) != RHO_OK) {
         tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, 1);
@@ -41,8 +41,8 @@ static void start_track(struct step *step, const struct rho_candidate *candidate
     }
 }
 
-/* The search counts as work of the step. */
-static void search_newest(struct step *step)
+/* Searches for candidates with plots of the newest scan, within the work that the step has left. */
+static void search_newest_scan(struct step *step)
 {
     struct rho_initiator *initiator = step->initiator;
     const struct rho_initiator_budget before = initiator->budget;
@@ -54,10 +54,10 @@ static void search_newest(struct step *step)
 }
 
 /*
- * Pointers were checked before the step began. The plots with a place in the report are offered;
- * the search uses the pd that was learned.
+ * Pushes the plots with a fate in the report, and the sensor with its learned pd. The push cannot
+ * fail: the step has checked the pointers and the time.
  */
-static void push_scan(struct step *step)
+static void push_scan_into_window(struct step *step)
 {
     struct rho_scan held = *step->scan;
     struct rho_sensor sensor;
@@ -70,15 +70,15 @@ static void push_scan(struct step *step)
                               step->report->fates, &step->tracker->counters.plots_clutter);
 }
 
-static void start_tracks(struct step *step)
+static void search_and_start_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_initiator *initiator = step->initiator;
-    push_scan(step);
+    push_scan_into_window(step);
     if (RHO_MAX_ECHOES > 0) {
         rho_tracker_keep_repeats(step);
     }
-    search_newest(step);
+    search_newest_scan(step);
     tracker->counters.candidates_dropped =
         rho_count(tracker->counters.candidates_dropped, initiator->work.candidates_dropped);
     tracker->start_mnat = initiator->start_mnat;
@@ -88,10 +88,10 @@ static void start_tracks(struct step *step)
     }
     const struct rho_track_limits limits = rho_tracker_limits(step);
     rho_tracker_begin_share(step, RHO_WORK_STARTS_SHARE);
-    /* what a suspect sensor alone sees is no target */
+    /* a suspect sensor starts no tracks: plots of it alone are no evidence of a target */
     for (unsigned i = 0; i < initiator->num_candidates && !step->is_suspect; i++) {
         if (!is_newest_plot_used(initiator, &initiator->candidates[i])) {
-            start_track(step, &initiator->candidates[i], &limits);
+            start_track_from_candidate(step, &initiator->candidates[i], &limits);
         }
     }
 }
@@ -99,9 +99,9 @@ static void start_tracks(struct step *step)
 void rho_tracker_initiate(struct step *step)
 {
     if (RHO_SEARCHES && step->initiator) {
-        start_tracks(step);
+        search_and_start_tracks(step);
     } else {
-        rho_tracker_refuse_unclaimed(step);
+        rho_tracker_mark_unclaimed_no_room(step);
     }
     if (RHO_MAX_ECHOES > 0) {
         rho_tracker_learn_clutter(step);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * operator: tracks that a person starts, ends, renumbers and freezes between two steps.
+ * operator: starts, ends, renumbers and freezes tracks by an operator's hand, between two steps.
  */
 #include "rhotrack/operator.h"
 
 #include "phases.h"
 
-/* Row of a live track; num_tracks: there is none. */
+/* Row of a track in the tracker's list; num_tracks where no track has the identity. */
 static unsigned row_of_track(const struct rho_tracker *tracker, uint32_t track_id)
 {
     unsigned row = 0;
@@ -16,10 +16,10 @@ static unsigned row_of_track(const struct rho_tracker *tracker, uint32_t track_i
     return row;
 }
 
-/* Finds a live track, and resumes the newest step for it. */
-static enum rho_status find_track(struct rho_tracker *tracker, uint32_t track_id,
-                                  struct rho_report *report, struct step *step,
-                                  struct rho_track **track)
+/* Finds a track by its identity, and fills *step to continue the newest step. */
+static enum rho_status find_track_and_resume_step(struct rho_tracker *tracker, uint32_t track_id,
+                                                  struct rho_report *report, struct step *step,
+                                                  struct rho_track **track)
 {
     if (!tracker || !report) {
         return RHO_ERROR_NULL;
@@ -35,8 +35,8 @@ static enum rho_status find_track(struct rho_tracker *tracker, uint32_t track_id
 
 /* ---- start ----------------------------------------------------------------------------------- */
 
-/* The sensor that was heard last. */
-static int32_t newest_sensor(const struct rho_tracker *tracker)
+/* Identity of the sensor with the newest scan. */
+static int32_t last_heard_sensor_id(const struct rho_tracker *tracker)
 {
     const struct rho_tracker_pace *newest = &tracker->paces[0];
     for (unsigned i = 1; i < tracker->num_paces; i++) {
@@ -56,7 +56,7 @@ enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
     const struct rho_track_plot seen = {
         .time_us = tracker->time_us,
         .measures = has_velocity ? RHO_MEASURES_VELOCITY : 0,
-        .sensor_id = newest_sensor(tracker),
+        .sensor_id = last_heard_sensor_id(tracker),
         .plot = {.x_m = start->x_m,
                  .y_m = start->y_m,
                  .vx_mps = start->vx_mps,
@@ -72,7 +72,7 @@ enum rho_status rho_tracker_start_at(struct rho_tracker *tracker,
 
 /* ---- end and identity ------------------------------------------------------------------------ */
 
-static int has_room(const struct rho_report *report)
+static int has_room_for_ended(const struct rho_report *report)
 {
     return report->num_ended < RHO_MAX_TRACKS;
 }
@@ -82,11 +82,12 @@ enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t tra
 {
     struct step step;
     struct rho_track *track;
-    const enum rho_status status = find_track(tracker, track_id, report, &step, &track);
+    const enum rho_status status =
+        find_track_and_resume_step(tracker, track_id, report, &step, &track);
     if (status != RHO_OK) {
         return status;
     }
-    if (!has_room(report)) {
+    if (!has_room_for_ended(report)) {
         return RHO_ERROR_CAPACITY;
     }
     rho_tracker_end_track(&step, track);
@@ -99,7 +100,7 @@ enum rho_status rho_tracker_drop_track(struct rho_tracker *tracker, uint32_t tra
     return RHO_OK;
 }
 
-static void swap_tracks(struct rho_tracker *tracker, unsigned row, unsigned other)
+static void swap_tracks_and_bodies(struct rho_tracker *tracker, unsigned row, unsigned other)
 {
     const struct rho_track track = tracker->tracks[row];
     tracker->tracks[row] = tracker->tracks[other];
@@ -111,16 +112,17 @@ static void swap_tracks(struct rho_tracker *tracker, unsigned row, unsigned othe
     }
 }
 
-/* Tracks stay in the order of their identities; of those that move, no evidence is known. */
-static void move_to_identity_order(struct rho_tracker *tracker, unsigned row)
+/* Moves a track to its place in the order of identities. The assignment's rows from there on no
+ * longer fit the tracks, and are dropped. */
+static void move_track_to_id_order(struct rho_tracker *tracker, unsigned row)
 {
     const uint32_t track_id = tracker->tracks[row].track_id;
     unsigned to = row;
     for (; to > 0 && tracker->tracks[to - 1].track_id > track_id; to--) {
-        swap_tracks(tracker, to, to - 1u);
+        swap_tracks_and_bodies(tracker, to, to - 1u);
     }
     for (; to + 1u < tracker->num_tracks && tracker->tracks[to + 1].track_id < track_id; to++) {
-        swap_tracks(tracker, to, to + 1u);
+        swap_tracks_and_bodies(tracker, to, to + 1u);
     }
     if (RHO_KEEPS_OFFERS && to != row) {
         const unsigned first = to < row ? to : row;
@@ -130,8 +132,8 @@ static void move_to_identity_order(struct rho_tracker *tracker, unsigned row)
     }
 }
 
-/* Takes an identity off the report's list of ended tracks: it goes on. */
-static void withdraw_end(struct rho_report *report, uint32_t track_id)
+/* Takes an identity off the report's list of ended tracks: another track continues it. */
+static void remove_from_ended_list(struct rho_report *report, uint32_t track_id)
 {
     uint16_t kept = 0;
     for (unsigned i = 0; i < report->num_ended; i++) {
@@ -147,7 +149,8 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
 {
     struct step step;
     struct rho_track *track;
-    const enum rho_status status = find_track(tracker, track_id, report, &step, &track);
+    const enum rho_status status =
+        find_track_and_resume_step(tracker, track_id, report, &step, &track);
     if (status != RHO_OK) {
         return status;
     }
@@ -155,10 +158,10 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         row_of_track(tracker, new_id) < tracker->num_tracks) {
         return RHO_ERROR_VALUE;
     }
-    if (!has_room(report)) {
+    if (!has_room_for_ended(report)) {
         return RHO_ERROR_CAPACITY;
     }
-    withdraw_end(report, new_id);
+    remove_from_ended_list(report, new_id);
     if (track->was_confirmed) {
         report->ended[report->num_ended++] = track_id;
     }
@@ -171,7 +174,7 @@ enum rho_status rho_tracker_renumber_track(struct rho_tracker *tracker, uint32_t
         struct rho_track *other = &tracker->tracks[i];
         other->older_id = other->older_id == track_id ? new_id : other->older_id;
     }
-    move_to_identity_order(tracker, (unsigned)(track - tracker->tracks));
+    move_track_to_id_order(tracker, (unsigned)(track - tracker->tracks));
     tracker->next_track_id = tracker->next_track_id > new_id ? tracker->next_track_id : new_id + 1u;
     rho_tracker_report_tracks(&step);
     return RHO_OK;
@@ -184,7 +187,8 @@ enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t t
 {
     struct step step;
     struct rho_track *track;
-    const enum rho_status status = find_track(tracker, track_id, report, &step, &track);
+    const enum rho_status status =
+        find_track_and_resume_step(tracker, track_id, report, &step, &track);
     if (status != RHO_OK) {
         return status;
     }
@@ -201,7 +205,7 @@ enum rho_status rho_tracker_freeze_track(struct rho_tracker *tracker, uint32_t t
     track->status = RHO_TRACK_COASTING;
     track->plot = -1;
     track->accel_mps2[0] = track->accel_mps2[1] = track->accel_mps2[2] = 0.0f;
-    /* the time of the silence is not the target's */
+    /* the frozen time does not count as silence of the target */
     track->seen_us = tracker->time_us;
     track->misses_in_row = 0;
     rho_tracker_report_tracks(&step);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * paper_starts: tracks start by the papers' Hough transforms, between two steps of a tracker.
+ * paper_starts: starts tracks by the papers' Hough transforms, between two steps of a tracker.
  *
- * What no track has claimed is kept, searched, and each line that is fresh and seen in enough scans
- * becomes a track.
+ * Plots and bearings that no track has claimed are kept and searched for lines. A line with plots
+ * in the newest scan and in enough scans starts a track.
  */
 #include "rhotrack/paper_starts.h"
 
@@ -15,7 +15,7 @@
 
 #define STARTS_MAGIC 0x50535431u
 
-/* A line's plots are within so many standard deviations of the motion fitted to its voters. */
+/* Standard deviations within which a line's plots are, from the motion fitted to its voters. */
 #define GATE_SIGMAS 3.0f
 
 /* ---- configuration --------------------------------------------------------------------------- */
@@ -29,7 +29,7 @@ void rho_paper_starts_config_default(struct rho_paper_starts_config *config,
     }
 }
 
-static int is_usable(const struct rho_paper_starts_config *config)
+static int is_usable_config(const struct rho_paper_starts_config *config)
 {
     return config->scans >= 3 && config->scans <= RHO_MAX_SCANS &&
            (config->scans_min == 0 ||
@@ -45,8 +45,8 @@ enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t si
     if (size != sizeof *starts) {
         return RHO_ERROR_SIZE;
     }
-    const struct rho_paper_starts_config kept = *config; /* it may lie within *starts */
-    if (!is_usable(&kept)) {
+    const struct rho_paper_starts_config kept = *config; /* config may point into *starts */
+    if (!is_usable_config(&kept)) {
         return RHO_ERROR_CONFIG;
     }
     starts->magic = 0;
@@ -64,8 +64,8 @@ enum rho_status rho_paper_starts_init(struct rho_paper_starts *starts, size_t si
 
 /* ---- what is kept ---------------------------------------------------------------------------- */
 
-/* A step of the tracker that a search goes on from, as its phases have it. */
-static struct step step_of(struct rho_tracker *tracker, struct rho_report *report)
+/* The state of the tracker's last step, made from its report, as functions of a step take it. */
+static struct step step_from_report(struct rho_tracker *tracker, struct rho_report *report)
 {
     return (struct step){.tracker = tracker,
                          .report = report,
@@ -80,8 +80,8 @@ static int has_stepped(const struct rho_tracker *tracker)
     return rho_tracker_is_ready(tracker) && tracker->has_time;
 }
 
-/* The step counted inputs that nobody held. They are held now. */
-static void recount_as_held(const struct step *step, uint32_t held)
+/* Moves inputs from the counters of NO_ROOM to those of HELD: the step had no initiator. */
+static void recount_no_room_as_held(const struct step *step, uint32_t held)
 {
     uint32_t *fates = step->tracker->counters.fates;
     step->report->fates_total[RHO_FATE_NO_ROOM] -= held;
@@ -90,15 +90,15 @@ static void recount_as_held(const struct step *step, uint32_t held)
     fates[RHO_FATE_NO_ROOM] -= held < fates[RHO_FATE_NO_ROOM] ? held : fates[RHO_FATE_NO_ROOM];
 }
 
-/* Inputs that no track has claimed are offered to the window or the batch. */
-static void offer_unclaimed(uint8_t *fates, uint32_t num)
+/* Unclaimed inputs become HELD, so that the window or the batch takes them. */
+static void mark_no_room_as_held(uint8_t *fates, uint32_t num)
 {
     for (uint32_t i = 0; i < num; i++) {
         fates[i] = fates[i] == RHO_FATE_NO_ROOM ? (uint8_t)RHO_FATE_HELD : fates[i];
     }
 }
 
-static uint32_t count_fate(const uint8_t *fates, uint32_t num, enum rho_fate fate)
+static uint32_t count_inputs_with_fate(const uint8_t *fates, uint32_t num, enum rho_fate fate)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < num; i++) {
@@ -109,18 +109,19 @@ static uint32_t count_fate(const uint8_t *fates, uint32_t num, enum rho_fate fat
 
 /* ---- plots ----------------------------------------------------------------------------------- */
 
-static enum rho_status keep_plots(struct rho_paper_starts *starts, const struct step *step,
-                                  const struct rho_scan *scan)
+static enum rho_status push_plots_into_window(struct rho_paper_starts *starts,
+                                              const struct step *step, const struct rho_scan *scan)
 {
     const struct rho_sensor *sensor = rho_tracker_find_sensor(step->tracker, scan->sensor_id);
     struct rho_scan held = *scan;
     uint8_t *fates = step->report->fates;
     held.num_plots = held.num_plots < step->num_gated ? held.num_plots : step->num_gated;
-    const uint32_t before = count_fate(fates, held.num_plots, RHO_FATE_NO_ROOM);
-    offer_unclaimed(fates, held.num_plots);
+    const uint32_t before = count_inputs_with_fate(fates, held.num_plots, RHO_FATE_NO_ROOM);
+    mark_no_room_as_held(fates, held.num_plots);
     enum rho_status status = rho_window_push(&starts->window, &held, sensor, fates,
                                              &step->tracker->counters.plots_clutter);
-    recount_as_held(step, before - count_fate(fates, held.num_plots, RHO_FATE_NO_ROOM));
+    recount_no_room_as_held(
+        step, before - count_inputs_with_fate(fates, held.num_plots, RHO_FATE_NO_ROOM));
     return status;
 }
 
@@ -130,8 +131,8 @@ struct rho_hough_points rho_paper_starts_points(const struct rho_paper_starts *s
         .at = {starts->x_m, starts->y_m, starts->num_scans, starts->scan_end}, .t_s = starts->t_s};
 }
 
-/* The window in the transform's arrays, but for the plots that have started tracks. */
-static struct rho_hough_points gather_points(struct rho_paper_starts *starts)
+/* Copies the window into the transform's arrays, without plots that have started tracks. */
+static struct rho_hough_points gather_unused_points(struct rho_paper_starts *starts)
 {
     struct rho_window *window = &starts->window;
     const int64_t newest_us = rho_window_scan_at(window, window->num_scans - 1u)->time_us;
@@ -152,7 +153,7 @@ static struct rho_hough_points gather_points(struct rho_paper_starts *starts)
     return rho_paper_starts_points(starts);
 }
 
-/* The plots of a line: of each scan the nearest to the motion that was fitted to its voters. */
+/* Finds in each scan the plot nearest to a line's fitted motion; returns the number of plots. */
 static unsigned find_plots_of_line(struct rho_paper_starts *starts,
                                    const struct rho_hough_track *line,
                                    struct rho_candidate *candidate)
@@ -187,12 +188,12 @@ static unsigned find_plots_of_line(struct rho_paper_starts *starts,
     return candidate->hits;
 }
 
-static int is_fresh(unsigned mask, unsigned num_scans)
+static int is_in_newest_scan(unsigned mask, unsigned num_scans)
 {
     return num_scans > 0 && (mask >> (num_scans - 1u) & 1u) != 0;
 }
 
-/* The plots will start no other track. */
+/* Marks a candidate's plots in the window: they start no other track. */
 static void mark_plots_used(struct rho_paper_starts *starts, const struct rho_candidate *candidate,
                             struct rho_tracker_counters *counters)
 {
@@ -206,26 +207,26 @@ static void mark_plots_used(struct rho_paper_starts *starts, const struct rho_ca
     counters->plots_initiated = rho_count(counters->plots_initiated, candidate->hits);
 }
 
-/* Tracks are in the order of their starts. */
+/* Identity of the track that started last: the tracker's list is in the order of starts. */
 static uint32_t newest_track_id(const struct rho_tracker *tracker)
 {
     return tracker->tracks[tracker->num_tracks - 1u].track_id;
 }
 
-static void start_track_of_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
-                                struct rho_paper_line *peak, unsigned scans_min,
-                                struct rho_report *report)
+static void start_track_from_line(struct rho_paper_starts *starts, struct rho_tracker *tracker,
+                                  struct rho_paper_line *peak, unsigned scans_min,
+                                  struct rho_report *report)
 {
     const struct rho_hough_track *line = &peak->line;
     struct rho_candidate candidate;
     struct rho_track_plot plots[RHO_MAX_SCANS];
     peak->track_id = 0;
     if (!line->has_velocity || find_plots_of_line(starts, line, &candidate) < scans_min ||
-        !is_fresh(candidate.mask, starts->window.num_scans)) {
+        !is_in_newest_scan(candidate.mask, starts->window.num_scans)) {
         starts->work.short_lines = rho_count(starts->work.short_lines, 1);
         return;
     }
-    const unsigned num = rho_tracker_gather_plots(&starts->window, &candidate, plots);
+    const unsigned num = rho_tracker_copy_candidate_plots(&starts->window, &candidate, plots);
     if (rho_tracker_start_track(tracker, plots, num, 0, report) == RHO_OK) {
         peak->track_id = newest_track_id(tracker);
         mark_plots_used(starts, &candidate, &tracker->counters);
@@ -235,7 +236,7 @@ static void start_track_of_line(struct rho_paper_starts *starts, struct rho_trac
     }
 }
 
-static unsigned enough_scans(unsigned scans_min, unsigned scans)
+static unsigned num_scans_needed(unsigned scans_min, unsigned scans)
 {
     return scans_min > 0 ? scans_min : (4u * scans + 4u) / 5u;
 }
@@ -249,19 +250,19 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
     if (starts->magic != STARTS_MAGIC || !has_stepped(tracker)) {
         return RHO_ERROR_STATE;
     }
-    struct step step = step_of(tracker, report);
+    struct step step = step_from_report(tracker, report);
     memset(&starts->work, 0, sizeof starts->work);
     starts->has_searched = 0;
     if (report->time_us != tracker->time_us ||
         !rho_window_accepts(&starts->window, scan->time_us)) {
         return RHO_OK;
     }
-    enum rho_status status = keep_plots(starts, &step, scan);
-    const unsigned scans_min = enough_scans(starts->config.scans_min, starts->config.scans);
+    enum rho_status status = push_plots_into_window(starts, &step, scan);
+    const unsigned scans_min = num_scans_needed(starts->config.scans_min, starts->config.scans);
     if (status != RHO_OK || starts->window.num_scans < scans_min) {
         return status;
     }
-    const struct rho_hough_points points = gather_points(starts);
+    const struct rho_hough_points points = gather_unused_points(starts);
     status =
         rho_hough_find(&starts->hough, &points, starts->peaks, RHO_PAPER_PEAKS, &starts->result);
     starts->work.peaks = starts->result.num_peaks;
@@ -269,7 +270,7 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
         status = rho_hough_track(&starts->hough, &points, starts->peaks[i].theta_cell,
                                  starts->peaks[i].rho_cell, 0.0f, &starts->lines[i].line);
         if (status == RHO_OK) {
-            start_track_of_line(starts, tracker, &starts->lines[i], scans_min, report);
+            start_track_from_line(starts, tracker, &starts->lines[i], scans_min, report);
         }
     }
     starts->has_searched = status == RHO_OK;
@@ -278,8 +279,8 @@ enum rho_status rho_paper_starts_step(struct rho_paper_starts *starts, struct rh
 
 /* ---- bearings -------------------------------------------------------------------------------- */
 
-/* The fit is of x, y, vx and vy, each axis by itself. */
-static struct rho_kalman estimate_of(const struct rho_passive_paper_line *line)
+/* Kalman estimate of a line's x, y, vx and vy; the fit gives no covariance between the axes. */
+static struct rho_kalman estimate_from_line(const struct rho_passive_paper_line *line)
 {
     struct rho_kalman estimate;
     const float state[4] = {line->x_m, line->y_m, line->vx_mps, line->vy_mps};
@@ -294,14 +295,14 @@ static struct rho_kalman estimate_of(const struct rho_passive_paper_line *line)
     return estimate;
 }
 
-static void start_tracks_of_lines(struct rho_passive_paper *paper, struct rho_tracker *tracker,
-                                  struct rho_report *report)
+static void start_tracks_from_lines(struct rho_passive_paper *paper, struct rho_tracker *tracker,
+                                    struct rho_report *report)
 {
     for (unsigned i = 0; i < paper->num_lines; i++) {
         struct rho_passive_paper_line *line = &paper->lines[i];
-        if (line->has_state && is_fresh(line->scans, paper->batch.num_scans)) {
-            const struct rho_kalman estimate = estimate_of(line);
-            /* a refusal is the line's: the tracker has no room, or the fit is no estimate */
+        if (line->has_state && is_in_newest_scan(line->scans, paper->batch.num_scans)) {
+            const struct rho_kalman estimate = estimate_from_line(line);
+            /* no track where the tracker has no room, or the fitted covariance is refused */
             if (rho_tracker_start_estimate(tracker, &estimate, paper->batch.sensors[0].sensor_id,
                                            (uint16_t)rho_count_bits(line->scans), 0,
                                            report) == RHO_OK) {
@@ -311,7 +312,7 @@ static void start_tracks_of_lines(struct rho_passive_paper *paper, struct rho_tr
     }
 }
 
-static uint32_t num_bearings_in(const struct held_frame *held)
+static uint32_t num_bearings_in_frame(const struct batch_frame *held)
 {
     uint32_t num = 0;
     for (uint32_t i = 0; i < held->frame.num_scans; i++) {
@@ -329,26 +330,27 @@ enum rho_status rho_passive_paper_step(struct rho_passive_paper *paper, struct r
     if (!has_stepped(tracker)) {
         return RHO_ERROR_STATE;
     }
-    struct step step = step_of(tracker, report);
-    struct held_frame held;
+    struct step step = step_from_report(tracker, report);
+    struct batch_frame held;
     step.frame = frame;
     if (report->time_us != tracker->time_us || frame->num_scans > RHO_MAX_PASSIVE_SENSORS) {
         return RHO_OK;
     }
-    rho_tracker_hold_frame(&step, &held);
-    const uint32_t num = num_bearings_in(&held);
-    const uint32_t before = count_fate(held.fates, num, RHO_FATE_NO_ROOM);
-    offer_unclaimed(held.fates, num);
+    rho_tracker_copy_frame_for_batch(&step, &held);
+    const uint32_t num = num_bearings_in_frame(&held);
+    const uint32_t before = count_inputs_with_fate(held.fates, num, RHO_FATE_NO_ROOM);
+    mark_no_room_as_held(held.fates, num);
     enum rho_status status = rho_passive_paper_push(paper, &held.frame, held.fates);
     if (status != RHO_OK) {
         return status;
     }
-    rho_tracker_return_fates(&step, &held);
-    recount_as_held(&step, before - count_fate(held.fates, num, RHO_FATE_NO_ROOM));
+    rho_tracker_copy_fates_from_batch(&step, &held);
+    recount_no_room_as_held(&step,
+                            before - count_inputs_with_fate(held.fates, num, RHO_FATE_NO_ROOM));
     if (paper->batch.num_scans == paper->batch.scans_max) {
         status = rho_passive_paper_search(paper);
         if (status == RHO_OK) {
-            start_tracks_of_lines(paper, tracker, report);
+            start_tracks_from_lines(paper, tracker, report);
         }
     }
     return status;

@@ -10,20 +10,20 @@
 #include "../tracker/step.h"
 
 /*
- * step_begin.c: the report begins; 0 where the inputs are too late for the tracker and have their
- * fates. rho_tracker_report ends the step in either case.
+ * step_begin.c: clears the report, and counts the scan. Returns 0 where the inputs are too old for
+ * the tracker: their fates are then STALE, and no phase but rho_tracker_report follows.
  */
 int rho_tracker_begin_step(struct step *step);
-/* Sets how targets may move, and the filter of new tracks. */
-void rho_tracker_set_model(struct step *step);
-/* Uses the pd of step->sensor. */
+/* Sets the step's motion model, the filter of new tracks, and the volumes of clutter densities. */
+void rho_tracker_set_motion_model(struct step *step);
+/* Sets step->log_pd and step->log_miss by step->sensor, or by the tracker's default pd. */
 void rho_tracker_set_pd(struct step *step);
 int rho_tracker_is_usable_time(int64_t time_us);
 int rho_tracker_is_late(const struct rho_tracker *tracker, int64_t time_us);
 
-/* predict.c: the tracks that the scan can see; one track */
+/* predict.c: moves the tracks that the scan can see, or one track, to the time of the step */
 void rho_tracker_predict(struct step *step);
-void rho_tracker_predict_track(struct step *step, struct rho_track *track);
+void rho_tracker_predict_or_end_track(struct step *step, struct rho_track *track);
 
 /* claim.c: gates the plots and assigns them to tracks; changes no track */
 void rho_tracker_claim(struct step *step);
@@ -31,45 +31,52 @@ void rho_tracker_claim(struct step *step);
 /* update.c: tracks take the plots that they were assigned */
 void rho_tracker_update(struct step *step);
 
-/* age.c: misses, ends and confirmations of all tracks; of one, after its miss was counted */
+/*
+ * age.c: counts misses, confirms and ends tracks; rho_tracker_confirm_or_end_track confirms or ends
+ * one track whose miss was counted before.
+ */
 void rho_tracker_age(struct step *step);
-void rho_tracker_age_track(struct step *step, struct rho_track *track, int is_missed,
-                           const struct rho_track_limits *limits);
+void rho_tracker_confirm_or_end_track(struct step *step, struct rho_track *track, int is_missed,
+                                      const struct rho_track_limits *limits);
 
-/* initiate.c, bearing_initiation.c: tracks start from what no track claimed */
+/* initiate.c, bearing_initiation.c: tracks start from plots or bearings that no track claimed */
 void rho_tracker_initiate(struct step *step);
 void rho_tracker_initiate_passive(struct step *step);
 
-/* report.c: one estimate for each track at the step's time; fates, counters and tracks */
-void rho_tracker_merge_estimates(struct step *step);
+/*
+ * report.c: merges the hypotheses of each track into one estimate at the step's time; reports
+ * fates, counters and tracks, or the tracks alone.
+ */
+void rho_tracker_merge_estimates_per_track(struct step *step);
 void rho_tracker_report(struct step *step);
 void rho_tracker_report_tracks(const struct step *step);
 
-/* scan_overflow.c: claim and update in parts, of a scan of more than RHO_MAX_PLOTS plots */
-void rho_tracker_claim_parts(struct step *step);
+/* scan_overflow.c: claims and updates by a scan of more than RHO_MAX_PLOTS plots, in parts */
+void rho_tracker_claim_and_update_parts(struct step *step);
 
-/* merged_plots.c: pairs of tracks take one plot, before the others take theirs */
+/* merged_plots.c: pairs of tracks share merged plots, before other tracks take their plots */
 void rho_tracker_share_merged_plots(struct step *step);
 
-/* split_bodies.c: tracks of bodies that are surely two targets become two */
+/* split_bodies.c: a track whose body is surely two targets becomes two tracks */
 void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan);
 
 /*
- * track_starts.c: a started track of any initiator joins the others where there is room; else it
- * ends, and 0. rho_tracker_start_track does the same between two steps.
+ * track_starts.c: adds a started track to the tracker's; returns 0 where there is no room, and the
+ * track has ended. A full tracker ends its lowest tentative track for a track of a higher score.
  */
 int rho_tracker_admit_track(struct step *step, struct rho_track *track,
                             const struct rho_track_limits *limits);
 /*
- * What is done between two steps goes on from the newest one, whose report it still is; STATE where
- * there is none.
+ * Makes *step from the newest step and its report, for changes of tracks between two steps. STATE:
+ * the tracker has made no step, or the report is of another one.
  */
 enum rho_status rho_tracker_resume_step(struct rho_tracker *tracker, struct rho_report *report,
                                         struct step *step);
-/* The candidate's plots in the order of their scans; returns how many. */
-unsigned rho_tracker_gather_plots(struct rho_window *window, const struct rho_candidate *candidate,
-                                  struct rho_track_plot *plots);
-/* Without an initiator, unclaimed plots and bearings are held nowhere. */
-void rho_tracker_refuse_unclaimed(struct step *step);
+/* Copies a candidate's plots from the window in the order of their scans; returns their number. */
+unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
+                                          const struct rho_candidate *candidate,
+                                          struct rho_track_plot *plots);
+/* Without an initiator nothing holds unclaimed plots and bearings: HELD becomes NO_ROOM. */
+void rho_tracker_mark_unclaimed_no_room(struct step *step);
 
 #endif

@@ -2,14 +2,14 @@
 /*
  * predict: moves tracks to the scan's time.
  *
- * A track that the scan cannot see stays at its own time. So scans of other sectors or sensors
- * change no bit of its estimate.
+ * A track that the scan cannot see stays at its own time: scans of other sectors or sensors change
+ * no bit of its estimate.
  */
 #include "phases.h"
 
-void rho_tracker_predict_track(struct step *step, struct rho_track *track)
+void rho_tracker_predict_or_end_track(struct step *step, struct rho_track *track)
 {
-    /* an estimate that time has made worthless cannot be carried on */
+    /* the prediction fails where the covariance has grown beyond its limits */
     if (rho_track_predict(track, step->time_us, &step->model) != RHO_OK) {
         rho_tracker_end_track(step, track);
     }
@@ -28,7 +28,7 @@ void rho_tracker_predict(struct step *step)
             !(RHO_SECTORS && rho_tracker_was_seen_in_last_sector(step, track)) &&
             !rho_tracker_is_only_seen_by_suspect_sensor(step, track)) {
             step->in_view[i / 32] |= 1u << i % 32;
-            rho_tracker_predict_track(step, track);
+            rho_tracker_predict_or_end_track(step, track);
         }
     }
 }

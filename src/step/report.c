@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * report: the tracks at the step's time, one fate for each plot, and the counters.
+ * report: reports the tracks at the step's time, and counts the fates of the plots.
  */
 #include <string.h>
 
 #include "phases.h"
 
-/* Tracks that the scan cannot see, and tracks that started at their plots' own times, stay as they
- * are; the report moves their last estimates. */
-void rho_tracker_merge_estimates(struct step *step)
+/* Tracks at another time than the step's are left alone: the scan did not see them, or they started
+ * at a plot's own time. The report moves a copy of their estimates. */
+void rho_tracker_merge_estimates_per_track(struct step *step)
 {
     for (unsigned i = 0; i < step->tracker->num_tracks; i++) {
         struct rho_track *track = &step->tracker->tracks[i];
@@ -18,8 +18,8 @@ void rho_tracker_merge_estimates(struct step *step)
     }
 }
 
-/* Hypotheses stay where they are: the one estimate moves, forward with its acceleration. */
-static void move_estimate(struct rho_track *at, float dt_s, float noise_density)
+/* Moves a merged estimate by dt_s: forward with its acceleration, back without. */
+static void extrapolate_estimate(struct rho_track *at, float dt_s, float noise_density)
 {
     if (rho_kalman_predict(&at->kalman, dt_s, noise_density) != RHO_OK) {
         return;
@@ -30,7 +30,7 @@ static void move_estimate(struct rho_track *at, float dt_s, float noise_density)
     }
 }
 
-/* The track at the step's time: itself, or a copy moved there in *at. */
+/* The track itself where it is at the step's time; else a copy, *at, moved to that time. */
 static const struct rho_track *
 track_at_step_time(const struct step *step, const struct rho_track *track, struct rho_track *at)
 {
@@ -38,10 +38,10 @@ track_at_step_time(const struct step *step, const struct rho_track *track, struc
         return track;
     }
     *at = *track;
-    /* back from the plot's own time to the scan's, without noise, or on: nothing to refuse */
+    /* a prediction back from a plot's own time adds no noise; neither way can be refused */
     if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-        move_estimate(at, rho_seconds_between(track->time_us, step->time_us),
-                      step->model.noise_density);
+        extrapolate_estimate(at, rho_seconds_between(track->time_us, step->time_us),
+                             step->model.noise_density);
     } else {
         (void)!rho_track_predict(at, step->time_us, &step->model);
     }
@@ -79,8 +79,9 @@ static void report_track(const struct step *step, const struct rho_track *track,
     memcpy(out->covariance, at->kalman.covariance, sizeof out->covariance);
 }
 
-/* Plots without a place in fates[]: STALE in a scan that came out of sequence, else NO_ROOM. */
-static void count_fates(const struct step *step)
+/* Adds each input's fate to the totals of report and tracker. Inputs without a place in fates[] are
+ * STALE in an out-of-sequence scan, else NO_ROOM. */
+static void count_plot_fates(const struct step *step)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
     struct rho_report *report = step->report;
@@ -112,6 +113,6 @@ void rho_tracker_report_tracks(const struct step *step)
 
 void rho_tracker_report(struct step *step)
 {
-    count_fates(step);
+    count_plot_fates(step);
     rho_tracker_report_tracks(step);
 }

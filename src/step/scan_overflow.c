@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scan_overflow: scans of more plots than there is room for. Existing tracks come first: they claim
- * from the other plots, too.
+ * scan_overflow: claims plots of a scan that has more than RHO_MAX_PLOTS. Existing tracks come
+ * first: they may claim the plots beyond that limit, too.
  *
  * The scan is claimed in parts of RHO_MAX_PLOTS. In each part the tracks that have no plot yet
  * claim one; a track without a plot after the last part is missed. Only plots of the first part
@@ -11,11 +11,11 @@
 
 #include "phases.h"
 
-/* Largest row that a track's int16_t holds. */
+/* Largest row of a plot that the int16_t field of a track holds. */
 #define ROWS_MAX ((uint32_t)INT16_MAX)
 
-static void open_part(struct step *step, struct rho_scan *part, const struct rho_scan *whole,
-                      uint32_t first, uint32_t end)
+static void select_scan_part(struct step *step, struct rho_scan *part, const struct rho_scan *whole,
+                             uint32_t first, uint32_t end)
 {
     *part = *whole;
     part->plots += first;
@@ -27,10 +27,10 @@ static void open_part(struct step *step, struct rho_scan *part, const struct rho
 }
 
 /*
- * Tracks that were assigned a plot, taken or refused, are excluded from later parts. Their plots
- * get the rows of the whole scan.
+ * Excludes tracks that were assigned a plot, taken or refused, from later parts; their plots get
+ * the rows of the whole scan. Counts claimed and invalid plots that have no place in fates[].
  */
-static void close_part(struct step *step)
+static void exclude_assigned_tracks(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
@@ -47,7 +47,7 @@ static void close_part(struct step *step)
     }
 }
 
-static uint32_t end_of_parts(const struct rho_scan *whole)
+static uint32_t num_plots_in_parts(const struct rho_scan *whole)
 {
     const uint32_t most = RHO_TRACKER_PARTS_MAX * RHO_MAX_PLOTS < ROWS_MAX
                               ? RHO_TRACKER_PARTS_MAX * RHO_MAX_PLOTS
@@ -55,17 +55,17 @@ static uint32_t end_of_parts(const struct rho_scan *whole)
     return whole->num_plots < most ? whole->num_plots : most;
 }
 
-void rho_tracker_claim_parts(struct step *step)
+void rho_tracker_claim_and_update_parts(struct step *step)
 {
     const struct step before = *step;
-    const uint32_t end = end_of_parts(before.scan);
+    const uint32_t end = num_plots_in_parts(before.scan);
     uint8_t fates[RHO_MAX_PLOTS];
     struct rho_scan part;
     for (uint32_t first = 0; first < end; first += RHO_MAX_PLOTS) {
-        open_part(step, &part, before.scan, first, end);
+        select_scan_part(step, &part, before.scan, first, end);
         rho_tracker_claim(step);
         rho_tracker_update(step);
-        close_part(step);
+        exclude_assigned_tracks(step);
         if (first == 0) {
             memcpy(fates, step->report->fates, sizeof fates);
         }

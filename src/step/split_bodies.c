@@ -1,31 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * split_bodies: two targets that were taken for one body, until it is surely wider than any, or
- * what it has shown says that it is two (src/bodies/body_doubt.c).
+ * split_bodies: splits the track of a body that is two targets: its width surely exceeds that of
+ * any target, or body_doubt.c finds in its length or range rates that it is two.
  *
- * Cars abreast of each other are one group from afar, and go on as one track. Nearer to the sensor
- * their body is known to be as wide as two lanes; where one is faster, range rates tell them apart
- * before. In the first look with plots that are so far apart the track goes on with those on one
- * side, and a new one with those on the other: each at the mean of its plots, and with the velocity
- * that both had and the mean of what its range rates add.
+ * Cars abreast of each other are one group of plots from afar, and have one track. Nearer to the
+ * sensor their body is seen to be as wide as two lanes; where one car is faster, range rates show
+ * it earlier. In the first look whose plots are far enough apart the track continues with the plots
+ * on one side, and a new track starts with the plots on the other: each at the mean of its plots,
+ * and at the old velocity corrected by the mean residual of its range rates.
  */
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/body_filter.h"
 
-/* No body is wider than this share of the longest, by so many sigmas of its width; */
-#define WIDEST_SHARE 0.3f
-#define WIDER_SIGMAS 2.0f
-/* ... which so many plots tell, more than one of a first heading that is wrong. */
+#define WIDEST_SHARE 0.3f /* largest width of one body, over the length of the longest body */
+#define WIDER_SIGMAS 2.0f /* standard deviations by which a body of two targets is wider */
+/* Plots of a body before its width counts: with fewer, its first heading may still be wrong. */
 #define TOLD_PLOTS 100.0f
 
-struct side {
+struct body_side {
     unsigned plots;
-    float x_m, y_m;       /* sums, and then means, from the track's place */
-    float vx_mps, vy_mps; /* ... and from its velocity, along the line of sight */
+    float x_m, y_m;       /* mean offset of the plots from the track's position */
+    float vx_mps, vy_mps; /* mean range-rate residual of the plots, as a velocity offset */
 };
 
-static int is_too_wide(const struct step *step, unsigned row)
+static int is_body_too_wide(const struct step *step, unsigned row)
 {
     const struct rho_bodies *bodies = &step->tracker->bodies;
     const float widest_m = WIDEST_SHARE * bodies->length_max_m;
@@ -38,21 +37,21 @@ static int is_too_wide(const struct step *step, unsigned row)
     return shape.width_m - WIDER_SIGMAS * shape.sigma_width_m > widest_m;
 }
 
-/* What tells the sides apart. */
-static float side_value(enum rho_body_split why, const struct body_plot *at)
+/* The coordinate of a plot that tells the sides apart: along, across or range-rate residual. */
+static float separating_value(enum rho_body_split why, const struct body_plot *at)
 {
     return why == RHO_BODY_TOO_LONG   ? at->along_m
            : why == RHO_BODY_TOO_WIDE ? at->across_m
                                       : at->rate_mps;
 }
 
-/* Plots of two targets differ by so much in what tells the sides apart: shares of the longest body
- * and of the widest, and sigmas of a range rate. */
-#define LONG_APART_SHARE 0.5f
-#define WIDE_APART_SHARE 0.15f
-#define RATE_APART_SIGMAS 5.0f
+/* Least distance of the outermost plots of two targets, in the coordinate that tells them apart. */
+#define LONG_APART_SHARE 0.5f  /* along the body, over the longest body's length */
+#define WIDE_APART_SHARE 0.15f /* across the body, over the longest body's length */
+#define RATE_APART_SIGMAS 5.0f /* of range rates, over their sigma */
 
-static float least_apart(const struct step *step, enum rho_body_split why, float rate_sigma_mps)
+static float least_separation(const struct step *step, enum rho_body_split why,
+                              float rate_sigma_mps)
 {
     const float longest_m = step->tracker->bodies.length_max_m;
     return why == RHO_BODY_TOO_LONG   ? LONG_APART_SHARE * longest_m
@@ -60,9 +59,9 @@ static float least_apart(const struct step *step, enum rho_body_split why, float
                                       : RATE_APART_SIGMAS * rate_sigma_mps;
 }
 
-/* The middle between the outermost plots that are the track's alone. 0: these are too near. */
-static int find_middle(const struct step *step, const struct rho_scan *scan, unsigned row,
-                       enum rho_body_split why, float *middle)
+/* Middle between the outermost plots that are in no other track's gate. 0: they are too near. */
+static int find_dividing_value(const struct step *step, const struct rho_scan *scan, unsigned row,
+                               enum rho_body_split why, float *middle)
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     float least = 1e30f, most = -1e30f, rate_sigma_mps = 0.0f;
@@ -71,29 +70,29 @@ static int find_middle(const struct step *step, const struct rho_scan *scan, uns
              rho_tracker_uncontested(groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_uncontested(groups, groups->next[i])) {
         (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
-        least = rho_smaller(least, side_value(why, &at));
-        most = rho_larger(most, side_value(why, &at));
+        least = rho_smaller(least, separating_value(why, &at));
+        most = rho_larger(most, separating_value(why, &at));
         rate_sigma_mps = rho_larger(rate_sigma_mps, scan->plots[i].sigma_range_rate_mps);
     }
     *middle = 0.5f * (least + most);
-    return most - least > least_apart(step, why, rate_sigma_mps);
+    return most - least > least_separation(step, why, rate_sigma_mps);
 }
 
-/* The track's plots in the scan, on both sides. 0: they do not show two. */
-static int find_sides(const struct step *step, const struct rho_scan *scan, unsigned row,
-                      enum rho_body_split why, struct side sides[2])
+/* Sums the track's plots on either side of the middle to means. 0: they do not show two targets. */
+static int divide_plots_into_sides(const struct step *step, const struct rho_scan *scan,
+                                   unsigned row, enum rho_body_split why, struct body_side sides[2])
 {
     const struct rho_groups *groups = &step->tracker->bodies.groups;
     float middle;
     struct body_plot at;
-    if (!find_middle(step, scan, row, why, &middle)) {
+    if (!find_dividing_value(step, scan, row, why, &middle)) {
         return 0;
     }
     for (unsigned i =
              rho_tracker_uncontested(groups, groups->first[step->tracker->tracks[row].plot]);
          i != RHO_NO_ROW; i = rho_tracker_uncontested(groups, groups->next[i])) {
         (void)!rho_tracker_place_on_body(step, scan, row, i, &at);
-        struct side *side = &sides[side_value(why, &at) < middle];
+        struct body_side *side = &sides[separating_value(why, &at) < middle];
         side->plots++;
         side->x_m += at.dx_m;
         side->y_m += at.dy_m;
@@ -110,10 +109,10 @@ static int find_sides(const struct step *step, const struct rho_scan *scan, unsi
     return sides[0].plots > 0 && sides[1].plots > 0;
 }
 
-/* Starts a track at that side's mean place and velocity. */
-static enum rho_status start_track_of_side(const struct step *step, const struct rho_track *track,
-                                           uint32_t track_id, const struct side *side,
-                                           struct rho_track *out)
+/* Starts a track at the mean position and velocity of one side's plots. */
+static enum rho_status start_track_from_side(const struct step *step, const struct rho_track *track,
+                                             uint32_t track_id, const struct body_side *side,
+                                             struct rho_track *out)
 {
     const float mean_m2 = rho_tracker_body_prior_m2(step->tracker) / (float)side->plots;
     struct rho_kalman there = track->kalman;
@@ -129,7 +128,7 @@ static enum rho_status start_track_of_side(const struct step *step, const struct
                                     track->hits, &step->model, track->score_mnat);
 }
 
-static void start_body(const struct step *step, unsigned row)
+static void start_body_of_track(const struct step *step, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_body_filter *body = &tracker->bodies.of[row];
@@ -137,14 +136,14 @@ static void start_body(const struct step *step, unsigned row)
     rho_tracker_turn_body(tracker, row);
 }
 
-/* 0: there is no room for another track. */
-static int split_track(struct step *step, unsigned row, const struct side sides[2])
+/* Splits a track into its own, at side 0, and a new one, at side 1. 0: there is no room for it. */
+static int split_track_in_two(struct step *step, unsigned row, const struct body_side sides[2])
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
     struct rho_track stays, leaves;
     if (tracker->num_tracks == RHO_MAX_TRACKS ||
-        start_track_of_side(step, track, track->track_id, &sides[0], &stays) != RHO_OK) {
+        start_track_from_side(step, track, track->track_id, &sides[0], &stays) != RHO_OK) {
         return 0;
     }
     const struct rho_track was = *track;
@@ -153,9 +152,9 @@ static int split_track(struct step *step, unsigned row, const struct side sides[
     track->slot = stays.slot;
     track->kalman = stays.kalman;
     track->input = stays.input;
-    if (start_track_of_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
+    if (start_track_from_side(step, &was, tracker->next_track_id, &sides[1], &leaves) == RHO_OK) {
         const struct rho_track_limits limits = rho_tracker_limits(step);
-        /* its own hits are not known: it may still be an image in a wall (reflectors.h) */
+        /* the new track is not established: it may still be an image in a wall (reflectors.h) */
         if (leaves.hits >= RHO_ESTABLISHED_HITS) {
             leaves.hits = RHO_ESTABLISHED_HITS - 1;
         }
@@ -171,19 +170,19 @@ void rho_tracker_split_bodies(struct step *step, const struct rho_scan *scan)
     struct rho_tracker *tracker = step->tracker;
     for (unsigned row = 0; !step->is_late && row < tracker->bodies.count; row++) {
         const unsigned num_tracks = tracker->num_tracks;
-        struct side sides[2] = {{0}, {0}};
+        struct body_side sides[2] = {{0}, {0}};
         if (tracker->tracks[row].plot < 0) {
             continue;
         }
         rho_tracker_doubt_body(step, scan, row);
         const enum rho_body_split why =
-            is_too_wide(step, row) ? RHO_BODY_TOO_WIDE : rho_tracker_why_two(step, row);
-        if (why != RHO_BODY_ONE && find_sides(step, scan, row, why, sides) &&
-            split_track(step, row, sides)) {
-            start_body(step, row);
+            is_body_too_wide(step, row) ? RHO_BODY_TOO_WIDE : rho_tracker_why_two(step, row);
+        if (why != RHO_BODY_ONE && divide_plots_into_sides(step, scan, row, why, sides) &&
+            split_track_in_two(step, row, sides)) {
+            start_body_of_track(step, row);
             if (tracker->num_tracks > num_tracks) {
                 rho_tracker_align_bodies(step);
-                start_body(step, num_tracks);
+                start_body_of_track(step, num_tracks);
             }
         }
     }

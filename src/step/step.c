@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * step: one scan goes through the six phases.
+ * step: rho_tracker_step, which takes one scan of plots through the six phases.
  */
 #include "phases.h"
 #include "rhotrack/detail/angle.h"
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/measurement.h"
 
-static enum rho_status check_step(const struct rho_tracker *tracker,
-                                  const struct rho_initiator *initiator,
-                                  const struct rho_scan *scan, const struct rho_report *report)
+static enum rho_status check_step_inputs(const struct rho_tracker *tracker,
+                                         const struct rho_initiator *initiator,
+                                         const struct rho_scan *scan,
+                                         const struct rho_report *report)
 {
     if (!tracker || !scan || !report || (scan->num_plots && !scan->plots)) {
         return RHO_ERROR_NULL;
@@ -24,7 +25,7 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
         !rho_tracker_is_usable_time(scan->time_us)) {
         return RHO_ERROR_VALUE;
     }
-    /* an out-of-sequence scan is not pushed, but the density is asked for */
+    /* the time of a late scan need not fit: the largest time tests that the initiator is ready */
     return !initiator ||
                    rho_initiator_accepts(initiator, rho_tracker_is_late(tracker, scan->time_us)
                                                         ? RHO_LIMIT_TIME_US
@@ -33,8 +34,8 @@ static enum rho_status check_step(const struct rho_tracker *tracker,
                : RHO_ERROR_STATE;
 }
 
-/* Applies what is known of the sensor, before any track is moved. */
-static void open_scan(struct step *step)
+/* Sets the step's sensor with its pd, notch and noise, and notes the scan in its history. */
+static void apply_sensor_to_step(struct step *step)
 {
     const unsigned place = rho_tracker_place_of_sensor(step->tracker, step->scan->sensor_id);
     if (place < step->tracker->num_sensors) {
@@ -58,9 +59,9 @@ static void open_scan(struct step *step)
     step->range_rates_mps = rho_exp(step->log_range_rates);
 }
 
-/* Of the scans that an initiator was given, an out-of-sequence one may still be the newest: a radar
- * that is always late has a window of its own. */
-static int starts_tracks(const struct step *step)
+/* An out-of-sequence scan may start tracks where it is the newest one of its initiator: a radar
+ * that is always late has an initiator of its own. */
+static int may_start_tracks(const struct step *step)
 {
     return !step->is_late ||
            (step->initiator && rho_initiator_accepts(step->initiator, step->time_us));
@@ -69,7 +70,7 @@ static int starts_tracks(const struct step *step)
 enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiator *initiator,
                                  const struct rho_scan *scan, struct rho_report *report)
 {
-    enum rho_status status = check_step(tracker, initiator, scan, report);
+    enum rho_status status = check_step_inputs(tracker, initiator, scan, report);
     if (status != RHO_OK) {
         return status;
     }
@@ -80,7 +81,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
                         .time_us = scan->time_us,
                         .num_inputs = scan->num_plots};
     if (rho_tracker_begin_step(&step)) {
-        open_scan(&step);
+        apply_sensor_to_step(&step);
         rho_tracker_predict(&step);
         if (rho_notch_has(step.sensor)) {
             rho_tracker_find_blind(&step);
@@ -90,7 +91,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
             rho_tracker_group_plots(&step, &grouped);
         }
         if (RHO_CLAIMS_BEYOND && step.num_inputs > RHO_MAX_PLOTS) {
-            rho_tracker_claim_parts(&step); /* claims and updates, part by part */
+            rho_tracker_claim_and_update_parts(&step); /* claims and updates, part by part */
         } else {
             rho_tracker_claim(&step);
             rho_tracker_update(&step);
@@ -106,7 +107,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         if (RHO_MAX_EXCLUDED_AREAS > 0 && tracker->num_excluded > 0) {
             rho_tracker_mark_excluded(&step);
         }
-        if (starts_tracks(&step)) {
+        if (may_start_tracks(&step)) {
             rho_tracker_initiate(&step);
         } else if (RHO_SECTORS) {
             rho_tracker_refuse_stale_plots(&step);
@@ -117,7 +118,7 @@ enum rho_status rho_tracker_step(struct rho_tracker *tracker, struct rho_initiat
         if (RHO_SECTORS && step.is_late) {
             rho_tracker_end_late_scan(&step);
         } else {
-            rho_tracker_merge_estimates(&step);
+            rho_tracker_merge_estimates_per_track(&step);
         }
         if (rho_tracker_has_bodies(tracker)) {
             rho_tracker_update_bodies(&step, scan);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * step_begin: what a step of plots and a step of bearings begin with.
+ * step_begin: begins a step of plots or of bearings: report, motion model, out-of-sequence scans.
  */
 #include <string.h>
 
 #include "phases.h"
 #include "rhotrack/detail/approx.h"
 
-/* White acceleration that follows manoeuvres of accel_max: half of it, kept up for a second. */
+/* The white acceleration noise of tracks: half of accel_max_mps2, kept up for a second. */
 #define ACCEL_SHARE 0.5f
 #define ACCEL_TIME_S 1.0f
 
@@ -28,7 +28,7 @@ void rho_tracker_set_pd(struct step *step)
     step->log_miss = rho_log(1.0f - pd);
 }
 
-void rho_tracker_set_model(struct step *step)
+void rho_tracker_set_motion_model(struct step *step)
 {
     struct rho_tracker *tracker = step->tracker;
     float accel_mps2 = ACCEL_SHARE * tracker->config.accel_max_mps2;
@@ -44,8 +44,8 @@ void rho_tracker_set_model(struct step *step)
     }
 }
 
-/* A scan too old to be used is counted, and changes nothing else. */
-static void refuse_late(struct step *step)
+/* Counts a scan that is too old for the tracker, and marks its inputs STALE. */
+static void refuse_late_scan(struct step *step)
 {
     memset(step->report->fates, RHO_FATE_STALE, step->num_gated);
     step->tracker->counters.scans_late = rho_count(step->tracker->counters.scans_late, 1);
@@ -59,10 +59,10 @@ int rho_tracker_begin_step(struct step *step)
     memset(report, 0, sizeof *report);
     report->time_us = step->time_us;
     report->num_plots = step->num_inputs;
-    rho_tracker_set_model(step);
+    rho_tracker_set_motion_model(step);
     step->is_late = rho_tracker_is_late(tracker, step->time_us);
     if (step->is_late && !(RHO_SECTORS && rho_tracker_takes_late_scan(step))) {
-        refuse_late(step);
+        refuse_late_scan(step);
         return 0;
     }
     tracker->counters.scans_accepted = rho_count(tracker->counters.scans_accepted, 1);

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * track_starts: a candidate of any initiator becomes a track, where there is room for one: within a
- * step, or between two.
+ * track_starts: adds started tracks to the tracker, where there is room for one: within a step, or
+ * between two steps.
  */
 #include <string.h>
 
 #include "phases.h"
 #include "rhotrack/detail/measurement.h"
 
-/* The row of a held plot in its scan; -1: it came with an earlier sector. */
-static int16_t row_of_plot(const struct rho_window *window, const struct rho_window_scan *scan,
-                           unsigned m, unsigned plot)
+/* Row of a held plot in the scan that it came with; -1: it came with an earlier sector. */
+static int16_t row_of_window_plot(const struct rho_window *window,
+                                  const struct rho_window_scan *scan, unsigned m, unsigned plot)
 {
     if (RHO_SECTORS && m + 1u == window->num_scans &&
         rho_tracker_is_of_earlier_sector(window, scan, plot)) {
@@ -19,8 +19,9 @@ static int16_t row_of_plot(const struct rho_window *window, const struct rho_win
     return (int16_t)(scan->marks[plot] & RHO_WINDOW_ROW);
 }
 
-unsigned rho_tracker_gather_plots(struct rho_window *window, const struct rho_candidate *candidate,
-                                  struct rho_track_plot *plots)
+unsigned rho_tracker_copy_candidate_plots(struct rho_window *window,
+                                          const struct rho_candidate *candidate,
+                                          struct rho_track_plot *plots)
 {
     unsigned n = 0;
     for (unsigned m = 0; m < window->num_scans; m++) {
@@ -29,26 +30,27 @@ unsigned rho_tracker_gather_plots(struct rho_window *window, const struct rho_ca
             struct rho_plot plot = rho_window_plot_of(scan, candidate->plot[m]);
             plots[n++] = (struct rho_track_plot){
                 .time_us = scan->time_us + plot.offset_us,
-                .measures = scan->measures & ~RHO_MEASURES_VELOCITY, /* the window has none */
+                .measures = scan->measures & ~RHO_MEASURES_VELOCITY, /* not in the window */
                 .sensor_id = scan->sensor.sensor_id,
                 .sensor = &scan->sensor,
                 .plot = plot,
-                .row = row_of_plot(window, scan, m, candidate->plot[m]),
+                .row = row_of_window_plot(window, scan, m, candidate->plot[m]),
             };
         }
     }
     return n;
 }
 
-/* By which tentative tracks give way: the score; of a hidden track how far it has fallen. */
-static int32_t precedence(const struct step *step, const struct rho_track *track)
+/* Tentative tracks of low rank give way to new tracks. Rank is the score, or, after coast_scans_max
+ * misses in a row, the score's fall from its maximum. */
+static int32_t rank_of_tentative_track(const struct step *step, const struct rho_track *track)
 {
     const int hides = track->misses_in_row >= step->tracker->config.coast_scans_max;
     return hides ? track->score_mnat - track->score_max_mnat : track->score_mnat;
 }
 
-/* Makes room at the end, or in place of the lowest tentative track below the score. */
-static int make_room(struct step *step, int32_t score_mnat)
+/* A full tracker ends its lowest-ranked tentative track below the score. 0: there is none. */
+static int make_room_for_track(struct step *step, int32_t score_mnat)
 {
     struct rho_tracker *tracker = step->tracker;
     if (tracker->num_tracks < RHO_MAX_TRACKS) {
@@ -58,8 +60,9 @@ static int make_room(struct step *step, int32_t score_mnat)
     unsigned lowest = RHO_MAX_TRACKS;
     for (unsigned i = 0; i < RHO_MAX_TRACKS; i++) {
         const struct rho_track *track = &tracker->tracks[i];
-        if (track->status == RHO_TRACK_TENTATIVE && precedence(step, track) < score_mnat) {
-            score_mnat = precedence(step, track);
+        if (track->status == RHO_TRACK_TENTATIVE &&
+            rank_of_tentative_track(step, track) < score_mnat) {
+            score_mnat = rank_of_tentative_track(step, track);
             lowest = i;
         }
     }
@@ -80,7 +83,7 @@ int rho_tracker_admit_track(struct step *step, struct rho_track *track,
                             const struct rho_track_limits *limits)
 {
     struct rho_tracker *tracker = step->tracker;
-    if (!make_room(step, track->score_mnat)) {
+    if (!make_room_for_track(step, track->score_mnat)) {
         rho_track_end(track, &step->model);
         return 0;
     }
@@ -98,7 +101,7 @@ int rho_tracker_admit_track(struct step *step, struct rho_track *track,
     return 1;
 }
 
-/* Each is valid, and has a time that a plot of the last step or of one before can have. */
+/* 1 where plots of a start are valid, and no newer than a plot of the last step can be. */
 static int are_usable_plots(const struct rho_tracker *tracker, const struct rho_report *report,
                             const struct rho_track_plot *plots, unsigned num_plots)
 {
@@ -122,13 +125,13 @@ enum rho_status rho_tracker_resume_step(struct rho_tracker *tracker, struct rho_
         return RHO_ERROR_STATE;
     }
     *step = (struct step){.tracker = tracker, .report = report, .time_us = tracker->time_us};
-    rho_tracker_set_model(step);
+    rho_tracker_set_motion_model(step);
     return RHO_OK;
 }
 
-/* Resumes the newest step for a start with this score. */
-static enum rho_status resume_for_start(struct rho_tracker *tracker, struct rho_report *report,
-                                        int32_t score_mnat, struct step *step)
+/* Resumes the newest step for a start. VALUE: its score is too low for a tentative track. */
+static enum rho_status resume_step_for_start(struct rho_tracker *tracker, struct rho_report *report,
+                                             int32_t score_mnat, struct step *step)
 {
     const enum rho_status status = rho_tracker_resume_step(tracker, report, step);
     if (status != RHO_OK) {
@@ -140,10 +143,10 @@ static enum rho_status resume_for_start(struct rho_tracker *tracker, struct rho_
                : RHO_ERROR_VALUE;
 }
 
-static enum rho_status admit_between_steps(struct step *step, struct rho_track *track)
+static enum rho_status admit_track_between_steps(struct step *step, struct rho_track *track)
 {
     const struct rho_track_limits limits = rho_tracker_limits(step);
-    /* for a full tracker's room another track ends, which the report has to say */
+    /* a full tracker ends another track, which needs a place in the report's list of ended ones */
     const int has_room =
         step->tracker->num_tracks < RHO_MAX_TRACKS || step->report->num_ended < RHO_MAX_TRACKS;
     if (!has_room) {
@@ -152,7 +155,7 @@ static enum rho_status admit_between_steps(struct step *step, struct rho_track *
     if (!has_room || !rho_tracker_admit_track(step, track, &limits)) {
         return RHO_ERROR_CAPACITY;
     }
-    rho_tracker_merge_estimates(step);
+    rho_tracker_merge_estimates_per_track(step);
     rho_tracker_report_tracks(step);
     return RHO_OK;
 }
@@ -166,7 +169,7 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
     if (!tracker || !plots || !report) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = resume_for_start(tracker, report, score_mnat, &step);
+    enum rho_status status = resume_step_for_start(tracker, report, score_mnat, &step);
     if (status != RHO_OK) {
         return status;
     }
@@ -186,7 +189,7 @@ enum rho_status rho_tracker_start_track(struct rho_tracker *tracker,
         step.look = look ? look->count : 0;
         rho_tracker_note_sight(&step, &track);
     }
-    return admit_between_steps(&step, &track);
+    return admit_track_between_steps(&step, &track);
 }
 
 enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
@@ -199,15 +202,15 @@ enum rho_status rho_tracker_start_estimate(struct rho_tracker *tracker,
     if (!tracker || !estimate || !report) {
         return RHO_ERROR_NULL;
     }
-    enum rho_status status = resume_for_start(tracker, report, score_mnat, &step);
+    enum rho_status status = resume_step_for_start(tracker, report, score_mnat, &step);
     if (status == RHO_OK) {
         status = rho_track_start_estimate(&track, tracker->next_track_id, estimate, step.time_us,
                                           sensor_id, hits, &step.model, score_mnat);
     }
-    return status == RHO_OK ? admit_between_steps(&step, &track) : status;
+    return status == RHO_OK ? admit_track_between_steps(&step, &track) : status;
 }
 
-void rho_tracker_refuse_unclaimed(struct step *step)
+void rho_tracker_mark_unclaimed_no_room(struct step *step)
 {
     for (uint32_t i = 0; i < step->num_gated; i++) {
         if (step->report->fates[i] == RHO_FATE_HELD) {

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * update: whether the sensor agrees with the predictions, and its noise is learned; then tracks
- * take the plots that they were assigned.
+ * update: updates sensor health and the learned noise by the assigned plots, and then the tracks by
+ * their plots.
  */
 #include "phases.h"
 
 /* ---- tracks with a Kalman filter ------------------------------------------------------------- */
 
-/* 0 where the plot is not in the gate that the update meets. */
-static int32_t gain_of_plot(const struct step *step, const struct rho_track *track, uint32_t plot)
+/* The plot's score for the track as it is now, in mnat; 0 where the plot is outside its gate. */
+static int32_t score_plot_in_gate(const struct step *step, const struct rho_track *track,
+                                  uint32_t plot)
 {
     struct rho_gate gate;
     struct rho_gate_result result;
@@ -20,10 +21,10 @@ static int32_t gain_of_plot(const struct step *step, const struct rho_track *tra
         step, track, &result, rho_tracker_log_clutter_density(step, track), plot));
 }
 
-static void take_plot(struct step *step, struct rho_track *track, int plot)
+static void update_track_by_plot(struct step *step, struct rho_track *track, int plot)
 {
     struct rho_tracker_counters *counters = &step->tracker->counters;
-    const int32_t gain = gain_of_plot(step, track, (uint32_t)plot);
+    const int32_t gain = score_plot_in_gate(step, track, (uint32_t)plot);
     const struct rho_track_plot seen = rho_tracker_plot_of(step, plot);
     if (rho_track_update(track, &seen, &step->model, gain) == RHO_OK) {
         step->report->fates[plot] = RHO_FATE_CLAIMED;
@@ -35,10 +36,10 @@ static void take_plot(struct step *step, struct rho_track *track, int plot)
 /* ---- tracks with hypotheses ------------------------------------------------------------------ */
 
 /*
- * Each hypothesis lists its best plots only. Where other tracks were assigned some of them, plots
- * that are not on the list may be better than what is left, even the track's assigned one.
+ * 1 where another track was assigned a plot that a hypothesis of this track has in its full list of
+ * best plots. A plot that is not on the list may then be better than the remaining ones.
  */
-static int has_lost_listed_plots(const struct step *step, unsigned row)
+static int were_listed_plots_taken(const struct step *step, unsigned row)
 {
     const struct rho_hypotheses *pool = &step->tracker->hypotheses;
     const int16_t *claims = step->tracker->assignment.column_row;
@@ -56,8 +57,8 @@ static int has_lost_listed_plots(const struct step *step, unsigned row)
     return 0;
 }
 
-/* Scores the plots anew, without those of other tracks. */
-static void score_free_plots(struct step *step, unsigned row)
+/* Lists each hypothesis's best plots anew, among plots that no other track was assigned. */
+static void rescore_unassigned_plots(struct step *step, unsigned row)
 {
     struct plot_scores scores;
     uint32_t plot;
@@ -68,10 +69,10 @@ static void score_free_plots(struct step *step, unsigned row)
 }
 
 /*
- * Hypotheses go on with any plots that no other track was assigned; the plot of the best one is
- * claimed. By the assignment's optimum that is the one assigned, or none.
+ * Hypotheses branch by all plots that no other track was assigned; the plot of the best hypothesis
+ * is claimed. As the assignment is optimal, that is the assigned plot or none.
  */
-static void take_scored_plots(struct step *step, unsigned row)
+static void update_hypotheses_of_track(struct step *step, unsigned row)
 {
     struct rho_tracker *tracker = step->tracker;
     struct rho_track *track = &tracker->tracks[row];
@@ -92,17 +93,18 @@ static void take_scored_plots(struct step *step, unsigned row)
     if (!(log_miss < 0.0f) && !rho_hypotheses_has_candidates(&tracker->hypotheses, track->slot)) {
         return;
     }
-    if (has_lost_listed_plots(step, row)) {
-        score_free_plots(step, row);
+    if (were_listed_plots_taken(step, row)) {
+        rescore_unassigned_plots(step, row);
     } else {
         rho_tracker_release_share(step);
     }
-    /* the track is one of hypotheses: nothing to refuse */
+    /* cannot fail: the track has hypotheses */
     (void)!rho_track_commit(track, &scan, step->scan->sensor_id, &step->model);
     refused = tracker->hypotheses.updates_refused - refused;
     tracker->counters.updates_refused = rho_count(tracker->counters.updates_refused, refused);
     if (assigned != RHO_ASSIGNMENT_NONE && assigned != track->plot) {
-        assignment->column_row[assigned] = RHO_ASSIGNMENT_NONE; /* not taken after all */
+        assignment->column_row[assigned] =
+            RHO_ASSIGNMENT_NONE; /* the track left its plot unclaimed */
     }
     if (track->plot >= 0) {
         assignment->column_row[track->plot] = (int16_t)row;
@@ -133,9 +135,9 @@ void rho_tracker_update(struct step *step)
             continue;
         }
         if (RHO_TRACK_IS_BY(track, RHO_TRACK_HYPOTHESES)) {
-            take_scored_plots(step, row);
+            update_hypotheses_of_track(step, row);
         } else if (plot != RHO_ASSIGNMENT_NONE) {
-            take_plot(step, track, plot);
+            update_track_by_plot(step, track, plot);
         }
     }
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* An operator's messages, done by a tracker. */
+/* command: runs an operator's command message on a tracker, and fills the answer. */
 #include "rhotrack/command.h"
 
 #include "rhotrack/operator.h"
 
-static enum rho_status start_by_command(const struct rho_message_command *command,
-                                        struct rho_tracker *tracker, struct rho_report *report)
+static enum rho_status start_track_by_command(const struct rho_message_command *command,
+                                              struct rho_tracker *tracker,
+                                              struct rho_report *report)
 {
     const struct rho_operator_start at = {.x_m = command->x_m,
                                           .y_m = command->y_m,
@@ -16,8 +17,8 @@ static enum rho_status start_by_command(const struct rho_message_command *comman
     return rho_tracker_start_at(tracker, &at, report);
 }
 
-static enum rho_status exclude_by_command(const struct rho_message_command *command,
-                                          struct rho_tracker *tracker)
+static enum rho_status exclude_area_by_command(const struct rho_message_command *command,
+                                               struct rho_tracker *tracker)
 {
     const struct rho_extent area = {.x_min_m = command->x_m,
                                     .x_max_m = command->x_max_m,
@@ -26,13 +27,13 @@ static enum rho_status exclude_by_command(const struct rho_message_command *comm
     return rho_tracker_exclude_area(tracker, &area);
 }
 
-static enum rho_status run_command(const struct rho_message_command *command,
-                                   struct rho_tracker *tracker, struct rho_report *report)
+static enum rho_status run_command_action(const struct rho_message_command *command,
+                                          struct rho_tracker *tracker, struct rho_report *report)
 {
     const uint32_t track_id = (uint32_t)command->track_id;
     switch (command->action) {
     case RHO_MESSAGE_COMMAND_START:
-        return start_by_command(command, tracker, report);
+        return start_track_by_command(command, tracker, report);
     case RHO_MESSAGE_COMMAND_DROP:
         return rho_tracker_drop_track(tracker, track_id, report);
     case RHO_MESSAGE_COMMAND_RENUMBER:
@@ -42,7 +43,7 @@ static enum rho_status run_command(const struct rho_message_command *command,
         return rho_tracker_freeze_track(tracker, track_id,
                                         command->action == RHO_MESSAGE_COMMAND_FREEZE, report);
     case RHO_MESSAGE_COMMAND_EXCLUDE:
-        return exclude_by_command(command, tracker);
+        return exclude_area_by_command(command, tracker);
     case RHO_MESSAGE_COMMAND_INCLUDE:
         return rho_tracker_include_place(tracker, command->x_m, command->y_m);
     default:
@@ -50,9 +51,9 @@ static enum rho_status run_command(const struct rho_message_command *command,
     }
 }
 
-/* The track of a command that was done; 0: it was of none. */
-static uint32_t track_of(const struct rho_message_command *command,
-                         const struct rho_tracker *tracker)
+/* Identity of the track that a successful command was about, as it is now; 0: of no track. */
+static uint32_t track_id_of_command(const struct rho_message_command *command,
+                                    const struct rho_tracker *tracker)
 {
     switch (command->action) {
     case RHO_MESSAGE_COMMAND_START:
@@ -74,7 +75,7 @@ enum rho_status rho_command_run(const struct rho_message_command *command,
     if (!command || !tracker || !report || !answer) {
         return RHO_ERROR_NULL;
     }
-    const enum rho_status status = run_command(command, tracker, report);
+    const enum rho_status status = run_command_action(command, tracker, report);
     *answer = (struct rho_message_command_answer){
         .utime = report->time_us,
         .number = command->number,
@@ -82,7 +83,7 @@ enum rho_status rho_command_run(const struct rho_message_command *command,
         .status = (int8_t)status,
     };
     if (status == RHO_OK) {
-        answer->track_id = (int32_t)track_of(command, tracker);
+        answer->track_id = (int32_t)track_id_of_command(command, tracker);
     }
     return status;
 }

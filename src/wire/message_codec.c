@@ -46,13 +46,13 @@ static uint64_t get64(const uint8_t *from)
 
 /* ---- Members of one width ---- */
 
-static uint8_t *put_members(uint8_t *to, const uint8_t *from, unsigned width, size_t count)
+static uint8_t *encode_members(uint8_t *to, const uint8_t *from, unsigned width, size_t count)
 {
     uint16_t v16;
     uint32_t v32;
     uint64_t v64;
 
-    if (width == 4) { /* by far the most */
+    if (width == 4) { /* most members are 4 bytes wide */
         for (size_t i = 0; i < count; i++) {
             memcpy(&v32, from + 4 * i, sizeof v32);
             to = put32(to, v32);
@@ -73,7 +73,7 @@ static uint8_t *put_members(uint8_t *to, const uint8_t *from, unsigned width, si
     return to;
 }
 
-static const uint8_t *get_members(const uint8_t *from, uint8_t *to, unsigned width, size_t count)
+static const uint8_t *decode_members(const uint8_t *from, uint8_t *to, unsigned width, size_t count)
 {
     uint16_t v16;
     uint32_t v32;
@@ -102,62 +102,62 @@ static const uint8_t *get_members(const uint8_t *from, uint8_t *to, unsigned wid
 
 /* ---- Structs ---- */
 
-static uint8_t *put_struct(uint8_t *to, const uint8_t *from, const struct message_layout *layout)
+static uint8_t *encode_struct(uint8_t *to, const uint8_t *from, const struct message_layout *layout)
 {
     const struct message_run *run = layout->runs;
 
     for (unsigned i = 0; i < layout->num_runs; i++, run++) {
-        to = put_members(to, from + run->offset, run->width, run->count);
+        to = encode_members(to, from + run->offset, run->width, run->count);
     }
     return to;
 }
 
-static const uint8_t *get_struct(const uint8_t *from, uint8_t *to,
-                                 const struct message_layout *layout)
+static const uint8_t *decode_struct(const uint8_t *from, uint8_t *to,
+                                    const struct message_layout *layout)
 {
     const struct message_run *run = layout->runs;
 
     for (unsigned i = 0; i < layout->num_runs; i++, run++) {
-        from = get_members(from, to + run->offset, run->width, run->count);
+        from = decode_members(from, to + run->offset, run->width, run->count);
     }
     return from;
 }
 
-/* The list's elements are one run each without gaps: the list is one long run. */
-static int is_flat(const struct message_format *format)
+/* 1 where each list element is one run without gaps, so that the whole list is one long run. */
+static int is_list_one_run(const struct message_format *format)
 {
     return format->element.num_runs == 1 && format->element.wire_bytes == format->element_bytes;
 }
 
-static uint8_t *put_list(uint8_t *to, const uint8_t *list, const struct message_format *format,
-                         size_t count)
+static uint8_t *encode_list(uint8_t *to, const uint8_t *list, const struct message_format *format,
+                            size_t count)
 {
     const struct message_run *run = format->element.runs;
 
-    if (is_flat(format)) {
-        return put_members(to, list, run->width, count * run->count);
+    if (is_list_one_run(format)) {
+        return encode_members(to, list, run->width, count * run->count);
     }
     for (size_t i = 0; i < count; i++) {
-        to = put_struct(to, list + i * format->element_bytes, &format->element);
+        to = encode_struct(to, list + i * format->element_bytes, &format->element);
     }
     return to;
 }
 
-static void get_list(const uint8_t *from, uint8_t *list, const struct message_format *format,
-                     size_t count)
+static void decode_list(const uint8_t *from, uint8_t *list, const struct message_format *format,
+                        size_t count)
 {
     const struct message_run *run = format->element.runs;
 
-    if (is_flat(format)) {
-        (void)get_members(from, list, run->width, count * run->count);
+    if (is_list_one_run(format)) {
+        (void)decode_members(from, list, run->width, count * run->count);
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        from = get_struct(from, list + i * format->element_bytes, &format->element);
+        from = decode_struct(from, list + i * format->element_bytes, &format->element);
     }
 }
 
-static int16_t read_count(const struct message_format *format, const uint8_t *message)
+static int16_t read_list_count(const struct message_format *format, const uint8_t *message)
 {
     int16_t count = 0;
 
@@ -169,16 +169,16 @@ static int16_t read_count(const struct message_format *format, const uint8_t *me
 
 /* ---- Encode ---- */
 
-static size_t head_bytes(const struct message_format *format)
+static size_t encoded_head_bytes(const struct message_format *format)
 {
     return MESSAGE_FINGERPRINT_BYTES + format->head.wire_bytes +
            (format->max > 0 ? MESSAGE_COUNT_BYTES : 0u);
 }
 
-static uint8_t *put_head(uint8_t *to, const uint8_t *message, const struct message_format *format,
-                         uint16_t count)
+static uint8_t *encode_head(uint8_t *to, const uint8_t *message,
+                            const struct message_format *format, uint16_t count)
 {
-    to = put_struct(put64(to, format->fingerprint), message, &format->head);
+    to = encode_struct(put64(to, format->fingerprint), message, &format->head);
     return format->max > 0 ? put16(to, count) : to;
 }
 
@@ -192,17 +192,17 @@ enum rho_status rho_message_encode(const struct message_format *format, const vo
     if (!message || !buffer || !size) {
         return RHO_ERROR_NULL;
     }
-    if (read_count(format, bytes) < 0 || read_count(format, bytes) > format->max) {
+    if (read_list_count(format, bytes) < 0 || read_list_count(format, bytes) > format->max) {
         return RHO_ERROR_COUNT;
     }
-    count = (size_t)read_count(format, bytes);
-    total = head_bytes(format) + count * format->element.wire_bytes;
+    count = (size_t)read_list_count(format, bytes);
+    total = encoded_head_bytes(format) + count * format->element.wire_bytes;
     if (total > capacity) {
         return RHO_ERROR_CAPACITY;
     }
-    to = put_head(buffer, bytes, format, (uint16_t)count);
+    to = encode_head(buffer, bytes, format, (uint16_t)count);
     if (count > 0) {
-        (void)put_list(to, bytes + format->list_offset, format, count);
+        (void)encode_list(to, bytes + format->list_offset, format, count);
     }
     *size = total;
     return RHO_OK;
@@ -217,13 +217,13 @@ enum rho_status rho_message_begin(const struct message_format *format,
     if (!writer || !buffer || !head) {
         return RHO_ERROR_NULL;
     }
-    if (head_bytes(format) > capacity) {
+    if (encoded_head_bytes(format) > capacity) {
         return RHO_ERROR_CAPACITY;
     }
-    (void)put_head(buffer, head, format, 0);
+    (void)encode_head(buffer, head, format, 0);
     *writer = (struct rho_message_writer){.buffer = buffer,
                                           .capacity = capacity,
-                                          .size = head_bytes(format),
+                                          .size = encoded_head_bytes(format),
                                           .fingerprint = format->fingerprint};
     return RHO_OK;
 }
@@ -241,10 +241,10 @@ enum rho_status rho_message_add(const struct message_format *format,
         writer->capacity - writer->size < format->element.wire_bytes) {
         return RHO_ERROR_CAPACITY;
     }
-    (void)put_list(writer->buffer + writer->size, element, format, 1);
+    (void)encode_list(writer->buffer + writer->size, element, format, 1);
     writer->size += format->element.wire_bytes;
     writer->count++;
-    (void)put16(writer->buffer + head_bytes(format) - MESSAGE_COUNT_BYTES, writer->count);
+    (void)put16(writer->buffer + encoded_head_bytes(format) - MESSAGE_COUNT_BYTES, writer->count);
     return RHO_OK;
 }
 
@@ -263,11 +263,11 @@ enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size)
 
 /* ---- Decode ---- */
 
-/* Everything that can be wrong is seen here, before anything is written. */
-static enum rho_status check_bytes(const struct message_format *format, const uint8_t *data,
-                                   size_t size, size_t *count)
+/* Checks fingerprint, size and list count of an encoded message, before any of it is decoded. */
+static enum rho_status check_encoded_bytes(const struct message_format *format, const uint8_t *data,
+                                           size_t size, size_t *count)
 {
-    size_t head = head_bytes(format), rest;
+    size_t head = encoded_head_bytes(format), rest;
 
     *count = 0;
     if (size < MESSAGE_FINGERPRINT_BYTES) {
@@ -280,7 +280,8 @@ static enum rho_status check_bytes(const struct message_format *format, const ui
         return RHO_ERROR_SHORT;
     }
     if (format->max > 0) {
-        *count = get16(data + head - MESSAGE_COUNT_BYTES); /* negative ones are above 32767 */
+        *count = get16(data + head -
+                       MESSAGE_COUNT_BYTES); /* a negative count reads as more than 32767 */
     }
     if (*count > format->max) {
         return RHO_ERROR_COUNT;
@@ -301,22 +302,22 @@ enum rho_status rho_message_decode(const struct message_format *format, const ui
     if (!data || !message) {
         return RHO_ERROR_NULL;
     }
-    status = check_bytes(format, data, size, &count);
+    status = check_encoded_bytes(format, data, size, &count);
     if (status != RHO_OK) {
         return status;
     }
-    from = get_struct(data + MESSAGE_FINGERPRINT_BYTES, bytes, &format->head);
+    from = decode_struct(data + MESSAGE_FINGERPRINT_BYTES, bytes, &format->head);
     if (format->max > 0) {
         stored = (int16_t)count;
         memcpy(bytes + format->count_offset, &stored, sizeof stored);
-        get_list(from + MESSAGE_COUNT_BYTES, bytes + format->list_offset, format, count);
+        decode_list(from + MESSAGE_COUNT_BYTES, bytes + format->list_offset, format, count);
     }
     return RHO_OK;
 }
 
 /* ---- Validate ---- */
 
-static int64_t read_int(const uint8_t *from, unsigned width)
+static int64_t read_native_int(const uint8_t *from, unsigned width)
 {
     int8_t v8;
     int16_t v16;
@@ -339,15 +340,16 @@ static int64_t read_int(const uint8_t *from, unsigned width)
     }
 }
 
-static int is_int_good(const uint8_t *bytes, const struct message_int_rule *rule, unsigned offset)
+static int keeps_int_rule(const uint8_t *bytes, const struct message_int_rule *rule,
+                          unsigned offset)
 {
-    int64_t v = read_int(bytes + offset, rule->width);
+    int64_t v = read_native_int(bytes + offset, rule->width);
 
     switch (rule->kind) {
     case MESSAGE_ONE_OF:
         return v >= 0 && v < 31 && ((uint32_t)rule->max >> v & 1u) != 0;
     case MESSAGE_BELOW:
-        return v >= rule->min && v < read_int(bytes + rule->max, 2);
+        return v >= rule->min && v < read_native_int(bytes + rule->max, 2);
     case MESSAGE_TIME:
         return v >= -RHO_LIMIT_TIME_US && v <= RHO_LIMIT_TIME_US;
     case MESSAGE_COUNT:
@@ -359,20 +361,20 @@ static int is_int_good(const uint8_t *bytes, const struct message_int_rule *rule
 
 #define ALL_GOOD UINT16_MAX
 
-/* Offset of the first member that breaks its rule; ALL_GOOD where none does. */
-static uint16_t first_bad_int(const uint8_t *bytes, const struct message_int_rule *rule)
+/* Offset of the first integer that breaks the rule; ALL_GOOD where none does. */
+static uint16_t offset_of_bad_int(const uint8_t *bytes, const struct message_int_rule *rule)
 {
     unsigned offset = rule->offset;
 
     for (unsigned i = 0; i < rule->count; i++, offset += rule->width) {
-        if (!is_int_good(bytes, rule, offset)) {
+        if (!keeps_int_rule(bytes, rule, offset)) {
             return (uint16_t)offset;
         }
     }
     return ALL_GOOD;
 }
 
-static uint16_t first_bad_float(const uint8_t *bytes, const struct message_float_rule *rule)
+static uint16_t offset_of_bad_float(const uint8_t *bytes, const struct message_float_rule *rule)
 {
     float v;
 
@@ -385,21 +387,21 @@ static uint16_t first_bad_float(const uint8_t *bytes, const struct message_float
     return ALL_GOOD;
 }
 
-static uint16_t first_bad(const uint8_t *bytes, const struct message_checks *checks)
+static uint16_t offset_of_bad_member(const uint8_t *bytes, const struct message_checks *checks)
 {
     uint16_t bad = ALL_GOOD;
 
     for (unsigned i = 0; i < checks->num_ints && bad == ALL_GOOD; i++) {
-        bad = first_bad_int(bytes, &checks->ints[i]);
+        bad = offset_of_bad_int(bytes, &checks->ints[i]);
     }
     for (unsigned i = 0; i < checks->num_floats && bad == ALL_GOOD; i++) {
-        bad = first_bad_float(bytes, &checks->floats[i]);
+        bad = offset_of_bad_float(bytes, &checks->floats[i]);
     }
     return bad;
 }
 
-static enum rho_status refuse(enum rho_status status, struct rho_message_place *place,
-                              uint16_t offset, int element)
+static enum rho_status set_bad_place(enum rho_status status, struct rho_message_place *place,
+                                     uint16_t offset, int element)
 {
     if (place) {
         *place = (struct rho_message_place){offset, (int16_t)element};
@@ -418,19 +420,19 @@ enum rho_status rho_message_validate(const struct message_rules *rules, const vo
     if (!message) {
         return RHO_ERROR_NULL;
     }
-    count = read_count(format, bytes);
+    count = read_list_count(format, bytes);
     if (count < 0 || count > format->max) {
-        return refuse(RHO_ERROR_COUNT, place, format->count_offset, -1);
+        return set_bad_place(RHO_ERROR_COUNT, place, format->count_offset, -1);
     }
-    bad = first_bad(bytes, &rules->head);
+    bad = offset_of_bad_member(bytes, &rules->head);
     if (bad != ALL_GOOD) {
-        return refuse(RHO_ERROR_VALUE, place, bad, -1);
+        return set_bad_place(RHO_ERROR_VALUE, place, bad, -1);
     }
     for (int i = 0; i < count; i++) {
-        bad = first_bad(bytes + format->list_offset + (size_t)i * format->element_bytes,
-                        &rules->element);
+        bad = offset_of_bad_member(bytes + format->list_offset + (size_t)i * format->element_bytes,
+                                   &rules->element);
         if (bad != ALL_GOOD) {
-            return refuse(RHO_ERROR_VALUE, place, bad, i);
+            return set_bad_place(RHO_ERROR_VALUE, place, bad, i);
         }
     }
     return RHO_OK;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * message_codec: the form of the generated tables that describe the messages, and the few functions
- * that all messages share. Private to message.
+ * message_codec: encodes, decodes and validates messages by the generated tables of message.c that
+ * describe them. Private to message.
  *
- * A struct is described by runs of members of the same width, one behind the other in memory as on
- * the wire. Tables hold offsets instead of pointers, so that they stay in flash.
+ * A struct is described by runs: members of the same width that follow each other in memory as they
+ * do on the wire. Tables hold offsets instead of pointers, so that they stay in flash.
  */
 #ifndef RHOTRACK_MESSAGE_CODEC_H
 #define RHOTRACK_MESSAGE_CODEC_H
@@ -20,12 +20,12 @@
 
 /* Members of one width without a gap between them. */
 struct message_run {
-    uint16_t offset; /* in the struct, of the first */
+    uint16_t offset; /* of the first member in the struct, bytes */
     uint8_t width;   /* 1, 2, 4, 8 bytes */
     uint8_t count;
 };
 
-/* Floats in a row that must be within the same range; not finite is never within. */
+/* Successive floats that must be within one range, which NaN never is. */
 struct message_float_rule {
     uint16_t offset;
     uint16_t count;
@@ -33,35 +33,35 @@ struct message_float_rule {
 };
 
 enum message_rule_kind {
-    MESSAGE_RANGE,  /* min .. max */
-    MESSAGE_ONE_OF, /* bit v of max is set; v below 31 */
-    MESSAGE_BELOW,  /* min .. less than the int16_t at offset max */
-    MESSAGE_TIME,   /* within RHO_LIMIT_TIME_US either way */
-    MESSAGE_COUNT   /* 0 or more, of 8 bytes */
+    MESSAGE_RANGE,  /* the value is in min .. max */
+    MESSAGE_ONE_OF, /* the value is 0 .. 30, and the bit of that number is set in max */
+    MESSAGE_BELOW,  /* min or more, and less than the int16_t member at offset max */
+    MESSAGE_TIME,   /* a time in -RHO_LIMIT_TIME_US .. RHO_LIMIT_TIME_US */
+    MESSAGE_COUNT   /* a count of 8 bytes: 0 or more */
 };
 
-/* Integers of one width in a row that must keep the same rule; in few bytes, for there are many. */
+/* Successive integers of one width that must keep one rule; bit fields save flash. */
 struct message_int_rule {
     unsigned offset : 16, width : 4, count : 8;
     unsigned kind : 4; /* enum message_rule_kind */
     int32_t min, max;
 };
 
-/* A struct, or what comes before a list: its runs, and its bytes on the wire. */
+/* Layout of a struct, or of a message's head before its list: runs, and bytes on the wire. */
 struct message_layout {
     const struct message_run *runs;
     uint16_t num_runs, wire_bytes;
 };
 
-/* A message. Without a list its max is 0, and what describes the list means nothing. */
+/* Format of a message. In one without a list max is 0, and the list's other fields are unused. */
 struct message_format {
     uint64_t fingerprint;
     struct message_layout head, element;
     uint16_t count_offset, list_offset, element_bytes; /* in the struct */
-    uint16_t max;
+    uint16_t max;                                      /* elements that the list may hold */
 };
 
-/* The rules of a struct, or of what comes before a list. */
+/* Value rules of a list element, or of a message's head before its list. */
 struct message_checks {
     const struct message_int_rule *ints;
     const struct message_float_rule *floats;
@@ -69,15 +69,15 @@ struct message_checks {
 };
 
 /*
- * The rules of a message. They are apart from its format, so that firmware which only encodes it
- * does not carry them; nor does it carry the tables of other messages, as each has its own.
+ * Value rules of a message. They are apart from its format, so that firmware which only encodes the
+ * message does not link them; nor does it link the tables of other messages, as each has its own.
  */
 struct message_rules {
     const struct message_format *format;
     struct message_checks head, element;
 };
 
-/* The common part of message.h's ..._encode, ..._decode, ..._validate, ..._begin and ..._add. */
+/* The functions of message.h call these with the tables of their message. */
 enum rho_status rho_message_encode(const struct message_format *format, const void *message,
                                    uint8_t *buffer, size_t capacity, size_t *size);
 enum rho_status rho_message_decode(const struct message_format *format, const uint8_t *data,

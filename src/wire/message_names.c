@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
 /* clang-format off */
-/* Apart from the codec, so that firmware that names no member does not carry the names. */
+/* message_names: names of messages and members, in a file that firmware need not link. */
 #include "rhotrack/message.h"
 
-/* Members in their order. */
-struct name {
+/* Offset and name of a member; tables have the members in their order. */
+struct member_name {
     uint16_t offset;
     char text[21];
 };
 
-/* The last member that begins at the offset or before; arrays are one member. */
-static const char *find(const struct name *names, unsigned count, uint16_t offset)
+/* Name of the last member that begins at the offset or before; an array is one member. */
+static const char *find_member_name(const struct member_name *names, unsigned count,
+                                    uint16_t offset)
 {
     unsigned i = 0;
 
@@ -21,7 +22,7 @@ static const char *find(const struct name *names, unsigned count, uint16_t offse
     return names[i].text;
 }
 
-static const struct name accumulator_cell_names[] = {
+static const struct member_name accumulator_cell_names[] = {
     {offsetof(struct rho_message_accumulator_cell, rho_m), "rho_m"},
     {offsetof(struct rho_message_accumulator_cell, theta_rad), "theta_rad"},
     {offsetof(struct rho_message_accumulator_cell, votes), "votes"},
@@ -30,7 +31,7 @@ static const struct name accumulator_cell_names[] = {
     {offsetof(struct rho_message_accumulator_cell, track_id), "track_id"},
 };
 
-static const struct name body_names[] = {
+static const struct member_name body_names[] = {
     {offsetof(struct rho_message_body, track_id), "track_id"},
     {offsetof(struct rho_message_body, x_m), "x_m"},
     {offsetof(struct rho_message_body, y_m), "y_m"},
@@ -47,7 +48,7 @@ static const struct name body_names[] = {
     {offsetof(struct rho_message_body, plots), "plots"},
 };
 
-static const struct name command_answer_names[] = {
+static const struct member_name command_answer_names[] = {
     {offsetof(struct rho_message_command_answer, utime), "utime"},
     {offsetof(struct rho_message_command_answer, scan), "scan"},
     {offsetof(struct rho_message_command_answer, epoch), "epoch"},
@@ -57,7 +58,7 @@ static const struct name command_answer_names[] = {
     {offsetof(struct rho_message_command_answer, track_id), "track_id"},
 };
 
-static const struct name command_names[] = {
+static const struct member_name command_names[] = {
     {offsetof(struct rho_message_command, utime), "utime"},
     {offsetof(struct rho_message_command, number), "number"},
     {offsetof(struct rho_message_command, action), "action"},
@@ -73,7 +74,7 @@ static const struct name command_names[] = {
     {offsetof(struct rho_message_command, sigma_mps), "sigma_mps"},
 };
 
-static const struct name echo_names[] = {
+static const struct member_name echo_names[] = {
     {offsetof(struct rho_message_echo, sensor_id), "sensor_id"},
     {offsetof(struct rho_message_echo, hits), "hits"},
     {offsetof(struct rho_message_echo, unseen), "unseen"},
@@ -86,7 +87,7 @@ static const struct name echo_names[] = {
     {offsetof(struct rho_message_echo, chance), "chance"},
 };
 
-static const struct name ghost_names[] = {
+static const struct member_name ghost_names[] = {
     {offsetof(struct rho_message_ghost, row), "row"},
     {offsetof(struct rho_message_ghost, column), "column"},
     {offsetof(struct rho_message_ghost, reason), "reason"},
@@ -95,7 +96,7 @@ static const struct name ghost_names[] = {
     {offsetof(struct rho_message_ghost, y_m), "y_m"},
 };
 
-static const struct name hypothesis_names[] = {
+static const struct member_name hypothesis_names[] = {
     {offsetof(struct rho_message_hypothesis, share), "share"},
     {offsetof(struct rho_message_hypothesis, x_m), "x_m"},
     {offsetof(struct rho_message_hypothesis, y_m), "y_m"},
@@ -105,7 +106,7 @@ static const struct name hypothesis_names[] = {
     {offsetof(struct rho_message_hypothesis, plots), "plots"},
 };
 
-static const struct name learned_names[] = {
+static const struct member_name learned_names[] = {
     {offsetof(struct rho_message_learned, utime), "utime"},
     {offsetof(struct rho_message_learned, scan), "scan"},
     {offsetof(struct rho_message_learned, epoch), "epoch"},
@@ -119,7 +120,7 @@ static const struct name learned_names[] = {
     {offsetof(struct rho_message_learned, pd), "pd"},
 };
 
-static const struct name peak_names[] = {
+static const struct member_name peak_names[] = {
     {offsetof(struct rho_message_peak, rho_m), "rho_m"},
     {offsetof(struct rho_message_peak, theta_rad), "theta_rad"},
     {offsetof(struct rho_message_peak, speed_mps), "speed_mps"},
@@ -128,11 +129,11 @@ static const struct name peak_names[] = {
     {offsetof(struct rho_message_peak, sensor_pairs), "sensor_pairs"},
 };
 
-static const struct name plane_row_names[] = {
+static const struct member_name plane_row_names[] = {
     {offsetof(struct rho_message_plane_row, votes), "votes"},
 };
 
-static const struct name plot_names[] = {
+static const struct member_name plot_names[] = {
     {offsetof(struct rho_message_plot, dt_us), "dt_us"},
     {offsetof(struct rho_message_plot, x_m), "x_m"},
     {offsetof(struct rho_message_plot, y_m), "y_m"},
@@ -145,7 +146,7 @@ static const struct name plot_names[] = {
     {offsetof(struct rho_message_plot, snr_db), "snr_db"},
 };
 
-static const struct name polar_plot_names[] = {
+static const struct member_name polar_plot_names[] = {
     {offsetof(struct rho_message_polar_plot, dt_us), "dt_us"},
     {offsetof(struct rho_message_polar_plot, range_m), "range_m"},
     {offsetof(struct rho_message_polar_plot, azimuth_rad), "azimuth_rad"},
@@ -154,7 +155,7 @@ static const struct name polar_plot_names[] = {
     {offsetof(struct rho_message_polar_plot, snr_db), "snr_db"},
 };
 
-static const struct name sensor_names[] = {
+static const struct member_name sensor_names[] = {
     {offsetof(struct rho_message_sensor, sensor_id), "sensor_id"},
     {offsetof(struct rho_message_sensor, kind), "kind"},
     {offsetof(struct rho_message_sensor, is_silent), "is_silent"},
@@ -170,7 +171,7 @@ static const struct name sensor_names[] = {
     {offsetof(struct rho_message_sensor, innovation_factor), "innovation_factor"},
 };
 
-static const struct name setting_answer_names[] = {
+static const struct member_name setting_answer_names[] = {
     {offsetof(struct rho_message_setting_answer, utime), "utime"},
     {offsetof(struct rho_message_setting_answer, scan), "scan"},
     {offsetof(struct rho_message_setting_answer, epoch), "epoch"},
@@ -184,14 +185,14 @@ static const struct name setting_answer_names[] = {
     {offsetof(struct rho_message_setting_answer, max), "max"},
 };
 
-static const struct name setting_names[] = {
+static const struct member_name setting_names[] = {
     {offsetof(struct rho_message_setting, utime), "utime"},
     {offsetof(struct rho_message_setting, number), "number"},
     {offsetof(struct rho_message_setting, field), "field"},
     {offsetof(struct rho_message_setting, value), "value"},
 };
 
-static const struct name status_names[] = {
+static const struct member_name status_names[] = {
     {offsetof(struct rho_message_status, utime), "utime"},
     {offsetof(struct rho_message_status, scan), "scan"},
     {offsetof(struct rho_message_status, epoch), "epoch"},
@@ -229,7 +230,7 @@ static const struct name status_names[] = {
     {offsetof(struct rho_message_status, origin_alt_mm), "origin_alt_mm"},
 };
 
-static const struct name track_names[] = {
+static const struct member_name track_names[] = {
     {offsetof(struct rho_message_track, track_id), "track_id"},
     {offsetof(struct rho_message_track, status), "status"},
     {offsetof(struct rho_message_track, hits), "hits"},
@@ -251,7 +252,7 @@ static const struct name track_names[] = {
     {offsetof(struct rho_message_track, covariance), "covariance"},
 };
 
-static const struct name truth_names[] = {
+static const struct member_name truth_names[] = {
     {offsetof(struct rho_message_truth, target_id), "target_id"},
     {offsetof(struct rho_message_truth, x_m), "x_m"},
     {offsetof(struct rho_message_truth, y_m), "y_m"},
@@ -261,7 +262,7 @@ static const struct name truth_names[] = {
     {offsetof(struct rho_message_truth, vz_mps), "vz_mps"},
 };
 
-static const struct name work_names[] = {
+static const struct member_name work_names[] = {
     {offsetof(struct rho_message_work, utime), "utime"},
     {offsetof(struct rho_message_work, scan), "scan"},
     {offsetof(struct rho_message_work, epoch), "epoch"},
@@ -275,7 +276,7 @@ static const struct name work_names[] = {
     {offsetof(struct rho_message_work, events_not_logged), "events_not_logged"},
 };
 
-static const struct name zone_event_names[] = {
+static const struct member_name zone_event_names[] = {
     {offsetof(struct rho_message_zone_event, zone_id), "zone_id"},
     {offsetof(struct rho_message_zone_event, track_id), "track_id"},
     {offsetof(struct rho_message_zone_event, change), "change"},
@@ -284,7 +285,7 @@ static const struct name zone_event_names[] = {
     {offsetof(struct rho_message_zone_event, dwell_s), "dwell_s"},
 };
 
-static const struct name zone_names[] = {
+static const struct member_name zone_names[] = {
     {offsetof(struct rho_message_zone, zone_id), "zone_id"},
     {offsetof(struct rho_message_zone, inside), "inside"},
     {offsetof(struct rho_message_zone, queued), "queued"},
@@ -299,7 +300,7 @@ static const struct name zone_names[] = {
     {offsetof(struct rho_message_zone, dwell_max_s), "dwell_max_s"},
 };
 
-static const struct name accumulator_names[] = {
+static const struct member_name accumulator_names[] = {
     {offsetof(struct rho_message_accumulator, utime), "utime"},
     {offsetof(struct rho_message_accumulator, scan), "scan"},
     {offsetof(struct rho_message_accumulator, epoch), "epoch"},
@@ -323,7 +324,7 @@ static const struct name accumulator_names[] = {
     {offsetof(struct rho_message_accumulator, cells), "cells"},
 };
 
-static const struct name bearing_scan_names[] = {
+static const struct member_name bearing_scan_names[] = {
     {offsetof(struct rho_message_bearing_scan, utime), "utime"},
     {offsetof(struct rho_message_bearing_scan, scan), "scan"},
     {offsetof(struct rho_message_bearing_scan, epoch), "epoch"},
@@ -335,7 +336,7 @@ static const struct name bearing_scan_names[] = {
     {offsetof(struct rho_message_bearing_scan, bearing_rad), "bearing_rad"},
 };
 
-static const struct name body_list_names[] = {
+static const struct member_name body_list_names[] = {
     {offsetof(struct rho_message_body_list, utime), "utime"},
     {offsetof(struct rho_message_body_list, scan), "scan"},
     {offsetof(struct rho_message_body_list, epoch), "epoch"},
@@ -345,7 +346,7 @@ static const struct name body_list_names[] = {
     {offsetof(struct rho_message_body_list, bodies), "bodies"},
 };
 
-static const struct name clutter_map_names[] = {
+static const struct member_name clutter_map_names[] = {
     {offsetof(struct rho_message_clutter_map, utime), "utime"},
     {offsetof(struct rho_message_clutter_map, scan), "scan"},
     {offsetof(struct rho_message_clutter_map, epoch), "epoch"},
@@ -356,7 +357,7 @@ static const struct name clutter_map_names[] = {
     {offsetof(struct rho_message_clutter_map, echoes), "echoes"},
 };
 
-static const struct name ghost_matrix_names[] = {
+static const struct member_name ghost_matrix_names[] = {
     {offsetof(struct rho_message_ghost_matrix, utime), "utime"},
     {offsetof(struct rho_message_ghost_matrix, scan), "scan"},
     {offsetof(struct rho_message_ghost_matrix, epoch), "epoch"},
@@ -377,7 +378,7 @@ static const struct name ghost_matrix_names[] = {
     {offsetof(struct rho_message_ghost_matrix, elements), "elements"},
 };
 
-static const struct name hypotheses_names[] = {
+static const struct member_name hypotheses_names[] = {
     {offsetof(struct rho_message_hypotheses, utime), "utime"},
     {offsetof(struct rho_message_hypotheses, scan), "scan"},
     {offsetof(struct rho_message_hypotheses, epoch), "epoch"},
@@ -395,14 +396,14 @@ static const struct name hypotheses_names[] = {
     {offsetof(struct rho_message_hypotheses, hypotheses), "hypotheses"},
 };
 
-static const struct name peak_list_names[] = {
+static const struct member_name peak_list_names[] = {
     {offsetof(struct rho_message_peak_list, utime), "utime"},
     {offsetof(struct rho_message_peak_list, scan), "scan"},
     {offsetof(struct rho_message_peak_list, num_peaks), "num_peaks"},
     {offsetof(struct rho_message_peak_list, peaks), "peaks"},
 };
 
-static const struct name plane_names[] = {
+static const struct member_name plane_names[] = {
     {offsetof(struct rho_message_plane, utime), "utime"},
     {offsetof(struct rho_message_plane, scan), "scan"},
     {offsetof(struct rho_message_plane, epoch), "epoch"},
@@ -417,7 +418,7 @@ static const struct name plane_names[] = {
     {offsetof(struct rho_message_plane, rows), "rows"},
 };
 
-static const struct name plot_scan_names[] = {
+static const struct member_name plot_scan_names[] = {
     {offsetof(struct rho_message_plot_scan, utime), "utime"},
     {offsetof(struct rho_message_plot_scan, scan), "scan"},
     {offsetof(struct rho_message_plot_scan, epoch), "epoch"},
@@ -431,7 +432,7 @@ static const struct name plot_scan_names[] = {
     {offsetof(struct rho_message_plot_scan, plots), "plots"},
 };
 
-static const struct name polar_scan_names[] = {
+static const struct member_name polar_scan_names[] = {
     {offsetof(struct rho_message_polar_scan, utime), "utime"},
     {offsetof(struct rho_message_polar_scan, scan), "scan"},
     {offsetof(struct rho_message_polar_scan, epoch), "epoch"},
@@ -453,7 +454,7 @@ static const struct name polar_scan_names[] = {
     {offsetof(struct rho_message_polar_scan, polar_plots), "polar_plots"},
 };
 
-static const struct name sensor_list_names[] = {
+static const struct member_name sensor_list_names[] = {
     {offsetof(struct rho_message_sensor_list, utime), "utime"},
     {offsetof(struct rho_message_sensor_list, scan), "scan"},
     {offsetof(struct rho_message_sensor_list, epoch), "epoch"},
@@ -464,7 +465,7 @@ static const struct name sensor_list_names[] = {
     {offsetof(struct rho_message_sensor_list, sensors), "sensors"},
 };
 
-static const struct name track_list_names[] = {
+static const struct member_name track_list_names[] = {
     {offsetof(struct rho_message_track_list, utime), "utime"},
     {offsetof(struct rho_message_track_list, scan), "scan"},
     {offsetof(struct rho_message_track_list, epoch), "epoch"},
@@ -475,7 +476,7 @@ static const struct name track_list_names[] = {
     {offsetof(struct rho_message_track_list, tracks), "tracks"},
 };
 
-static const struct name truth_list_names[] = {
+static const struct member_name truth_list_names[] = {
     {offsetof(struct rho_message_truth_list, utime), "utime"},
     {offsetof(struct rho_message_truth_list, scan), "scan"},
     {offsetof(struct rho_message_truth_list, part), "part"},
@@ -484,7 +485,7 @@ static const struct name truth_list_names[] = {
     {offsetof(struct rho_message_truth_list, targets), "targets"},
 };
 
-static const struct name zone_event_list_names[] = {
+static const struct member_name zone_event_list_names[] = {
     {offsetof(struct rho_message_zone_event_list, utime), "utime"},
     {offsetof(struct rho_message_zone_event_list, scan), "scan"},
     {offsetof(struct rho_message_zone_event_list, epoch), "epoch"},
@@ -492,7 +493,7 @@ static const struct name zone_event_list_names[] = {
     {offsetof(struct rho_message_zone_event_list, events), "events"},
 };
 
-static const struct name zone_list_names[] = {
+static const struct member_name zone_list_names[] = {
     {offsetof(struct rho_message_zone_list, utime), "utime"},
     {offsetof(struct rho_message_zone_list, scan), "scan"},
     {offsetof(struct rho_message_zone_list, epoch), "epoch"},
@@ -547,115 +548,115 @@ const char *rho_message_type_name(enum rho_message_type type)
 
 const char *rho_message_accumulator_cell_field(const struct rho_message_place *place)
 {
-    return place ? find(accumulator_cell_names, 6, place->offset) : "unknown";
+    return place ? find_member_name(accumulator_cell_names, 6, place->offset) : "unknown";
 }
 
 const char *rho_message_body_field(const struct rho_message_place *place)
 {
-    return place ? find(body_names, 14, place->offset) : "unknown";
+    return place ? find_member_name(body_names, 14, place->offset) : "unknown";
 }
 
 const char *rho_message_command_answer_field(const struct rho_message_place *place)
 {
-    return place ? find(command_answer_names, 7, place->offset) : "unknown";
+    return place ? find_member_name(command_answer_names, 7, place->offset) : "unknown";
 }
 
 const char *rho_message_command_field(const struct rho_message_place *place)
 {
-    return place ? find(command_names, 13, place->offset) : "unknown";
+    return place ? find_member_name(command_names, 13, place->offset) : "unknown";
 }
 
 const char *rho_message_echo_field(const struct rho_message_place *place)
 {
-    return place ? find(echo_names, 10, place->offset) : "unknown";
+    return place ? find_member_name(echo_names, 10, place->offset) : "unknown";
 }
 
 const char *rho_message_ghost_field(const struct rho_message_place *place)
 {
-    return place ? find(ghost_names, 6, place->offset) : "unknown";
+    return place ? find_member_name(ghost_names, 6, place->offset) : "unknown";
 }
 
 const char *rho_message_hypothesis_field(const struct rho_message_place *place)
 {
-    return place ? find(hypothesis_names, 7, place->offset) : "unknown";
+    return place ? find_member_name(hypothesis_names, 7, place->offset) : "unknown";
 }
 
 const char *rho_message_learned_field(const struct rho_message_place *place)
 {
-    return place ? find(learned_names, 11, place->offset) : "unknown";
+    return place ? find_member_name(learned_names, 11, place->offset) : "unknown";
 }
 
 const char *rho_message_peak_field(const struct rho_message_place *place)
 {
-    return place ? find(peak_names, 6, place->offset) : "unknown";
+    return place ? find_member_name(peak_names, 6, place->offset) : "unknown";
 }
 
 const char *rho_message_plane_row_field(const struct rho_message_place *place)
 {
-    return place ? find(plane_row_names, 1, place->offset) : "unknown";
+    return place ? find_member_name(plane_row_names, 1, place->offset) : "unknown";
 }
 
 const char *rho_message_plot_field(const struct rho_message_place *place)
 {
-    return place ? find(plot_names, 10, place->offset) : "unknown";
+    return place ? find_member_name(plot_names, 10, place->offset) : "unknown";
 }
 
 const char *rho_message_polar_plot_field(const struct rho_message_place *place)
 {
-    return place ? find(polar_plot_names, 6, place->offset) : "unknown";
+    return place ? find_member_name(polar_plot_names, 6, place->offset) : "unknown";
 }
 
 const char *rho_message_sensor_field(const struct rho_message_place *place)
 {
-    return place ? find(sensor_names, 13, place->offset) : "unknown";
+    return place ? find_member_name(sensor_names, 13, place->offset) : "unknown";
 }
 
 const char *rho_message_setting_answer_field(const struct rho_message_place *place)
 {
-    return place ? find(setting_answer_names, 11, place->offset) : "unknown";
+    return place ? find_member_name(setting_answer_names, 11, place->offset) : "unknown";
 }
 
 const char *rho_message_setting_field(const struct rho_message_place *place)
 {
-    return place ? find(setting_names, 4, place->offset) : "unknown";
+    return place ? find_member_name(setting_names, 4, place->offset) : "unknown";
 }
 
 const char *rho_message_status_field(const struct rho_message_place *place)
 {
-    return place ? find(status_names, 35, place->offset) : "unknown";
+    return place ? find_member_name(status_names, 35, place->offset) : "unknown";
 }
 
 const char *rho_message_track_field(const struct rho_message_place *place)
 {
-    return place ? find(track_names, 19, place->offset) : "unknown";
+    return place ? find_member_name(track_names, 19, place->offset) : "unknown";
 }
 
 const char *rho_message_truth_field(const struct rho_message_place *place)
 {
-    return place ? find(truth_names, 7, place->offset) : "unknown";
+    return place ? find_member_name(truth_names, 7, place->offset) : "unknown";
 }
 
 const char *rho_message_work_field(const struct rho_message_place *place)
 {
-    return place ? find(work_names, 11, place->offset) : "unknown";
+    return place ? find_member_name(work_names, 11, place->offset) : "unknown";
 }
 
 const char *rho_message_zone_event_field(const struct rho_message_place *place)
 {
-    return place ? find(zone_event_names, 6, place->offset) : "unknown";
+    return place ? find_member_name(zone_event_names, 6, place->offset) : "unknown";
 }
 
 const char *rho_message_zone_field(const struct rho_message_place *place)
 {
-    return place ? find(zone_names, 12, place->offset) : "unknown";
+    return place ? find_member_name(zone_names, 12, place->offset) : "unknown";
 }
 
 const char *rho_message_accumulator_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(accumulator_cell_names, 6, place->offset);
+        return find_member_name(accumulator_cell_names, 6, place->offset);
     }
-    return place ? find(accumulator_names, 21, place->offset) : "unknown";
+    return place ? find_member_name(accumulator_names, 21, place->offset) : "unknown";
 }
 
 const char *rho_message_bearing_scan_field(const struct rho_message_place *place)
@@ -663,109 +664,109 @@ const char *rho_message_bearing_scan_field(const struct rho_message_place *place
     if (place && place->element >= 0) {
         return "bearing_rad";
     }
-    return place ? find(bearing_scan_names, 9, place->offset) : "unknown";
+    return place ? find_member_name(bearing_scan_names, 9, place->offset) : "unknown";
 }
 
 const char *rho_message_body_list_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(body_names, 14, place->offset);
+        return find_member_name(body_names, 14, place->offset);
     }
-    return place ? find(body_list_names, 7, place->offset) : "unknown";
+    return place ? find_member_name(body_list_names, 7, place->offset) : "unknown";
 }
 
 const char *rho_message_clutter_map_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(echo_names, 10, place->offset);
+        return find_member_name(echo_names, 10, place->offset);
     }
-    return place ? find(clutter_map_names, 8, place->offset) : "unknown";
+    return place ? find_member_name(clutter_map_names, 8, place->offset) : "unknown";
 }
 
 const char *rho_message_ghost_matrix_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(ghost_names, 6, place->offset);
+        return find_member_name(ghost_names, 6, place->offset);
     }
-    return place ? find(ghost_matrix_names, 18, place->offset) : "unknown";
+    return place ? find_member_name(ghost_matrix_names, 18, place->offset) : "unknown";
 }
 
 const char *rho_message_hypotheses_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(hypothesis_names, 7, place->offset);
+        return find_member_name(hypothesis_names, 7, place->offset);
     }
-    return place ? find(hypotheses_names, 15, place->offset) : "unknown";
+    return place ? find_member_name(hypotheses_names, 15, place->offset) : "unknown";
 }
 
 const char *rho_message_peak_list_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(peak_names, 6, place->offset);
+        return find_member_name(peak_names, 6, place->offset);
     }
-    return place ? find(peak_list_names, 4, place->offset) : "unknown";
+    return place ? find_member_name(peak_list_names, 4, place->offset) : "unknown";
 }
 
 const char *rho_message_plane_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(plane_row_names, 1, place->offset);
+        return find_member_name(plane_row_names, 1, place->offset);
     }
-    return place ? find(plane_names, 12, place->offset) : "unknown";
+    return place ? find_member_name(plane_names, 12, place->offset) : "unknown";
 }
 
 const char *rho_message_plot_scan_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(plot_names, 10, place->offset);
+        return find_member_name(plot_names, 10, place->offset);
     }
-    return place ? find(plot_scan_names, 11, place->offset) : "unknown";
+    return place ? find_member_name(plot_scan_names, 11, place->offset) : "unknown";
 }
 
 const char *rho_message_polar_scan_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(polar_plot_names, 6, place->offset);
+        return find_member_name(polar_plot_names, 6, place->offset);
     }
-    return place ? find(polar_scan_names, 19, place->offset) : "unknown";
+    return place ? find_member_name(polar_scan_names, 19, place->offset) : "unknown";
 }
 
 const char *rho_message_sensor_list_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(sensor_names, 13, place->offset);
+        return find_member_name(sensor_names, 13, place->offset);
     }
-    return place ? find(sensor_list_names, 8, place->offset) : "unknown";
+    return place ? find_member_name(sensor_list_names, 8, place->offset) : "unknown";
 }
 
 const char *rho_message_track_list_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(track_names, 19, place->offset);
+        return find_member_name(track_names, 19, place->offset);
     }
-    return place ? find(track_list_names, 8, place->offset) : "unknown";
+    return place ? find_member_name(track_list_names, 8, place->offset) : "unknown";
 }
 
 const char *rho_message_truth_list_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(truth_names, 7, place->offset);
+        return find_member_name(truth_names, 7, place->offset);
     }
-    return place ? find(truth_list_names, 6, place->offset) : "unknown";
+    return place ? find_member_name(truth_list_names, 6, place->offset) : "unknown";
 }
 
 const char *rho_message_zone_event_list_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(zone_event_names, 6, place->offset);
+        return find_member_name(zone_event_names, 6, place->offset);
     }
-    return place ? find(zone_event_list_names, 5, place->offset) : "unknown";
+    return place ? find_member_name(zone_event_list_names, 5, place->offset) : "unknown";
 }
 
 const char *rho_message_zone_list_field(const struct rho_message_place *place)
 {
     if (place && place->element >= 0) {
-        return find(zone_names, 12, place->offset);
+        return find_member_name(zone_names, 12, place->offset);
     }
-    return place ? find(zone_list_names, 6, place->offset) : "unknown";
+    return place ? find_member_name(zone_list_names, 6, place->offset) : "unknown";
 }

@@ -8,38 +8,38 @@
 #define MAGIC 0x6e6f6465u
 #define RANGE_UNKNOWN_M (2.0f * RHO_LIMIT_POSITION_M)
 
-/* Fewer passive sensors give no positions. */
+/* Least number of passive sensors whose bearings give positions. */
 #define PASSIVE_MIN 2
 
-/* Scans of one sensor refused in a row until the node believes that the sensor has moved. */
+/* Successive refused scans of a passive sensor after which it is taken to have moved. */
 #define MOVED_SCANS 16
 
 /*
- * is_making_room: the assembler had no room for a message. One scan goes out, then it is tried
- * again.
+ * Values of is_making_room: when the assembler has no room for a message (WANTED), one scan is
+ * stepped (MADE), and the caller gives the message again.
  */
 enum { ROOM_ENOUGH = 0, ROOM_WANTED, ROOM_MADE };
 
-/* has_closed: a frame is closed and not stepped; a restart that comes with it is told before. */
+/* Values of has_closed: no closed frame; one to be stepped; one whose restart was told before. */
 enum { FRAME_NONE = 0, FRAME_CLOSED, FRAME_RESTARTED };
 
 /* ---- Start ---- */
 
-/* Known to the compiler to be none where the library is built without bearings. */
-static struct rho_frames *frames_of(const struct rho_node *node)
+/* The frames; a constant NULL, which the compiler sees, in a build without bearings. */
+static struct rho_frames *frames_or_null(const struct rho_node *node)
 {
     return RHO_SCAN_ASSEMBLER_HAS(RHO_SCAN_ASSEMBLER_BEARINGS) ? node->config.frames : NULL;
 }
 
-static int is_ready(const struct rho_node *node)
+static int is_initialised(const struct rho_node *node)
 {
     return node && node->magic == MAGIC;
 }
 
 /*
- * How many passive sensors there are is unknown before the first frame: it waits for as many as
- * there can be, until scans of the next frame come, or for its time. If the second sensor closed
- * it, the scans of all others would be out of sequence.
+ * Makes the first frame wait for the largest number of passive sensors, until a scan of the next
+ * frame comes or its time has passed: the number of sensors is unknown, and a frame closed by the
+ * second sensor would make the scans of all others out of sequence.
  */
 static void await_all_sensors(struct rho_frames *frames)
 {
@@ -64,11 +64,11 @@ enum rho_status rho_node_init(struct rho_node *node, size_t size,
     node->config = *config;
     node->epoch = config->epoch;
     node->frame_due_us = INT64_MAX;
-    if (frames_of(node)) {
-        if (rho_frames_close(frames_of(node)) != RHO_OK) {
+    if (frames_or_null(node)) {
+        if (rho_frames_close(frames_or_null(node)) != RHO_OK) {
             return RHO_ERROR_STATE;
         }
-        await_all_sensors(frames_of(node));
+        await_all_sensors(frames_or_null(node));
     }
     node->magic = MAGIC;
     return RHO_OK;
@@ -76,8 +76,8 @@ enum rho_status rho_node_init(struct rho_node *node, size_t size,
 
 /* ---- Sensors ---- */
 
-/* An accepted scan of the sensor, of any kind, came in the last jump_max_us. */
-static int is_sensor_heard(const struct rho_node *node, int32_t sensor_id)
+/* 1 where the assembler has accepted a scan of the sensor in the last jump_max_us. */
+static int is_sensor_heard_lately(const struct rho_node *node, int32_t sensor_id)
 {
     const struct rho_scan_assembler *assembler = node->config.assembler;
 
@@ -100,14 +100,14 @@ static void forget_silent_sensors(struct rho_node *node)
     for (unsigned i = tracker->num_sensors; i-- > 0;) {
         int32_t sensor_id = tracker->sensors[i].sensor_id;
 
-        if (!is_sensor_heard(node, sensor_id) &&
+        if (!is_sensor_heard_lately(node, sensor_id) &&
             rho_tracker_forget_sensor(tracker, sensor_id) == RHO_OK) {
             node->counters.sensors_forgotten = rho_count(node->counters.sensors_forgotten, 1);
         }
     }
 }
 
-static int describe_sensor(struct rho_node *node, const struct rho_sensor *sensor)
+static int describe_sensor_to_tracker(struct rho_node *node, const struct rho_sensor *sensor)
 {
     enum rho_status status = rho_tracker_set_sensor(node->config.tracker, sensor);
 
@@ -121,59 +121,59 @@ static int describe_sensor(struct rho_node *node, const struct rho_sensor *senso
 
 /* ---- Frames of bearings ---- */
 
-/* NULL: none is open. */
-static const struct rho_frames_slot *open_frame(const struct rho_node *node)
+/* The frame that scans may still join; NULL: no frame is open. */
+static const struct rho_frames_slot *find_open_frame(const struct rho_node *node)
 {
-    const struct rho_frames *frames = frames_of(node);
+    const struct rho_frames *frames = frames_or_null(node);
 
     return frames && frames->slots[frames->open].num_scans > 0 ? &frames->slots[frames->open]
                                                                : NULL;
 }
 
-/* Returns 0 where no frame was open. */
-static int close_frame(struct rho_node *node)
+/* Closes the open frame; returns 0 where no frame was open. */
+static int close_open_frame(struct rho_node *node)
 {
     node->frame_due_us = INT64_MAX;
-    if (!open_frame(node) || rho_frames_close(frames_of(node)) != RHO_OK) {
+    if (!find_open_frame(node) || rho_frames_close(frames_or_null(node)) != RHO_OK) {
         return 0;
     }
     node->has_closed = FRAME_CLOSED;
     return 1;
 }
 
-/* Tracks that bearings start begin anew. The config was taken before. */
-static void reset_search(struct rho_node *node)
+/* Initialises passive initiation anew; its config is known to be valid. */
+static void reset_passive_search(struct rho_node *node)
 {
     struct rho_passive *passive = node->config.passive;
 
-    if (frames_of(node) && passive) {
+    if (frames_or_null(node) && passive) {
         (void)!rho_passive_init(passive, sizeof *passive, &passive->config);
     }
 }
 
-/* The frames and their sensors begin anew; the counters go on. */
+/* Initialises the frames and their sensors anew, but keeps their counters. */
 static void reset_frames(struct rho_node *node)
 {
-    struct rho_frames *frames = frames_of(node);
+    struct rho_frames *frames = frames_or_null(node);
 
     if (frames) {
         struct rho_frames_counters counters = frames->counters;
 
         (void)!rho_frames_init(frames, sizeof *frames, &frames->config);
         await_all_sensors(frames);
-        counters.scans_taken = 0; /* by it the frames know that there is no clock yet */
+        counters.scans_taken = 0; /* 0 tells the frames that they have no clock yet */
         frames->counters = counters;
         memset(node->refused_scans, 0, sizeof node->refused_scans);
     }
 }
 
 /*
- * A search refuses a frame with two sensors that are farther apart than its cells reach. Of these
- * two the sensor that came last is refused.
+ * 1 where a scan's sensor is within apart_max_m of all sensors of the frames: a search refuses
+ * frames whose sensors are farther apart than its cells reach.
  */
-static int is_near_others(const struct rho_node *node, const struct rho_bearing_scan *scan)
+static int is_near_other_sensors(const struct rho_node *node, const struct rho_bearing_scan *scan)
 {
-    const struct rho_frames *frames = frames_of(node);
+    const struct rho_frames *frames = frames_or_null(node);
     const struct rho_passive *passive = node->config.passive;
     float apart_max_m = passive ? passive->batch.apart_max_m : node->config.apart_max_m;
 
@@ -187,12 +187,12 @@ static int is_near_others(const struct rho_node *node, const struct rho_bearing_
     return 1;
 }
 
-/* Into the open frame, or the next. */
-static int push_bearings(struct rho_node *node, const struct rho_bearing_scan *scan)
+/* Adds a scan to the open frame or the next one; returns 0 where it is refused. */
+static int push_bearings_into_frame(struct rho_node *node, const struct rho_bearing_scan *scan)
 {
-    struct rho_frames *frames = frames_of(node);
+    struct rho_frames *frames = frames_or_null(node);
 
-    if (!frames || !is_near_others(node, scan) || rho_frames_push(frames, scan) != RHO_OK) {
+    if (!frames || !is_near_other_sensors(node, scan) || rho_frames_push(frames, scan) != RHO_OK) {
         return 0;
     }
     for (unsigned i = 0; i < frames->num_sensors; i++) {
@@ -205,18 +205,18 @@ static int push_bearings(struct rho_node *node, const struct rho_bearing_scan *s
 }
 
 /*
- * After a refusal: a silent sensor keeps the scan's sensor out, or that one has been refused so
- * often that it is likely to stand at another place.
+ * Counts a refused scan. Returns 1 where the frames are to begin anew: a silent sensor keeps the
+ * scan's sensor out, or MOVED_SCANS refusals suggest that the scan's sensor has moved.
  */
-static int is_kept_out(struct rho_node *node, const struct rho_bearing_scan *scan)
+static int count_refusal_and_check_reset(struct rho_node *node, const struct rho_bearing_scan *scan)
 {
-    const struct rho_frames *frames = frames_of(node);
+    const struct rho_frames *frames = frames_or_null(node);
 
     for (unsigned i = 0; frames && i < frames->num_sensors; i++) {
         int32_t sensor_id = frames->sensors[i].sensor_id;
 
         if (sensor_id == scan->sensor_id ? ++node->refused_scans[i] >= MOVED_SCANS
-                                         : !is_sensor_heard(node, sensor_id)) {
+                                         : !is_sensor_heard_lately(node, sensor_id)) {
             return 1;
         }
     }
@@ -231,23 +231,23 @@ static void describe_passive_sensor(struct rho_node *node)
         if (node->config.passive_range_max_m > 0.0f && sensor.range_max_m >= RANGE_UNKNOWN_M) {
             sensor.range_max_m = node->config.passive_range_max_m;
         }
-        (void)describe_sensor(node, &sensor);
+        (void)describe_sensor_to_tracker(node, &sensor);
     }
 }
 
-/* The open frame closes when nothing has come for as long as its scans may differ and wait. */
-static void set_frame_due(struct rho_node *node, int64_t now_us)
+/* The open frame closes when no scan has come for tolerance_us and hold_us together. */
+static void set_frame_due_time(struct rho_node *node, int64_t now_us)
 {
     int64_t hold_us = node->config.assembler->config.hold_us;
-    int64_t wait_us = hold_us + frames_of(node)->config.tolerance_us;
+    int64_t wait_us = hold_us + frames_or_null(node)->config.tolerance_us;
 
-    node->frame_due_us = open_frame(node) && hold_us > 0 && now_us < INT64_MAX - wait_us
+    node->frame_due_us = find_open_frame(node) && hold_us > 0 && now_us < INT64_MAX - wait_us
                              ? now_us + wait_us
                              : INT64_MAX;
 }
 
-/* A scan that a sensor keeps out is tried again after the open frame's step, with empty frames. */
-static void take_bearings(struct rho_node *node, int64_t now_us)
+/* Adds the item to a frame; where frames must begin anew, keeps it until the open frame's step. */
+static void take_bearings_item(struct rho_node *node, int64_t now_us)
 {
     const struct rho_bearing_scan *scan = &node->item.bearings;
     int is_again = node->is_forgetting;
@@ -255,16 +255,16 @@ static void take_bearings(struct rho_node *node, int64_t now_us)
     node->is_forgetting = 0;
     if (is_again) {
         reset_frames(node);
-        reset_search(node);
+        reset_passive_search(node);
     }
-    if (push_bearings(node, scan)) {
+    if (push_bearings_into_frame(node, scan)) {
         describe_passive_sensor(node);
-        set_frame_due(node, now_us);
+        set_frame_due_time(node, now_us);
     } else if (!is_again) {
         node->counters.bearings_refused = rho_count(node->counters.bearings_refused, 1);
-        if (is_kept_out(node, scan)) {
+        if (count_refusal_and_check_reset(node, scan)) {
             node->is_forgetting = 1;
-            (void)close_frame(node);
+            (void)close_open_frame(node);
         }
     }
     node->has_item = node->is_forgetting;
@@ -272,11 +272,12 @@ static void take_bearings(struct rho_node *node, int64_t now_us)
 
 /* ---- Scans of plots ---- */
 
-/* Without its sensor's place a scan says something else: it is refused. */
-static enum rho_node_due give_scan(struct rho_node *node, const struct rho_scan *scan,
-                                   const struct rho_sensor *sensor)
+/* Refuses a scan whose sensor the tracker does not take: the sensor's position would be unknown. */
+static enum rho_node_due describe_sensor_and_give_scan(struct rho_node *node,
+                                                       const struct rho_scan *scan,
+                                                       const struct rho_sensor *sensor)
 {
-    if (sensor && !describe_sensor(node, sensor)) {
+    if (sensor && !describe_sensor_to_tracker(node, sensor)) {
         node->counters.scans_refused = rho_count(node->counters.scans_refused, 1);
         node->counters.plots_refused = rho_count(node->counters.plots_refused, scan->num_plots);
         return RHO_NODE_NOTHING;
@@ -285,7 +286,7 @@ static enum rho_node_due give_scan(struct rho_node *node, const struct rho_scan 
     return RHO_NODE_SCAN;
 }
 
-static struct rho_node_waiting *waiting_at(const struct rho_node *node, unsigned place)
+static struct rho_node_waiting *waiting_scan_at(const struct rho_node *node, unsigned place)
 {
     unsigned at = node->first_waiting + place;
 
@@ -293,9 +294,9 @@ static struct rho_node_waiting *waiting_at(const struct rho_node *node, unsigned
                 .waiting[at < node->config.waiting_max ? at : at - node->config.waiting_max];
 }
 
-static void keep_waiting(struct rho_node *node)
+static void copy_item_to_waiting(struct rho_node *node)
 {
-    struct rho_node_waiting *waiting = waiting_at(node, node->num_waiting++);
+    struct rho_node_waiting *waiting = waiting_scan_at(node, node->num_waiting++);
 
     waiting->scan = node->item.scan;
     waiting->sensor = node->item.sensor;
@@ -305,79 +306,81 @@ static void keep_waiting(struct rho_node *node)
     waiting->scan.plots = waiting->plots;
 }
 
-static enum rho_node_due give_first_waiting(struct rho_node *node)
+static enum rho_node_due give_first_waiting_scan(struct rho_node *node)
 {
-    const struct rho_node_waiting *first = waiting_at(node, 0);
+    const struct rho_node_waiting *first = waiting_scan_at(node, 0);
 
     node->num_waiting--;
-    node->first_waiting = (uint16_t)(waiting_at(node, 1) - node->config.waiting);
-    return give_scan(node, &first->scan, first->has_sensor ? &first->sensor : NULL);
+    node->first_waiting = (uint16_t)(waiting_scan_at(node, 1) - node->config.waiting);
+    return describe_sensor_and_give_scan(node, &first->scan,
+                                         first->has_sensor ? &first->sensor : NULL);
 }
 
-static enum rho_node_due take_plots(struct rho_node *node)
+static enum rho_node_due take_plots_item(struct rho_node *node)
 {
-    const struct rho_frames_slot *frame = open_frame(node);
+    const struct rho_frames_slot *frame = find_open_frame(node);
     const struct rho_scan_assembler_item *item = &node->item;
 
     if (node->num_waiting == 0 && (!frame || frame->time_us >= item->scan.time_us)) {
         node->has_item = 0;
-        return give_scan(node, &item->scan, item->has_sensor ? &item->sensor : NULL);
+        return describe_sensor_and_give_scan(node, &item->scan,
+                                             item->has_sensor ? &item->sensor : NULL);
     }
     if (node->num_waiting < node->config.waiting_max) {
-        keep_waiting(node);
+        copy_item_to_waiting(node);
         node->has_item = 0;
     } else {
-        (void)close_frame(node);
+        (void)close_open_frame(node);
     }
     return RHO_NODE_NOTHING;
 }
 
 /* ---- What is due ---- */
 
-static enum rho_node_due restart(struct rho_node *node)
+static enum rho_node_due begin_restart(struct rho_node *node)
 {
-    reset_search(node);
+    reset_passive_search(node);
     node->counters.restarts = rho_count(node->counters.restarts, 1);
     return RHO_NODE_RESTART;
 }
 
-static enum rho_node_due give_closed_frame(struct rho_node *node)
+static enum rho_node_due give_closed_frame_or_restart(struct rho_node *node)
 {
-    struct rho_frames *frames = frames_of(node);
+    struct rho_frames *frames = frames_or_null(node);
 
     frames->config.sensors_min = PASSIVE_MIN;
     if (node->has_closed == FRAME_CLOSED && frames->slots[1 - frames->open].is_restart) {
         node->has_closed = FRAME_RESTARTED;
-        return restart(node);
+        return begin_restart(node);
     }
     node->has_closed = FRAME_NONE;
     return RHO_NODE_FRAME;
 }
 
 /*
- * The closed frame, then scans that have waited for it. A frame that no scan can join any more
- * closes.
+ * Gives the closed frame, and then the scans that have waited for it. Closes a frame that no scan
+ * can join any more.
  */
-static enum rho_node_due give_waiting(struct rho_node *node)
+static enum rho_node_due give_frame_or_waiting_scan(struct rho_node *node)
 {
     enum rho_node_due due = RHO_NODE_NOTHING;
     const struct rho_frames_slot *frame;
     int64_t time_us;
 
-    while (frames_of(node) && due == RHO_NODE_NOTHING) {
+    while (frames_or_null(node) && due == RHO_NODE_NOTHING) {
         if (node->has_closed) {
-            return give_closed_frame(node);
+            return give_closed_frame_or_restart(node);
         }
         if (node->num_waiting == 0) {
             break;
         }
-        frame = open_frame(node);
-        time_us = waiting_at(node, 0)->scan.time_us;
+        frame = find_open_frame(node);
+        time_us = waiting_scan_at(node, 0)->scan.time_us;
         if (!frame || frame->time_us >= time_us) {
-            due = give_first_waiting(node);
+            due = give_first_waiting_scan(node);
         } else if (node->num_waiting == node->config.waiting_max ||
-                   time_us > frame->time_us + frames_of(node)->config.tolerance_us) {
-            (void)close_frame(node);
+                   time_us > frame->time_us + frames_or_null(node)->config.tolerance_us) {
+            (void)close_open_frame(node);
         } else {
             break;
         }
@@ -385,26 +388,26 @@ static enum rho_node_due give_waiting(struct rho_node *node)
     return due;
 }
 
-/* The step of the open frame, and of scans that wait for it, comes before a restart. */
-static enum rho_node_due take_item(struct rho_node *node, int64_t now_us)
+/* Takes the fetched scan. Before a restart, the open frame and the scans behind it are stepped. */
+static enum rho_node_due take_fetched_item(struct rho_node *node, int64_t now_us)
 {
     if (node->item.is_restart) {
-        if (close_frame(node)) {
+        if (close_open_frame(node)) {
             return RHO_NODE_NOTHING;
         }
         node->item.is_restart = 0;
         reset_frames(node);
-        return restart(node);
+        return begin_restart(node);
     }
     if (RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
-        take_bearings(node, now_us);
+        take_bearings_item(node, now_us);
         return RHO_NODE_NOTHING;
     }
-    return take_plots(node);
+    return take_plots_item(node);
 }
 
-/* The first scan after a snapshot was loaded is of an older time: the clock is another one. */
-static int is_of_another_clock(const struct rho_node *node)
+/* 1 where the first scan after a snapshot is jump_max_us older: it is of another clock. */
+static int is_item_of_another_clock(const struct rho_node *node)
 {
     const struct rho_tracker *tracker = node->config.tracker;
     int64_t time_us = RHO_SCAN_ASSEMBLER_IS(node->item.kind, RHO_SCAN_ASSEMBLER_BEARINGS)
@@ -415,8 +418,8 @@ static int is_of_another_clock(const struct rho_node *node)
            time_us < tracker->time_us - node->config.assembler->config.jump_max_us;
 }
 
-/* A scan that is due, or an open frame whose time has passed. Returns 0 where there is neither. */
-static int fetch_due_item(struct rho_node *node, int64_t now_us)
+/* Fetches a due scan, or closes a frame whose time has passed. Returns 0 where neither is due. */
+static int fetch_item_or_close_frame(struct rho_node *node, int64_t now_us)
 {
     struct rho_scan_assembler *assembler = node->config.assembler;
     const uint8_t room = node->is_making_room;
@@ -430,28 +433,28 @@ static int fetch_due_item(struct rho_node *node, int64_t now_us)
             now_us - node->item.heard_us < assembler->config.hold_us) {
             node->counters.scans_early = rho_count(node->counters.scans_early, 1);
         }
-        node->item.is_restart |= is_of_another_clock(node);
+        node->item.is_restart |= is_item_of_another_clock(node);
         node->is_restored = 0;
         node->has_item = 1;
         return 1;
     }
-    return room == ROOM_ENOUGH && now_us >= node->frame_due_us && close_frame(node);
+    return room == ROOM_ENOUGH && now_us >= node->frame_due_us && close_open_frame(node);
 }
 
 enum rho_node_due rho_node_next(struct rho_node *node, int64_t now_us)
 {
     enum rho_node_due due = RHO_NODE_NOTHING;
-    int has_more = is_ready(node);
+    int has_more = is_initialised(node);
 
     if (has_more && now_us != INT64_MAX) {
         node->now_us = now_us;
     }
     while (has_more && due == RHO_NODE_NOTHING) {
-        due = give_waiting(node);
+        due = give_frame_or_waiting_scan(node);
         if (due == RHO_NODE_NOTHING && node->has_item) {
-            due = take_item(node, now_us);
+            due = take_fetched_item(node, now_us);
         } else if (due == RHO_NODE_NOTHING) {
-            has_more = fetch_due_item(node, now_us);
+            has_more = fetch_item_or_close_frame(node, now_us);
         }
     }
     if (due != RHO_NODE_NOTHING) {
@@ -465,7 +468,7 @@ enum rho_status rho_node_take(struct rho_node *node, const char *channel, const 
 {
     enum rho_status status;
 
-    if (!is_ready(node)) {
+    if (!is_initialised(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
     node->now_us = now_us;
@@ -478,7 +481,7 @@ int64_t rho_node_due_us(const struct rho_node *node)
 {
     int64_t due_us = INT64_MAX;
 
-    if (is_ready(node)) {
+    if (is_initialised(node)) {
         due_us = rho_scan_assembler_due_us(node->config.assembler);
         due_us = node->frame_due_us < due_us ? node->frame_due_us : due_us;
     }
@@ -515,7 +518,7 @@ enum rho_status rho_node_step(struct rho_node *node, struct rho_initiator *initi
     if (!node) {
         return RHO_ERROR_NULL;
     }
-    if (frames_of(node) && node->due == RHO_NODE_FRAME) {
+    if (frames_or_null(node) && node->due == RHO_NODE_FRAME) {
         status = step_frame(node);
     } else if (node->due == RHO_NODE_SCAN) {
         status = step_scan(node, initiator);
@@ -542,15 +545,15 @@ void rho_node_count_time(struct rho_node *node, int64_t took_us)
 
 /* ---- Messages ---- */
 
-/* Tracks and peaks; bodies come behind them. */
-static uint16_t num_without_bodies(const struct rho_node *node)
+/* Number of messages of tracks and peaks, which come before those of bodies. */
+static uint16_t num_messages_without_bodies(const struct rho_node *node)
 {
-    return is_ready(node) ? (uint16_t)(rho_publish_num_parts(node->config.report) + 1u) : 0;
+    return is_initialised(node) ? (uint16_t)(rho_publish_num_parts(node->config.report) + 1u) : 0;
 }
 
 uint16_t rho_node_num_messages(const struct rho_node *node)
 {
-    const uint16_t num_messages = num_without_bodies(node);
+    const uint16_t num_messages = num_messages_without_bodies(node);
 
     return RHO_BODIES && num_messages > 0
                ? (uint16_t)(num_messages +
@@ -560,11 +563,11 @@ uint16_t rho_node_num_messages(const struct rho_node *node)
 
 const char *rho_node_channel(const struct rho_node *node, uint16_t part)
 {
-    if (RHO_BODIES && part >= num_without_bodies(node)) {
+    if (RHO_BODIES && part >= num_messages_without_bodies(node)) {
         return RHO_MESSAGE_BODY_LIST_CHANNEL;
     }
-    return part + 1u < num_without_bodies(node) ? RHO_MESSAGE_TRACK_LIST_CHANNEL
-                                                : RHO_MESSAGE_PEAK_LIST_CHANNEL;
+    return part + 1u < num_messages_without_bodies(node) ? RHO_MESSAGE_TRACK_LIST_CHANNEL
+                                                         : RHO_MESSAGE_PEAK_LIST_CHANNEL;
 }
 
 enum rho_status rho_node_publish(const struct rho_node *node, const struct rho_initiator *initiator,
@@ -573,7 +576,7 @@ enum rho_status rho_node_publish(const struct rho_node *node, const struct rho_i
     const struct rho_report *report;
     int is_frame;
 
-    if (!is_ready(node)) {
+    if (!is_initialised(node)) {
         return node ? RHO_ERROR_STATE : RHO_ERROR_NULL;
     }
     report = node->config.report;
@@ -583,17 +586,17 @@ enum rho_status rho_node_publish(const struct rho_node *node, const struct rho_i
     if (part >= rho_node_num_messages(node)) {
         return RHO_ERROR_VALUE;
     }
-    if (RHO_BODIES && part >= num_without_bodies(node)) {
+    if (RHO_BODIES && part >= num_messages_without_bodies(node)) {
         return rho_publish_bodies(node->config.tracker, report, node->step, node->epoch,
-                                  (uint16_t)(part - num_without_bodies(node)), buffer, capacity,
-                                  size);
+                                  (uint16_t)(part - num_messages_without_bodies(node)), buffer,
+                                  capacity, size);
     }
-    is_frame = frames_of(node) && node->stepped == RHO_NODE_FRAME;
+    is_frame = frames_or_null(node) && node->stepped == RHO_NODE_FRAME;
     return rho_publish_peaks(is_frame ? NULL : initiator, is_frame ? node->config.passive : NULL,
                              report->time_us, node->step, buffer, capacity, size);
 }
 
-static int32_t add_to_counter(int32_t counter, uint32_t more)
+static int32_t saturating_sum(int32_t counter, uint32_t more)
 {
     uint32_t sum = rho_count((uint32_t)counter, more);
 
@@ -603,15 +606,15 @@ static int32_t add_to_counter(int32_t counter, uint32_t more)
 void rho_node_status(struct rho_node *node, const struct rho_initiator *initiator,
                      struct rho_message_status *status)
 {
-    if (!is_ready(node) || !status) {
+    if (!is_initialised(node) || !status) {
         return;
     }
-    rho_publish_status(node->config.assembler, frames_of(node), node->config.tracker, initiator,
-                       status);
+    rho_publish_status(node->config.assembler, frames_or_null(node), node->config.tracker,
+                       initiator, status);
     status->scan = node->step;
     status->epoch = node->epoch;
-    status->plots_in = add_to_counter(status->plots_in, node->counters.plots_refused);
-    status->inputs_no_room = add_to_counter(status->inputs_no_room, node->counters.plots_refused);
+    status->plots_in = saturating_sum(status->plots_in, node->counters.plots_refused);
+    status->inputs_no_room = saturating_sum(status->inputs_no_room, node->counters.plots_refused);
     if (node->timing.steps > 0) {
         status->step_us = (float)node->timing.sum_us / (float)node->timing.steps;
         status->step_max_us = (float)node->timing.max_us;
@@ -621,7 +624,7 @@ void rho_node_status(struct rho_node *node, const struct rho_initiator *initiato
 
 void rho_node_work(const struct rho_node *node, struct rho_message_work *work)
 {
-    if (is_ready(node) && work) {
+    if (is_initialised(node) && work) {
         rho_publish_work(node->config.tracker, work);
         work->scan = node->step;
         work->epoch = node->epoch;
@@ -631,7 +634,7 @@ void rho_node_work(const struct rho_node *node, struct rho_message_work *work)
 
 int rho_node_learned(struct rho_node *node, struct rho_message_learned *learned)
 {
-    const struct rho_tracker *tracker = is_ready(node) ? node->config.tracker : NULL;
+    const struct rho_tracker *tracker = is_initialised(node) ? node->config.tracker : NULL;
     const unsigned place =
         tracker && node->next_learned < tracker->num_sensors ? node->next_learned : 0;
 

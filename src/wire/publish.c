@@ -10,50 +10,50 @@
 #define NAT(mnat) ((float)(mnat) / 1000.0f)
 #define M2_PER_KM2 1.0e6f
 
-static int16_t short_count(uint32_t count)
+static int16_t clamp_to_int16(uint32_t count)
 {
     return (int16_t)(count < INT16_MAX ? count : INT16_MAX);
 }
 
-static int32_t long_count(uint32_t count)
+static int32_t clamp_to_int32(uint32_t count)
 {
     return (int32_t)(count < INT32_MAX ? count : INT32_MAX);
 }
 
 /* ---- Tracks ---- */
 
-static unsigned num_entries(const struct rho_report *report)
+static unsigned num_live_and_ended_tracks(const struct rho_report *report)
 {
     return (unsigned)report->num_tracks + report->num_ended;
 }
 
 uint16_t rho_publish_num_parts(const struct rho_report *report)
 {
-    unsigned entries = report ? num_entries(report) : 0;
+    unsigned entries = report ? num_live_and_ended_tracks(report) : 0;
 
     return (uint16_t)(entries <= PART_TRACKS ? 1 : (entries + PART_TRACKS - 1) / PART_TRACKS);
 }
 
-static int8_t status_of(enum rho_track_status status)
+static int8_t message_status_of(enum rho_track_status status)
 {
     return status == RHO_TRACK_CONFIRMED  ? RHO_MESSAGE_TRACK_CONFIRMED
            : status == RHO_TRACK_COASTING ? RHO_MESSAGE_TRACK_COASTING
                                           : RHO_MESSAGE_TRACK_TENTATIVE;
 }
 
-static int16_t sensor_of(int32_t sensor_id)
+static int16_t message_sensor_id(int32_t sensor_id)
 {
     return (int16_t)(sensor_id >= INT16_MIN && sensor_id <= INT16_MAX ? sensor_id : -1);
 }
 
-static void fill_track(const struct rho_track_report *track, struct rho_message_track *message)
+static void fill_live_track(const struct rho_track_report *track, struct rho_message_track *message)
 {
     *message = (struct rho_message_track){
         .track_id = (int32_t)(track->track_id & INT32_MAX),
-        .status = status_of(track->status),
-        .hits = short_count(track->hits),
-        .misses = short_count(track->misses),
-        .sensor_id = sensor_of(track->sensor_id),
+        .status = message_status_of(track->status),
+        .hits = clamp_to_int16(track->hits),
+        .misses = clamp_to_int16(track->misses),
+        .sensor_id = message_sensor_id(track->sensor_id),
         .plot = (int16_t)(track->plot <= INT16_MAX ? track->plot : INT16_MAX),
         .update_age_us = track->update_age_us,
         .x_m = track->state[0],
@@ -71,11 +71,11 @@ static void fill_track(const struct rho_track_report *track, struct rho_message_
     memcpy(message->covariance, track->covariance, sizeof message->covariance);
 }
 
-static void fill_entry(const struct rho_report *report, unsigned entry,
-                       struct rho_message_track *message)
+static void fill_live_or_ended_track(const struct rho_report *report, unsigned entry,
+                                     struct rho_message_track *message)
 {
     if (entry < report->num_tracks) {
-        fill_track(&report->tracks[entry], message);
+        fill_live_track(&report->tracks[entry], message);
         return;
     }
     *message = (struct rho_message_track){
@@ -99,18 +99,19 @@ enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step
     if (part >= rho_publish_num_parts(report)) {
         return RHO_ERROR_VALUE;
     }
-    head =
-        (struct rho_message_track_list_head){.utime = report->time_us,
-                                             .scan = step,
-                                             .epoch = epoch,
-                                             .num_tracks_total = short_count(num_entries(report)),
-                                             .part = (int16_t)part,
-                                             .num_parts = (int16_t)rho_publish_num_parts(report)};
+    head = (struct rho_message_track_list_head){
+        .utime = report->time_us,
+        .scan = step,
+        .epoch = epoch,
+        .num_tracks_total = clamp_to_int16(num_live_and_ended_tracks(report)),
+        .part = (int16_t)part,
+        .num_parts = (int16_t)rho_publish_num_parts(report)};
     status = rho_message_track_list_begin(&writer, buffer, capacity, &head);
-    last = (part + 1u) * PART_TRACKS < num_entries(report) ? (part + 1u) * PART_TRACKS
-                                                           : num_entries(report);
+    last = (part + 1u) * PART_TRACKS < num_live_and_ended_tracks(report)
+               ? (part + 1u) * PART_TRACKS
+               : num_live_and_ended_tracks(report);
     for (unsigned i = part * PART_TRACKS; i < last && status == RHO_OK; i++) {
-        fill_entry(report, i, &track);
+        fill_live_or_ended_track(report, i, &track);
         status = rho_message_track_list_add(&writer, &track);
     }
     return status == RHO_OK ? rho_message_end(&writer, size) : status;
@@ -118,10 +119,10 @@ enum rho_status rho_publish_tracks(const struct rho_report *report, int32_t step
 
 /* ---- Peaks ---- */
 
-static struct rho_message_peak peak_of(float x_m, float y_m, float vx_mps, float vy_mps)
+static struct rho_message_peak peak_of_motion(float x_m, float y_m, float vx_mps, float vy_mps)
 {
     float speed_mps = rho_sqrt(vx_mps * vx_mps + vy_mps * vy_mps);
-    /* A standing target has no direction: any line through it will do. */
+    /* A standing target has no direction: the line through it is parallel to the y axis. */
     struct rho_line line = speed_mps > 0.0f ? rho_angle_line(x_m, y_m, vx_mps, vy_mps)
                                             : (struct rho_line){.rho_m = x_m, .theta_rad = 0.0f};
 
@@ -129,8 +130,8 @@ static struct rho_message_peak peak_of(float x_m, float y_m, float vx_mps, float
         .rho_m = line.rho_m, .theta_rad = line.theta_rad, .speed_mps = speed_mps};
 }
 
-static enum rho_status add_candidates(const struct rho_initiator *initiator,
-                                      struct rho_message_writer *writer)
+static enum rho_status add_candidate_peaks(const struct rho_initiator *initiator,
+                                           struct rho_message_writer *writer)
 {
     enum rho_status status = RHO_OK;
     struct rho_message_peak peak;
@@ -140,16 +141,16 @@ static enum rho_status add_candidates(const struct rho_initiator *initiator,
          i++) {
         const struct rho_candidate *candidate = &initiator->candidates[i];
 
-        peak = peak_of(candidate->x_m, candidate->y_m, candidate->vx_mps, candidate->vy_mps);
+        peak = peak_of_motion(candidate->x_m, candidate->y_m, candidate->vx_mps, candidate->vy_mps);
         peak.score_nat = NAT(candidate->score_mnat);
-        peak.scans_hit = short_count(candidate->hits);
+        peak.scans_hit = clamp_to_int16(candidate->hits);
         status = rho_message_peak_list_add(writer, &peak);
     }
     return status;
 }
 
-static enum rho_status add_passive_tracks(const struct rho_passive *passive,
-                                          struct rho_message_writer *writer)
+static enum rho_status add_passive_track_peaks(const struct rho_passive *passive,
+                                               struct rho_message_writer *writer)
 {
     enum rho_status status = RHO_OK;
     struct rho_message_peak peak;
@@ -159,7 +160,7 @@ static enum rho_status add_passive_tracks(const struct rho_passive *passive,
          i++) {
         const struct rho_passive_track *track = &passive->tracks[i];
 
-        peak = peak_of(track->x_m, track->y_m, track->vx_mps, track->vy_mps);
+        peak = peak_of_motion(track->x_m, track->y_m, track->vx_mps, track->vy_mps);
         peak.score_nat = NAT(track->score_mnat);
         peak.scans_hit = (int16_t)rho_count_bits(track->scans);
         peak.sensor_pairs = (int16_t)rho_passive_sensor_pairs(track);
@@ -181,10 +182,10 @@ enum rho_status rho_publish_peaks(const struct rho_initiator *initiator,
     }
     status = rho_message_peak_list_begin(&writer, buffer, capacity, &head);
     if (status == RHO_OK && initiator) {
-        status = add_candidates(initiator, &writer);
+        status = add_candidate_peaks(initiator, &writer);
     }
     if (status == RHO_OK && passive) {
-        status = add_passive_tracks(passive, &writer);
+        status = add_passive_track_peaks(passive, &writer);
     }
     return status == RHO_OK ? rho_message_end(&writer, size) : status;
 }
@@ -194,66 +195,66 @@ enum rho_status rho_publish_peaks(const struct rho_initiator *initiator,
 static void fill_assembler_counters(const struct rho_scan_assembler_counters *assembler,
                                     struct rho_message_status *status)
 {
-    status->scans_accepted = long_count(assembler->scans_accepted);
-    status->scans_late = long_count(assembler->scans_late);
+    status->scans_accepted = clamp_to_int32(assembler->scans_accepted);
+    status->scans_late = clamp_to_int32(assembler->scans_late);
     status->scans_duplicate =
-        long_count(rho_count(assembler->scans_duplicate, assembler->scans_other));
-    status->scans_lost = long_count(assembler->scans_lost);
-    status->scans_bad = long_count(rho_count(assembler->scans_bad, assembler->sensors_no_room));
-    status->messages_bad = long_count(assembler->messages_bad);
-    status->messages_wrong_type = long_count(assembler->messages_wrong_type);
+        clamp_to_int32(rho_count(assembler->scans_duplicate, assembler->scans_other));
+    status->scans_lost = clamp_to_int32(assembler->scans_lost);
+    status->scans_bad = clamp_to_int32(rho_count(assembler->scans_bad, assembler->sensors_no_room));
+    status->messages_bad = clamp_to_int32(assembler->messages_bad);
+    status->messages_wrong_type = clamp_to_int32(assembler->messages_wrong_type);
     status->messages_flooded =
-        long_count(rho_count(assembler->messages_flooded, assembler->messages_not_allowed));
-    status->scans_incomplete = long_count(assembler->scans_incomplete);
-    status->clock_jumps = long_count(assembler->clock_jumps);
-    status->sensor_restarts = long_count(assembler->sensor_restarts);
-    status->bearings_in = long_count(assembler->bearings_in);
-    status->plots_in = long_count(assembler->plots_no_room);
-    status->inputs_no_room = long_count(assembler->plots_no_room);
+        clamp_to_int32(rho_count(assembler->messages_flooded, assembler->messages_not_allowed));
+    status->scans_incomplete = clamp_to_int32(assembler->scans_incomplete);
+    status->clock_jumps = clamp_to_int32(assembler->clock_jumps);
+    status->sensor_restarts = clamp_to_int32(assembler->sensor_restarts);
+    status->bearings_in = clamp_to_int32(assembler->bearings_in);
+    status->plots_in = clamp_to_int32(assembler->plots_no_room);
+    status->inputs_no_room = clamp_to_int32(assembler->plots_no_room);
 }
 
-static int32_t add_to_counter(int32_t counter, uint32_t more)
+static int32_t saturating_sum(int32_t counter, uint32_t more)
 {
-    return long_count(rho_count((uint32_t)counter, more));
+    return clamp_to_int32(rho_count((uint32_t)counter, more));
 }
 
 static void add_frame_counters(const struct rho_frames_counters *frames,
                                struct rho_message_status *status)
 {
-    status->frames_incomplete = long_count(frames->frames_incomplete);
-    status->scans_late = add_to_counter(status->scans_late, frames->scans_late);
-    status->clock_jumps = add_to_counter(status->clock_jumps, frames->scans_off_clock);
-    status->plots_in = add_to_counter(status->plots_in, frames->bearings_no_room);
-    status->inputs_no_room = add_to_counter(status->inputs_no_room, frames->bearings_no_room);
+    status->frames_incomplete = clamp_to_int32(frames->frames_incomplete);
+    status->scans_late = saturating_sum(status->scans_late, frames->scans_late);
+    status->clock_jumps = saturating_sum(status->clock_jumps, frames->scans_off_clock);
+    status->plots_in = saturating_sum(status->plots_in, frames->bearings_no_room);
+    status->inputs_no_room = saturating_sum(status->inputs_no_room, frames->bearings_no_room);
 }
 
-static void add_tracker_counters(const struct rho_tracker *tracker,
-                                 struct rho_message_status *status)
+static void add_tracker_counters_and_tracks(const struct rho_tracker *tracker,
+                                            struct rho_message_status *status)
 {
     const struct rho_tracker_counters *counters = &tracker->counters;
     uint32_t count[RHO_NUM_TRACK_STATUS] = {0};
 
     status->utime = tracker->time_us;
-    status->scans_late = add_to_counter(status->scans_late, counters->scans_late);
-    status->plots_in = add_to_counter(status->plots_in, counters->plots_in);
-    status->plots_claimed = long_count(counters->fates[RHO_FATE_CLAIMED]);
-    status->plots_held = long_count(counters->fates[RHO_FATE_HELD]);
-    status->plots_initiated = long_count(counters->plots_initiated);
-    status->plots_clutter = long_count(counters->plots_clutter);
-    status->inputs_stale = long_count(counters->fates[RHO_FATE_STALE]);
-    status->inputs_invalid = long_count(counters->fates[RHO_FATE_INVALID]);
+    status->scans_late = saturating_sum(status->scans_late, counters->scans_late);
+    status->plots_in = saturating_sum(status->plots_in, counters->plots_in);
+    status->plots_claimed = clamp_to_int32(counters->fates[RHO_FATE_CLAIMED]);
+    status->plots_held = clamp_to_int32(counters->fates[RHO_FATE_HELD]);
+    status->plots_initiated = clamp_to_int32(counters->plots_initiated);
+    status->plots_clutter = clamp_to_int32(counters->plots_clutter);
+    status->inputs_stale = clamp_to_int32(counters->fates[RHO_FATE_STALE]);
+    status->inputs_invalid = clamp_to_int32(counters->fates[RHO_FATE_INVALID]);
     status->inputs_no_room =
-        add_to_counter(status->inputs_no_room, counters->fates[RHO_FATE_NO_ROOM]);
-    status->ghosts_pruned = long_count(counters->fates[RHO_FATE_GHOST]);
-    /* Behind the live tracks stand copies of some that have ended. */
+        saturating_sum(status->inputs_no_room, counters->fates[RHO_FATE_NO_ROOM]);
+    status->ghosts_pruned = clamp_to_int32(counters->fates[RHO_FATE_GHOST]);
+    /* Only num_tracks entries are live: the array holds ended tracks behind them. */
     for (unsigned i = 0; i < tracker->num_tracks; i++) {
         if (tracker->tracks[i].status < RHO_NUM_TRACK_STATUS) {
             count[tracker->tracks[i].status]++;
         }
     }
-    status->tracks_tentative = short_count(count[RHO_TRACK_TENTATIVE]);
-    status->tracks_confirmed = short_count(count[RHO_TRACK_CONFIRMED]);
-    status->tracks_coasting = short_count(count[RHO_TRACK_COASTING]);
+    status->tracks_tentative = clamp_to_int16(count[RHO_TRACK_TENTATIVE]);
+    status->tracks_confirmed = clamp_to_int16(count[RHO_TRACK_CONFIRMED]);
+    status->tracks_coasting = clamp_to_int16(count[RHO_TRACK_COASTING]);
 }
 
 void rho_publish_status(const struct rho_scan_assembler *assembler, const struct rho_frames *frames,
@@ -271,7 +272,7 @@ void rho_publish_status(const struct rho_scan_assembler *assembler, const struct
         add_frame_counters(&frames->counters, status);
     }
     if (tracker) {
-        add_tracker_counters(tracker, status);
+        add_tracker_counters_and_tracks(tracker, status);
     }
     if (initiator) {
         status->clutter_per_km2 = initiator->density_per_m2 * M2_PER_KM2;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The bodies of tracks, as messages. */
+/* publish_bodies: messages of the bodies (extents) of the tracks. */
 #include "rhotrack/publish.h"
 
 #define PART_BODIES RHO_MESSAGE_BODY_LIST_MAX_BODIES
 
-static unsigned num_bodies(const struct rho_tracker *tracker, const struct rho_report *report)
+static unsigned count_bodies_in_report(const struct rho_tracker *tracker,
+                                       const struct rho_report *report)
 {
     struct rho_body body;
     unsigned count = 0;
@@ -20,13 +21,13 @@ uint16_t rho_publish_num_body_parts(const struct rho_tracker *tracker,
     if (!RHO_BODIES || !tracker || !report || !(tracker->bodies.length_max_m > 0.0f)) {
         return 0;
     }
-    const unsigned count = num_bodies(tracker, report);
+    const unsigned count = count_bodies_in_report(tracker, report);
     return (uint16_t)(count <= PART_BODIES ? 1 : (count + PART_BODIES - 1) / PART_BODIES);
 }
 
-/* The centre is where the track is: what was seen of the body says no other place. */
-static struct rho_message_body message_of(const struct rho_track_report *track,
-                                          const struct rho_body *body)
+/* The track's position stands for the body's centre: plots of a body do not tell it apart. */
+static struct rho_message_body body_message_of(const struct rho_track_report *track,
+                                               const struct rho_body *body)
 {
     return (struct rho_message_body){
         .track_id = (int32_t)(track->track_id & INT32_MAX),
@@ -68,7 +69,7 @@ enum rho_status rho_publish_bodies(const struct rho_tracker *tracker,
     unsigned place = 0;
     for (unsigned i = 0; i < report->num_tracks && status == RHO_OK; i++) {
         if (rho_tracker_body_of(tracker, i, &body) && place++ / PART_BODIES == part) {
-            const struct rho_message_body message = message_of(&report->tracks[i], &body);
+            const struct rho_message_body message = body_message_of(&report->tracks[i], &body);
             status = rho_message_body_list_add(&writer, &message);
         }
     }

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* Echoes that the tracker's clutter map knows, as messages. */
+/* publish_clutter: messages of the echoes in the tracker's clutter map. */
 #include "rhotrack/detail/approx.h"
 #include "rhotrack/detail/clutter_map.h"
 #include "rhotrack/publish.h"
 
 #define PART_ECHOES RHO_MESSAGE_CLUTTER_MAP_MAX_ECHOES
 
-/* Of the message's members (lcm_types/echo_t.lcm). */
+/* Largest sigma_range_m and sigma_cross_m of the message (lcm_types/echo_t.lcm). */
 #define SIGMA_MAX_M 1e6f
 
-static float at_most(float value, float most)
+static float clamp_magnitude(float value, float most)
 {
     return value > most ? most : value < -most ? -most : value;
 }
 
-static struct rho_message_echo echo_of(const struct rho_clutter_map *map,
-                                       const struct rho_echo *echo)
+static struct rho_message_echo echo_message_of(const struct rho_clutter_map *map,
+                                               const struct rho_echo *echo)
 {
     return (struct rho_message_echo){
         .sensor_id =
@@ -23,12 +23,12 @@ static struct rho_message_echo echo_of(const struct rho_clutter_map *map,
                                                                                    : -1),
         .hits = (int16_t)(echo->hits < INT16_MAX ? echo->hits : INT16_MAX),
         .unseen = echo->unseen,
-        .x_m = at_most(echo->x_m, RHO_LIMIT_POSITION_M),
-        .y_m = at_most(echo->y_m, RHO_LIMIT_POSITION_M),
-        .vx_mps = at_most(echo->vx_mps, RHO_LIMIT_SPEED_MPS),
-        .vy_mps = at_most(echo->vy_mps, RHO_LIMIT_SPEED_MPS),
-        .sigma_range_m = at_most(rho_sqrt(echo->along[0]), SIGMA_MAX_M),
-        .sigma_cross_m = at_most(rho_sqrt(echo->across[0]), SIGMA_MAX_M),
+        .x_m = clamp_magnitude(echo->x_m, RHO_LIMIT_POSITION_M),
+        .y_m = clamp_magnitude(echo->y_m, RHO_LIMIT_POSITION_M),
+        .vx_mps = clamp_magnitude(echo->vx_mps, RHO_LIMIT_SPEED_MPS),
+        .vy_mps = clamp_magnitude(echo->vy_mps, RHO_LIMIT_SPEED_MPS),
+        .sigma_range_m = clamp_magnitude(rho_sqrt(echo->along[0]), SIGMA_MAX_M),
+        .sigma_cross_m = clamp_magnitude(rho_sqrt(echo->across[0]), SIGMA_MAX_M),
         .chance =
             rho_clutter_map_return_probability(map, echo->region, echo->hits, echo->unseen + 1u),
     };
@@ -45,7 +45,8 @@ static unsigned count_echoes(const struct rho_tracker *tracker)
     return count;
 }
 
-static void add_echoes(const struct rho_tracker *tracker, struct rho_message_clutter_map *list)
+static void add_echoes_of_part(const struct rho_tracker *tracker,
+                               struct rho_message_clutter_map *list)
 {
     const struct rho_echo *echo;
     uint32_t place = 0;
@@ -53,19 +54,19 @@ static void add_echoes(const struct rho_tracker *tracker, struct rho_message_clu
 
     while ((echo = rho_clutter_map_next(&tracker->clutter_map, &place))) {
         if (at++ / PART_ECHOES == (unsigned)list->part) {
-            list->echoes[list->num_echoes++] = echo_of(&tracker->clutter_map, echo);
+            list->echoes[list->num_echoes++] = echo_message_of(&tracker->clutter_map, echo);
         }
     }
 }
 
-static unsigned num_parts(unsigned echoes)
+static unsigned num_parts_for_echoes(unsigned echoes)
 {
     return echoes <= PART_ECHOES ? 1 : (echoes + PART_ECHOES - 1) / PART_ECHOES;
 }
 
 uint16_t rho_publish_num_clutter_parts(const struct rho_tracker *tracker)
 {
-    return (uint16_t)num_parts(tracker ? count_echoes(tracker) : 0);
+    return (uint16_t)num_parts_for_echoes(tracker ? count_echoes(tracker) : 0);
 }
 
 enum rho_status rho_publish_clutter(const struct rho_tracker *tracker, uint16_t part,
@@ -75,15 +76,15 @@ enum rho_status rho_publish_clutter(const struct rho_tracker *tracker, uint16_t 
         return RHO_ERROR_NULL;
     }
     const unsigned echoes = count_echoes(tracker);
-    if (part >= num_parts(echoes)) {
+    if (part >= num_parts_for_echoes(echoes)) {
         return RHO_ERROR_VALUE;
     }
     list->utime = tracker->time_us;
     list->scan = list->epoch = 0;
     list->num_echoes_total = (int16_t)echoes;
     list->part = (int16_t)part;
-    list->num_parts = (int16_t)num_parts(echoes);
+    list->num_parts = (int16_t)num_parts_for_echoes(echoes);
     list->num_echoes = 0;
-    add_echoes(tracker, list);
+    add_echoes_of_part(tracker, list);
     return RHO_OK;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the tracker has learned of a sensor, as a message. */
+/* publish_learned: a message of the noise and pd that the tracker has learned for a sensor. */
 #include "rhotrack/publish.h"
 
 int rho_publish_learned(const struct rho_tracker *tracker, unsigned place,

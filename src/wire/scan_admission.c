@@ -4,10 +4,10 @@
 #include "scan_assembler_parts.h"
 
 #define SECOND_US 1000000
-#define SEEN_SCANS 32   /* bits of source.seen */
-#define JITTER_US 10000 /* of a sensor's scans, at any interval */
-#define CLOCK_OFFSET_SHARE                                                                         \
-    8 /* of jump_max: tolerated difference of sensors' clocks, on top of hold */
+#define SEEN_SCANS 32   /* scan numbers that source.seen remembers: its bits */
+#define JITTER_US 10000 /* tolerated jitter of the time between two scans of a sensor */
+/* jump_max_us over the tolerated difference of two sensors' clocks, which hold_us adds to. */
+#define CLOCK_OFFSET_SHARE 8
 
 /* ---- Times ---- */
 
@@ -22,7 +22,7 @@ static int are_near_times(int64_t a_us, int64_t b_us, int64_t most_us)
 int rho_scan_assembler_take_tokens(struct rho_scan_assembler_bucket *bucket, uint32_t count,
                                    uint32_t per_s, int64_t now_us)
 {
-    /* A clock that went back must not leave the bucket empty until it has caught up. */
+    /* A reception clock that went back fills the bucket at once, not when it has caught up. */
     if (rho_elapsed_us(now_us, bucket->full_us) >= SECOND_US || now_us < bucket->full_us) {
         bucket->full_us = now_us;
         bucket->left = per_s;
@@ -36,8 +36,8 @@ int rho_scan_assembler_take_tokens(struct rho_scan_assembler_bucket *bucket, uin
 
 /* ---- Numbers ---- */
 
-/* Difference of two numbers, which wrap. */
-static int32_t number_difference(int32_t scan, int32_t from)
+/* Difference of two scan numbers, which wrap at 32 bits. */
+static int32_t scan_number_difference(int32_t scan, int32_t from)
 {
     int64_t difference = (int64_t)scan - from;
 
@@ -49,45 +49,46 @@ static int32_t number_difference(int32_t scan, int32_t from)
     return (int32_t)difference;
 }
 
-static int is_later(const struct rho_scan_assembler_config *config, int64_t time_us,
-                    int64_t from_us)
+static int is_later_within_jump(const struct rho_scan_assembler_config *config, int64_t time_us,
+                                int64_t from_us)
 {
     return time_us > from_us && are_near_times(time_us, from_us, config->jump_max_us);
 }
 
-/* The scan may be the next one after that at `from`. */
-static int may_follow(const struct rho_scan_assembler_config *config,
-                      const struct rho_scan_assembler_place *place,
-                      const struct rho_scan_assembler_place *from)
+/* 1 where a scan's number, epoch and time allow it to be the sensor's next one after `from`. */
+static int may_be_next_scan(const struct rho_scan_assembler_config *config,
+                            const struct rho_scan_assembler_place *place,
+                            const struct rho_scan_assembler_place *from)
 {
-    int32_t ahead = number_difference(place->scan, from->scan);
+    int32_t ahead = scan_number_difference(place->scan, from->scan);
 
     return place->epoch == from->epoch && ahead >= 1 && ahead <= RHO_SCAN_ASSEMBLER_SKIP_MAX &&
-           is_later(config, place->time_us, from->time_us);
+           is_later_within_jump(config, place->time_us, from->time_us);
 }
 
-/* Above 3/2 of the other time; the product may exceed 64 bits. */
+/* 1 where took_us is above 3/2 of longest_us; computed so that 64 bits do not overflow. */
 static int is_much_longer(uint64_t took_us, uint64_t longest_us)
 {
     return took_us > longest_us && took_us - longest_us > longest_us / 2;
 }
 
 /*
- * Numbers and times of a sensor advance together. A scan that took longer than its numbers, or the
- * silence before it, explain has a wrong time; a scan that skips more numbers than there was time
- * for has a wrong number. Accepted, either would make the scans that follow look old.
+ * Numbers and times of a sensor advance together. A scan that took longer than its number, or the
+ * silence before it, explains has a wrong time; a scan that skips more numbers than there was time
+ * for has a wrong number. Accepted, such a scan would make the next ones look old.
  */
-static enum scan_verdict classify_pace(const struct rho_scan_assembler_config *config,
-                                       const struct rho_scan_assembler_source *source,
-                                       const struct rho_scan_assembler_place *place, int64_t now_us)
+static enum scan_verdict classify_by_pace(const struct rho_scan_assembler_config *config,
+                                          const struct rho_scan_assembler_source *source,
+                                          const struct rho_scan_assembler_place *place,
+                                          int64_t now_us)
 {
-    int32_t ahead = number_difference(place->scan, source->place.scan);
+    int32_t ahead = scan_number_difference(place->scan, source->place.scan);
     uint64_t took_us = rho_elapsed_us(place->time_us, source->place.time_us);
     uint64_t usual_us = (uint64_t)ahead * source->interval_us;
     uint64_t silent_us = rho_elapsed_us(now_us, source->heard_us);
     uint64_t longest_us = usual_us > silent_us ? usual_us : silent_us;
 
-    if (!is_later(config, place->time_us, source->place.time_us)) {
+    if (!is_later_within_jump(config, place->time_us, source->place.time_us)) {
         return SCAN_WRONG_TIME;
     }
     if (source->interval_us == 0) {
@@ -100,24 +101,24 @@ static enum scan_verdict classify_pace(const struct rho_scan_assembler_config *c
                                                                       : SCAN_NEXT;
 }
 
-static enum scan_verdict classify_number(const struct rho_scan_assembler_config *config,
-                                         const struct rho_scan_assembler_source *source,
-                                         const struct rho_scan_assembler_place *place,
-                                         int64_t now_us)
+static enum scan_verdict classify_by_number(const struct rho_scan_assembler_config *config,
+                                            const struct rho_scan_assembler_source *source,
+                                            const struct rho_scan_assembler_place *place,
+                                            int64_t now_us)
 {
     const struct rho_scan_assembler_place *newest = &source->place;
-    int32_t ahead = number_difference(place->scan, newest->scan);
+    int32_t ahead = scan_number_difference(place->scan, newest->scan);
 
     if (place->epoch != newest->epoch || ahead > RHO_SCAN_ASSEMBLER_SKIP_MAX ||
         ahead <= -SEEN_SCANS) {
         return SCAN_WRONG_NUMBER;
     }
     if (ahead > 0) {
-        return classify_pace(config, source, place, now_us);
+        return classify_by_pace(config, source, place, now_us);
     }
     /*
-     * An old number with a new time: the sensor's numbering was set back. With a time far back its
-     * clock was set, too.
+     * An older number with a newer time: the sensor's numbering was set back. With a time far back
+     * its clock was set, too.
      */
     if (ahead < 0 && place->time_us > newest->time_us) {
         return SCAN_WRONG_NUMBER;
@@ -128,18 +129,19 @@ static enum scan_verdict classify_number(const struct rho_scan_assembler_config 
     return source->seen >> -ahead & 1u ? SCAN_DUPLICATE : SCAN_TOO_LATE;
 }
 
-/* The longest series of refused scans that this scan may continue; NULL: none. */
+/* The longest series of refused scans that a scan may continue; NULL: it continues none. */
 static const struct rho_scan_assembler_stray *
-find_agreeing_stray(const struct rho_scan_assembler_config *config,
-                    const struct rho_scan_assembler_source *source,
-                    const struct rho_scan_assembler_place *place)
+find_series_to_continue(const struct rho_scan_assembler_config *config,
+                        const struct rho_scan_assembler_source *source,
+                        const struct rho_scan_assembler_place *place)
 {
     const struct rho_scan_assembler_stray *most = NULL;
 
     for (unsigned i = 0; i < RHO_SCAN_ASSEMBLER_STRAYS; i++) {
         const struct rho_scan_assembler_stray *stray = &source->strays[i];
 
-        if (stray->scans > (most ? most->scans : 0) && may_follow(config, place, &stray->place)) {
+        if (stray->scans > (most ? most->scans : 0) &&
+            may_be_next_scan(config, place, &stray->place)) {
             most = stray;
         }
     }
@@ -147,31 +149,32 @@ find_agreeing_stray(const struct rho_scan_assembler_config *config,
 }
 
 /*
- * The sensor's numbers begin again: no older one is remembered, or the scan continues such a
- * series. Copies of single scans, by another way through the network, do neither.
+ * 1 where a duplicate or out-of-sequence scan may show that the sensor's numbers begin again: no
+ * older number is remembered, or the scan continues a series of refused ones. Copies of single
+ * scans, by another way through the network, do neither.
  */
-static int restarts_numbers(const struct rho_scan_assembler_config *config,
-                            const struct rho_scan_assembler_source *source,
-                            const struct rho_scan_assembler_place *place)
+static int may_restart_numbers(const struct rho_scan_assembler_config *config,
+                               const struct rho_scan_assembler_source *source,
+                               const struct rho_scan_assembler_place *place)
 {
-    int32_t behind = number_difference(source->place.scan, place->scan);
+    int32_t behind = scan_number_difference(source->place.scan, place->scan);
 
     return behind > 0 &&
-           (source->seen >> behind <= 1u || find_agreeing_stray(config, source, place));
+           (source->seen >> behind <= 1u || find_series_to_continue(config, source, place));
 }
 
-int rho_scan_assembler_is_stray(const struct rho_scan_assembler_config *config,
-                                const struct rho_scan_assembler_source *source,
-                                const struct rho_scan_assembler_place *place,
-                                enum scan_verdict verdict)
+int rho_scan_assembler_may_begin_sequence(const struct rho_scan_assembler_config *config,
+                                          const struct rho_scan_assembler_source *source,
+                                          const struct rho_scan_assembler_place *place,
+                                          enum scan_verdict verdict)
 {
     return verdict == SCAN_WRONG_NUMBER || verdict == SCAN_WRONG_TIME ||
            (FOLLOWS_REPEATS && (verdict == SCAN_DUPLICATE || verdict == SCAN_TOO_LATE) &&
-            restarts_numbers(config, source, place));
+            may_restart_numbers(config, source, place));
 }
 
-int rho_scan_assembler_is_usable_time(const struct rho_scan_assembler *assembler,
-                                      enum rho_scan_assembler_kind kind, int64_t time_us)
+int rho_scan_assembler_is_not_too_late(const struct rho_scan_assembler *assembler,
+                                       enum rho_scan_assembler_kind kind, int64_t time_us)
 {
     int64_t late_max_us = RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_BEARINGS)
                               ? 0
@@ -183,15 +186,15 @@ int rho_scan_assembler_is_usable_time(const struct rho_scan_assembler *assembler
 /*
  * An out-of-sequence scan is usable where its number was skipped, its time fits the number, and the
  * tracker still takes it. Otherwise its number stays skipped: the right scan may still come. Until
- * the first scan on a new clock has gone out, no number needs to be skipped: it may be of those
- * that were refused before.
+ * the first scan on a new clock has gone out, the number need not be skipped: the scan may have
+ * been refused before.
  */
 static int is_usable_out_of_sequence(const struct rho_scan_assembler *assembler,
                                      const struct rho_scan_assembler_source *source,
                                      const struct rho_scan_assembler_place *place)
 {
-    uint32_t behind =
-        (uint32_t)number_difference(source->place.scan, place->scan); /* 1 .. SEEN_SCANS - 1 */
+    uint32_t behind = (uint32_t)scan_number_difference(
+        source->place.scan, place->scan); /* 1 .. SEEN_SCANS - 1, as it is SCAN_TOO_LATE */
     uint64_t before_us = rho_elapsed_us(source->place.time_us, place->time_us);
     uint64_t usual_us = (uint64_t)behind * source->interval_us;
     int was_refused = FOLLOWS_REPEATS && assembler->is_restart;
@@ -199,14 +202,14 @@ static int is_usable_out_of_sequence(const struct rho_scan_assembler *assembler,
     return source->off_clock == 0 && ((source->skipped >> behind & 1u) || was_refused) &&
            before_us > 0 && before_us + JITTER_US >= usual_us - usual_us / 4 &&
            !(before_us > JITTER_US && is_much_longer(before_us - JITTER_US, usual_us)) &&
-           rho_scan_assembler_is_usable_time(assembler, (enum rho_scan_assembler_kind)source->kind,
-                                             place->time_us);
+           rho_scan_assembler_is_not_too_late(assembler, (enum rho_scan_assembler_kind)source->kind,
+                                              place->time_us);
 }
 
-enum scan_verdict rho_scan_assembler_classify(const struct rho_scan_assembler *assembler,
-                                              const struct rho_scan_assembler_source *source,
-                                              const struct rho_scan_assembler_place *place,
-                                              int64_t now_us)
+enum scan_verdict rho_scan_assembler_classify_scan(const struct rho_scan_assembler *assembler,
+                                                   const struct rho_scan_assembler_source *source,
+                                                   const struct rho_scan_assembler_place *place,
+                                                   int64_t now_us)
 {
     const struct rho_scan_assembler_config *config = &assembler->config;
     const struct rho_scan_assembler_stray *stray;
@@ -215,13 +218,13 @@ enum scan_verdict rho_scan_assembler_classify(const struct rho_scan_assembler *a
     if (source->scans == 0) {
         return SCAN_NEXT;
     }
-    verdict = classify_number(config, source, place, now_us);
+    verdict = classify_by_number(config, source, place, now_us);
     if (TAKES_LATE && verdict == SCAN_TOO_LATE &&
         is_usable_out_of_sequence(assembler, source, place)) {
         return SCAN_OUT_OF_SEQUENCE;
     }
-    if (rho_scan_assembler_is_stray(config, source, place, verdict)) {
-        stray = find_agreeing_stray(config, source, place);
+    if (rho_scan_assembler_may_begin_sequence(config, source, place, verdict)) {
+        stray = find_series_to_continue(config, source, place);
         if (stray && stray->scans + 1 >= config->follow_scans) {
             return SCAN_RESTARTS_SENSOR;
         }
@@ -229,8 +232,8 @@ enum scan_verdict rho_scan_assembler_classify(const struct rho_scan_assembler *a
     return verdict;
 }
 
-/* The series to be replaced by another one: the shortest, of equal ones the oldest. */
-static unsigned stray_to_replace(const struct rho_scan_assembler_source *source)
+/* Index of the series of refused scans that a new one replaces: the shortest, and then oldest. */
+static unsigned series_to_replace(const struct rho_scan_assembler_source *source)
 {
     unsigned least = 0;
 
@@ -240,13 +243,13 @@ static unsigned stray_to_replace(const struct rho_scan_assembler_source *source)
     return least;
 }
 
-void rho_scan_assembler_note_stray(const struct rho_scan_assembler_config *config,
-                                   struct rho_scan_assembler_source *source,
-                                   const struct rho_scan_assembler_place *place)
+void rho_scan_assembler_remember_refused_scan(const struct rho_scan_assembler_config *config,
+                                              struct rho_scan_assembler_source *source,
+                                              const struct rho_scan_assembler_place *place)
 {
-    const struct rho_scan_assembler_stray *agrees = find_agreeing_stray(config, source, place);
-    unsigned at = agrees ? (unsigned)(agrees - source->strays) : stray_to_replace(source);
-    /* below follow_scans, at which it is accepted */
+    const struct rho_scan_assembler_stray *agrees = find_series_to_continue(config, source, place);
+    unsigned at = agrees ? (unsigned)(agrees - source->strays) : series_to_replace(source);
+    /* stays below follow_scans: the scan that reaches it is accepted */
     uint32_t scans = agrees ? agrees->scans + 1 : 1;
 
     for (unsigned i = 0; i < RHO_SCAN_ASSEMBLER_STRAYS; i++) {
@@ -254,7 +257,7 @@ void rho_scan_assembler_note_stray(const struct rho_scan_assembler_config *confi
 
         if (source->strays[i].scans > 0 && place->scan == stray->scan &&
             place->epoch == stray->epoch && place->time_us == stray->time_us) {
-            return; /* another part of it, or a duplicate */
+            return; /* another part, or a duplicate, of a remembered scan */
         }
     }
     memmove(source->strays + 1, source->strays, at * sizeof *source->strays);
@@ -262,10 +265,10 @@ void rho_scan_assembler_note_stray(const struct rho_scan_assembler_config *confi
 }
 
 /*
- * Division by a divisor below 65536, sixteen bits at a time: the compiler's division of 64 bits is
- * 900 bytes of code.
+ * Divides 64 bits by a divisor below 65536, sixteen bits at a time: the compiler's own division of
+ * 64 bits is 900 bytes of code.
  */
-static uint64_t divide(uint64_t value, uint32_t by)
+static uint64_t divide_by_16_bits(uint64_t value, uint32_t by)
 {
     uint64_t quotient = 0;
     uint32_t rest = 0;
@@ -278,20 +281,20 @@ static uint64_t divide(uint64_t value, uint32_t by)
     return quotient;
 }
 
-static void note_interval(struct rho_scan_assembler_source *source, int64_t took_us, int32_t ahead,
-                          int is_known)
+static void update_scan_interval(struct rho_scan_assembler_source *source, int64_t took_us,
+                                 int32_t ahead, int is_known)
 {
-    /* from one scan to the next, took_us and ahead are above 0 */
-    int64_t interval_us = (int64_t)divide((uint64_t)took_us, (uint32_t)ahead);
+    /* took_us and ahead are above 0, as the scan follows the one before */
+    int64_t interval_us = (int64_t)divide_by_16_bits((uint64_t)took_us, (uint32_t)ahead);
     int64_t mean_us = source->interval_us;
 
     mean_us = is_known && mean_us > 0 ? mean_us + (interval_us - mean_us) / 4 : interval_us;
     source->interval_us = (uint32_t)(mean_us > 0 ? mean_us : 1);
 }
 
-/* Silence beyond jump_max does not count as time that the sensor was heard. */
-static void note_heard(const struct rho_scan_assembler_config *config,
-                       struct rho_scan_assembler_source *source, int64_t now_us)
+/* Notes that a sensor was heard now; silence beyond jump_max_us does not add to known_us. */
+static void update_heard_time(const struct rho_scan_assembler_config *config,
+                              struct rho_scan_assembler_source *source, int64_t now_us)
 {
     uint64_t more_us = source->scans > 0 ? rho_elapsed_us(now_us, source->heard_us) : 0;
     uint32_t room_us = RHO_SCAN_ASSEMBLER_TRUST_US - source->known_us;
@@ -302,19 +305,19 @@ static void note_heard(const struct rho_scan_assembler_config *config,
     source->heard_us = now_us;
 }
 
-uint32_t rho_scan_assembler_take_newest(const struct rho_scan_assembler_config *config,
-                                        struct rho_scan_assembler_source *source,
-                                        const struct rho_scan_assembler_place *place,
-                                        enum scan_verdict verdict, int64_t now_us)
+uint32_t rho_scan_assembler_set_newest_scan(const struct rho_scan_assembler_config *config,
+                                            struct rho_scan_assembler_source *source,
+                                            const struct rho_scan_assembler_place *place,
+                                            enum scan_verdict verdict, int64_t now_us)
 {
     const struct rho_scan_assembler_stray *stray =
-        verdict == SCAN_RESTARTS_SENSOR ? find_agreeing_stray(config, source, place) : NULL;
+        verdict == SCAN_RESTARTS_SENSOR ? find_series_to_continue(config, source, place) : NULL;
     const struct rho_scan_assembler_place *from = stray ? &stray->place : &source->place;
     int is_next = verdict == SCAN_NEXT && source->scans > 0;
-    int32_t ahead = number_difference(place->scan, from->scan);
+    int32_t ahead = scan_number_difference(place->scan, from->scan);
 
     if (is_next || stray) {
-        note_interval(source, place->time_us - from->time_us, ahead, is_next);
+        update_scan_interval(source, place->time_us - from->time_us, ahead, is_next);
     }
     source->seen = is_next && ahead < SEEN_SCANS ? source->seen << ahead | 1u : 1u;
     source->skipped = !is_next             ? 0u
@@ -322,15 +325,15 @@ uint32_t rho_scan_assembler_take_newest(const struct rho_scan_assembler_config *
                                            : ~1u;
     source->place = *place;
     source->check = CHECK_NONE;
-    note_heard(config, source, now_us);
+    update_heard_time(config, source, now_us);
     memset(source->strays, 0, sizeof source->strays);
     source->scans = (uint16_t)(source->scans + (source->scans < UINT16_MAX));
     return is_next ? (uint32_t)(ahead - 1) : 0;
 }
 
-void rho_scan_assembler_mark_received(struct rho_scan_assembler_source *source, int32_t scan)
+void rho_scan_assembler_mark_number_received(struct rho_scan_assembler_source *source, int32_t scan)
 {
-    uint32_t bit = 1u << number_difference(source->place.scan, scan);
+    uint32_t bit = 1u << scan_number_difference(source->place.scan, scan);
 
     source->seen |= bit;
     source->skipped &= ~bit;
@@ -338,7 +341,7 @@ void rho_scan_assembler_mark_received(struct rho_scan_assembler_source *source, 
 
 int rho_scan_assembler_awaits_previous(const struct rho_scan_assembler_source *source, int32_t scan)
 {
-    int32_t behind = number_difference(source->place.scan, scan);
+    int32_t behind = scan_number_difference(source->place.scan, scan);
 
     return behind >= 0 && behind < SEEN_SCANS - 1 && (source->skipped >> (behind + 1) & 1u);
 }
@@ -351,18 +354,18 @@ int rho_scan_assembler_is_proven(const struct rho_scan_assembler_config *config,
 
 /* ---- Newcomers ---- */
 
-#define PRESENT_INTERVALS 3u
+#define PRESENT_INTERVALS 3u /* scan intervals of silence after which a sensor may have stopped */
 
-static int is_live(const struct rho_scan_assembler *assembler,
-                   const struct rho_scan_assembler_source *source, int64_t now_us)
+static int is_live_source(const struct rho_scan_assembler *assembler,
+                          const struct rho_scan_assembler_source *source, int64_t now_us)
 {
     return source->is_used && source->scans > 0 &&
            rho_elapsed_us(now_us, source->heard_us) <= (uint64_t)assembler->config.jump_max_us;
 }
 
 /*
- * The sensor still sends: its next scan is not overdue, or it was heard not long ago. One that has
- * fallen silent must make no other one a newcomer: its clock would hold their scans for ever.
+ * 1 where a sensor still sends: its next scan is not overdue, or it was heard not long ago. Silent
+ * sensors must make no other one a newcomer: their clocks would hold its scans for ever.
  */
 static int is_still_sending(const struct rho_scan_assembler *assembler,
                             const struct rho_scan_assembler_source *source, int64_t now_us)
@@ -371,7 +374,7 @@ static int is_still_sending(const struct rho_scan_assembler *assembler,
     uint64_t jump_max_us = (uint64_t)assembler->config.jump_max_us;
     uint64_t interval_us = source->interval_us;
 
-    return is_live(assembler, source, now_us) &&
+    return is_live_source(assembler, source, now_us) &&
            (silent_us <= interval_us + interval_us / 4 ||
             (silent_us <= jump_max_us / 2 && (silent_us <= jump_max_us / CLOCK_OFFSET_SHARE ||
                                               silent_us <= PRESENT_INTERVALS * interval_us)));
@@ -399,23 +402,24 @@ int rho_scan_assembler_is_newcomer(uint32_t known_us, uint32_t eldest_us)
     return eldest_us >= RHO_SCAN_ASSEMBLER_EQUALS_US && known_us < eldest_us / 2;
 }
 
-/* The sensor is on the common clock, and is neither a newcomer nor unproven. */
-static int votes_on_clock(const struct rho_scan_assembler *assembler,
-                          const struct rho_scan_assembler_source *source, uint32_t eldest_us,
-                          int64_t now_us)
+/* 1 where a live sensor has a vote: on the common clock, proven, and no newcomer. */
+static int may_vote_on_clock(const struct rho_scan_assembler *assembler,
+                             const struct rho_scan_assembler_source *source, uint32_t eldest_us,
+                             int64_t now_us)
 {
-    return source->off_clock == 0 && is_live(assembler, source, now_us) &&
+    return source->off_clock == 0 && is_live_source(assembler, source, now_us) &&
            rho_scan_assembler_is_proven(&assembler->config, source) &&
            !rho_scan_assembler_is_newcomer(source->known_us, eldest_us);
 }
 
-/* When it is time_us by the sensor's own clock, and its own scan of that time would be here. */
-static int64_t clock_reaches_us(const struct rho_scan_assembler *assembler,
-                                const struct rho_scan_assembler_source *source, int64_t time_us)
+/* Reception time by which a sensor's own scan of time_us would have come, hold_us included. */
+static int64_t when_clock_reaches_us(const struct rho_scan_assembler *assembler,
+                                     const struct rho_scan_assembler_source *source,
+                                     int64_t time_us)
 {
     uint64_t ahead_us = rho_elapsed_us(time_us, source->place.time_us);
     int64_t wait_us =
-        (int64_t)ahead_us + assembler->config.hold_us; /* times are within their limit */
+        (int64_t)ahead_us + assembler->config.hold_us; /* no overflow: times are limited */
 
     if (ahead_us == 0) {
         return INT64_MIN;
@@ -436,8 +440,9 @@ int64_t rho_scan_assembler_newcomer_release_us(const struct rho_scan_assembler *
         return INT64_MIN;
     }
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
-        if (votes_on_clock(assembler, &assembler->sources[i], eldest_us, slot->heard_us)) {
-            until_us = clock_reaches_us(assembler, &assembler->sources[i], slot->place.time_us);
+        if (may_vote_on_clock(assembler, &assembler->sources[i], eldest_us, slot->heard_us)) {
+            until_us =
+                when_clock_reaches_us(assembler, &assembler->sources[i], slot->place.time_us);
             first_us = until_us < first_us ? until_us : first_us;
             is_asked = 1;
         }
@@ -457,13 +462,13 @@ int64_t rho_scan_assembler_newcomer_release_us(const struct rho_scan_assembler *
 /* ---- The common clock ---- */
 
 /*
- * The time is not on this sensor's clock: it is farther ahead of the sensor's newest scan than that
- * is old, or far before it. For a sensor with one scan so far its interval is unknown, and how fast
- * a record is played.
+ * 1 where a time is not on a sensor's clock: it is farther ahead of the sensor's newest scan than
+ * the age of that scan, or far before it. After a sensor's first scan the tolerance is jump_max_us:
+ * its interval, and the speed at which a record is played, are still unknown.
  */
-static int disagrees_on_time(const struct rho_scan_assembler_config *config,
-                             const struct rho_scan_assembler_source *other, int64_t time_us,
-                             int64_t now_us)
+static int is_time_off_sensor_clock(const struct rho_scan_assembler_config *config,
+                                    const struct rho_scan_assembler_source *other, int64_t time_us,
+                                    int64_t now_us)
 {
     int64_t share_us =
         other->interval_us > 0 ? config->jump_max_us / CLOCK_OFFSET_SHARE : config->jump_max_us;
@@ -477,12 +482,12 @@ static int disagrees_on_time(const struct rho_scan_assembler_config *config,
 }
 
 /*
- * Most live sensors on the common clock disagree on the time. Where none of them votes, newcomers
- * and unproven sensors do.
+ * 1 where a time is off the clocks of most live sensors on the common clock. Newcomers and unproven
+ * sensors vote only where there are no others.
  */
-static int is_contradicted(const struct rho_scan_assembler *assembler,
-                           const struct rho_scan_assembler_source *source, int64_t time_us,
-                           int64_t now_us)
+static int is_time_contradicted(const struct rho_scan_assembler *assembler,
+                                const struct rho_scan_assembler_source *source, int64_t time_us,
+                                int64_t now_us)
 {
     uint32_t eldest_us = rho_scan_assembler_longest_known_us(assembler, now_us);
     int votes[2] = {0}, balance[2] = {0}, counts;
@@ -490,23 +495,23 @@ static int is_contradicted(const struct rho_scan_assembler *assembler,
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *other = &assembler->sources[i];
 
-        if (other != source && other->off_clock == 0 && is_live(assembler, other, now_us)) {
-            counts = votes_on_clock(assembler, other, eldest_us, now_us);
+        if (other != source && other->off_clock == 0 && is_live_source(assembler, other, now_us)) {
+            counts = may_vote_on_clock(assembler, other, eldest_us, now_us);
             votes[counts]++;
             balance[counts] +=
-                disagrees_on_time(&assembler->config, other, time_us, now_us) ? 1 : -1;
+                is_time_off_sensor_clock(&assembler->config, other, time_us, now_us) ? 1 : -1;
         }
     }
     return balance[votes[1] > 0] > 0;
 }
 
 /*
- * More live sensors agree on the new time than proven ones on the common clock, newcomers left out.
- * Of equally many the reception clock decides.
+ * 1 where more live sensors agree on a new time than proven ones are on the common clock, newcomers
+ * left out. Between equal numbers the reception clock decides.
  */
-static int has_majority(const struct rho_scan_assembler *assembler,
-                        const struct rho_scan_assembler_source *source, int64_t time_us,
-                        int64_t now_us)
+static int has_new_time_majority(const struct rho_scan_assembler *assembler,
+                                 const struct rho_scan_assembler_source *source, int64_t time_us,
+                                 int64_t now_us)
 {
     int64_t offset_max_us =
         assembler->config.hold_us + assembler->config.jump_max_us / CLOCK_OFFSET_SHARE;
@@ -519,14 +524,14 @@ static int has_majority(const struct rho_scan_assembler *assembler,
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *other = &assembler->sources[i];
 
-        if (other == source || !is_live(assembler, other, now_us) ||
+        if (other == source || !is_live_source(assembler, other, now_us) ||
             rho_scan_assembler_is_newcomer(other->known_us, eldest_us)) {
             continue;
         }
         if (other->off_clock == 0) {
             against += (unsigned)rho_scan_assembler_is_proven(&assembler->config, other);
         } else if (other->off_clock >= assembler->config.follow_scans) {
-            with += !disagrees_on_time(&assembler->config, other, time_us, now_us);
+            with += !is_time_off_sensor_clock(&assembler->config, other, time_us, now_us);
         }
     }
     return with > against || (with == against && are_near_times(time_us, now_us, offset_max_us) &&
@@ -534,30 +539,30 @@ static int has_majority(const struct rho_scan_assembler *assembler,
 }
 
 /*
- * A sensor that restarts no later than what has gone out, and no other live sensor tells the
- * common time: the clock has been set back with it.
+ * 1 where a restarted sensor sets the common clock back: its time is not after the scans that went
+ * out, and no other live sensor is on the common clock.
  */
-static int is_set_back(const struct rho_scan_assembler *assembler,
-                       const struct rho_scan_assembler_source *source, int64_t time_us,
-                       int64_t now_us)
+static int is_common_clock_set_back(const struct rho_scan_assembler *assembler,
+                                    const struct rho_scan_assembler_source *source, int64_t time_us,
+                                    int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *other = &assembler->sources[i];
 
-        if (other != source && other->off_clock == 0 && is_live(assembler, other, now_us)) {
+        if (other != source && other->off_clock == 0 && is_live_source(assembler, other, now_us)) {
             return 0;
         }
     }
     return time_us <= assembler->out_us;
 }
 
-/* Sensors whose scans have the new time are on the common clock from now on, all others off it. */
+/* Sets the common clock anew: sensors whose clocks agree with it are on it, all others off it. */
 static void set_common_clock(struct rho_scan_assembler *assembler, int64_t time_us, int64_t now_us)
 {
     for (unsigned i = 0; HAS_OTHERS && i < RHO_MAX_SENSORS; i++) {
         struct rho_scan_assembler_source *source = &assembler->sources[i];
 
-        if (!disagrees_on_time(&assembler->config, source, time_us, now_us)) {
+        if (!is_time_off_sensor_clock(&assembler->config, source, time_us, now_us)) {
             source->off_clock = 0;
         } else if (source->off_clock == 0) {
             source->off_clock = 1;
@@ -567,28 +572,26 @@ static void set_common_clock(struct rho_scan_assembler *assembler, int64_t time_
     assembler->out_us = INT64_MIN;
 }
 
-enum scan_clock rho_scan_assembler_check_clock(struct rho_scan_assembler *assembler,
-                                               struct rho_scan_assembler_source *source,
-                                               int64_t time_us, enum scan_verdict verdict,
-                                               int64_t now_us)
+enum scan_clock rho_scan_assembler_update_common_clock(struct rho_scan_assembler *assembler,
+                                                       struct rho_scan_assembler_source *source,
+                                                       int64_t time_us, enum scan_verdict verdict,
+                                                       int64_t now_us)
 {
     enum scan_clock clock = CLOCK_COMMON;
 
     if (assembler->has_clock &&
         (!are_near_times(time_us, assembler->clock_us, assembler->config.jump_max_us) ||
-         (HAS_OTHERS && is_contradicted(assembler, source, time_us, now_us)) ||
+         (HAS_OTHERS && is_time_contradicted(assembler, source, time_us, now_us)) ||
          (FOLLOWS_REPEATS && verdict == SCAN_RESTARTS_SENSOR &&
-          is_set_back(assembler, source, time_us, now_us)))) {
-        /*
-         * The scans that made the sensor's new numbering accepted have shown its new time as well.
-         */
+          is_common_clock_set_back(assembler, source, time_us, now_us)))) {
+        /* the refused scans before a sensor's restart have shown its new time, too */
         if (verdict == SCAN_RESTARTS_SENSOR && source->off_clock < assembler->config.follow_scans) {
             source->off_clock = (uint8_t)assembler->config.follow_scans;
         } else if (source->off_clock < UINT8_MAX) {
             source->off_clock++;
         }
         if (source->off_clock < assembler->config.follow_scans ||
-            (HAS_OTHERS && !has_majority(assembler, source, time_us, now_us))) {
+            (HAS_OTHERS && !has_new_time_majority(assembler, source, time_us, now_us))) {
             return CLOCK_OTHER;
         }
         set_common_clock(assembler, time_us, now_us);

@@ -14,35 +14,37 @@
 #define JUMP_MAX_US 3600000000ll
 #define FLOOD_MAX 1000000u
 #define STRANGER_PLOTS RHO_CONFIG_PICK(64, 256)
-#define CHECK_START 2166136261u /* of FNV-1a */
-#define CHECK_FACTOR 16777619u
+#define CHECK_START 2166136261u /* offset basis of the FNV-1a hash */
+#define CHECK_FACTOR 16777619u  /* prime of the FNV-1a hash */
 
 typedef char rho_scan_assembler_fits_its_formula
     [sizeof(struct rho_scan_assembler) <= RHO_RAM_SCAN_ASSEMBLER_BYTES ? 1 : -1];
 
-static int is_ready(const struct rho_scan_assembler *assembler)
+static int is_initialised(const struct rho_scan_assembler *assembler)
 {
     return assembler->magic == MAGIC;
 }
 
 /* ---- Configuration ---- */
 
-static int is_sigma(float sigma)
+static int is_sigma_in_limits(float sigma)
 {
     return rho_is_within(sigma, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX);
 }
 
-static int is_sigma_rad(float sigma_rad)
+static int is_sigma_rad_in_limits(float sigma_rad)
 {
     return rho_is_within(sigma_rad, RHO_LIMIT_SIGMA_RAD_MIN, RHO_LIMIT_SIGMA_RAD_MAX);
 }
 
 static int is_usable_noise(const struct rho_scan_assembler_noise *noise)
 {
-    return is_sigma(noise->sigma_m) && is_sigma(noise->sigma_mps) &&
-           is_sigma(noise->sigma_range_m) && is_sigma(noise->sigma_range_rate_mps) &&
-           is_sigma_rad(noise->sigma_azimuth_rad) && is_sigma_rad(noise->sigma_elevation_rad) &&
-           is_sigma_rad(noise->sigma_rad);
+    return is_sigma_in_limits(noise->sigma_m) && is_sigma_in_limits(noise->sigma_mps) &&
+           is_sigma_in_limits(noise->sigma_range_m) &&
+           is_sigma_in_limits(noise->sigma_range_rate_mps) &&
+           is_sigma_rad_in_limits(noise->sigma_azimuth_rad) &&
+           is_sigma_rad_in_limits(noise->sigma_elevation_rad) &&
+           is_sigma_rad_in_limits(noise->sigma_rad);
 }
 
 static int is_usable_sensor(const struct rho_scan_assembler_sensor *known)
@@ -110,7 +112,7 @@ enum rho_status rho_scan_assembler_set_sensor(struct rho_scan_assembler *assembl
     if (!assembler || !sensor) {
         return RHO_ERROR_NULL;
     }
-    if (!is_ready(assembler)) {
+    if (!is_initialised(assembler)) {
         return RHO_ERROR_STATE;
     }
     if (!is_usable_sensor(sensor)) {
@@ -131,10 +133,10 @@ enum rho_status rho_scan_assembler_set_sensor(struct rho_scan_assembler *assembl
 /* ---- Channels ---- */
 
 /*
- * Reads the number behind the prefix: no sign but -, no leading zeros, within int16_t. 0: there is
- * none.
+ * Reads the sensor number at the end of a channel's name: no sign but -, no leading zeros, within
+ * int16_t. Returns 0 where the text is no such number.
  */
-static int read_number(const char *text, int16_t *number)
+static int parse_sensor_number(const char *text, int16_t *number)
 {
     int is_negative = text[0] == '-';
     const char *digits = text + is_negative;
@@ -156,7 +158,8 @@ static int read_number(const char *text, int16_t *number)
     return 1;
 }
 
-static int read_channel(const char *channel, enum rho_scan_assembler_kind *kind, int16_t *sensor_id)
+static int parse_channel(const char *channel, enum rho_scan_assembler_kind *kind,
+                         int16_t *sensor_id)
 {
     static const char prefixes[RHO_NUM_SCAN_ASSEMBLER_KINDS][14] = {
         [RHO_SCAN_ASSEMBLER_PLOTS] = RHO_MESSAGE_PLOT_SCAN_CHANNEL,
@@ -172,7 +175,7 @@ static int read_channel(const char *channel, enum rho_scan_assembler_kind *kind,
         }
         if (prefixes[i][length] == '\0' && RHO_SCAN_ASSEMBLER_HAS(i)) {
             *kind = (enum rho_scan_assembler_kind)i;
-            return read_number(channel + length, sensor_id);
+            return parse_sensor_number(channel + length, sensor_id);
         }
     }
     return 0;
@@ -194,16 +197,16 @@ static struct rho_scan_assembler_source *find_source(struct rho_scan_assembler *
     return NULL;
 }
 
-static int may_be_replaced(const struct rho_scan_assembler *assembler,
-                           const struct rho_scan_assembler_source *source, int64_t now_us)
+static int may_source_be_replaced(const struct rho_scan_assembler *assembler,
+                                  const struct rho_scan_assembler_source *source, int64_t now_us)
 {
     return !rho_scan_assembler_is_proven(&assembler->config, source) || source->off_clock > 0 ||
            rho_elapsed_us(now_us, source->heard_us) > (uint64_t)assembler->config.jump_max_us;
 }
 
-/* A free place, or that of the replaceable sensor heard longest ago; NULL: none. */
-static struct rho_scan_assembler_source *find_source_room(struct rho_scan_assembler *assembler,
-                                                          int64_t now_us)
+/* A free place for a sensor, or that of the replaceable one heard longest ago; NULL: none. */
+static struct rho_scan_assembler_source *
+find_free_or_replaceable_source(struct rho_scan_assembler *assembler, int64_t now_us)
 {
     struct rho_scan_assembler_source *oldest = NULL;
 
@@ -213,7 +216,7 @@ static struct rho_scan_assembler_source *find_source_room(struct rho_scan_assemb
         if (!source->is_used) {
             return source;
         }
-        if (may_be_replaced(assembler, source, now_us) &&
+        if (may_source_be_replaced(assembler, source, now_us) &&
             (!oldest || source->heard_us < oldest->heard_us)) {
             oldest = source;
         }
@@ -228,42 +231,45 @@ static void refuse_scan(struct rho_scan_assembler *assembler,
                         const struct scan_heading *heading)
 {
     if (FOLLOWS_REPEATS && (verdict == SCAN_DUPLICATE || verdict == SCAN_TOO_LATE) &&
-        rho_scan_assembler_is_stray(&assembler->config, source, &heading->place, verdict)) {
-        rho_scan_assembler_note_stray(&assembler->config, source, &heading->place);
+        rho_scan_assembler_may_begin_sequence(&assembler->config, source, &heading->place,
+                                              verdict)) {
+        rho_scan_assembler_remember_refused_scan(&assembler->config, source, &heading->place);
     }
     if (verdict == SCAN_DUPLICATE && source->off_clock > 0) {
-        rho_scan_assembler_count_one(
-            &assembler->counters.clock_jumps); /* another part of a scan that was refused */
+        rho_scan_assembler_increment(
+            &assembler->counters.clock_jumps); /* another part of a scan refused for its clock */
     } else if (verdict == SCAN_DUPLICATE && source->check == CHECK_NOT_ADMITTED &&
                heading->place.scan == source->place.scan) {
-        rho_scan_assembler_count_one(
-            &assembler->counters.messages_flooded); /* likewise, as another newcomer had the turn */
+        rho_scan_assembler_increment(
+            &assembler->counters.messages_flooded); /* part of a newcomer's scan without a turn */
     } else if (verdict == SCAN_DUPLICATE) {
         rho_scan_assembler_count_duplicate(assembler, source, heading);
     } else if (verdict == SCAN_TOO_LATE) {
-        rho_scan_assembler_count_one(&assembler->counters.scans_late);
+        rho_scan_assembler_increment(&assembler->counters.scans_late);
     } else {
-        rho_scan_assembler_note_stray(&assembler->config, source, &heading->place);
-        rho_scan_assembler_count_one(verdict == SCAN_WRONG_TIME ? &assembler->counters.clock_jumps
+        rho_scan_assembler_remember_refused_scan(&assembler->config, source, &heading->place);
+        rho_scan_assembler_increment(verdict == SCAN_WRONG_TIME ? &assembler->counters.clock_jumps
                                                                 : &assembler->counters.scans_bad);
     }
 }
 
-static void accept_scan(struct rho_scan_assembler *assembler,
-                        const struct rho_scan_assembler_source *source,
-                        const struct scan_heading *heading, const union scan_message *message,
-                        enum slot_order order, int64_t now_us)
+static void open_accepted_scan(struct rho_scan_assembler *assembler,
+                               const struct rho_scan_assembler_source *source,
+                               const struct scan_heading *heading,
+                               const union scan_message *message, enum slot_order order,
+                               int64_t now_us)
 {
-    struct rho_scan_assembler_slot *slot = rho_scan_assembler_find_slot(assembler, SLOT_FREE);
+    struct rho_scan_assembler_slot *slot =
+        rho_scan_assembler_find_slot_in_state(assembler, SLOT_FREE);
 
-    rho_scan_assembler_count_one(&assembler->counters.scans_accepted);
+    rho_scan_assembler_increment(&assembler->counters.scans_accepted);
     rho_scan_assembler_open_scan(assembler, slot, source, heading, order);
     rho_scan_assembler_add_part(assembler, slot, heading, message, now_us);
 }
 
-/* A sensor of another kind has this number, and sends: it is the one that the config names. */
-static int is_of_other_kind(const struct rho_scan_assembler *assembler,
-                            const struct scan_heading *heading, int64_t now_us)
+/* 1 where a live sensor of another kind has the number: the config names that one. */
+static int has_live_sensor_of_other_kind(const struct rho_scan_assembler *assembler,
+                                         const struct scan_heading *heading, int64_t now_us)
 {
     for (unsigned i = 0; HAS_OTHERS && i < RHO_MAX_SENSORS; i++) {
         const struct rho_scan_assembler_source *source = &assembler->sources[i];
@@ -278,87 +284,89 @@ static int is_of_other_kind(const struct rho_scan_assembler *assembler,
     return 0;
 }
 
-/* The config names it. */
-static int is_named_in_config(const struct rho_scan_assembler *assembler,
-                              const struct scan_heading *heading, int64_t now_us)
+/* 1 where the config allows or describes the sensor of a message. */
+static int is_sensor_named_in_config(const struct rho_scan_assembler *assembler,
+                                     const struct scan_heading *heading, int64_t now_us)
 {
     return (assembler->config.num_allowed > 0 ||
-            rho_scan_assembler_description_of(assembler, heading->sensor_id) !=
+            rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id) !=
                 &assembler->config.other) &&
-           !is_of_other_kind(assembler, heading, now_us);
+           !has_live_sensor_of_other_kind(assembler, heading, now_us);
 }
 
 /*
- * All newcomers together have one scan between two scans of the other sensors: more of them, and
- * empty, would be misses in a row, which end tracks.
+ * Admits one scan of all newcomers together between two scans of the other sensors: several empty
+ * scans in a row would be misses in a row, which end tracks. Returns 0 for a newcomer's further
+ * scans.
  */
-static int admit_newcomer(struct rho_scan_assembler *assembler, const struct scan_heading *heading,
-                          int is_new)
+static int admit_newcomer_in_turn(struct rho_scan_assembler *assembler,
+                                  const struct scan_heading *heading, int is_new)
 {
     if (!is_new) {
         assembler->newcomers = 0;
     } else if (heading->is_new && assembler->newcomers++ > 0) {
-        rho_scan_assembler_count_one(&assembler->counters.messages_flooded);
+        rho_scan_assembler_increment(&assembler->counters.messages_flooded);
         assembler->newcomers = 1;
         return 0;
     }
     return 1;
 }
 
-/* An accepted scan begins; no more parts of the sensor's scan before it are awaited. */
-static void begin_scan(struct rho_scan_assembler *assembler,
-                       struct rho_scan_assembler_source *source, enum scan_verdict verdict,
-                       const struct scan_heading *heading, const union scan_message *message,
-                       int is_new, int64_t now_us)
+/* Begins a scan that is its sensor's newest, and completes the sensor's scans before it. */
+static void begin_newest_scan(struct rho_scan_assembler *assembler,
+                              struct rho_scan_assembler_source *source, enum scan_verdict verdict,
+                              const struct scan_heading *heading, const union scan_message *message,
+                              int is_new, int64_t now_us)
 {
     enum scan_clock clock;
 
     rho_scan_assembler_complete_open_scans(assembler, source, verdict == SCAN_RESTARTS_SENSOR);
     assembler->counters.scans_lost =
         rho_count(assembler->counters.scans_lost,
-                  rho_scan_assembler_take_newest(&assembler->config, source, &heading->place,
-                                                 verdict, now_us));
+                  rho_scan_assembler_set_newest_scan(&assembler->config, source, &heading->place,
+                                                     verdict, now_us));
     if (verdict == SCAN_RESTARTS_SENSOR) {
-        rho_scan_assembler_count_one(&assembler->counters.sensor_restarts);
+        rho_scan_assembler_increment(&assembler->counters.sensor_restarts);
     }
-    clock =
-        rho_scan_assembler_check_clock(assembler, source, heading->place.time_us, verdict, now_us);
+    clock = rho_scan_assembler_update_common_clock(assembler, source, heading->place.time_us,
+                                                   verdict, now_us);
     if (clock == CLOCK_SET) {
         rho_scan_assembler_drop_waiting_scans(assembler);
     }
     if (clock == CLOCK_OTHER) {
-        rho_scan_assembler_count_one(&assembler->counters.clock_jumps);
-    } else if (admit_newcomer(assembler, heading, is_new)) {
-        accept_scan(assembler, source, heading, message, ORDER_NEXT, now_us);
+        rho_scan_assembler_increment(&assembler->counters.clock_jumps);
+    } else if (admit_newcomer_in_turn(assembler, heading, is_new)) {
+        open_accepted_scan(assembler, source, heading, message, ORDER_NEXT, now_us);
     } else {
         source->check = CHECK_NOT_ADMITTED;
     }
 }
 
 /*
- * A skipped number comes after all. One such scan of a sensor at a time may wait for its parts,
- * where there is room.
+ * Begins a scan whose number was skipped before. One such scan of a sensor at a time may wait for
+ * its parts, where there is room.
  */
-static void begin_out_of_sequence(struct rho_scan_assembler *assembler,
-                                  struct rho_scan_assembler_source *source,
-                                  const struct scan_heading *heading,
-                                  const union scan_message *message, int is_new, int64_t now_us)
+static void begin_out_of_sequence_scan(struct rho_scan_assembler *assembler,
+                                       struct rho_scan_assembler_source *source,
+                                       const struct scan_heading *heading,
+                                       const union scan_message *message, int is_new,
+                                       int64_t now_us)
 {
-    if (!admit_newcomer(assembler, heading, is_new)) {
+    if (!admit_newcomer_in_turn(assembler, heading, is_new)) {
         return;
     }
-    rho_scan_assembler_count_one(&assembler->counters.scans_late);
-    if (!rho_scan_assembler_find_slot(assembler, SLOT_FREE) ||
+    rho_scan_assembler_increment(&assembler->counters.scans_late);
+    if (!rho_scan_assembler_find_slot_in_state(assembler, SLOT_FREE) ||
         (heading->num_parts > 1 &&
          rho_scan_assembler_has_open_out_of_sequence(assembler, source))) {
         return;
     }
-    rho_scan_assembler_mark_received(source, heading->place.scan);
-    accept_scan(assembler, source, heading, message, ORDER_OUT_OF_SEQUENCE, now_us);
+    rho_scan_assembler_mark_number_received(source, heading->place.scan);
+    open_accepted_scan(assembler, source, heading, message, ORDER_OUT_OF_SEQUENCE, now_us);
 }
 
-/* Takes the place that find_source_room found. */
-static void begin_source(struct rho_scan_assembler *assembler,
+/* Starts a new sensor at a place, and completes the open scans of the sensor that it replaces. */
+static void start_source(struct rho_scan_assembler *assembler,
                          struct rho_scan_assembler_source *source,
                          const struct scan_heading *heading)
 {
@@ -372,23 +380,24 @@ static void begin_source(struct rho_scan_assembler *assembler,
 }
 
 /*
- * True where another scan may make room. A newcomer, and a sensor that is not proven, must neither
- * cut short another sensor's scan whose parts are still coming, nor make it out of sequence.
+ * 1 where a waiting scan may go out to make room. For a newcomer or an unproven sensor it must be
+ * one whose release neither cuts short nor makes out of sequence the scan of an established sensor.
  */
-static int may_make_room(struct rho_scan_assembler *assembler,
-                         const struct rho_scan_assembler_source *source, int is_new, int64_t now_us)
+static int may_release_scan_for_room(struct rho_scan_assembler *assembler,
+                                     const struct rho_scan_assembler_source *source, int is_new,
+                                     int64_t now_us)
 {
     return (source && rho_scan_assembler_is_proven(&assembler->config, source) && !is_new) ||
-           rho_scan_assembler_find_slot(assembler, SLOT_GIVEN) ||
+           rho_scan_assembler_find_slot_in_state(assembler, SLOT_GIVEN) ||
            rho_scan_assembler_find_releasable(assembler, now_us);
 }
 
-/* Errors: CAPACITY. */
-static enum rho_status take_part(struct rho_scan_assembler *assembler,
-                                 const struct scan_heading *heading,
-                                 const union scan_message *message,
-                                 struct rho_scan_assembler_source *source, int is_new,
-                                 int64_t now_us)
+/* Takes a decoded part of a scan. CAPACITY: a waiting scan must go out to make room for it. */
+static enum rho_status take_scan_part(struct rho_scan_assembler *assembler,
+                                      const struct scan_heading *heading,
+                                      const union scan_message *message,
+                                      struct rho_scan_assembler_source *source, int is_new,
+                                      int64_t now_us)
 {
     struct rho_scan_assembler_slot *slot =
         source ? rho_scan_assembler_find_open_scan(assembler, source, heading) : NULL;
@@ -400,7 +409,7 @@ static enum rho_status take_part(struct rho_scan_assembler *assembler,
         rho_scan_assembler_add_part(assembler, slot, heading, message, now_us);
         return RHO_OK;
     }
-    verdict = source ? rho_scan_assembler_classify(assembler, source, &heading->place, now_us)
+    verdict = source ? rho_scan_assembler_classify_scan(assembler, source, &heading->place, now_us)
                      : SCAN_NEXT;
     if (verdict != SCAN_NEXT && verdict != SCAN_RESTARTS_SENSOR &&
         verdict != SCAN_OUT_OF_SEQUENCE) {
@@ -408,13 +417,13 @@ static enum rho_status take_part(struct rho_scan_assembler *assembler,
         return RHO_OK;
     }
     if (verdict == SCAN_OUT_OF_SEQUENCE) {
-        begin_out_of_sequence(assembler, source, heading, message, is_new, now_us);
+        begin_out_of_sequence_scan(assembler, source, heading, message, is_new, now_us);
         return RHO_OK;
     }
-    place = source ? source : find_source_room(assembler, now_us);
+    place = source ? source : find_free_or_replaceable_source(assembler, now_us);
     is_free = place && rho_scan_assembler_make_free_slot(assembler, is_new, now_us);
-    if (!place || (!is_free && !may_make_room(assembler, source, is_new, now_us))) {
-        rho_scan_assembler_count_one(&assembler->counters.sensors_no_room);
+    if (!place || (!is_free && !may_release_scan_for_room(assembler, source, is_new, now_us))) {
+        rho_scan_assembler_increment(&assembler->counters.sensors_no_room);
         return RHO_OK;
     }
     if (!is_free) {
@@ -422,9 +431,9 @@ static enum rho_status take_part(struct rho_scan_assembler *assembler,
         return RHO_ERROR_CAPACITY;
     }
     if (!source) {
-        begin_source(assembler, place, heading);
+        start_source(assembler, place, heading);
     }
-    begin_scan(assembler, place, verdict, heading, message, is_new, now_us);
+    begin_newest_scan(assembler, place, verdict, heading, message, is_new, now_us);
     return RHO_OK;
 }
 
@@ -438,7 +447,7 @@ static int is_allowed_sensor(const struct rho_scan_assembler_config *config, int
     return config->num_allowed == 0;
 }
 
-static uint32_t checksum_of(const uint8_t *data, size_t size)
+static uint32_t message_checksum(const uint8_t *data, size_t size)
 {
     uint32_t check = CHECK_START;
 
@@ -463,14 +472,14 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
     if (!assembler || !channel || !data) {
         return RHO_ERROR_NULL;
     }
-    if (!is_ready(assembler)) {
+    if (!is_initialised(assembler)) {
         return RHO_ERROR_STATE;
     }
-    if (!read_channel(channel, &kind, &sensor_id)) {
+    if (!parse_channel(channel, &kind, &sensor_id)) {
         return RHO_ERROR_TYPE;
     }
     if (!is_allowed_sensor(&assembler->config, sensor_id)) {
-        rho_scan_assembler_count_one(&assembler->counters.messages_not_allowed);
+        rho_scan_assembler_increment(&assembler->counters.messages_not_allowed);
         return RHO_OK;
     }
     source = find_source(assembler, kind, sensor_id);
@@ -478,34 +487,35 @@ enum rho_status rho_scan_assembler_take(struct rho_scan_assembler *assembler, co
                                             rho_scan_assembler_longest_known_us(assembler, now_us));
     bucket = source && !is_new ? &source->messages : &assembler->strangers;
     if (!rho_scan_assembler_take_tokens(bucket, 1, assembler->config.flood_per_s, now_us)) {
-        rho_scan_assembler_count_one(&assembler->counters.messages_flooded);
+        rho_scan_assembler_increment(&assembler->counters.messages_flooded);
         return RHO_OK;
     }
     status = rho_scan_assembler_decode_message(kind, data, size, &message, &heading);
     if (status != RHO_OK || heading.sensor_id != sensor_id) {
-        rho_scan_assembler_count_one(status == RHO_ERROR_TYPE
+        rho_scan_assembler_increment(status == RHO_ERROR_TYPE
                                          ? &assembler->counters.messages_wrong_type
                                          : &assembler->counters.messages_bad);
         return RHO_OK;
     }
-    if (!rho_scan_assembler_correct_time_bias(assembler, &heading)) {
-        rho_scan_assembler_count_one(&assembler->counters.messages_bad);
+    if (!rho_scan_assembler_subtract_time_bias(assembler, &heading)) {
+        rho_scan_assembler_increment(&assembler->counters.messages_bad);
         return RHO_OK;
     }
     if (heading.num_parts > RHO_MAX_PARTS) {
-        rho_scan_assembler_count_one(&assembler->counters.scans_bad);
+        rho_scan_assembler_increment(&assembler->counters.scans_bad);
         return RHO_OK;
     }
-    heading.is_new = (uint8_t)(is_new && !is_named_in_config(assembler, &heading, now_us));
+    heading.is_new = (uint8_t)(is_new && !is_sensor_named_in_config(assembler, &heading, now_us));
     if (heading.is_new &&
         !rho_scan_assembler_take_tokens(&assembler->stranger_plots, heading.num_inputs,
                                         assembler->config.stranger_plots_per_s, now_us)) {
-        rho_scan_assembler_count_one(&assembler->counters.messages_flooded);
+        rho_scan_assembler_increment(&assembler->counters.messages_flooded);
         return RHO_OK;
     }
-    heading.check = checksum_of(data, size);
-    status = take_part(assembler, &heading, &message, source, is_new, now_us);
-    if (status == RHO_ERROR_CAPACITY) { /* the caller gives the message again */
+    heading.check = message_checksum(data, size);
+    status = take_scan_part(assembler, &heading, &message, source, is_new, now_us);
+    if (status ==
+        RHO_ERROR_CAPACITY) { /* give back the tokens: the caller will give the message again */
         bucket->left++;
         assembler->stranger_plots.left += heading.is_new ? heading.num_inputs : 0u;
     }
@@ -519,15 +529,15 @@ int rho_scan_assembler_next(struct rho_scan_assembler *assembler, int64_t now_us
 {
     struct rho_scan_assembler_slot *slot;
 
-    if (!assembler || !item || !is_ready(assembler)) {
+    if (!assembler || !item || !is_initialised(assembler)) {
         return 0;
     }
-    slot = rho_scan_assembler_find_slot(assembler, SLOT_GIVEN);
+    slot = rho_scan_assembler_find_slot_in_state(assembler, SLOT_GIVEN);
     if (slot) {
         slot->state = SLOT_FREE;
     }
-    if (rho_scan_assembler_find_slot(assembler, SLOT_FREE)) {
-        assembler->is_pressed = 0; /* there is room */
+    if (rho_scan_assembler_find_slot_in_state(assembler, SLOT_FREE)) {
+        assembler->is_pressed = 0; /* there is room: no scan has to go out early */
     }
     slot = rho_scan_assembler_find_due(assembler, now_us);
     if (!slot) {
@@ -546,7 +556,7 @@ int64_t rho_scan_assembler_due_us(const struct rho_scan_assembler *assembler)
 {
     int64_t due_us = INT64_MAX;
 
-    if (!assembler || !is_ready(assembler)) {
+    if (!assembler || !is_initialised(assembler)) {
         return due_us;
     }
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {

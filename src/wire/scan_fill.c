@@ -6,11 +6,11 @@
 #include "rhotrack/detail/measurement.h"
 #include "scan_assembler_parts.h"
 
-#define NOT_A_PLACE FLT_MAX /* beyond every limit: the tracker gives the plot the fate INVALID */
+#define NOT_A_PLACE FLT_MAX /* x_m of a plot that the tracker is to give the fate INVALID */
 
 /* ---- Headings ---- */
 
-static struct scan_heading plots_heading(const struct rho_message_plot_scan *scan)
+static struct scan_heading heading_of_plots(const struct rho_message_plot_scan *scan)
 {
     struct scan_heading heading = {
         .place = {scan->utime, scan->scan, scan->epoch},
@@ -34,7 +34,7 @@ static struct scan_heading plots_heading(const struct rho_message_plot_scan *sca
     return heading;
 }
 
-static struct scan_heading polar_heading(const struct rho_message_polar_scan *scan)
+static struct scan_heading heading_of_polar_plots(const struct rho_message_polar_scan *scan)
 {
     return (struct scan_heading){
         .place = {scan->utime, scan->scan, scan->epoch},
@@ -53,7 +53,7 @@ static struct scan_heading polar_heading(const struct rho_message_polar_scan *sc
     };
 }
 
-static struct scan_heading bearings_heading(const struct rho_message_bearing_scan *scan)
+static struct scan_heading heading_of_bearings(const struct rho_message_bearing_scan *scan)
 {
     return (struct scan_heading){
         .place = {scan->utime, scan->scan, scan->epoch},
@@ -77,19 +77,19 @@ enum rho_status rho_scan_assembler_decode_message(enum rho_scan_assembler_kind k
         status = rho_message_bearing_scan_decode(data, size, &message->bearings);
         if (status == RHO_OK) {
             status = rho_message_bearing_scan_validate(&message->bearings, NULL);
-            *heading = bearings_heading(&message->bearings);
+            *heading = heading_of_bearings(&message->bearings);
         }
     } else if (RHO_SCAN_ASSEMBLER_IS(kind, RHO_SCAN_ASSEMBLER_PLOTS)) {
         status = rho_message_plot_scan_decode(data, size, &message->plots);
         if (status == RHO_OK) {
             status = rho_message_plot_scan_validate(&message->plots, NULL);
-            *heading = plots_heading(&message->plots);
+            *heading = heading_of_plots(&message->plots);
         }
     } else {
         status = rho_message_polar_scan_decode(data, size, &message->polar);
         if (status == RHO_OK) {
             status = rho_message_polar_scan_validate(&message->polar, NULL);
-            *heading = polar_heading(&message->polar);
+            *heading = heading_of_polar_plots(&message->polar);
         }
     }
     return status;
@@ -97,15 +97,15 @@ enum rho_status rho_scan_assembler_decode_message(enum rho_scan_assembler_kind k
 
 /* ---- Plots and bearings ---- */
 
-/* A newcomer's plots count for no more than those of a sensor that states no sigmas. */
+/* The stated sigma, or the default where none is stated, or a newcomer states a smaller one. */
 static float sigma_or_default(float said, float otherwise, int is_new)
 {
     return said > 0.0f && !(is_new && said < otherwise) ? said : otherwise;
 }
 
-static void fill_plots(struct rho_plot *to, unsigned count,
-                       const struct rho_message_plot_scan *scan,
-                       const struct rho_scan_assembler_noise *noise, int is_new)
+static void convert_plots(struct rho_plot *to, unsigned count,
+                          const struct rho_message_plot_scan *scan,
+                          const struct rho_scan_assembler_noise *noise, int is_new)
 {
     for (unsigned i = 0; i < count; i++) {
         const struct rho_message_plot *plot = &scan->plots[i];
@@ -128,10 +128,10 @@ static void fill_plots(struct rho_plot *to, unsigned count,
     }
 }
 
-static void fill_polar(struct rho_plot *to, unsigned count,
-                       const struct rho_message_polar_scan *scan, uint32_t measures,
-                       const struct rho_sensor *sensor,
-                       const struct rho_scan_assembler_noise *noise, int is_new)
+static void convert_polar_plots(struct rho_plot *to, unsigned count,
+                                const struct rho_message_polar_scan *scan, uint32_t measures,
+                                const struct rho_sensor *sensor,
+                                const struct rho_scan_assembler_noise *noise, int is_new)
 {
     struct rho_sensor seen_from = *sensor;
     struct rho_polar_plot polar = {
@@ -143,7 +143,7 @@ static void fill_polar(struct rho_plot *to, unsigned count,
         .sigma_range_rate_mps =
             sigma_or_default(scan->sigma_range_rate_mps, noise->sigma_range_rate_mps, is_new)};
 
-    seen_from.time_bias_s = 0.0f; /* it was subtracted from the scan's time */
+    seen_from.time_bias_s = 0.0f; /* the scan's time has been corrected already */
     for (unsigned i = 0; i < count; i++) {
         const struct rho_message_polar_plot *plot = &scan->polar_plots[i];
 
@@ -153,16 +153,16 @@ static void fill_polar(struct rho_plot *to, unsigned count,
         polar.elevation_rad = plot->elevation_rad;
         polar.range_rate_mps = plot->range_rate_mps;
         polar.snr_db = plot->snr_db;
-        /* A plot without a valid place keeps its row, so that the rows behind it stay the same. */
+        /* An invalid plot keeps its row, so that the rows of the plots behind it stay the same. */
         if (rho_measurement_from_polar(&polar, measures, &seen_from, &to[i]) != RHO_OK) {
             to[i] = (struct rho_plot){.x_m = NOT_A_PLACE};
         }
     }
 }
 
-static void fill_bearings(struct rho_bearing *to, unsigned count,
-                          const struct rho_message_bearing_scan *scan,
-                          const struct rho_scan_assembler_sensor *known, int is_new)
+static void convert_bearings(struct rho_bearing *to, unsigned count,
+                             const struct rho_message_bearing_scan *scan,
+                             const struct rho_scan_assembler_sensor *known, int is_new)
 {
     for (unsigned i = 0; i < count; i++) {
         float bearing_rad = scan->bearing_rad[i];
@@ -177,7 +177,8 @@ static void fill_bearings(struct rho_bearing *to, unsigned count,
 }
 
 const struct rho_scan_assembler_sensor *
-rho_scan_assembler_description_of(const struct rho_scan_assembler *assembler, int32_t sensor_id)
+rho_scan_assembler_description_of_sensor(const struct rho_scan_assembler *assembler,
+                                         int32_t sensor_id)
 {
     for (unsigned i = 0; i < assembler->num_known; i++) {
         if (assembler->known[i].sensor.sensor_id == sensor_id) {
@@ -187,21 +188,22 @@ rho_scan_assembler_description_of(const struct rho_scan_assembler *assembler, in
     return &assembler->config.other;
 }
 
-/* A valid time is within its limit, so that the difference fits. */
-int rho_scan_assembler_correct_time_bias(const struct rho_scan_assembler *assembler,
-                                         struct scan_heading *heading)
+/* The subtraction cannot overflow: a valid time is within RHO_LIMIT_TIME_US. */
+int rho_scan_assembler_subtract_time_bias(const struct rho_scan_assembler *assembler,
+                                          struct scan_heading *heading)
 {
     int64_t *time_us = &heading->place.time_us;
 
     *time_us -= rho_measurement_time_bias_us(
-        &rho_scan_assembler_description_of(assembler, heading->sensor_id)->sensor);
+        &rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id)->sensor);
     return *time_us >= -RHO_LIMIT_TIME_US && *time_us <= RHO_LIMIT_TIME_US;
 }
 
 /* ---- Parts ---- */
 
-/* Number of stored plots or bearings of the parts before this one. */
-static unsigned measurements_before(const struct rho_scan_assembler_slot *slot, unsigned part)
+/* Number of stored plots or bearings of a scan's parts before a part. */
+static unsigned num_measurements_before_part(const struct rho_scan_assembler_slot *slot,
+                                             unsigned part)
 {
     unsigned count = 0;
 
@@ -217,14 +219,14 @@ void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
                                          const union scan_message *message)
 {
     const struct rho_scan_assembler_sensor *known =
-        rho_scan_assembler_description_of(assembler, heading->sensor_id);
+        rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id);
     unsigned room = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)
                         ? RHO_MAX_BEARINGS
                         : RHO_MAX_PLOTS;
-    unsigned at = measurements_before(slot, heading->part), count = heading->num_inputs;
+    unsigned at = num_measurements_before_part(slot, heading->part), count = heading->num_inputs;
     unsigned behind = slot->num_inputs - at, dropped = 0;
 
-    /* The first rows of the scan are kept: a part in between displaces the last ones. */
+    /* A full slot keeps the first rows of the scan: a part in between displaces the last ones. */
     if (at + count > room) {
         dropped += at + count - room;
         count = room - at;
@@ -234,16 +236,16 @@ void rho_scan_assembler_add_measurements(struct rho_scan_assembler *assembler,
         behind = room - at - count;
     }
     if (RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_BEARINGS)) {
-        fill_bearings(slot->bearings + at, count, &message->bearings, known, heading->is_new);
+        convert_bearings(slot->bearings + at, count, &message->bearings, known, heading->is_new);
         assembler->counters.bearings_in =
             rho_count(assembler->counters.bearings_in, heading->num_inputs);
     } else {
         memmove(slot->plots + at + count, slot->plots + at, behind * sizeof *slot->plots);
         if (RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_PLOTS)) {
-            fill_plots(slot->plots + at, count, &message->plots, &known->noise, heading->is_new);
+            convert_plots(slot->plots + at, count, &message->plots, &known->noise, heading->is_new);
         } else {
-            fill_polar(slot->plots + at, count, &message->polar, heading->measures, &slot->sensor,
-                       &known->noise, heading->is_new);
+            convert_polar_plots(slot->plots + at, count, &message->polar, heading->measures,
+                                &slot->sensor, &known->noise, heading->is_new);
         }
     }
     slot->num_inputs = (uint16_t)(at + count + behind);

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* Scans that are assembled, and the order in which they go out. */
+/* scan_slots: the slots in which scans are assembled, and the order in which scans go out. */
 #include <string.h>
 
 #include "scan_assembler_parts.h"
 
-void rho_scan_assembler_count_one(uint32_t *counter)
+void rho_scan_assembler_increment(uint32_t *counter)
 {
     *counter = rho_count(*counter, 1);
 }
 
-struct rho_scan_assembler_slot *rho_scan_assembler_find_slot(struct rho_scan_assembler *assembler,
-                                                             enum slot_state state)
+struct rho_scan_assembler_slot *
+rho_scan_assembler_find_slot_in_state(struct rho_scan_assembler *assembler, enum slot_state state)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (assembler->slots[i].state == state) {
@@ -55,8 +55,8 @@ int rho_scan_assembler_has_open_out_of_sequence(const struct rho_scan_assembler 
     return 0;
 }
 
-/* The scan waits for parts, or to go out. */
-static int is_waiting(const struct rho_scan_assembler_slot *slot)
+/* 1 where a slot's scan waits for parts, or to go out. */
+static int is_slot_waiting(const struct rho_scan_assembler_slot *slot)
 {
     return slot->state == SLOT_OPEN || slot->state == SLOT_COMPLETE;
 }
@@ -65,7 +65,7 @@ void rho_scan_assembler_complete_scan(struct rho_scan_assembler *assembler,
                                       struct rho_scan_assembler_slot *slot)
 {
     if (slot->parts_here < slot->num_parts) {
-        rho_scan_assembler_count_one(&assembler->counters.scans_incomplete);
+        rho_scan_assembler_increment(&assembler->counters.scans_incomplete);
     }
     slot->state = SLOT_COMPLETE;
 }
@@ -86,14 +86,14 @@ void rho_scan_assembler_complete_open_scans(struct rho_scan_assembler *assembler
     }
 }
 
-static int is_held_as_newcomer(const struct rho_scan_assembler *assembler,
-                               const struct rho_scan_assembler_slot *slot, int64_t now_us)
+static int is_newcomer_scan_held(const struct rho_scan_assembler *assembler,
+                                 const struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
     return now_us < rho_scan_assembler_newcomer_release_us(assembler, slot);
 }
 
-static int is_of_no_newcomer(const struct rho_scan_assembler *assembler,
-                             const struct rho_scan_assembler_slot *slot, int64_t now_us)
+static int is_of_established_sensor(const struct rho_scan_assembler *assembler,
+                                    const struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
     return !HAS_OTHERS ||
            !rho_scan_assembler_is_newcomer(assembler->sources[slot->source].known_us,
@@ -103,32 +103,32 @@ static int is_of_no_newcomer(const struct rho_scan_assembler *assembler,
 struct rho_scan_assembler_slot *
 rho_scan_assembler_make_free_slot(struct rho_scan_assembler *assembler, int is_new, int64_t now_us)
 {
-    struct rho_scan_assembler_slot *room = rho_scan_assembler_find_slot(assembler, SLOT_FREE);
+    struct rho_scan_assembler_slot *room =
+        rho_scan_assembler_find_slot_in_state(assembler, SLOT_FREE);
 
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS && !room; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
-        if (is_waiting(slot) && !is_new && is_held_as_newcomer(assembler, slot, now_us)) {
-            rho_scan_assembler_count_one(&assembler->counters.sensors_no_room);
+        if (is_slot_waiting(slot) && !is_new && is_newcomer_scan_held(assembler, slot, now_us)) {
+            rho_scan_assembler_increment(&assembler->counters.sensors_no_room);
             slot->state = SLOT_FREE;
             room = slot;
-        } else if (is_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
-                   !(is_new && is_of_no_newcomer(assembler, slot, now_us))) {
-            slot->state = SLOT_FREE; /* it was counted when it came */
+        } else if (is_slot_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
+                   !(is_new && is_of_established_sensor(assembler, slot, now_us))) {
+            slot->state = SLOT_FREE; /* scans_late has counted it before */
             room = slot;
         }
     }
     return room;
 }
 
-/* Scans on the clock that is given up cannot be stepped any more. */
 void rho_scan_assembler_drop_waiting_scans(struct rho_scan_assembler *assembler)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
-        if (is_waiting(slot)) {
-            /* an out-of-sequence one was counted when it came */
+        if (is_slot_waiting(slot)) {
+            /* an out-of-sequence scan was counted in scans_late when it came */
             assembler->counters.scans_late =
                 rho_count(assembler->counters.scans_late, slot->order != ORDER_OUT_OF_SEQUENCE);
             slot->state = SLOT_FREE;
@@ -136,12 +136,12 @@ void rho_scan_assembler_drop_waiting_scans(struct rho_scan_assembler *assembler)
     }
 }
 
-static void describe_sensor(const struct rho_scan_assembler *assembler,
-                            struct rho_scan_assembler_slot *slot,
-                            const struct scan_heading *heading)
+static void set_sensor_of_slot(const struct rho_scan_assembler *assembler,
+                               struct rho_scan_assembler_slot *slot,
+                               const struct scan_heading *heading)
 {
     const struct rho_scan_assembler_sensor *known =
-        rho_scan_assembler_description_of(assembler, heading->sensor_id);
+        rho_scan_assembler_description_of_sensor(assembler, heading->sensor_id);
     int has_place = heading->x_m < 0.0f || heading->x_m > 0.0f || heading->y_m < 0.0f ||
                     heading->y_m > 0.0f || heading->z_m < 0.0f || heading->z_m > 0.0f;
 
@@ -174,32 +174,33 @@ void rho_scan_assembler_open_scan(struct rho_scan_assembler *assembler,
     slot->kind = heading->kind;
     slot->order = (uint8_t)order;
     memset(slot->parts, 0, sizeof slot->parts);
-    describe_sensor(assembler, slot, heading);
+    set_sensor_of_slot(assembler, slot, heading);
     slot->state = SLOT_OPEN;
 }
 
 /* ---- Parts ---- */
 
-static int is_equal(float a, float b)
+static int is_equal_float(float a, float b)
 {
     return a <= b && a >= b;
 }
 
-/* All parts of a scan must agree on its time, parts, measures, sector and place. */
-static int matches_slot(const struct rho_scan_assembler_slot *slot,
-                        const struct scan_heading *heading)
+/* 1 where a part agrees with its scan on time, number of parts, measures, sector and position. */
+static int part_matches_slot(const struct rho_scan_assembler_slot *slot,
+                             const struct scan_heading *heading)
 {
     int has_place = RHO_SCAN_ASSEMBLER_IS(heading->kind, RHO_SCAN_ASSEMBLER_POLAR);
 
     return slot->place.time_us == heading->place.time_us && slot->num_parts == heading->num_parts &&
            slot->measures == heading->measures &&
-           is_equal(slot->sector_from_rad, heading->sector_from_rad) &&
-           is_equal(slot->sector_to_rad, heading->sector_to_rad) &&
-           (!has_place || ((is_equal(slot->sensor.x_m, heading->x_m) &&
-                            is_equal(slot->sensor.y_m, heading->y_m) &&
-                            is_equal(slot->sensor.z_m, heading->z_m)) ||
-                           (is_equal(heading->x_m, 0.0f) && is_equal(heading->y_m, 0.0f) &&
-                            is_equal(heading->z_m, 0.0f))));
+           is_equal_float(slot->sector_from_rad, heading->sector_from_rad) &&
+           is_equal_float(slot->sector_to_rad, heading->sector_to_rad) &&
+           (!has_place ||
+            ((is_equal_float(slot->sensor.x_m, heading->x_m) &&
+              is_equal_float(slot->sensor.y_m, heading->y_m) &&
+              is_equal_float(slot->sensor.z_m, heading->z_m)) ||
+             (is_equal_float(heading->x_m, 0.0f) && is_equal_float(heading->y_m, 0.0f) &&
+              is_equal_float(heading->z_m, 0.0f))));
 }
 
 void rho_scan_assembler_count_duplicate(struct rho_scan_assembler *assembler,
@@ -209,9 +210,9 @@ void rho_scan_assembler_count_duplicate(struct rho_scan_assembler *assembler,
     if (heading->part == 0 && heading->place.scan == source->place.scan &&
         source->check > CHECK_NOT_ADMITTED && source->check != heading->check) {
         source->has_two_senders = 1;
-        rho_scan_assembler_count_one(&assembler->counters.scans_other);
+        rho_scan_assembler_increment(&assembler->counters.scans_other);
     } else {
-        rho_scan_assembler_count_one(&assembler->counters.scans_duplicate);
+        rho_scan_assembler_increment(&assembler->counters.scans_duplicate);
     }
 }
 
@@ -226,8 +227,8 @@ void rho_scan_assembler_add_part(struct rho_scan_assembler *assembler,
         rho_scan_assembler_count_duplicate(assembler, source, heading);
         return;
     }
-    if (slot->parts_here > 0 && !matches_slot(slot, heading)) {
-        rho_scan_assembler_count_one(&assembler->counters.scans_bad);
+    if (slot->parts_here > 0 && !part_matches_slot(slot, heading)) {
+        rho_scan_assembler_increment(&assembler->counters.scans_bad);
         return;
     }
     rho_scan_assembler_add_measurements(assembler, slot, heading, message);
@@ -242,20 +243,20 @@ void rho_scan_assembler_add_part(struct rho_scan_assembler *assembler,
 
 /* ---- Scans that are due ---- */
 
-/* The number before the slot's was skipped; if it comes, it is likely to be older than time_us. */
-static int awaits_older(const struct rho_scan_assembler *assembler,
-                        const struct rho_scan_assembler_slot *slot, int64_t time_us)
+/* 1 where the scan before the slot's was skipped, and may still come with a time before time_us. */
+static int awaits_skipped_older_scan(const struct rho_scan_assembler *assembler,
+                                     const struct rho_scan_assembler_slot *slot, int64_t time_us)
 {
     const struct rho_scan_assembler_source *source = &assembler->sources[slot->source];
 
-    return is_waiting(slot) && slot->order == ORDER_NEXT &&
+    return is_slot_waiting(slot) && slot->order == ORDER_NEXT &&
            rho_elapsed_us(slot->place.time_us, time_us) < source->interval_us &&
            rho_scan_assembler_awaits_previous(source, slot->place.scan);
 }
 
 /*
- * Every other live sensor has sent a scan that is not older, none has skipped a number that may be
- * older, and no older scan waits for parts.
+ * 1 where a scan is the next one in the order of time: every other live sensor has sent a scan that
+ * is not older, no skipped number may be older, and no older scan waits for parts.
  */
 static int is_next_in_time(const struct rho_scan_assembler *assembler,
                            const struct rho_scan_assembler_slot *slot, int64_t now_us)
@@ -273,52 +274,52 @@ static int is_next_in_time(const struct rho_scan_assembler *assembler,
         const struct rho_scan_assembler_slot *other = &assembler->slots[i];
 
         if ((other->state == SLOT_OPEN && other->place.time_us < slot->place.time_us) ||
-            awaits_older(assembler, other, slot->place.time_us)) {
+            awaits_skipped_older_scan(assembler, other, slot->place.time_us)) {
             return 0;
         }
     }
     return 1;
 }
 
-static int has_waited_hold(const struct rho_scan_assembler *assembler,
-                           const struct rho_scan_assembler_slot *slot, int64_t now_us)
+static int has_waited_hold_us(const struct rho_scan_assembler *assembler,
+                              const struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
     uint64_t hold_us = (uint64_t)assembler->config.hold_us;
 
-    /* Where the reception clock was set back, a scan does not wait until it has caught up. */
+    /* A scan does not wait for a reception clock that was set back to catch up. */
     return now_us == INT64_MAX || rho_elapsed_us(now_us, slot->heard_us) >= hold_us ||
            rho_elapsed_us(slot->heard_us, now_us) > hold_us;
 }
 
 /*
- * A scan that has waited hold_us goes out, and older ones before it, however long they have waited.
- * A newcomer's scan that waits for others does not count.
+ * 1 where any complete scan has waited hold_us: it goes out, and older ones before it, however
+ * short they have waited. Held scans of newcomers do not count.
  */
-static int has_any_waited_hold(const struct rho_scan_assembler *assembler, int64_t now_us)
+static int has_any_scan_waited_hold_us(const struct rho_scan_assembler *assembler, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         if (assembler->slots[i].state == SLOT_COMPLETE &&
-            has_waited_hold(assembler, &assembler->slots[i], now_us) &&
-            !is_held_as_newcomer(assembler, &assembler->slots[i], now_us)) {
+            has_waited_hold_us(assembler, &assembler->slots[i], now_us) &&
+            !is_newcomer_scan_held(assembler, &assembler->slots[i], now_us)) {
             return 1;
         }
     }
     return 0;
 }
 
-static void complete_overdue(struct rho_scan_assembler *assembler, int64_t now_us)
+static void complete_overdue_scans(struct rho_scan_assembler *assembler, int64_t now_us)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
-        if (slot->state == SLOT_OPEN && has_waited_hold(assembler, slot, now_us) &&
+        if (slot->state == SLOT_OPEN && has_waited_hold_us(assembler, slot, now_us) &&
             (assembler->config.hold_us > 0 || now_us == INT64_MAX)) {
             rho_scan_assembler_complete_scan(assembler, slot);
         }
     }
 }
 
-/* Of equal times the lower sensor_id comes first, and of one sensor the lower kind. */
+/* The order in which scans go out: by time, then sensor_id, then kind. */
 static int comes_before(const struct rho_scan_assembler_slot *a,
                         const struct rho_scan_assembler_slot *b)
 {
@@ -329,9 +330,10 @@ static int comes_before(const struct rho_scan_assembler_slot *a,
                                                       : a->kind < b->kind;
 }
 
-/* Newcomers' scans that wait for others are left out. */
-static struct rho_scan_assembler_slot *find_first(struct rho_scan_assembler *assembler,
-                                                  enum slot_state state, int64_t now_us)
+/* The first scan to go out of those in a state; held scans of newcomers are left out. */
+static struct rho_scan_assembler_slot *
+find_first_scan_in_state(struct rho_scan_assembler *assembler, enum slot_state state,
+                         int64_t now_us)
 {
     struct rho_scan_assembler_slot *first = NULL;
 
@@ -339,7 +341,7 @@ static struct rho_scan_assembler_slot *find_first(struct rho_scan_assembler *ass
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
         if (slot->state == state && (!first || comes_before(slot, first)) &&
-            !is_held_as_newcomer(assembler, slot, now_us)) {
+            !is_newcomer_scan_held(assembler, slot, now_us)) {
             first = slot;
         }
     }
@@ -347,14 +349,14 @@ static struct rho_scan_assembler_slot *find_first(struct rho_scan_assembler *ass
 }
 
 /*
- * A scan that goes out makes older ones out of sequence, so an older one whose parts are still
- * coming goes out before it, incomplete.
+ * An older scan whose parts are still coming goes out before a due one, incomplete: behind it, it
+ * would be out of sequence.
  */
-static struct rho_scan_assembler_slot *older_open_scan_or(struct rho_scan_assembler *assembler,
-                                                          struct rho_scan_assembler_slot *slot,
-                                                          int64_t now_us)
+static struct rho_scan_assembler_slot *
+complete_older_open_scan_or(struct rho_scan_assembler *assembler,
+                            struct rho_scan_assembler_slot *slot, int64_t now_us)
 {
-    struct rho_scan_assembler_slot *open = find_first(assembler, SLOT_OPEN, now_us);
+    struct rho_scan_assembler_slot *open = find_first_scan_in_state(assembler, SLOT_OPEN, now_us);
 
     if (!open || open->place.time_us >= slot->place.time_us) {
         return slot;
@@ -366,7 +368,8 @@ static struct rho_scan_assembler_slot *older_open_scan_or(struct rho_scan_assemb
 struct rho_scan_assembler_slot *
 rho_scan_assembler_find_releasable(struct rho_scan_assembler *assembler, int64_t now_us)
 {
-    struct rho_scan_assembler_slot *spare = find_first(assembler, SLOT_COMPLETE, now_us),
+    struct rho_scan_assembler_slot *spare =
+                                       find_first_scan_in_state(assembler, SLOT_COMPLETE, now_us),
                                    *weak = NULL;
     uint32_t eldest_us = HAS_OTHERS ? rho_scan_assembler_longest_known_us(assembler, now_us) : 0u;
 
@@ -386,13 +389,13 @@ rho_scan_assembler_find_releasable(struct rho_scan_assembler *assembler, int64_t
     return spare ? spare : weak;
 }
 
-static struct rho_scan_assembler_slot *release_for_room(struct rho_scan_assembler *assembler,
-                                                        int64_t now_us)
+static struct rho_scan_assembler_slot *choose_scan_for_room(struct rho_scan_assembler *assembler,
+                                                            int64_t now_us)
 {
     struct rho_scan_assembler_slot *slot = rho_scan_assembler_find_releasable(assembler, now_us);
 
-    slot = slot ? slot : find_first(assembler, SLOT_COMPLETE, now_us);
-    slot = slot ? slot : find_first(assembler, SLOT_OPEN, now_us);
+    slot = slot ? slot : find_first_scan_in_state(assembler, SLOT_COMPLETE, now_us);
+    slot = slot ? slot : find_first_scan_in_state(assembler, SLOT_OPEN, now_us);
     if (slot && slot->state == SLOT_OPEN) {
         rho_scan_assembler_complete_scan(assembler, slot);
     }
@@ -400,15 +403,15 @@ static struct rho_scan_assembler_slot *release_for_room(struct rho_scan_assemble
 }
 
 /* Drops out-of-sequence scans that have become too old while they waited. */
-static void drop_unusable(struct rho_scan_assembler *assembler)
+static void drop_too_late_scans(struct rho_scan_assembler *assembler)
 {
     for (unsigned i = 0; i < RHO_MAX_OPEN_SCANS; i++) {
         struct rho_scan_assembler_slot *slot = &assembler->slots[i];
 
-        if (is_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
-            !rho_scan_assembler_is_usable_time(assembler, (enum rho_scan_assembler_kind)slot->kind,
-                                               slot->place.time_us)) {
-            slot->state = SLOT_FREE; /* it was counted when it came */
+        if (is_slot_waiting(slot) && slot->order == ORDER_OUT_OF_SEQUENCE &&
+            !rho_scan_assembler_is_not_too_late(assembler, (enum rho_scan_assembler_kind)slot->kind,
+                                                slot->place.time_us)) {
+            slot->state = SLOT_FREE; /* scans_late has counted the scan before */
         }
     }
 }
@@ -418,17 +421,18 @@ struct rho_scan_assembler_slot *rho_scan_assembler_find_due(struct rho_scan_asse
 {
     struct rho_scan_assembler_slot *slot;
 
-    drop_unusable(assembler);
-    complete_overdue(assembler, now_us);
+    drop_too_late_scans(assembler);
+    complete_overdue_scans(assembler, now_us);
     if (assembler->is_pressed) {
-        return release_for_room(assembler, now_us);
+        return choose_scan_for_room(assembler, now_us);
     }
-    slot = find_first(assembler, SLOT_COMPLETE, now_us);
+    slot = find_first_scan_in_state(assembler, SLOT_COMPLETE, now_us);
     if (!slot) {
         return NULL;
     }
-    if (has_any_waited_hold(assembler, now_us)) {
-        return assembler->config.hold_us > 0 ? older_open_scan_or(assembler, slot, now_us) : slot;
+    if (has_any_scan_waited_hold_us(assembler, now_us)) {
+        return assembler->config.hold_us > 0 ? complete_older_open_scan_or(assembler, slot, now_us)
+                                             : slot;
     }
     return is_next_in_time(assembler, slot, now_us) ? slot : NULL;
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* An operator's settings, as messages. */
+/* setting_command: sets one parameter by an operator's setting message, and fills the answer. */
 #include <string.h>
 
 #include "rhotrack/command.h"
 
 enum number_kind { AS_FLOAT, AS_UINT16, AS_UINT32 };
 
-/* By the message's number of the field. */
-struct field {
+/* A member of rho_settings that a message can set, by the number that the message gives it. */
+struct setting_field {
     const char *name;
     size_t place;
     enum number_kind kind;
@@ -19,9 +19,9 @@ struct field {
 #field, offsetof(struct rho_settings, field), kind, RHO_MESSAGE_SETTING_ANSWER_##applies   \
     }
 
-static const struct field *field_of(int number)
+static const struct setting_field *find_field_by_number(int number)
 {
-    static const struct field fields[RHO_MESSAGE_SETTING_WORK_MAX + 1] = {
+    static const struct setting_field fields[RHO_MESSAGE_SETTING_WORK_MAX + 1] = {
         [RHO_MESSAGE_SETTING_V_MIN_MPS] = FIELD(v_min_mps, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_V_MAX_MPS] = FIELD(v_max_mps, AS_FLOAT, STEP),
         [RHO_MESSAGE_SETTING_ACCEL_MAX_MPS2] = FIELD(accel_max_mps2, AS_FLOAT, STEP),
@@ -45,7 +45,7 @@ static const struct field *field_of(int number)
 
 const char *rho_command_setting_name(int field)
 {
-    const struct field *found = field_of(field);
+    const struct setting_field *found = find_field_by_number(field);
     return found ? found->name : 0;
 }
 
@@ -58,17 +58,20 @@ static int is_same_name(const char *a, const char *b)
     return *a == *b;
 }
 
-static int16_t number_of_field(const char *name)
+static int16_t find_number_by_name(const char *name)
 {
     int16_t number = 1;
-    while (field_of(number) && !is_same_name(field_of(number)->name, name)) {
+    while (find_field_by_number(number) &&
+           !is_same_name(find_field_by_number(number)->name, name)) {
         number++;
     }
-    return field_of(number) ? number : 0;
+    return find_field_by_number(number) ? number : 0;
 }
 
-/* Whole numbers beyond those of the field become one that is outside its range. 0: not whole. */
-static int set_field(const struct field *field, float value, struct rho_settings *settings)
+/* Stores a value in its field; a whole number too large for the field's type becomes its maximum,
+ * which the check refuses. Returns 0 for a fraction in a field of whole numbers. */
+static int store_value_in_field(const struct setting_field *field, float value,
+                                struct rho_settings *settings)
 {
     char *at = (char *)settings + field->place;
     const float most = 4.0e9f;
@@ -94,7 +97,7 @@ enum rho_status rho_command_set(const struct rho_message_setting *setting,
     if (!setting || !settings || !answer) {
         return RHO_ERROR_NULL;
     }
-    const struct field *field = field_of(setting->field);
+    const struct setting_field *field = find_field_by_number(setting->field);
     struct rho_settings changed = *settings;
     struct rho_settings_fault fault = {0};
     const int is_number = rho_are_finite(&setting->value, 1);
@@ -103,14 +106,14 @@ enum rho_status rho_command_set(const struct rho_message_setting *setting,
                                                   .field = setting->field,
                                                   .applies = field ? field->applies : 0,
                                                   .value = is_number ? setting->value : 0.0f};
-    if (field && is_number && set_field(field, setting->value, &changed)) {
+    if (field && is_number && store_value_in_field(field, setting->value, &changed)) {
         status = rho_settings_check(&changed, &fault);
     }
     answer->status = (int8_t)status;
     if (status == RHO_OK) {
         *settings = changed;
     } else if (fault.field) {
-        answer->fault_field = number_of_field(fault.field);
+        answer->fault_field = find_number_by_name(fault.field);
         answer->value = answer->fault_field == setting->field ? setting->value : fault.value;
         answer->min = fault.min;
         answer->max = fault.max;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* show: which messages of a step are sent, by the rate of their kind. */
+/* show: sends ghosts, votes and hypotheses of a step as messages, each kind within its rate. */
 #include "rhotrack/publish.h"
 
 #include <string.h>
@@ -29,7 +29,7 @@ enum rho_status rho_show_init(struct rho_show *show, size_t size,
         config->messages_per_s > RATE_MAX) {
         return RHO_ERROR_CONFIG;
     }
-    const struct rho_show_config kept = *config; /* it may lie within *show */
+    const struct rho_show_config kept = *config; /* config may point into *show */
     memset(show, 0, sizeof *show);
     show->config = kept;
     show->magic = MAGIC;
@@ -38,12 +38,12 @@ enum rho_status rho_show_init(struct rho_show *show, size_t size,
 
 /* ---- rates ----------------------------------------------------------------------------------- */
 
-static int64_t cost_us(const struct rho_show *show)
+static int64_t message_cost_us(const struct rho_show *show)
 {
     return (SECOND_US + show->config.messages_per_s - 1) / show->config.messages_per_s;
 }
 
-static void add_credit(struct rho_show_rate *rate, int64_t now_us)
+static void add_elapsed_credit(struct rho_show_rate *rate, int64_t now_us)
 {
     if (!rate->has_time || now_us < rate->since_us) {
         rate->credit_us = SECOND_US;
@@ -56,31 +56,32 @@ static void add_credit(struct rho_show_rate *rate, int64_t now_us)
     rate->has_time = 1;
 }
 
-/* So many messages are sent, which the rate has to pay for; the others are left out. */
-static void spend_credit(const struct rho_show *show, struct rho_show_rate *rate, uint32_t sent,
-                         uint32_t all)
+/* Plans to send `sent` of a step's messages, takes their cost off the credit, counts the others. */
+static void plan_messages_and_spend_credit(const struct rho_show *show, struct rho_show_rate *rate,
+                                           uint32_t sent, uint32_t all)
 {
     rate->left = sent;
     rate->at = 0;
-    rate->credit_us -= (int64_t)sent * cost_us(show);
+    rate->credit_us -= (int64_t)sent * message_cost_us(show);
     rate->not_sent = rho_count(rate->not_sent, all - sent);
 }
 
-/* Tracks that the credit lasts for. */
-static uint32_t num_affordable(const struct rho_show *show, const struct rho_show_rate *rate,
-                               uint32_t all)
+/* Number of messages, one a track, that the credit pays for: at most `all`. */
+static uint32_t num_affordable_messages(const struct rho_show *show,
+                                        const struct rho_show_rate *rate, uint32_t all)
 {
-    const int64_t most = rate->credit_us > 0 ? (rate->credit_us - 1) / cost_us(show) + 1 : 0;
+    const int64_t most =
+        rate->credit_us > 0 ? (rate->credit_us - 1) / message_cost_us(show) + 1 : 0;
     return most < (int64_t)all ? (uint32_t)most : all;
 }
 
 /* ---- a step ---------------------------------------------------------------------------------- */
 
-static uint32_t num_messages(const struct rho_show *show, const struct rho_show_source *source,
-                             unsigned kind)
+static uint32_t num_messages_of_kind(const struct rho_show *show,
+                                     const struct rho_show_source *source, unsigned kind)
 {
-    return kind == RHO_SHOW_GHOSTS  ? rho_show_num_ghosts(source)
-           : kind == RHO_SHOW_VOTES ? rho_show_num_votes(show, source)
+    return kind == RHO_SHOW_GHOSTS  ? rho_show_num_ghost_messages(source)
+           : kind == RHO_SHOW_VOTES ? rho_show_num_vote_messages(show, source)
                                     : source->report->num_tracks;
 }
 
@@ -95,18 +96,19 @@ void rho_show_begin(struct rho_show *show, const struct rho_show_source *source,
         if (!source || !source->tracker || !source->report || !(show->config.kinds >> kind & 1u)) {
             continue;
         }
-        const uint32_t all = num_messages(show, source, kind);
-        add_credit(rate, now_us);
-        spend_credit(show, rate,
-                     kind == RHO_SHOW_HYPOTHESES ? num_affordable(show, rate, all)
-                     : rate->credit_us > 0       ? all
-                                                 : 0,
-                     all);
+        const uint32_t all = num_messages_of_kind(show, source, kind);
+        add_elapsed_credit(rate, now_us);
+        plan_messages_and_spend_credit(show, rate,
+                                       kind == RHO_SHOW_HYPOTHESES
+                                           ? num_affordable_messages(show, rate, all)
+                                       : rate->credit_us > 0 ? all
+                                                             : 0,
+                                       all);
     }
 }
 
-/* The track whose turn it is: the first one behind the last that was shown. */
-static unsigned next_track(struct rho_show *show, const struct rho_report *report)
+/* Row of the track to be shown next: the one with the next identity after the last shown one. */
+static unsigned take_next_track(struct rho_show *show, const struct rho_report *report)
 {
     unsigned track = 0;
     while (track < report->num_tracks && report->tracks[track].track_id <= show->last_track_id) {
@@ -121,10 +123,10 @@ static const char *write_message(struct rho_show *show, const struct rho_show_so
                                  unsigned kind, uint32_t number,
                                  const struct rho_show_output *output)
 {
-    return kind == RHO_SHOW_GHOSTS ? rho_show_write_ghosts(source, number, output)
-           : kind == RHO_SHOW_VOTES
-               ? rho_show_write_votes(show, source, number, output)
-               : rho_show_write_hypotheses(source, next_track(show, source->report), output);
+    return kind == RHO_SHOW_GHOSTS  ? rho_show_write_ghost_message(source, number, output)
+           : kind == RHO_SHOW_VOTES ? rho_show_write_vote_message(show, source, number, output)
+                                    : rho_show_write_hypotheses_message(
+                                          source, take_next_track(show, source->report), output);
 }
 
 const char *rho_show_next(struct rho_show *show, const struct rho_show_source *source,

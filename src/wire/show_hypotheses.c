@@ -1,26 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* show_hypotheses: of one track its motion models, its evidence, and its hypotheses. */
+/* show_hypotheses: a message of one track's hypotheses, model probabilities and evidence. */
 #include "show_parts.h"
 
-#define PLOT_NONE (-1)
-#define PLOT_UNKNOWN (-2)
+#define PLOT_NONE (-1)    /* the hypothesis took no plot of the scan */
+#define PLOT_UNKNOWN (-2) /* a track of one filter does not store its older plots */
 
 /* ---- hypotheses ------------------------------------------------------------------------------ */
 
-/* Both models of the hypothesis, each by its probability. */
-static float mean_of(const struct rho_imm *imm, int element)
+/* Element of the state's mean over a hypothesis's two models, weighted by their probabilities. */
+static float mean_over_models(const struct rho_imm *imm, int element)
 {
     return imm->steady.state[element] +
            imm->probability * (imm->state[element] - imm->steady.state[element]);
 }
 
-static struct rho_message_hypothesis hypothesis_of(const struct rho_hypothesis *at, float sum)
+static struct rho_message_hypothesis hypothesis_message_of(const struct rho_hypothesis *at,
+                                                           float sum)
 {
     struct rho_message_hypothesis hypothesis = {.share = at->share / sum,
-                                                .x_m = mean_of(&at->imm, 0),
-                                                .y_m = mean_of(&at->imm, 1),
-                                                .vx_mps = mean_of(&at->imm, 3),
-                                                .vy_mps = mean_of(&at->imm, 4),
+                                                .x_m = mean_over_models(&at->imm, 0),
+                                                .y_m = mean_over_models(&at->imm, 1),
+                                                .vx_mps = mean_over_models(&at->imm, 3),
+                                                .vy_mps = mean_over_models(&at->imm, 4),
                                                 .maneuver_probability = at->imm.probability};
     for (int i = 0; i < RHO_HYPOTHESES_MEMORY; i++) {
         hypothesis.plots[i] = at->picks[i] >= 0 ? at->picks[i] : PLOT_NONE;
@@ -28,8 +29,8 @@ static struct rho_message_hypothesis hypothesis_of(const struct rho_hypothesis *
     return hypothesis;
 }
 
-/* A track with one filter is its only hypothesis. */
-static struct rho_message_hypothesis only_hypothesis(const struct rho_track *track)
+/* Makes the one hypothesis of a track with a single filter. */
+static struct rho_message_hypothesis hypothesis_message_of_filter(const struct rho_track *track)
 {
     return (struct rho_message_hypothesis){
         .share = 1.0f,
@@ -58,7 +59,7 @@ static enum rho_status add_hypotheses(const struct rho_hypotheses *pool,
     enum rho_status status = RHO_OK;
     for (unsigned i = 0; i < rho_hypotheses_count(pool, track->slot) && status == RHO_OK; i++) {
         const struct rho_message_hypothesis hypothesis =
-            hypothesis_of(rho_hypotheses_at(pool, track->slot, i), sum);
+            hypothesis_message_of(rho_hypotheses_at(pool, track->slot, i), sum);
         status = rho_message_hypotheses_add(writer, &hypothesis);
     }
     return status;
@@ -66,8 +67,9 @@ static enum rho_status add_hypotheses(const struct rho_hypotheses *pool,
 
 /* ---- models ---------------------------------------------------------------------------------- */
 
-static void set_models(const struct rho_hypotheses *pool, const struct rho_track *track,
-                       struct rho_message_hypotheses_head *head)
+static void set_model_probabilities(const struct rho_hypotheses *pool,
+                                    const struct rho_track *track,
+                                    struct rho_message_hypotheses_head *head)
 {
     head->maneuver = track->maneuver_probability;
     head->calm = 0.0f;
@@ -87,7 +89,7 @@ static void set_models(const struct rho_hypotheses *pool, const struct rho_track
 
 /* ---- evidence -------------------------------------------------------------------------------- */
 
-static float at_most_one(float share)
+static float clamp_to_one(float share)
 {
     return share < 1.0f ? share : 1.0f;
 }
@@ -96,14 +98,14 @@ static void set_evidence(struct rho_message_hypotheses_head *head, int8_t kind, 
                          float shared, float clutter)
 {
     head->evidence = kind;
-    head->support = at_most_one(support);
-    head->shared = at_most_one(shared);
-    head->clutter = at_most_one(clutter);
+    head->support = clamp_to_one(support);
+    head->shared = clamp_to_one(shared);
+    head->clutter = clamp_to_one(clutter);
 }
 
-/* The neutrosophic sums of the line that started the track in this step. Returns 0 without one. */
-static int set_line(const struct rho_paper_starts *starts, uint32_t track_id,
-                    struct rho_message_hypotheses_head *head)
+/* Sets the neutrosophic sums of the line that started the track in this step; 0: none did. */
+static int set_evidence_of_line(const struct rho_paper_starts *starts, uint32_t track_id,
+                                struct rho_message_hypotheses_head *head)
 {
     for (uint32_t i = 0; starts && starts->has_searched && i < starts->result.num_peaks; i++) {
         const struct rho_hough_memberships *sums = &starts->lines[i].line.sums;
@@ -119,11 +121,11 @@ static int set_line(const struct rho_paper_starts *starts, uint32_t track_id,
     return 0;
 }
 
-static void find_evidence(const struct rho_show_source *source, unsigned track,
-                          struct rho_message_hypotheses_head *head)
+static void find_and_set_evidence(const struct rho_show_source *source, unsigned track,
+                                  struct rho_message_hypotheses_head *head)
 {
     struct rho_tracker_evidence evidence;
-    if (!set_line(source->starts, source->tracker->tracks[track].track_id, head) &&
+    if (!set_evidence_of_line(source->starts, source->tracker->tracks[track].track_id, head) &&
         rho_tracker_evidence_of(source->tracker, track, &evidence)) {
         set_evidence(head, RHO_MESSAGE_HYPOTHESES_PLOTS, evidence.support, evidence.shared,
                      evidence.clutter);
@@ -132,8 +134,8 @@ static void find_evidence(const struct rho_show_source *source, unsigned track,
 
 /* ---- the message ----------------------------------------------------------------------------- */
 
-const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsigned track,
-                                      const struct rho_show_output *output)
+const char *rho_show_write_hypotheses_message(const struct rho_show_source *source, unsigned track,
+                                              const struct rho_show_output *output)
 {
     if (track >= source->tracker->num_tracks) {
         return NULL;
@@ -147,14 +149,14 @@ const char *rho_show_write_hypotheses(const struct rho_show_source *source, unsi
                                                .track_id = (int32_t)(at->track_id & INT32_MAX),
                                                .score_nat = (float)at->score_mnat * 0.001f,
                                                .not_sent = output->not_sent};
-    set_models(pool, at, &head);
-    find_evidence(source, track, &head);
+    set_model_probabilities(pool, at, &head);
+    find_and_set_evidence(source, track, &head);
     enum rho_status status =
         rho_message_hypotheses_begin(&writer, output->buffer, output->capacity, &head);
     if (status == RHO_OK && RHO_TRACK_IS_BY(at, RHO_TRACK_HYPOTHESES)) {
         status = add_hypotheses(pool, at, &writer);
     } else if (status == RHO_OK) {
-        const struct rho_message_hypothesis only = only_hypothesis(at);
+        const struct rho_message_hypothesis only = hypothesis_message_of_filter(at);
         status = rho_message_hypotheses_add(&writer, &only);
     }
     return status == RHO_OK && rho_message_end(&writer, output->size) == RHO_OK

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * show_votes: the accumulators of the last search. Of plots there is one; of bearings that of all
- * pairs of sensors together, and where there are several pairs that of each.
+ * show_votes: messages of the accumulators of the last search. A search of plots has one; a search
+ * of bearings has one for all pairs of sensors together, and one for each of several pairs.
  */
 #include <string.h>
 
@@ -10,22 +10,22 @@
 
 #define PART_ROWS RHO_MESSAGE_PLANE_MAX_ROWS
 #define CELLS_MAX RHO_MESSAGE_ACCUMULATOR_MAX_CELLS
-#define FULL 127 /* of a row: the most votes */
+#define FULL 127 /* value of a picture's cell with the most votes */
 
-/* One accumulator. */
-struct plane {
+/* An accumulator to be shown. */
+struct shown_accumulator {
     const struct rho_show_source *source;
     int is_of_bearings, has_pair;
     struct rho_passive_paper_pair pair;
-    uint32_t votes_per_unit; /* parts of a vote */
+    uint32_t votes_per_unit; /* integer units of the accumulator's cells that make one vote */
 };
 
-static const struct rho_paper_starts *starts_of(const struct rho_show_source *source)
+static const struct rho_paper_starts *searched_paper_starts(const struct rho_show_source *source)
 {
     return source->starts && source->starts->has_searched ? source->starts : NULL;
 }
 
-/* The step's frame is in the batch, which is full: it was searched. */
+/* 1 where the step's frame is in a full batch, and bearings were searched. */
 static int has_searched_bearings(const struct rho_show_source *source)
 {
     struct rho_passive_paper_pair pair;
@@ -37,7 +37,7 @@ static int has_searched_bearings(const struct rho_show_source *source)
 
 /* ---- which messages there are ---------------------------------------------------------------- */
 
-static unsigned num_planes(const struct rho_show_source *source)
+static unsigned num_bearing_accumulators(const struct rho_show_source *source)
 {
     struct rho_passive_paper_pair pair;
     unsigned pairs = 0;
@@ -50,74 +50,84 @@ static unsigned num_planes(const struct rho_show_source *source)
     return pairs > 1 ? pairs + 1u : 1u;
 }
 
-static unsigned at_most_side(unsigned cells)
+static unsigned limit_to_picture_side(unsigned cells)
 {
     return cells < RHO_SHOW_SIDE ? cells : RHO_SHOW_SIDE;
 }
 
-static unsigned picture_height(const struct plane *plane)
+static unsigned picture_height(const struct shown_accumulator *accumulator)
 {
     struct rho_passive_paper_space space = {.theta_cells = 1};
-    if (!plane->is_of_bearings) {
-        return at_most_side(plane->source->starts->hough.theta_cells);
+    if (!accumulator->is_of_bearings) {
+        return limit_to_picture_side(accumulator->source->starts->hough.theta_cells);
     }
-    (void)!rho_passive_paper_space(plane->source->paper, &space); /* it has searched */
-    return at_most_side(space.theta_cells);
+    (void)!rho_passive_paper_space(accumulator->source->paper,
+                                   &space); /* cannot fail after a search */
+    return limit_to_picture_side(space.theta_cells);
 }
 
-static unsigned picture_width(const struct plane *plane)
+static unsigned picture_width(const struct shown_accumulator *accumulator)
 {
-    return at_most_side(plane->is_of_bearings ? RHO_PAPER_RHO_CELLS
-                                              : plane->source->starts->hough.rho_cells);
+    return limit_to_picture_side(accumulator->is_of_bearings
+                                     ? RHO_PAPER_RHO_CELLS
+                                     : accumulator->source->starts->hough.rho_cells);
 }
 
-/* An accumulator_t, and the parts of its plane_t. */
-static unsigned messages_of(const struct rho_show *show, const struct plane *plane)
+/* Number of messages: one accumulator_t, and with a picture the parts of its plane_t. */
+static unsigned num_messages_of_accumulator(const struct rho_show *show,
+                                            const struct shown_accumulator *accumulator)
 {
-    return 1u + (show->config.picture ? (picture_height(plane) + PART_ROWS - 1u) / PART_ROWS : 0u);
+    return 1u +
+           (show->config.picture ? (picture_height(accumulator) + PART_ROWS - 1u) / PART_ROWS : 0u);
 }
 
-static struct plane plane_at(const struct rho_show_source *source, unsigned number)
+static struct shown_accumulator select_accumulator(const struct rho_show_source *source,
+                                                   unsigned number)
 {
-    struct plane plane = {
-        .source = source, .is_of_bearings = !starts_of(source), .votes_per_unit = RHO_HOUGH_VOTE};
-    if (plane.is_of_bearings) {
-        plane.votes_per_unit = 1;
-        plane.has_pair =
-            number > 0 && rho_passive_paper_pair(source->paper, number - 1u, &plane.pair);
+    struct shown_accumulator accumulator = {.source = source,
+                                            .is_of_bearings = !searched_paper_starts(source),
+                                            .votes_per_unit = RHO_HOUGH_VOTE};
+    if (accumulator.is_of_bearings) {
+        accumulator.votes_per_unit = 1;
+        accumulator.has_pair =
+            number > 0 && rho_passive_paper_pair(source->paper, number - 1u, &accumulator.pair);
     }
-    return plane;
+    return accumulator;
 }
 
-uint32_t rho_show_num_votes(const struct rho_show *show, const struct rho_show_source *source)
+uint32_t rho_show_num_vote_messages(const struct rho_show *show,
+                                    const struct rho_show_source *source)
 {
-    const unsigned planes = starts_of(source) ? 1u : num_planes(source);
+    const unsigned planes = searched_paper_starts(source) ? 1u : num_bearing_accumulators(source);
     if (planes == 0) {
         return 0;
     }
-    const struct plane first = plane_at(source, 0);
-    return planes * messages_of(show, &first);
+    const struct shown_accumulator first = select_accumulator(source, 0);
+    return planes * num_messages_of_accumulator(show, &first);
 }
 
 /* ---- the picture ----------------------------------------------------------------------------- */
 
-static enum rho_status draw_picture(const struct plane *plane, struct rho_plane *picture)
+static enum rho_status fill_picture(const struct shown_accumulator *accumulator,
+                                    struct rho_plane *picture)
 {
-    if (!plane->is_of_bearings) {
-        const struct rho_hough_points points = rho_paper_starts_points(plane->source->starts);
-        return rho_hough_plane(&plane->source->starts->hough, &points, RHO_HOUGH_VOTES, picture);
+    if (!accumulator->is_of_bearings) {
+        const struct rho_hough_points points = rho_paper_starts_points(accumulator->source->starts);
+        return rho_hough_plane(&accumulator->source->starts->hough, &points, RHO_HOUGH_VOTES,
+                               picture);
     }
-    return rho_passive_paper_plane(plane->source->paper, plane->has_pair ? &plane->pair : NULL,
-                                   picture);
+    return rho_passive_paper_plane(accumulator->source->paper,
+                                   accumulator->has_pair ? &accumulator->pair : NULL, picture);
 }
 
-static void make_picture(struct rho_show *show, const struct plane *plane)
+static void make_picture_and_votes_max(struct rho_show *show,
+                                       const struct shown_accumulator *accumulator)
 {
-    struct rho_plane picture = {.height = (uint16_t)picture_height(plane),
-                                .width = (uint16_t)picture_width(plane),
+    struct rho_plane picture = {.height = (uint16_t)picture_height(accumulator),
+                                .width = (uint16_t)picture_width(accumulator),
                                 .votes = show->config.picture};
     show->votes_max = 0;
-    if (!show->config.picture || draw_picture(plane, &picture) != RHO_OK) {
+    if (!show->config.picture || fill_picture(accumulator, &picture) != RHO_OK) {
         return;
     }
     for (unsigned i = 0; i < (unsigned)picture.height * picture.width; i++) {
@@ -127,27 +137,27 @@ static void make_picture(struct rho_show *show, const struct plane *plane)
 
 /* ---- accumulator_t --------------------------------------------------------------------------- */
 
-static int64_t newest_us(const struct plane *plane)
+static int64_t newest_scan_us(const struct shown_accumulator *accumulator)
 {
-    const struct rho_show_source *source = plane->source;
-    if (plane->is_of_bearings) {
+    const struct rho_show_source *source = accumulator->source;
+    if (accumulator->is_of_bearings) {
         return source->paper->batch.time_us[source->paper->batch.num_scans - 1u];
     }
     struct rho_window *window = &source->starts->window;
     return rho_window_scan_at(window, window->num_scans - 1u)->time_us;
 }
 
-static float votes_of(const struct plane *plane, uint32_t parts)
+static float votes_from_parts(const struct shown_accumulator *accumulator, uint32_t parts)
 {
-    return (float)parts / (float)plane->votes_per_unit;
+    return (float)parts / (float)accumulator->votes_per_unit;
 }
 
-static int8_t method_of(const struct plane *plane)
+static int8_t message_method_of(const struct shown_accumulator *accumulator)
 {
-    if (plane->is_of_bearings) {
+    if (accumulator->is_of_bearings) {
         return RHO_MESSAGE_ACCUMULATOR_PASSIVE_PAPER;
     }
-    switch (plane->source->starts->hough.config.method) {
+    switch (accumulator->source->starts->hough.config.method) {
     case RHO_HOUGH_HT:
         return RHO_MESSAGE_ACCUMULATOR_HT;
     case RHO_HOUGH_MHT:
@@ -161,67 +171,70 @@ static int8_t method_of(const struct plane *plane)
     }
 }
 
-static void set_plots_space(const struct plane *plane, struct rho_message_accumulator_head *head)
+static void set_head_of_plots(const struct shown_accumulator *accumulator,
+                              struct rho_message_accumulator_head *head)
 {
-    struct rho_paper_starts *starts = plane->source->starts;
+    struct rho_paper_starts *starts = accumulator->source->starts;
     const struct rho_hough_config *config = &starts->hough.config;
-    const float share = config->tau * votes_of(plane, starts->result.votes_max);
+    const float share = config->tau * votes_from_parts(accumulator, starts->result.votes_max);
     head->num_scans = (int16_t)starts->window.num_scans;
     head->oldest_utime = rho_window_scan_at(&starts->window, 0)->time_us;
     head->rho_min_m = -config->rho_max_m;
     head->rho_max_m = config->rho_max_m;
-    head->theta_cells = rho_show_short(starts->hough.theta_cells);
-    head->rho_cells = rho_show_short(starts->hough.rho_cells);
-    head->votes_max = votes_of(plane, starts->result.votes_max);
+    head->theta_cells = rho_show_clamp_count(starts->hough.theta_cells);
+    head->rho_cells = rho_show_clamp_count(starts->hough.rho_cells);
+    head->votes_max = votes_from_parts(accumulator, starts->result.votes_max);
     head->votes_min = share > config->votes_min ? share : config->votes_min;
-    head->num_cells_total = rho_show_short(starts->result.num_peaks);
+    head->num_cells_total = rho_show_clamp_count(starts->result.num_peaks);
 }
 
-static void set_bearings_space(const struct plane *plane, const struct rho_show *show,
-                               const struct rho_passive_paper_space *space,
-                               struct rho_message_accumulator_head *head)
+static void set_head_of_bearings(const struct shown_accumulator *accumulator,
+                                 const struct rho_show *show,
+                                 const struct rho_passive_paper_space *space,
+                                 struct rho_message_accumulator_head *head)
 {
-    const struct rho_passive_paper *paper = plane->source->paper;
+    const struct rho_passive_paper *paper = accumulator->source->paper;
     head->num_scans = (int16_t)paper->batch.num_scans;
     head->oldest_utime = paper->batch.time_us[0];
     head->origin_x_m = space->origin_x_m;
     head->origin_y_m = space->origin_y_m;
     head->rho_min_m = -space->rho_max_m;
     head->rho_max_m = space->rho_max_m;
-    head->theta_cells = rho_show_short(space->theta_cells);
-    head->rho_cells = rho_show_short(space->rho_cells);
+    head->theta_cells = rho_show_clamp_count(space->theta_cells);
+    head->rho_cells = rho_show_clamp_count(space->rho_cells);
     head->votes_max = (float)show->votes_max;
     head->votes_min = (float)paper->votes_min;
-    head->num_cells_total = rho_show_short(paper->num_lines);
-    if (!show->config.picture && paper->num_lines > 0 && !plane->has_pair) {
+    head->num_cells_total = rho_show_clamp_count(paper->num_lines);
+    if (!show->config.picture && paper->num_lines > 0 && !accumulator->has_pair) {
         head->votes_max = (float)paper->lines[0].votes_sum;
     }
 }
 
-static enum rho_status add_peaks(const struct plane *plane, struct rho_message_writer *writer)
+static enum rho_status add_peaks_of_plots(const struct shown_accumulator *accumulator,
+                                          struct rho_message_writer *writer)
 {
-    const struct rho_paper_starts *starts = plane->source->starts;
+    const struct rho_paper_starts *starts = accumulator->source->starts;
     enum rho_status status = RHO_OK;
     for (uint32_t i = 0; i < starts->result.num_peaks && status == RHO_OK; i++) {
         const struct rho_hough_track *line = &starts->lines[i].line;
         const struct rho_message_accumulator_cell cell = {
             .rho_m = rho_hough_rho_m(&starts->hough, starts->peaks[i].rho_cell),
             .theta_rad = rho_hough_theta_rad(&starts->hough, starts->peaks[i].theta_cell),
-            .votes = votes_of(plane, starts->peaks[i].votes),
+            .votes = votes_from_parts(accumulator, starts->peaks[i].votes),
             .scan_mask = line->mask,
-            .plots = rho_show_short(line->num_plots),
+            .plots = rho_show_clamp_count(line->num_plots),
             .track_id = (int32_t)(starts->lines[i].track_id & INT32_MAX)};
         status = rho_message_accumulator_add(writer, &cell);
     }
     return status;
 }
 
-/* rho of a line is from the origin of the local frame; here it is from that of the cells. */
-static enum rho_status add_lines(const struct plane *plane,
-                                 const struct rho_passive_paper_space *space,
-                                 struct rho_message_writer *writer)
+/* Adds the found lines, with rho from the accumulator's origin, not that of the local frame. */
+static enum rho_status add_lines_of_bearings(const struct shown_accumulator *accumulator,
+                                             const struct rho_passive_paper_space *space,
+                                             struct rho_message_writer *writer)
 {
-    const struct rho_passive_paper *paper = plane->source->paper;
+    const struct rho_passive_paper *paper = accumulator->source->paper;
     enum rho_status status = RHO_OK;
     for (unsigned i = 0; i < paper->num_lines && status == RHO_OK; i++) {
         const struct rho_passive_paper_line *line = &paper->lines[i];
@@ -231,20 +244,20 @@ static enum rho_status add_lines(const struct plane *plane,
             .theta_rad = line->theta_rad,
             .votes = (float)line->votes_sum,
             .scan_mask = line->scans,
-            .plots = rho_show_short(line->crossings),
+            .plots = rho_show_clamp_count(line->crossings),
             .track_id = (int32_t)(line->track_id & INT32_MAX)};
         status = rho_message_accumulator_add(writer, &cell);
     }
     return status;
 }
 
-static enum rho_status add_cells(const struct plane *plane,
-                                 const struct rho_passive_paper_space *space,
-                                 const struct rho_accumulator_peak *peaks, uint32_t num_peaks,
-                                 struct rho_message_writer *writer)
+static enum rho_status add_cells_of_pair(const struct shown_accumulator *accumulator,
+                                         const struct rho_passive_paper_space *space,
+                                         const struct rho_accumulator_peak *peaks,
+                                         uint32_t num_peaks, struct rho_message_writer *writer)
 {
     const float theta_rad = RHO_PI / (float)space->theta_cells;
-    const float rho_m = plane->source->paper->config.rho_cell_m;
+    const float rho_m = accumulator->source->paper->config.rho_cell_m;
     enum rho_status status = RHO_OK;
     for (uint32_t i = 0; i < num_peaks && status == RHO_OK; i++) {
         const struct rho_message_accumulator_cell cell = {
@@ -257,59 +270,61 @@ static enum rho_status add_cells(const struct plane *plane,
     return status;
 }
 
-/* Cells of a pair are found first: their number is in the head. */
-static enum rho_status write_bearings(const struct rho_show *show, const struct plane *plane,
-                                      struct rho_message_accumulator_head *head,
-                                      const struct rho_show_output *output,
-                                      struct rho_message_writer *writer)
+/* Writes an accumulator of bearings. A pair's cells are found first: the head has their number. */
+static enum rho_status write_bearing_accumulator(const struct rho_show *show,
+                                                 const struct shown_accumulator *accumulator,
+                                                 struct rho_message_accumulator_head *head,
+                                                 const struct rho_show_output *output,
+                                                 struct rho_message_writer *writer)
 {
     struct rho_accumulator_peak peaks[CELLS_MAX];
     struct rho_passive_paper_space space;
     uint32_t num_peaks = 0;
-    enum rho_status status = rho_passive_paper_space(plane->source->paper, &space);
-    if (status == RHO_OK && plane->has_pair) {
-        status = rho_passive_paper_cells(plane->source->paper, &plane->pair, peaks, CELLS_MAX,
-                                         &num_peaks);
+    enum rho_status status = rho_passive_paper_space(accumulator->source->paper, &space);
+    if (status == RHO_OK && accumulator->has_pair) {
+        status = rho_passive_paper_cells(accumulator->source->paper, &accumulator->pair, peaks,
+                                         CELLS_MAX, &num_peaks);
     }
     if (status != RHO_OK) {
         return status;
     }
-    set_bearings_space(plane, show, &space, head);
-    if (plane->has_pair) {
-        head->num_cells_total = rho_show_short(num_peaks);
+    set_head_of_bearings(accumulator, show, &space, head);
+    if (accumulator->has_pair) {
+        head->num_cells_total = rho_show_clamp_count(num_peaks);
     }
     status = rho_message_accumulator_begin(writer, output->buffer, output->capacity, head);
     if (status != RHO_OK) {
         return status;
     }
-    return plane->has_pair ? add_cells(plane, &space, peaks, num_peaks, writer)
-                           : add_lines(plane, &space, writer);
+    return accumulator->has_pair ? add_cells_of_pair(accumulator, &space, peaks, num_peaks, writer)
+                                 : add_lines_of_bearings(accumulator, &space, writer);
 }
 
-static const char *write_accumulator(const struct rho_show *show, const struct plane *plane,
-                                     const struct rho_show_output *output)
+static const char *write_accumulator_message(const struct rho_show *show,
+                                             const struct shown_accumulator *accumulator,
+                                             const struct rho_show_output *output)
 {
-    const struct rho_show_source *source = plane->source;
+    const struct rho_show_source *source = accumulator->source;
     struct rho_message_writer writer;
-    struct rho_message_accumulator_head head = {.utime = newest_us(plane),
+    struct rho_message_accumulator_head head = {.utime = newest_scan_us(accumulator),
                                                 .scan = source->step,
                                                 .epoch = source->epoch,
-                                                .method = method_of(plane),
-                                                .has_pair = (int8_t)plane->has_pair,
+                                                .method = message_method_of(accumulator),
+                                                .has_pair = (int8_t)accumulator->has_pair,
                                                 .not_sent = output->not_sent};
     enum rho_status status;
-    if (plane->has_pair) {
+    if (accumulator->has_pair) {
         const struct rho_batch_sensor *sensors = source->paper->batch.sensors;
-        head.sensor_a_id = rho_show_id(sensors[plane->pair.a].sensor_id);
-        head.sensor_b_id = rho_show_id(sensors[plane->pair.b].sensor_id);
+        head.sensor_a_id = rho_show_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
+        head.sensor_b_id = rho_show_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
     }
-    if (plane->is_of_bearings) {
-        status = write_bearings(show, plane, &head, output, &writer);
+    if (accumulator->is_of_bearings) {
+        status = write_bearing_accumulator(show, accumulator, &head, output, &writer);
     } else {
-        set_plots_space(plane, &head);
+        set_head_of_plots(accumulator, &head);
         status = rho_message_accumulator_begin(&writer, output->buffer, output->capacity, &head);
         if (status == RHO_OK) {
-            status = add_peaks(plane, &writer);
+            status = add_peaks_of_plots(accumulator, &writer);
         }
     }
     return status == RHO_OK && rho_message_end(&writer, output->size) == RHO_OK
@@ -319,8 +334,9 @@ static const char *write_accumulator(const struct rho_show *show, const struct p
 
 /* ---- plane_t --------------------------------------------------------------------------------- */
 
-/* A plane with fewer cells than a row has places: a cell fills several. */
-static struct rho_message_plane_row row_of(const struct rho_show *show, unsigned y, unsigned width)
+/* Scales a row of the picture to 0 .. 127; in a narrow one each cell fills several columns. */
+static struct rho_message_plane_row picture_row_message(const struct rho_show *show, unsigned y,
+                                                        unsigned width)
 {
     struct rho_message_plane_row row;
     for (unsigned x = 0; x < RHO_SHOW_SIDE; x++) {
@@ -332,31 +348,32 @@ static struct rho_message_plane_row row_of(const struct rho_show *show, unsigned
     return row;
 }
 
-static const char *write_rows(const struct rho_show *show, const struct plane *plane, unsigned part,
-                              const struct rho_show_output *output)
+static const char *write_picture_rows(const struct rho_show *show,
+                                      const struct shown_accumulator *accumulator, unsigned part,
+                                      const struct rho_show_output *output)
 {
-    const struct rho_show_source *source = plane->source;
-    const unsigned height = picture_height(plane), width = picture_width(plane);
+    const struct rho_show_source *source = accumulator->source;
+    const unsigned height = picture_height(accumulator), width = picture_width(accumulator);
     struct rho_message_writer writer;
-    struct rho_message_plane_head head = {.utime = newest_us(plane),
-                                          .scan = source->step,
-                                          .epoch = source->epoch,
-                                          .method = method_of(plane),
-                                          .has_pair = (int8_t)plane->has_pair,
-                                          .votes_max = votes_of(plane, show->votes_max),
-                                          .part = (int16_t)part,
-                                          .num_parts =
-                                              (int16_t)((height + PART_ROWS - 1u) / PART_ROWS)};
-    if (plane->has_pair) {
+    struct rho_message_plane_head head = {
+        .utime = newest_scan_us(accumulator),
+        .scan = source->step,
+        .epoch = source->epoch,
+        .method = message_method_of(accumulator),
+        .has_pair = (int8_t)accumulator->has_pair,
+        .votes_max = votes_from_parts(accumulator, show->votes_max),
+        .part = (int16_t)part,
+        .num_parts = (int16_t)((height + PART_ROWS - 1u) / PART_ROWS)};
+    if (accumulator->has_pair) {
         const struct rho_batch_sensor *sensors = source->paper->batch.sensors;
-        head.sensor_a_id = rho_show_id(sensors[plane->pair.a].sensor_id);
-        head.sensor_b_id = rho_show_id(sensors[plane->pair.b].sensor_id);
+        head.sensor_a_id = rho_show_clamp_sensor_id(sensors[accumulator->pair.a].sensor_id);
+        head.sensor_b_id = rho_show_clamp_sensor_id(sensors[accumulator->pair.b].sensor_id);
     }
     enum rho_status status =
         rho_message_plane_begin(&writer, output->buffer, output->capacity, &head);
     for (unsigned y = part * PART_ROWS;
          y < height && y < (part + 1u) * PART_ROWS && status == RHO_OK; y++) {
-        const struct rho_message_plane_row row = row_of(show, y, width);
+        const struct rho_message_plane_row row = picture_row_message(show, y, width);
         status = rho_message_plane_add(&writer, &row);
     }
     return status == RHO_OK && rho_message_end(&writer, output->size) == RHO_OK
@@ -364,15 +381,15 @@ static const char *write_rows(const struct rho_show *show, const struct plane *p
                : NULL;
 }
 
-const char *rho_show_write_votes(struct rho_show *show, const struct rho_show_source *source,
-                                 uint32_t number, const struct rho_show_output *output)
+const char *rho_show_write_vote_message(struct rho_show *show, const struct rho_show_source *source,
+                                        uint32_t number, const struct rho_show_output *output)
 {
-    const struct plane first = plane_at(source, 0);
-    const unsigned messages = messages_of(show, &first);
-    const struct plane plane = plane_at(source, number / messages);
+    const struct shown_accumulator first = select_accumulator(source, 0);
+    const unsigned messages = num_messages_of_accumulator(show, &first);
+    const struct shown_accumulator accumulator = select_accumulator(source, number / messages);
     if (number % messages > 0) {
-        return write_rows(show, &plane, number % messages - 1u, output);
+        return write_picture_rows(show, &accumulator, number % messages - 1u, output);
     }
-    make_picture(show, &plane);
-    return write_accumulator(show, &plane, output);
+    make_picture_and_votes_max(show, &accumulator);
+    return write_accumulator_message(show, &accumulator, output);
 }

@@ -5,11 +5,11 @@
 
 #include "rhotrack/types.h"
 
-#define NUMBERS_BYTES 8u /* magic and sequence */
+#define NUMBERS_BYTES 8u /* bytes of a datagram's magic and sequence number */
 
 static const uint8_t magic[4] = {'L', 'C', '0', '2'};
 
-/* Characters before the NUL; more than RHO_UDPM_MAX_CHANNEL where there is none in reach. */
+/* Length of a channel name; RHO_UDPM_MAX_CHANNEL + 1 where no NUL ends it in time. */
 static size_t channel_length(const char *channel, size_t size)
 {
     size_t most = size < RHO_UDPM_MAX_CHANNEL + 1u ? size : RHO_UDPM_MAX_CHANNEL + 1u;
@@ -22,7 +22,7 @@ static size_t channel_length(const char *channel, size_t size)
     return RHO_UDPM_MAX_CHANNEL + 1u;
 }
 
-static int is_length(size_t length)
+static int is_valid_channel_length(size_t length)
 {
     return length >= 1 && length <= RHO_UDPM_MAX_CHANNEL;
 }
@@ -50,7 +50,7 @@ enum rho_status rho_udpm_begin(uint8_t *buffer, size_t capacity, uint32_t sequen
         return RHO_ERROR_NULL;
     }
     length = channel_length(channel, SIZE_MAX);
-    if (!is_length(length)) {
+    if (!is_valid_channel_length(length)) {
         return RHO_ERROR_VALUE;
     }
     if (capacity < NUMBERS_BYTES + length + 1) {
@@ -82,7 +82,7 @@ enum rho_status rho_udpm_parse(const uint8_t *data, size_t size, struct rho_udpm
     }
     channel = (const char *)data + NUMBERS_BYTES;
     length = channel_length(channel, size - NUMBERS_BYTES);
-    if (!is_length(length)) {
+    if (!is_valid_channel_length(length)) {
         return RHO_ERROR_VALUE;
     }
     for (unsigned i = 0; i < 4; i++) {

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes the LCM codec of rhotrack from lcm_types/*.lcm: the header, the tables, the names, and the
-README's table.
+"""Writes the LCM codec of rhotrack from lcm_types/*.lcm: message.h, message.c, message_names.c, and
+the table in lcm_types/README.md.
 
 Usage: codegen.py [--check] [ROOT]
---check writes nothing, and names each file that is not what would be written; exit 1 where there is
-one.
+--check writes nothing, and names each file that differs from what would be written; exit 1 where
+there is one.
 """
 import pathlib
 import sys
@@ -17,8 +17,8 @@ import lcm_types
 BEGIN, END = "<!-- made by tools/codegen -->", "<!-- end -->"
 
 
-def readme_table(known):
-    """Channels, sizes and fingerprints, for lcm_types/README.md."""
+def message_table(known):
+    """Markdown table of the messages' channels, sizes and fingerprints."""
     rows = [
         "| struct | channel | at most | list | bytes at most | fingerprint |",
         "|---|---|---|---|---|---|"
@@ -30,18 +30,18 @@ def readme_table(known):
         name = f"`{struct.list.name}`" if struct.list else "-"
         rows.append(
             f"| [{struct.name}]({struct.name}.lcm) | {channel} | {most} | {name} | "
-            f"{lcm_types.max_size(struct, known)} | `{lcm_types.fingerprint(struct, known):016x}` |"
+            f"{lcm_types.max_message_size(struct, known)} | `{lcm_types.fingerprint(struct, known):016x}` |"
         )
     return "\n".join(rows)
 
 
-def readme(path, known):
-    """The README with its table made anew; the rest of it is not ours."""
+def readme_with_new_table(path, known):
+    """Text of the README with the table between its two marks made anew."""
     text = path.read_text(encoding="utf-8")
     if BEGIN not in text or END not in text:
         sys.exit(f"{path}: no lines {BEGIN} and {END}")
     head, rest = text.split(BEGIN, 1)
-    return f"{head}{BEGIN}\n{readme_table(known)}\n{END}{rest.split(END, 1)[1]}"
+    return f"{head}{BEGIN}\n{message_table(known)}\n{END}{rest.split(END, 1)[1]}"
 
 
 def main():
@@ -52,15 +52,15 @@ def main():
         sys.exit(textwrap.dedent(__doc__).strip())
     root = pathlib.Path(
         arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent.parent
-    known = lcm_types.read_all(root / "lcm_types")
+    known = lcm_types.read_structs(root / "lcm_types")
     if not known:
         sys.exit(f"{root / 'lcm_types'}: no .lcm files")
     emit_c.check_sizes(known)
     files = {
-        root / "include/rhotrack/message.h": emit_c.header(known),
-        root / "src/wire/message.c": emit_c.source(known),
-        root / "src/wire/message_names.c": emit_c.names(known),
-        root / "lcm_types/README.md": readme(root / "lcm_types/README.md", known),
+        root / "include/rhotrack/message.h": emit_c.header_text(known),
+        root / "src/wire/message.c": emit_c.source_text(known),
+        root / "src/wire/message_names.c": emit_c.names_source_text(known),
+        root / "lcm_types/README.md": readme_with_new_table(root / "lcm_types/README.md", known),
     }
     stale = [path for path, text in files.items()
              if not path.is_file() or path.read_text(encoding="utf-8") != text]

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""C text of the codec: include/rhotrack/message.h, src/wire/message.c and
+"""Makes the C text of the codec: include/rhotrack/message.h, src/wire/message.c and
 src/wire/message_names.c."""
 import textwrap
 
 import lcm_types
-from lcm_types import PRIMITIVES, fail
+from lcm_types import PRIMITIVES, exit_with_error
 
 DATAGRAM_BYTES = 1472  # UDP payload of an Ethernet frame
-SHORT_HEADER_BYTES = 8  # of LCM
-COLUMNS = 100  # of comments
-CHANNEL_BYTES = 24  # longest channel used, with its end
+SHORT_HEADER_BYTES = 8  # magic and sequence number of an LCM datagram
+COLUMNS = 100  # longest line of a generated comment
+CHANNEL_BYTES = 24  # longest channel name that is used, with its NUL
 FLT_MAX = "FLT_MAX"
 C_TYPES = {
     "int8_t": "int8_t", "int16_t": "int16_t", "int32_t": "int32_t", "int64_t": "int64_t",
@@ -21,9 +21,9 @@ HEADER_TOP = """\
 /* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
 /* clang-format off */
 /*
- * message: the bytes of rhotrack's LCM messages, to and from structs. No heap, no liblcm, no state.
+ * message: encodes structs as LCM messages of rhotrack, and decodes them. No heap, liblcm or state.
  *
- * A message is its fingerprint (8 bytes: which struct, which version of it) and its members in
+ * A message is a fingerprint (8 bytes, different for each struct and version) and the members in
  * their order, big endian, without gaps. Fields have the names, units and ranges of lcm_types/. The
  * capacity of a list is RHO_MESSAGE_<STRUCT>_MAX_<LIST>. The longest message of a struct has
  * RHO_MESSAGE_<STRUCT>_MAX_SIZE bytes, which fit one datagram.
@@ -35,17 +35,17 @@ HEADER_TOP = """\
  *   rho_message_S_decode    bytes to struct, all of them. Errors: NULL, SHORT, TYPE (another
  *                           fingerprint), COUNT, TRAILING; *message is unchanged. Elements beyond
  *                           the list's count are unchanged in any case.
- *   rho_message_S_validate  are all values finite, in their ranges, one of their constants? Errors:
- *                           NULL, COUNT, VALUE; *place (may be NULL) tells which member, and
- *                           rho_message_S_field its name.
- * and where S ends with a list, to write it without a copy of the list:
+ *   rho_message_S_validate  tests that all values are finite, in their ranges, and one of their
+ *                           constants. Errors: NULL, COUNT, VALUE; *place (may be NULL) tells the
+ *                           member, and rho_message_S_field its name.
+ * and where S ends with a list, to write a message without a copy of the list:
  *   rho_message_S_begin     the members before the count (struct rho_message_S_head) go to the
  *                           buffer. Errors: NULL, CAPACITY; *writer is unchanged, and is not to be
  *                           added to.
- *   rho_message_S_add       one element more. Errors: NULL, STATE (not begun, or begun as another
+ *   rho_message_S_add       adds one element. Errors: NULL, STATE (not begun, or begun as another
  *                           struct), CAPACITY (of the buffer or the list); the message so far stays
  *                           whole.
- *   rho_message_end         the message's length; the writer is empty then.
+ *   rho_message_end         returns the message's length, and empties the writer.
  *
  * Any bytes of any length may be decoded. data and buffer need no alignment. Calls are independent
  * of one another.
@@ -75,28 +75,28 @@ HEADER_END = """
 """
 
 HEADER_COMMON = """
-/* A member that validate refuses. */
+/* Place of the first member that a validate function refuses. */
 struct rho_message_place {
-    uint16_t offset; /* in its struct */
-    int16_t element; /* of the list; -1: before it */
+    uint16_t offset; /* offset of the member in its struct, bytes */
+    int16_t element; /* index of the list element that has the member; -1: it is before the list */
 };
 
-/* A message that is written; the caller's buffer holds a whole message at any time. */
+/* A message that is written element by element; the buffer holds a whole message at any time. */
 struct rho_message_writer {
     uint8_t *buffer;
-    size_t capacity, size; /* bytes; size: so far */
+    size_t capacity, size; /* bytes of the buffer, and of the message so far */
     uint64_t fingerprint;
-    uint16_t count; /* elements so far */
+    uint16_t count; /* list elements written so far */
 };
 
-/* The type by its fingerprint; RHO_NUM_MESSAGE_TYPES: none of these. Constant cost. */
+/* Type of a message by its fingerprint; RHO_NUM_MESSAGE_TYPES: an unknown one. Constant cost. */
 enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size);
 
-/* The fingerprint, and the name as in lcm_types/ ("plot_scan_t"); 0 and "unknown" for others. */
+/* Fingerprint and name ("plot_scan_t") of a message type; 0 and "unknown" for any other value. */
 uint64_t rho_message_fingerprint(enum rho_message_type type);
 const char *rho_message_type_name(enum rho_message_type type);
 
-/* The length of what was begun and added. Errors: NULL, STATE (not begun). Constant cost. */
+/* Ends a message; *size: its length. Errors: NULL, STATE (not begun). Constant cost. */
 RHO_MUST_CHECK enum rho_status rho_message_end(struct rho_message_writer *writer, size_t *size);
 """
 
@@ -175,33 +175,34 @@ enum rho_message_type rho_message_type_of(const uint8_t *data, size_t size)
 
 
 def check_sizes(known):
-    """Every message must fit one datagram: fragments are lost whole, and refused by the
-    receiver."""
+    """Fails where a message does not fit one datagram: receivers refuse fragments, and one lost
+    fragment loses the message."""
     for struct in known.values():
-        size = lcm_types.max_size(struct, known) + SHORT_HEADER_BYTES + CHANNEL_BYTES
+        size = lcm_types.max_message_size(struct, known) + SHORT_HEADER_BYTES + CHANNEL_BYTES
         if size > DATAGRAM_BYTES:
-            fail(struct.path, 1,
-                 f"{size} bytes with header and channel do not fit a datagram of {DATAGRAM_BYTES}")
+            exit_with_error(struct.path, 1,
+                            f"{size} bytes with header and channel do not fit a datagram of "
+                            f"{DATAGRAM_BYTES}")
 
 
-def type_of(field):
+def c_type_of(field):
     return C_TYPES.get(field.type) or f"struct rho_message_{field.type.removesuffix('_t')}"
 
 
-def max_name(struct):
+def list_capacity_name(struct):
     return f"RHO_MESSAGE_{struct.short.upper()}_MAX_{struct.list.name.upper()}"
 
 
 # ---- The header ----
 
-def range_text(field):
+def allowed_values_text(field):
     if field.minimum:
-        return f"{field.minimum} .. {field.maximum}"
+        return f"range {field.minimum} .. {field.maximum}"
     return f"one of {', '.join(field.choices)}" if field.choices else ""
 
 
-def comment_of(text, indent=""):
-    """A comment on a line of its own, or as a block."""
+def c_comment(text, indent=""):
+    """A C comment: one line, or a wrapped block where the text is longer."""
     one = f"{indent}/* {text} */"
     lines = textwrap.wrap(text, COLUMNS, initial_indent=f"{indent} * ",
                           subsequent_indent=f"{indent} * ", break_long_words=False,
@@ -209,99 +210,100 @@ def comment_of(text, indent=""):
     return one if len(one) <= COLUMNS else "\n".join([f"{indent}/*", *lines, f"{indent} */"])
 
 
-def declaration(struct, field):
-    dimension = f"[{max_name(struct) if field.is_list else field.dimension}]" if field.dimension else ""
-    comment = "; ".join(text for text in (field.comment, range_text(field)) if text)
-    line = f"    {type_of(field)} {field.name}{dimension};"
+def member_declaration(struct, field):
+    length = list_capacity_name(struct) if field.is_list else field.dimension
+    dimension = f"[{length}]" if field.dimension else ""
+    comment = "; ".join(text for text in (field.comment, allowed_values_text(field)) if text)
+    line = f"    {c_type_of(field)} {field.name}{dimension};"
     one = f"{line} /* {comment} */" if comment else line
-    return one if len(one) <= COLUMNS else comment_of(comment, "    ") + f"\n{line}"
+    return one if len(one) <= COLUMNS else c_comment(comment, "    ") + f"\n{line}"
 
 
-def constants(struct, known):
+def constant_macros(struct, known):
     prefix = f"RHO_MESSAGE_{struct.short.upper()}_"
     channel, has_sensor = struct.channel
     lines = []
     if channel:
         lines.append(f'#define {prefix}CHANNEL "{channel}"' +
-                     (" /* and the sensor's number */" if has_sensor else ""))
+                     (" /* prefix: the sensor's number follows */" if has_sensor else ""))
     lines.append(
         f"#define {prefix}FINGERPRINT UINT64_C(0x{lcm_types.fingerprint(struct, known):016x})")
-    lines.append(f"#define {prefix}MAX_SIZE {lcm_types.max_size(struct, known)}u")
+    lines.append(f"#define {prefix}MAX_SIZE {lcm_types.max_message_size(struct, known)}u")
     lines += [f"#define {prefix}{name} {value}" for name, value in struct.constants.items()]
     return lines
 
 
-def header_of(struct, known):
+def struct_declarations(struct, known):
     lines = [
-        "", f"/* ---- {struct.name} ---- */", "", *(comment_of(text) for text in struct.comment)
+        "", f"/* ---- {struct.name} ---- */", "", c_comment(" ".join(struct.comment))
     ]
-    lines += ["", *constants(struct, known), "", f"struct rho_message_{struct.short} {{"]
-    lines += [declaration(struct, field) for field in struct.fields] + ["};", ""]
+    lines += ["", *constant_macros(struct, known), "", f"struct rho_message_{struct.short} {{"]
+    lines += [member_declaration(struct, field) for field in struct.fields] + ["};", ""]
     if struct.list:
         lines += [f"struct rho_message_{struct.short}_head {{"]
-        lines += [f"    {type_of(field)} {field.name};" for field in struct.head] + ["};", ""]
+        lines += [f"    {c_type_of(field)} {field.name};" for field in struct.head] + ["};", ""]
     text = "\n".join(lines) + FUNCTIONS.format(s=struct.short)
-    return text + (WRITER_FUNCTIONS.format(**writer_names(struct)) if struct.list else "")
+    return text + (WRITER_FUNCTIONS.format(**writer_template_values(struct)) if struct.list else "")
 
 
-def writer_names(struct):
+def writer_template_values(struct):
     one = struct.list.name.removesuffix(
         "s") if struct.list.type not in PRIMITIVES else struct.list.name
-    return {"s": struct.short, "element": type_of(struct.list), "one": one}
+    return {"s": struct.short, "element": c_type_of(struct.list), "one": one}
 
 
-def header(known):
+def header_text(known):
     lines = [HEADER_TOP, "enum rho_message_type {"]
     for index, struct in enumerate(known.values()):
         lines.append(f"    RHO_MESSAGE_TYPE_{struct.short.upper()}" +
                      (" = 0," if index == 0 else ","))
     lines.append("    RHO_NUM_MESSAGE_TYPES /* count of the values above, not a message */\n};")
-    structs = "".join(header_of(s, known) for s in known.values())
+    structs = "".join(struct_declarations(s, known) for s in known.values())
     return "\n".join(lines) + "\n" + HEADER_COMMON + structs + HEADER_END
 
 
-# ---- Tables ----
+# ---- CodecTables ----
 
-class Tables:
-    """Runs and rules of a struct, or of what comes before its list."""
+class CodecTables:
+    """Runs and value rules of a struct, or of its head before the list."""
 
     def __init__(self, name):
         self.name = name
         self.runs, self.floats, self.ints = [], [], []
 
     @classmethod
-    def of_fields(cls, name, c_struct, fields, constants):
+    def from_fields(cls, name, c_struct, fields, constants):
         tables = cls(name)
-        tables.wire_bytes = lcm_types.wire_size(fields)
+        tables.wire_bytes = lcm_types.size_of_fields(fields)
         tables.add_runs(c_struct, fields)
         tables.add_floats(c_struct, fields)
         tables.add_ints(c_struct, fields, constants)
         return tables
 
     @classmethod
-    def of_number(cls, name, primitive, minimum, maximum):
-        """A list of bare numbers: each element is one member at offset 0."""
+    def from_number_list(cls, name, primitive, minimum, maximum):
+        """Tables of a list of bare numbers: each element is one member at offset 0."""
         tables = cls(name)
         tables.wire_bytes = PRIMITIVES[primitive]
         tables.runs.append(f"{{0, {PRIMITIVES[primitive]}, 1}}")
         tables.floats.append(f"{{0, 1, {minimum}, {maximum}}}")
         return tables
 
-    def text(self):
-        return (table(f"{self.name}_runs", "message_run", self.runs) +
-                table(f"{self.name}_ints", "message_int_rule", self.ints) +
-                table(f"{self.name}_floats", "message_float_rule", self.floats))
+    def c_text(self):
+        return (table_text(f"{self.name}_runs", "message_run", self.runs) +
+                table_text(f"{self.name}_ints", "message_int_rule", self.ints) +
+                table_text(f"{self.name}_floats", "message_float_rule", self.floats))
 
-    def layout(self):
+    def layout_initializer(self):
         return f"{{{self.name}_runs, {len(self.runs)}, {self.wire_bytes}}}"
 
-    def checks(self):
+    def checks_initializer(self):
         ints, floats = (f"{self.name}_{kind}" if rows else "0"
                         for kind, rows in (("ints", self.ints), ("floats", self.floats)))
         return f"{{{ints}, {floats}, {len(self.ints)}, {len(self.floats)}}}"
 
     def add_runs(self, c_struct, fields):
-        """Members of one width that follow each other have no gap between them."""
+        """Adds one run for successive members of one width, which have no gap between them."""
         group = []
         for field in [*fields, None]:
             if group and (field is None or PRIMITIVES[field.type] != PRIMITIVES[group[0].type]):
@@ -315,10 +317,10 @@ class Tables:
     def add_floats(self, c_struct, fields):
         group = []
         for field in [*fields, None]:
-            same = field is not None and field.type == "float" and group and limits(
-                field) == limits(group[0])
+            same = field is not None and field.type == "float" and group and float_limits(
+                field) == float_limits(group[0])
             if group and not same:
-                low, high = limits(group[0])
+                low, high = float_limits(group[0])
                 count = sum(member.length for member in group)
                 self.floats.append(
                     f"{{offsetof({c_struct}, {group[0].name}), {count}, {low}, {high}}}")
@@ -327,18 +329,19 @@ class Tables:
                 group.append(field)
 
     def add_ints(self, c_struct, fields, constants):
-        """Members that stay below another come last: where the other one is wrong, it is named."""
+        """Rules of members that must be below another member come last, so that validation names
+        the other member where that is the wrong one."""
         first, last = [], []
-        for row in int_rows(c_struct, fields, constants):
+        for row in integer_rule_rows(c_struct, fields, constants):
             (last if "MESSAGE_BELOW" in row else first).append(row)
         self.ints += first + last
 
 
-def int_rows(c_struct, fields, constants):
-    """A row for members that follow each other and have the same type and rule."""
+def integer_rule_rows(c_struct, fields, constants):
+    """Yields a table row for successive integers of one type and rule."""
     group, group_rule = [], None
     for field in [*fields, None]:
-        rule = field and int_rule(c_struct, field, constants)
+        rule = field and integer_rule(c_struct, field, constants)
         if group and (rule != group_rule or field.type != group[0].type or
                       not rule.startswith(("MESSAGE_RANGE", "MESSAGE_COUNT"))):
             count = sum(member.length for member in group)
@@ -349,15 +352,15 @@ def int_rows(c_struct, fields, constants):
             group_rule = rule
 
 
-def limits(field):
-    """A float's range as C text; finite where none is said."""
+def float_limits(field):
+    """A float's range as C text; all finite values where none is given."""
     if not field.minimum:
         return f"-{FLT_MAX}", FLT_MAX
     return tuple(f"{float(text)!r}f" for text in (field.minimum, field.maximum))
 
 
-def int_rule(c_struct, field, constants):
-    """Kind, min and max; None where every value is good."""
+def integer_rule(c_struct, field, constants):
+    """C text of an integer's rule: kind, min and max; None where every value is allowed."""
     if field.type == "float" or not (field.minimum or field.choices):
         return None
     if field.choices:
@@ -372,66 +375,67 @@ def int_rule(c_struct, field, constants):
 
 # ---- The source ----
 
-def format_of(struct, tables):
-    """The tables of its own, its format, and its rules."""
+def codec_tables_text(struct, tables):
+    """C text of a struct's tables, its format, and its rules."""
     c_struct = f"struct rho_message_{struct.short}"
-    head = tables[struct.name] = Tables.of_fields(struct.short, c_struct, struct.head,
+    head = tables[struct.name] = CodecTables.from_fields(struct.short, c_struct, struct.head,
                                                   struct.constants)
-    own, layout, checks = head.text(), "{0, 0, 0}", "{0, 0, 0, 0}"
+    own, layout, checks = head.c_text(), "{0, 0, 0}", "{0, 0, 0, 0}"
     rest = "0, 0, 0, 0"
     if struct.list:
         element = tables.get(struct.list.type)
         if struct.list.type in PRIMITIVES:
-            element = Tables.of_number(f"{struct.short}_element", struct.list.type,
-                                       *limits(struct.list))
-            own += element.text()
-        layout, checks = element.layout(), element.checks()
+            element = CodecTables.from_number_list(f"{struct.short}_element", struct.list.type,
+                                       *float_limits(struct.list))
+            own += element.c_text()
+        layout, checks = element.layout_initializer(), element.checks_initializer()
         rest = (
             f"offsetof({c_struct}, {struct.fields[-2].name}),\n    offsetof({c_struct}, {struct.list.name}),\n"
-            f"    sizeof({type_of(struct.list)}), {max_name(struct)}")
+            f"    sizeof({c_type_of(struct.list)}), {list_capacity_name(struct)}")
     return (
         f"{own}static const struct message_format {struct.short}_format = {{\n"
-        f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n    {head.layout()}, {layout},\n    {rest}}};\n"
+        f"    RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n    {head.layout_initializer()}, {layout},\n    {rest}}};\n"
         f"static const struct message_rules {struct.short}_rules = {{\n"
-        f"    &{struct.short}_format,\n    {head.checks()}, {checks}}};\n")
+        f"    &{struct.short}_format,\n    {head.checks_initializer()}, {checks}}};\n")
 
 
-def same_place(struct):
-    """The head's members lie where the whole struct's do, so that one table does for both."""
+def head_layout_assertion(struct):
+    """C assertion that head and whole struct have equal offsets, so that one table serves both."""
     last = struct.head[-1].name
     return (
         f"typedef char {struct.short}_head_fits[offsetof(struct rho_message_{struct.short}, {last}) ==\n"
         f"    offsetof(struct rho_message_{struct.short}_head, {last}) ? 1 : -1];\n")
 
 
-def row_text(row):
-    """Within 100 columns, but for choices: they stay beside their field."""
+def wrapped_row(row):
+    """A table row wrapped to 100 columns, but for choices, which stay beside their field."""
     return f"    {row}," if "|" in row else textwrap.fill(f"{row},", 100, initial_indent="    ",
                                                           subsequent_indent="     ")
 
 
-def table(name, kind, rows):
-    lines = "".join(row_text(row) + "\n" for row in rows)
+def table_text(name, kind, rows):
+    lines = "".join(wrapped_row(row) + "\n" for row in rows)
     return f"static const struct {kind} {name}[] = {{\n{lines}}};\n" if rows else ""
 
 
-def source(known):
+def source_text(known):
     tables = {}
-    formats = [format_of(struct, tables) for struct in known.values()]
+    formats = [codec_tables_text(struct, tables) for struct in known.values()]
     parts = [
         "/* SPDX-License-Identifier: MIT */\n"
         "/* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */\n/* clang-format off */\n"
         "#include \"rhotrack/message.h\"\n\n#include <float.h>\n\n#include \"message_codec.h\"\n",
-        *formats, "".join(same_place(struct) for struct in known.values() if struct.list),
-        fingerprints(known)
+        *formats,
+        "".join(head_layout_assertion(struct) for struct in known.values() if struct.list),
+        fingerprint_functions(known)
     ]
     for struct in known.values():
         parts.append(BODIES.format(s=struct.short) +
-                     (WRITER_BODIES.format(**writer_names(struct)) if struct.list else ""))
+                     (WRITER_BODIES.format(**writer_template_values(struct)) if struct.list else ""))
     return "\n".join(parts)
 
 
-def fingerprints(known):
+def fingerprint_functions(known):
     rows = "".join(
         f"        RHO_MESSAGE_{struct.short.upper()}_FINGERPRINT,\n" for struct in known.values())
     return ("uint64_t rho_message_fingerprint(enum rho_message_type type)\n{\n"
@@ -446,17 +450,18 @@ NAMES_TOP = """\
 /* SPDX-License-Identifier: MIT */
 /* Made by tools/codegen from lcm_types/. Not to be edited: `make codegen`. */
 /* clang-format off */
-/* Apart from the codec, so that firmware that names no member does not carry the names. */
+/* message_names: names of messages and members, in a file that firmware need not link. */
 #include "rhotrack/message.h"
 
-/* Members in their order. */
-struct name {
+/* Offset and name of a member; tables have the members in their order. */
+struct member_name {
     uint16_t offset;
     char text[{width}];
 };
 
-/* The last member that begins at the offset or before; arrays are one member. */
-static const char *find(const struct name *names, unsigned count, uint16_t offset)
+/* Name of the last member that begins at the offset or before; an array is one member. */
+static const char *find_member_name(const struct member_name *names, unsigned count,
+                                    uint16_t offset)
 {
     unsigned i = 0;
 
@@ -468,37 +473,38 @@ static const char *find(const struct name *names, unsigned count, uint16_t offse
 """
 
 
-def names_of(struct):
+def member_names_table(struct):
     rows = "".join(
         f'    {{offsetof(struct rho_message_{struct.short}, {field.name}), "{field.name}"}},\n'
         for field in struct.fields)
-    return f"static const struct name {struct.short}_names[] = {{\n{rows}}};\n"
+    return f"static const struct member_name {struct.short}_names[] = {{\n{rows}}};\n"
 
 
-def field_function(struct, known):
-    """The name of the member at a place; of a list's element, the element's member."""
+def member_name_function(struct, known):
+    """C function that returns the name of the member at a place, also in a list element."""
     short = struct.short
     body = ""
     if struct.list and struct.list.type in known:
         other = known[struct.list.type].short
-        body = (f"    if (place && place->element >= 0) {{\n        return find({other}_names, "
+        body = (f"    if (place && place->element >= 0) {{\n        return find_member_name({other}_names, "
                 f"{len(known[struct.list.type].fields)}, place->offset);\n    }}\n")
     elif struct.list:
         body = f"    if (place && place->element >= 0) {{\n        return \"{struct.list.name}\";\n    }}\n"
     return (
         f"const char *rho_message_{short}_field(const struct rho_message_place *place)\n{{\n{body}"
-        f"    return place ? find({short}_names, {len(struct.fields)}, place->offset) : \"unknown\";\n}}\n"
+        f"    return place ? find_member_name({short}_names, {len(struct.fields)}, place->offset) : \"unknown\";\n}}\n"
     )
 
 
-def names(known):
+def names_source_text(known):
     width = max(len(field.name) for struct in known.values() for field in struct.fields) + 1
     type_width = max(len(name) for name in known) + 1
     rows = "".join(f'        "{name}",\n' for name in known)
     return "\n".join([
-        NAMES_TOP.replace("{width}", str(width)), *[names_of(struct) for struct in known.values()],
+        NAMES_TOP.replace("{width}", str(width)),
+        *[member_names_table(struct) for struct in known.values()],
         "const char *rho_message_type_name(enum rho_message_type type)\n{\n"
         f"    static const char type_names[RHO_NUM_MESSAGE_TYPES][{type_width}] = {{\n{rows}    }};\n\n"
         "    return (unsigned)type < RHO_NUM_MESSAGE_TYPES ? type_names[type] : \"unknown\";\n}\n",
-        *[field_function(struct, known) for struct in known.values()]
+        *[member_name_function(struct, known) for struct in known.values()]
     ])

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Reads the .lcm files of rhotrack: structs, constants, fields with the ranges that their comments
-give, fingerprints.
+"""Reads the .lcm files of rhotrack: structs, constants, fields with the ranges in their comments,
+and fingerprints.
 
-What is read is the part of the LCM type language that lcm_types/ uses: one struct a file, primitive
+It understands the part of the LCM type language that lcm_types/ uses: one struct a file, primitive
 numbers, constants, fixed arrays of primitives, and at most one list, which ends the struct and
-stands right behind the int16_t that counts it. A field's trailing comment may end with its range,
-[min .. max], or with the constants it may have, {A, B}.
+stands right behind the int16_t that counts it. A field's trailing comment may end with the field's
+range, [min .. max], or with the constants that it may have, {A, B}.
 """
 import dataclasses
 import pathlib
@@ -15,13 +15,13 @@ import sys
 PRIMITIVES = {"int8_t": 1, "int16_t": 2, "int32_t": 4, "int64_t": 8, "float": 4}
 NAME = r"[A-Za-z_]\w*"
 MASK = (1 << 64) - 1
-ARRAY_MAX = 255  # a run of the codec's tables counts in a byte
+ARRAY_MAX = 255  # longest array: a run of the codec's tables has a count of one byte
 
 
 @dataclasses.dataclass
 class Field:
-    """One member. dimension: "" for a scalar, a number for an array, the counting member's name for
-    the list."""
+    """One member of a struct. dimension: "" for a scalar, a number for an array, the name of the
+    counting member for the list."""
     type: str
     name: str
     dimension: str
@@ -29,7 +29,7 @@ class Field:
     minimum: str = ""
     maximum: str = ""
     choices: tuple = ()
-    line: int = 1  # in its file
+    line: int = 1  # line of the member in its .lcm file
 
     @property
     def is_list(self):
@@ -55,12 +55,12 @@ class Struct:
 
     @property
     def list(self):
-        """The list at its end, or None."""
+        """The list that ends the struct, or None."""
         return self.fields[-1] if self.fields and self.fields[-1].is_list else None
 
     @property
     def head(self):
-        """The fields before the list and its count."""
+        """The fields before the list and its count; all fields where there is no list."""
         return self.fields[:-2] if self.list else self.fields
 
     @property
@@ -69,19 +69,19 @@ class Struct:
 
     @property
     def channel(self):
-        """The channel that its comment names, without the sensor's number; and whether that
-        follows."""
+        """The channel that the struct's comment names, without a sensor's number, and whether the
+        number follows in the channel's name."""
         found = re.search(r"Channel (RHO_\w+?)(<sensor_id>)?\.", " ".join(self.comment))
         return (found.group(1), bool(found.group(2))) if found else (None, False)
 
 
-def fail(path, line, text):
+def exit_with_error(path, line, text):
     sys.exit(f"{path}:{line}: {text}")
 
 
-def parse_comment(field):
-    """Takes the range or the choices off the end of a field's comment. False where it ends like
-    one, but is none."""
+def take_range_from_comment(field):
+    """Takes the range or the choices off the end of a field's comment. False where the end of the
+    comment looks like one, but is none."""
     ranged = re.search(r"\[(\S+) \.\. ([^\]]+)\]$", field.comment)
     chosen = re.search(r"\{([^}]+)\}$", field.comment)
     if ranged:
@@ -97,12 +97,14 @@ def parse_comment(field):
 def parse_field(path, number, code, comment):
     found = re.fullmatch(rf"({NAME})\s+({NAME})\s*(?:\[\s*(\w+)\s*\])?", code)
     if not found:
-        fail(path, number, f"no member that is understood: {code}")
+        exit_with_error(path, number, f"no member that is understood: {code}")
     field = Field(found.group(1), found.group(2), found.group(3) or "", comment, line=number)
-    if not parse_comment(field):
-        fail(path, number, f"{field.name}: no range [min .. max] and no {{A, B}}: {comment}")
+    if not take_range_from_comment(field):
+        exit_with_error(path, number,
+                        f"{field.name}: no range [min .. max] and no {{A, B}}: {comment}")
     if "*/" in comment or "/*" in comment:
-        fail(path, number, f"{field.name}: the comment would end the one in C: {comment}")
+        exit_with_error(path, number,
+                        f"{field.name}: the comment would end the one in C: {comment}")
     return field
 
 
@@ -112,16 +114,16 @@ def parse_constants(path, number, code):
     for item in found.group(2).split(",") if found else [""]:
         pair = re.fullmatch(rf"\s*({NAME})\s*=\s*(-?\d+)\s*", item)
         if not pair:
-            fail(path, number, f"no constant that is understood: {code}")
+            exit_with_error(path, number, f"no constant that is understood: {code}")
         constants[pair.group(1)] = int(pair.group(2))
         most = 1 << int(found.group(1)) - 1
         if not -most <= constants[pair.group(1)] < most:
-            fail(path, number, f"a constant beyond its type: {code}")
+            exit_with_error(path, number, f"a constant beyond its type: {code}")
     return constants
 
 
-def parse(path):
-    """One file."""
+def parse_file(path):
+    """Reads and checks the struct of one .lcm file."""
     struct = Struct(path, [], "", "", {}, [])
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         code, _, comment = line.partition("//")
@@ -135,11 +137,12 @@ def parse(path):
         if code.split()[0] == "struct":
             found = re.fullmatch(rf"struct\s+({NAME})\s*{{?", code)
             if not found or struct.name:
-                fail(path, number, f"one struct a file, its members on lines of their own: {code}")
+                exit_with_error(path, number,
+                                f"one struct a file, its members on lines of their own: {code}")
             struct.name = found.group(1)
             continue
         if not code.endswith(";"):
-            fail(path, number, f"no ; at the end: {code}")
+            exit_with_error(path, number, f"no ; at the end: {code}")
         code = code[:-1].strip()
         if code.split()[0] == "package":
             struct.package = code.removeprefix("package").strip()
@@ -147,62 +150,66 @@ def parse(path):
             struct.constants.update(parse_constants(path, number, code))
         else:
             struct.fields.append(parse_field(path, number, code, comment))
-    check(struct)
+    check_struct(struct)
     return struct
 
 
-def check(struct):
-    """The rules that keep encoders and decoders simple, and stock tools working."""
+def check_struct(struct):
+    """Checks a struct against the rules that keep encoders and decoders simple, and other LCM tools
+    working."""
     if struct.path.stem != struct.name or not struct.name.endswith("_t"):
-        fail(struct.path, 1,
-             f"struct {struct.name} belongs into {struct.name}.lcm, and ends with _t")
+        exit_with_error(struct.path, 1,
+                        f"struct {struct.name} belongs into {struct.name}.lcm, and ends with _t")
     if struct.package != "rhotrack":
-        fail(struct.path, 1, "package rhotrack is missing")
-    check_comment(struct)
+        exit_with_error(struct.path, 1, "package rhotrack is missing")
+    check_struct_comment(struct)
     names = [field.name for field in struct.fields]
     for field in struct.fields:
         if names.count(field.name) > 1:
-            fail(struct.path, field.line, f"{field.name} is there twice")
+            exit_with_error(struct.path, field.line, f"{field.name} is there twice")
     if not struct.head:
-        fail(struct.path, 1, f"{struct.name} has no members, or only a list")
+        exit_with_error(struct.path, 1, f"{struct.name} has no members, or only a list")
     for field in struct.fields:
-        check_kind(struct, field)
-        check_values(struct, field)
+        check_field_type(struct, field)
+        check_field_range(struct, field)
     if struct.list:
         check_list(struct)
 
 
-def check_comment(struct):
-    """What stands before the package: it goes into the C header, and names the channel."""
+def check_struct_comment(struct):
+    """Checks the comment before the package, which goes into the C header and names the channel."""
     text = " ".join(struct.comment)
     if not struct.comment:
-        fail(struct.path, 1, "a comment before the package is missing: what the struct is")
+        exit_with_error(struct.path, 1,
+                        "a comment before the package is missing: what the struct is")
     if "*/" in text or "/*" in text:
-        fail(struct.path, 1, "the comment before the package would end the one in C")
+        exit_with_error(struct.path, 1, "the comment before the package would end the one in C")
     if "Channel " in text and not struct.channel[0]:
-        fail(struct.path, 1,
-             "no channel that is understood: Channel RHO_NAME. or Channel RHO_NAME_<sensor_id>.")
+        exit_with_error(struct.path, 1,
+                        "no channel that is understood: Channel RHO_NAME. or Channel RHO_NAME_<sensor_id>.")
 
 
-def check_kind(struct, field):
-    """Flat numbers, but for the list."""
+def check_field_type(struct, field):
+    """Checks a field's type: a number or an array of numbers, or the list at the end."""
     if field.is_list and field is not struct.fields[-1]:
-        fail(struct.path, field.line, f"{field.name}: a list must be the last member")
+        exit_with_error(struct.path, field.line, f"{field.name}: a list must be the last member")
     if field.type not in PRIMITIVES and not field.is_list:
-        fail(struct.path, field.line,
-             f"{field.name}: only a list may have members of its own, and no {field.type}")
+        exit_with_error(struct.path, field.line,
+                        f"{field.name}: only a list may have members of its own, and no "
+                        f"{field.type}")
     if field.is_list and field.type in PRIMITIVES and field.type != "float":
-        fail(struct.path, field.line, f"{field.name}: a list of bare numbers must be of float")
+        exit_with_error(struct.path, field.line,
+                        f"{field.name}: a list of bare numbers must be of float")
     if field.dimension and field.length == 0:
-        fail(struct.path, field.line, f"{field.name}: an array of nothing")
+        exit_with_error(struct.path, field.line, f"{field.name}: an array of nothing")
     if field.length > ARRAY_MAX:
-        fail(struct.path, field.line, f"{field.name}: an array of more than {ARRAY_MAX}")
+        exit_with_error(struct.path, field.line, f"{field.name}: an array of more than {ARRAY_MAX}")
 
 
-def check_values(struct, field):
-    """Ranges that the codec's rules can hold, and that mean something."""
+def check_field_range(struct, field):
+    """Checks that the codec's tables can hold the range or the choices of a field."""
     def refuse(text):
-        fail(struct.path, field.line, f"{field.name}: {text}")
+        exit_with_error(struct.path, field.line, f"{field.name}: {text}")
 
     for choice in field.choices:
         if choice not in struct.constants:
@@ -237,79 +244,80 @@ def check_values(struct, field):
 
 
 def check_list(struct):
-    """Its count and its capacity."""
+    """Checks that a list has its count before it and a constant for its capacity."""
     counter = struct.fields[-2]
     if counter.name != struct.list.dimension or counter.type != "int16_t":
-        fail(struct.path, struct.list.line,
-             f"{struct.list.name}: its int16_t count must stand right before it")
+        exit_with_error(struct.path, struct.list.line,
+                        f"{struct.list.name}: its int16_t count must stand right before it")
     most = "MAX_" + struct.list.name.upper()
     if most not in struct.constants:
-        fail(struct.path, struct.list.line, f"const int16_t {most} is missing")
+        exit_with_error(struct.path, struct.list.line, f"const int16_t {most} is missing")
     if not 1 <= struct.constants[most] <= 32767:
-        fail(struct.path, struct.list.line, f"{most} is not within 1 .. 32767")
+        exit_with_error(struct.path, struct.list.line, f"{most} is not within 1 .. 32767")
 
 
-def read_all(folder):
-    """All structs by name, those without lists first, else in the order of the alphabet."""
-    structs = [parse(path) for path in sorted(folder.glob("*.lcm"))]
+def read_structs(folder):
+    """Reads a folder's structs: by name, those without lists first, in alphabetic order."""
+    structs = [parse_file(path) for path in sorted(folder.glob("*.lcm"))]
     structs.sort(key=lambda struct: (struct.list is not None, struct.name))
     known = {}
     for struct in structs:
         for field in struct.fields:
             if field.type not in PRIMITIVES and (field.type not in known or known[field.type].list):
-                fail(struct.path, field.line,
-                     f"{field.name}: there is no struct {field.type} without a list")
+                exit_with_error(struct.path, field.line,
+                                f"{field.name}: there is no struct {field.type} without a list")
         known[struct.name] = struct
     return known
 
 
 # ---- Sizes on the wire ----
 
-def wire_size(fields):
+def size_of_fields(fields):
     return sum(PRIMITIVES[field.type] * field.length for field in fields)
 
 
-def element_size(struct, known):
-    """Bytes of one member of the list."""
+def size_of_list_element(struct, known):
+    """Encoded bytes of one element of a struct's list."""
     kind = struct.list.type
-    return PRIMITIVES[kind] if kind in PRIMITIVES else wire_size(known[kind].fields)
+    return PRIMITIVES[kind] if kind in PRIMITIVES else size_of_fields(known[kind].fields)
 
 
-def max_size(struct, known):
-    """Bytes of the longest message, fingerprint included."""
+def max_message_size(struct, known):
+    """Bytes of a struct's longest message, fingerprint included."""
     if not struct.list:
-        return 8 + wire_size(struct.fields)
-    return 8 + wire_size(struct.head) + 2 + struct.list_max * element_size(struct, known)
+        return 8 + size_of_fields(struct.fields)
+    return (8 + size_of_fields(struct.head) + 2 +
+            struct.list_max * size_of_list_element(struct, known))
 
 
 # ---- Fingerprints, as lcm-gen makes them ----
 
-def update(value, char):
-    """One character; the shift to the right keeps the sign, and so does the character's."""
+def hash_byte(value, char):
+    """Adds one byte to a fingerprint: the byte is signed, and the right shift is arithmetic."""
     signed = value - (1 << 64) if value >> 63 else value
     char = char - 256 if char > 127 else char
     return (((value << 8) ^ (signed >> 55)) + char) & MASK
 
 
-def update_text(value, text):
+def hash_text(value, text):
     data = text.encode()
-    value = update(value, len(data))
+    value = hash_byte(value, len(data))
     for char in data:
-        value = update(value, char)
+        value = hash_byte(value, char)
     return value
 
 
 def fingerprint(struct, known):
-    """Names and types of the members, not the struct's own name, constants or comments."""
+    """Hash of the members' names and types; not of the struct's name, constants or comments."""
     value = 0x12345678
     for field in struct.fields:
-        value = update_text(value, field.name)
+        value = hash_text(value, field.name)
         if field.type in PRIMITIVES:
-            value = update_text(value, field.type)
-        value = update(value, 1 if field.dimension else 0)
+            value = hash_text(value, field.type)
+        value = hash_byte(value, 1 if field.dimension else 0)
         if field.dimension:
-            value = update(value, 1 if field.is_list else 0)
-            value = update_text(value, field.dimension)
+            value = hash_byte(value, 1 if field.is_list else 0)
+            value = hash_text(value, field.dimension)
     for field in struct.fields:
         if field.type not in PRIMITIVES:
             value = (value + fingerprint(known[field.type], known)) & MASK
