@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Blocks and records: which items there are, and how long they are. */
+/*
+ * Splits ASTERIX data blocks into records and items, by the lengths of items.
+ */
 #include "io/asterix/asterix.h"
 
 #include <stdarg.h>
@@ -7,10 +9,10 @@
 
 #include "io/asterix/asterix_items.h"
 
-#define FX 1u  /* the last bit of a byte: another one follows */
-#define BITS 7 /* of a field specification's byte, before FX */
+#define FX 1u  /* field extension bit, the last bit of a byte: another byte follows */
+#define BITS 7 /* items per byte of a field specification; the last bit is FX */
 
-/* Bytes under way. */
+/* Position of decoding in the bytes of a record. */
 struct cursor {
     const uint8_t *data;
     size_t size, at;
@@ -18,11 +20,11 @@ struct cursor {
     struct asterix_error *error;
 };
 
-static bool refuse_record(const struct cursor *cursor, size_t at, const char *format, ...)
+static bool set_error(const struct cursor *cursor, size_t at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Always false. */
-static bool refuse_record(const struct cursor *cursor, size_t at, const char *format, ...)
+/* Sets the error's place and reason. Always returns false. */
+static bool set_error(const struct cursor *cursor, size_t at, const char *format, ...)
 {
     va_list arguments;
 
@@ -42,18 +44,17 @@ bool asterix_block_read(const uint8_t *data, size_t size, struct asterix_block *
     size_t length;
 
     if (size < ASTERIX_HEADER_BYTES) {
-        return refuse_record(&cursor, 0, "a data block has %u bytes at least, and here are %zu",
-                             ASTERIX_HEADER_BYTES, size);
+        return set_error(&cursor, 0, "a data block has %u bytes at least, and here are %zu",
+                         ASTERIX_HEADER_BYTES, size);
     }
     length = (size_t)data[1] << 8 | data[2];
     if (length < ASTERIX_HEADER_BYTES) {
-        return refuse_record(&cursor, 1, "a data block of category %u says that it has %zu bytes",
-                             data[0], length);
+        return set_error(&cursor, 1, "a data block of category %u says that it has %zu bytes",
+                         data[0], length);
     }
     if (length > size) {
-        return refuse_record(&cursor, 0,
-                             "a data block of category %u has %zu bytes, and here are %zu", data[0],
-                             length, size);
+        return set_error(&cursor, 0, "a data block of category %u has %zu bytes, and here are %zu",
+                         data[0], length, size);
     }
     *block = (struct asterix_block){.category = data[0],
                                     .records = data + ASTERIX_HEADER_BYTES,
@@ -79,8 +80,8 @@ bool asterix_category_is_service(uint8_t category)
 /* ---- Items ---- */
 
 /*
- * How many bytes there are up to one whose last bit is clear, `step` at a time; beyond the size
- * where there is none.
+ * Bytes of an extended item, up to the part of `step` bytes whose last bit is clear; more than the
+ * bytes left where there is no such part.
  */
 static size_t count_extended_bytes(const struct cursor *cursor, size_t step)
 {
@@ -93,10 +94,10 @@ static size_t count_extended_bytes(const struct cursor *cursor, size_t step)
 }
 
 /*
- * How long an item is that is no compound; beyond the bytes where it is cut. 0: its own length is
- * none.
+ * Bytes of an item that is not compound, more than the bytes left where it is cut off. 0: the item
+ * states a length of 0.
  */
-static size_t count_item_bytes(const struct cursor *cursor, const struct asterix_item *item)
+static size_t count_simple_item_bytes(const struct cursor *cursor, const struct asterix_item *item)
 {
     size_t first = cursor->at < cursor->size ? cursor->data[cursor->at] : cursor->size + 1;
 
@@ -115,49 +116,48 @@ static size_t count_item_bytes(const struct cursor *cursor, const struct asterix
     }
 }
 
-/* Takes an item that is no compound. */
-static bool take_simple_item(struct cursor *cursor, const struct asterix_item *item,
+/* Moves the cursor behind an item that is not compound; false: it is cut off, or without bytes. */
+static bool skip_simple_item(struct cursor *cursor, const struct asterix_item *item,
                              const char *part)
 {
-    size_t bytes = count_item_bytes(cursor, item);
+    size_t bytes = count_simple_item_bytes(cursor, item);
 
     if (bytes == 0) {
-        return refuse_record(cursor, cursor->at, "I%03u/%s says that it has no bytes",
-                             cursor->category, item->name);
+        return set_error(cursor, cursor->at, "I%03u/%s says that it has no bytes", cursor->category,
+                         item->name);
     }
     if (bytes > cursor->size - cursor->at) {
-        return refuse_record(cursor, cursor->at, "I%03u/%s%s%s goes beyond its data block",
-                             cursor->category, part ? part : item->name, part ? "/" : "",
-                             part ? item->name : "");
+        return set_error(cursor, cursor->at, "I%03u/%s%s%s goes beyond its data block",
+                         cursor->category, part ? part : item->name, part ? "/" : "",
+                         part ? item->name : "");
     }
     cursor->at += bytes;
     return true;
 }
 
 /*
- * Which of the places of a profile are taken: the bits of the field specification at the cursor,
- * which moves behind it.
+ * Reads the field specification at the cursor, which moves behind it: bit i of *present is set
+ * where the record has the item at place i of the profile.
  */
-static bool take_field_specification(struct cursor *cursor, const struct asterix_item *items,
+static bool read_field_specification(struct cursor *cursor, const struct asterix_item *items,
                                      size_t num_items, const char *name, uint64_t *present)
 {
     size_t start = cursor->at, bytes = count_extended_bytes(cursor, 1);
 
     if (start + bytes > cursor->size) {
-        return refuse_record(cursor, start,
-                             "the field specification of %s goes beyond its data block", name);
+        return set_error(cursor, start, "the field specification of %s goes beyond its data block",
+                         name);
     }
     if (bytes > (num_items + BITS - 1) / BITS) {
-        return refuse_record(cursor, start, "the field specification of %s has %zu bytes", name,
-                             bytes);
+        return set_error(cursor, start, "the field specification of %s has %zu bytes", name, bytes);
     }
     *present = 0;
     for (size_t place = 0; place < bytes * BITS; place++) {
         bool is_there = cursor->data[start + place / BITS] >> (BITS - place % BITS) & 1;
 
         if (is_there && (place >= num_items || items[place].form == ASTERIX_NONE)) {
-            return refuse_record(cursor, start + place / BITS,
-                                 "%s has an item at place %zu, where none is", name, place + 1);
+            return set_error(cursor, start + place / BITS,
+                             "%s has an item at place %zu, where none is", name, place + 1);
         }
         if (is_there) {
             *present |= UINT64_C(1) << place;
@@ -167,25 +167,29 @@ static bool take_field_specification(struct cursor *cursor, const struct asterix
     return true;
 }
 
-static bool take_compound_item(struct cursor *cursor, const struct asterix_item *item)
+static bool skip_compound_item(struct cursor *cursor, const struct asterix_item *item)
 {
     char name[16];
     uint64_t present = 0;
 
     snprintf(name, sizeof name, "I%03u/%s", cursor->category, item->name);
-    if (!take_field_specification(cursor, item->parts, item->num_parts, name, &present)) {
+    if (!read_field_specification(cursor, item->parts, item->num_parts, name, &present)) {
         return false;
     }
     for (size_t i = 0; i < item->num_parts; i++) {
-        if ((present >> i & 1) && !take_simple_item(cursor, &item->parts[i], item->name)) {
+        if ((present >> i & 1) && !skip_simple_item(cursor, &item->parts[i], item->name)) {
             return false;
         }
     }
     return true;
 }
 
-/* Items in any order, each behind its place in the profile; none of them has parts. */
-static bool take_random_fields(struct cursor *cursor, const struct asterix_category *profile)
+/*
+ * Skips a random field sequence: items in any order, each behind its place in the profile; compound
+ * items cannot occur.
+ */
+static bool skip_random_field_sequence(struct cursor *cursor,
+                                       const struct asterix_category *profile)
 {
     size_t start = cursor->at, count = start < cursor->size ? cursor->data[start] : 0;
 
@@ -196,33 +200,33 @@ static bool take_random_fields(struct cursor *cursor, const struct asterix_categ
             place > 0 && place <= profile->num_items ? &profile->items[place - 1] : NULL;
 
         if (!item || item->form == ASTERIX_NONE || item->form == ASTERIX_ANY) {
-            return refuse_record(cursor, start, "I%03u/RFS has an item at place %zu, where none is",
-                                 cursor->category, place);
+            return set_error(cursor, start, "I%03u/RFS has an item at place %zu, where none is",
+                             cursor->category, place);
         }
         cursor->at++;
-        if (!take_simple_item(cursor, item, NULL)) {
+        if (!skip_simple_item(cursor, item, NULL)) {
             return false;
         }
     }
     return start < cursor->size ||
-           refuse_record(cursor, start, "I%03u/RFS goes beyond its data block", cursor->category);
+           set_error(cursor, start, "I%03u/RFS goes beyond its data block", cursor->category);
 }
 
-static bool take_item(struct cursor *cursor, const struct asterix_category *profile,
+static bool skip_item(struct cursor *cursor, const struct asterix_category *profile,
                       const struct asterix_item *item)
 {
     switch (item->form) {
     case ASTERIX_COMPOUND:
-        return take_compound_item(cursor, item);
+        return skip_compound_item(cursor, item);
     case ASTERIX_ANY:
-        return take_random_fields(cursor, profile);
+        return skip_random_field_sequence(cursor, profile);
     default:
-        return take_simple_item(cursor, item, NULL);
+        return skip_simple_item(cursor, item, NULL);
     }
 }
 
-/* CAT001: the first bit of item 020 chooses the profile. */
-static bool is_track_record(const struct cursor *cursor)
+/* Whether a record of CAT001 is of a track: the first bit of item 020 chooses the profile. */
+static bool is_cat001_track_record(const struct cursor *cursor)
 {
     const size_t behind = count_extended_bytes(cursor, 1);
 
@@ -236,16 +240,16 @@ bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
                          struct asterix_record *record, struct asterix_error *error)
 {
     struct cursor cursor = {.data = data, .size = size, .category = category, .error = error};
-    const bool is_track = is_track_record(&cursor);
+    const bool is_track = is_cat001_track_record(&cursor);
     const struct asterix_category *profile = asterix_category_find(category, is_track);
     char name[24];
     uint64_t present = 0;
 
     if (!profile) {
-        return refuse_record(&cursor, 0, "category %u is not known", category);
+        return set_error(&cursor, 0, "category %u is not known", category);
     }
     snprintf(name, sizeof name, "a record of CAT%03u", category);
-    if (!take_field_specification(&cursor, profile->items, profile->num_items, name, &present)) {
+    if (!read_field_specification(&cursor, profile->items, profile->num_items, name, &present)) {
         return false;
     }
     *record = (struct asterix_record){.category = category, .is_track = is_track};
@@ -256,7 +260,7 @@ bool asterix_record_read(uint8_t category, const uint8_t *data, size_t size,
         if (!(present >> i & 1)) {
             continue;
         }
-        if (!take_item(&cursor, profile, item)) {
+        if (!skip_item(&cursor, profile, item)) {
             return false;
         }
         record->items[i] = data + start;

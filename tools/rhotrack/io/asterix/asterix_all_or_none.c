@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* asterix_all_or_none: heights and range rates stay where all plots of a scan have them. */
+/*
+ * asterix_common_quantities: keeps only the quantities, heights and Doppler speeds, that all plots
+ * of a scan have, since a struct rho_scan measures a quantity for all of its plots or for none.
+ */
 #include <math.h>
 
 #include "io/asterix/asterix_sensor.h"
 
 #define EARTH_RADIUS_M 6371000.0
 
-/* A scan measures speeds of all its plots, or of none. */
-static void dopplers_all_or_none(struct asterix_marks *marks, struct asterix_counts *counts)
+/* Drops the Doppler speeds of a scan where not all of its plots have one. */
+static void keep_dopplers_if_all_have(struct asterix_marks *marks, struct asterix_counts *counts)
 {
     size_t with = 0;
 
@@ -24,8 +27,8 @@ static void dopplers_all_or_none(struct asterix_marks *marks, struct asterix_cou
 }
 
 /*
- * The ground range of a slant range and a height: in the triangle of the radar, the target and the
- * earth's centre. False where there is none.
+ * Ground range from slant range and height, in the triangle of radar, target and the earth's
+ * centre. Returns false where there is no such triangle.
  */
 static bool find_ground_range(double slant_m, double alt_m, double radar_alt_m, double *ground_m)
 {
@@ -39,9 +42,12 @@ static bool find_ground_range(double slant_m, double alt_m, double radar_alt_m, 
     return true;
 }
 
-/* A scan measures heights of all its plots, or of none: then they are good for the range. */
-static void heights_all_or_none(struct asterix_marks *marks, const struct asterix_place *place,
-                                struct asterix_counts *counts)
+/*
+ * Where not all plots of a scan have a height, converts the slant ranges of those that have one to
+ * ground ranges, and drops the heights.
+ */
+static void keep_heights_if_all_have(struct asterix_marks *marks, const struct asterix_place *place,
+                                     struct asterix_counts *counts)
 {
     size_t with = 0;
 
@@ -65,6 +71,6 @@ static void heights_all_or_none(struct asterix_marks *marks, const struct asteri
 void asterix_marks_all_or_none(struct asterix_marks *marks, const struct asterix_place *place,
                                struct asterix_counts *counts)
 {
-    heights_all_or_none(marks, place, counts);
-    dopplers_all_or_none(marks, counts);
+    keep_heights_if_all_have(marks, place, counts);
+    keep_dopplers_if_all_have(marks, counts);
 }

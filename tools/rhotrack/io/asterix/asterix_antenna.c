@@ -4,8 +4,8 @@
 #include "io/asterix/asterix.h"
 
 #define TURN_MAX_128                                                                               \
-    (60 * ASTERIX_TIME_HZ) /* nothing is told of slower ones: a recording that pauses */
-#define AGAIN_128 (ASTERIX_TIME_HZ / 2) /* no radar turns once in this time */
+    (60 * ASTERIX_TIME_HZ)              /* longest interval of crossings: a longer one is a pause */
+#define AGAIN_128 (ASTERIX_TIME_HZ / 2) /* shorter than any radar's turn */
 
 static int64_t absolute(int64_t value)
 {
@@ -17,7 +17,10 @@ int64_t asterix_look_turn_time_128(const struct asterix_look *look)
     return (look->end_128 - look->start_128) * ASTERIX_TURN / look->advance;
 }
 
-/* Whether more than half a turn too much time went by since the last crossing. */
+/*
+ * Whether crossings are missing: the time since the newest one exceeds the expected time by more
+ * than half a turn.
+ */
 static bool is_gap_before_crossing(const struct asterix_antenna *antenna, int64_t took_128,
                                    uint32_t advance)
 {
@@ -27,7 +30,7 @@ static bool is_gap_before_crossing(const struct asterix_antenna *antenna, int64_
     return took_128 - antenna->period_128 * advance / ASTERIX_TURN > antenna->period_128 / 2;
 }
 
-/* Less than half a turn went by, and the antenna is where it was. */
+/* Whether the newest crossing is reported again: same azimuth, less than half a turn later. */
 static bool is_repeated_crossing(const struct asterix_antenna *antenna, int64_t took_128,
                                  uint16_t azimuth)
 {
@@ -36,8 +39,8 @@ static bool is_repeated_crossing(const struct asterix_antenna *antenna, int64_t 
     return azimuth == antenna->last && absolute(took_128) < limit_128;
 }
 
-static enum asterix_crossing begin_at_crossing(struct asterix_antenna *antenna, int64_t time_128,
-                                               uint16_t azimuth)
+static enum asterix_crossing begin_look_at_crossing(struct asterix_antenna *antenna,
+                                                    int64_t time_128, uint16_t azimuth)
 {
     antenna->has_last = true;
     antenna->last_128 = time_128;
@@ -55,7 +58,7 @@ enum asterix_crossing asterix_antenna_cross(struct asterix_antenna *antenna, int
     *is_gap = false;
     advance = advance == 0 ? ASTERIX_TURN : advance;
     if (!antenna->has_last) {
-        return begin_at_crossing(antenna, time_128, azimuth);
+        return begin_look_at_crossing(antenna, time_128, azimuth);
     }
     if (is_repeated_crossing(antenna, took_128, azimuth)) {
         return ASTERIX_AGAIN;
@@ -65,7 +68,7 @@ enum asterix_crossing asterix_antenna_cross(struct asterix_antenna *antenna, int
     }
     if (is_gap_before_crossing(antenna, took_128, advance)) {
         *is_gap = true;
-        return begin_at_crossing(antenna, time_128, azimuth);
+        return begin_look_at_crossing(antenna, time_128, azimuth);
     }
     *look = (struct asterix_look){.start_128 = antenna->last_128,
                                   .end_128 = time_128,
@@ -74,7 +77,7 @@ enum asterix_crossing asterix_antenna_cross(struct asterix_antenna *antenna, int
     if (!antenna->is_period_said) {
         antenna->period_128 = asterix_look_turn_time_128(look);
     }
-    begin_at_crossing(antenna, time_128, azimuth);
+    begin_look_at_crossing(antenna, time_128, azimuth);
     return ASTERIX_LOOKED;
 }
 

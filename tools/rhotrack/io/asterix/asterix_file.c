@@ -14,18 +14,19 @@
 
 struct asterix_file {
     char *path;
-    FILE *file;                          /* blocks one after the other ... */
-    struct captured_datagrams *captured; /* ... or, instead, in a network recording's datagrams */
-    bool wants_tracks;                   /* and nothing of radars */
-    bool keep_going, is_end;             /* end: nothing comes behind the bytes */
-    uint8_t *bytes;                      /* CAPACITY of them; of a datagram, its own */
+    FILE *file;                          /* a file of data blocks, or NULL */
+    struct captured_datagrams *captured; /* a network recording, or NULL */
+    bool wants_tracks;                   /* records of tracks are read, not those of radars */
+    bool keep_going, is_end;             /* is_end: no bytes of the file follow the buffer */
+    /* buffer of CAPACITY bytes; of a network recording, one datagram */
+    uint8_t *bytes;
     size_t size, at;
-    uint64_t offset;  /* of the bytes in the file, or beside all datagrams' */
-    uint64_t foreign; /* datagrams without blocks */
+    uint64_t offset;  /* offset of the buffer in the file, or in all datagrams' contents */
+    uint64_t foreign; /* datagrams that do not consist of data blocks */
     uint8_t category;
-    size_t block_end; /* of the block under way; at: outside one */
+    size_t block_end; /* end of the current block in the buffer; equal to `at` between blocks */
     uint64_t records, bytes_skipped, places_skipped;
-    /* blocks of categories that are not read, and their records where these can be told apart */
+    /* blocks of categories that are not read, and their records where these are decodable */
     uint64_t others[256], other_records[256];
 };
 
@@ -57,7 +58,7 @@ bool asterix_block_is_good(const uint8_t *data, size_t size)
     return true;
 }
 
-/* Its first block. */
+/* Whether the file begins with a block whose records can all be read. */
 static bool begins_with_good_block(const char *path)
 {
     uint8_t *bytes = must_alloc(ASTERIX_BLOCK_MAX);
@@ -84,8 +85,8 @@ bool asterix_file_is_asterix(const char *path)
 
 /* ---- Bytes ---- */
 
-/* Whether the bytes are blocks, of any category, from the first to the last one. */
-static bool is_all_blocks(const uint8_t *data, size_t size)
+/* Whether the bytes consist of whole data blocks of any category. */
+static bool consists_of_blocks(const uint8_t *data, size_t size)
 {
     struct asterix_block block;
     struct asterix_error error;
@@ -100,8 +101,8 @@ static bool is_all_blocks(const uint8_t *data, size_t size)
     return true;
 }
 
-/* The next datagram of blocks, where the one before is read. */
-static void fill_from_capture(struct asterix_file *file)
+/* Once the current datagram is read, fetches the next one that consists of data blocks. */
+static void fill_from_next_datagram(struct asterix_file *file)
 {
     const uint8_t *data;
     size_t size;
@@ -113,7 +114,7 @@ static void fill_from_capture(struct asterix_file *file)
     file->size = file->at = 0;
     while (file->size == 0 &&
            captured_datagrams_next(file->captured, file->keep_going, &data, &size)) {
-        if (is_all_blocks(data, size)) {
+        if (consists_of_blocks(data, size)) {
             memcpy(file->bytes, data, size);
             file->size = size;
         } else {
@@ -123,13 +124,13 @@ static void fill_from_capture(struct asterix_file *file)
     file->is_end = file->size == 0;
 }
 
-/* A whole block, if there is one, and another one behind it are in memory from the position on. */
+/* Refills the buffer so that it holds two longest blocks from the position on, if the file does. */
 static void fill_buffer(struct asterix_file *file)
 {
     size_t got;
 
     if (file->captured) {
-        fill_from_capture(file);
+        fill_from_next_datagram(file);
         return;
     }
     if (file->is_end || file->size - file->at >= 2 * (size_t)ASTERIX_BLOCK_MAX) {
@@ -185,8 +186,8 @@ struct asterix_file *asterix_file_open_tracks(const char *path, bool keep_going)
 
 /* ---- Bad places ---- */
 
-/* Up to the next good block, or the end. */
-static void find_good_block(struct asterix_file *file)
+/* Advances to the next readable block, or to the end. */
+static void advance_to_good_block(struct asterix_file *file)
 {
     for (;;) {
         fill_buffer(file);
@@ -198,8 +199,8 @@ static void find_good_block(struct asterix_file *file)
     }
 }
 
-static _Noreturn void fail_with_place(const struct asterix_file *file,
-                                      const struct asterix_error *error)
+static _Noreturn void fail_at_bad_byte(const struct asterix_file *file,
+                                       const struct asterix_error *error)
 {
     if (file->captured) {
         fail(EXIT_USAGE, "%s: packet %" PRIu64 ", byte %zu of its content: %s", file->path,
@@ -210,23 +211,23 @@ static _Noreturn void fail_with_place(const struct asterix_file *file,
 }
 
 /*
- * The block at the position is bad, as `error` says: the reading ends, or skips it. A block's own
- * length is believed where another good one, or the end, is behind it.
+ * Handles a bad block at the position, as `error` describes: exit 2, or with keep_going skips it.
+ * The block's own length is trusted where it leads to another readable block, or to the end.
  */
-static void skip_bad_block(struct asterix_file *file, const struct asterix_error *error)
+static void fail_or_skip_bad_block(struct asterix_file *file, const struct asterix_error *error)
 {
     uint64_t start = file->offset + file->at;
     size_t end = file->block_end;
 
     if (!file->keep_going) {
-        fail_with_place(file, error);
+        fail_at_bad_byte(file, error);
     }
     if (end > file->at &&
         (end == file->size || asterix_block_is_good(file->bytes + end, file->size - end))) {
         file->at = end;
     } else {
         file->at++;
-        find_good_block(file);
+        advance_to_good_block(file);
     }
     file->block_end = file->at;
     file->places_skipped++;
@@ -235,8 +236,8 @@ static void skip_bad_block(struct asterix_file *file, const struct asterix_error
 
 /* ---- Records ---- */
 
-/* Of a block that is skipped, up to a bad one. */
-static uint64_t count_records(const struct asterix_block *block)
+/* Number of a skipped block's records, up to the first bad one. */
+static uint64_t count_block_records(const struct asterix_block *block)
 {
     struct asterix_record record;
     struct asterix_error error;
@@ -251,8 +252,11 @@ static uint64_t count_records(const struct asterix_block *block)
     return count;
 }
 
-/* The next block that is read begins. Returns false at the end. */
-static bool next_block(struct asterix_file *file)
+/*
+ * Advances to the first record of the next block of a category that is read; other blocks are
+ * counted and skipped. Returns false at the end.
+ */
+static bool enter_next_wanted_block(struct asterix_file *file)
 {
     struct asterix_block block;
     struct asterix_error error;
@@ -264,7 +268,7 @@ static bool next_block(struct asterix_file *file)
             return false;
         }
         if (!asterix_block_read(file->bytes + file->at, file->size - file->at, &block, &error)) {
-            skip_bad_block(file, &error);
+            fail_or_skip_bad_block(file, &error);
         } else if (is_wanted_category(file, block.category)) {
             file->category = block.category;
             file->at += ASTERIX_HEADER_BYTES;
@@ -272,7 +276,7 @@ static bool next_block(struct asterix_file *file)
             return true;
         } else {
             file->others[block.category]++;
-            file->other_records[block.category] += count_records(&block);
+            file->other_records[block.category] += count_block_records(&block);
             file->at += ASTERIX_HEADER_BYTES + block.size;
         }
     }
@@ -283,11 +287,11 @@ bool asterix_file_next_record(struct asterix_file *file, struct asterix_record *
     struct asterix_error error;
 
     for (;;) {
-        if (file->at == file->block_end && !next_block(file)) {
+        if (file->at == file->block_end && !enter_next_wanted_block(file)) {
             return false;
         }
         if (file->at == file->block_end) {
-            continue; /* a block without records */
+            continue; /* the block has no records */
         }
         if (asterix_record_read(file->category, file->bytes + file->at, file->block_end - file->at,
                                 record, &error)) {
@@ -295,7 +299,7 @@ bool asterix_file_next_record(struct asterix_file *file, struct asterix_record *
             file->records++;
             return true;
         }
-        skip_bad_block(file, &error);
+        fail_or_skip_bad_block(file, &error);
     }
 }
 
@@ -337,7 +341,7 @@ struct asterix_place asterix_file_radar_place(const char *path)
 
 /* ---- What was skipped ---- */
 
-/* A line a category. */
+/* Reports the left-out blocks on standard error, one line a category. */
 static void report_skipped_categories(const struct asterix_file *file)
 {
     for (int i = 0; i < 256; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The profiles of EUROCONTROL-SPEC-0149, parts 2a (CAT001), 2b (CAT002, CAT034), 4 (CAT048) and 9
+ * Item lengths of EUROCONTROL-SPEC-0149, parts 2a (CAT001), 2b (CAT002, CAT034), 4 (CAT048) and 9
  * (CAT062).
  */
 #include "io/asterix/asterix_items.h"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Private to the asterix modules: how long each item of a category is, in the order of its profile.
+ * Private to the asterix modules: the profiles of categories, which give each item's place in the
+ * field specification and its length.
  */
 #ifndef RHOTRACK_TOOL_ASTERIX_ITEMS_H
 #define RHOTRACK_TOOL_ASTERIX_ITEMS_H
@@ -10,22 +11,24 @@
 #include <stdint.h>
 
 enum asterix_form {
-    ASTERIX_NONE = 0,    /* a place that the profile leaves free */
-    ASTERIX_FIXED,       /* `bytes` of them */
-    ASTERIX_EXTENDED,    /* bytes, of which the last has its last bit clear */
-    ASTERIX_REPEATED,    /* a count, then so many times `bytes` */
-    ASTERIX_REPEATED_FX, /* times `bytes`, the last of which has its last bit clear */
-    ASTERIX_EXPLICIT,    /* its own length in the first byte */
-    ASTERIX_ANY,         /* a count, then so many times a place of the profile and its item */
-    ASTERIX_COMPOUND     /* as a record: which parts are there, then these */
+    ASTERIX_NONE = 0,    /* spare place of the profile, without an item */
+    ASTERIX_FIXED,       /* `bytes` bytes */
+    ASTERIX_EXTENDED,    /* bytes up to the first whose last bit is clear */
+    ASTERIX_REPEATED,    /* a count, then that many parts of `bytes` bytes */
+    ASTERIX_REPEATED_FX, /* parts of `bytes` bytes, up to the first whose last bit is clear */
+    ASTERIX_EXPLICIT,    /* the first byte gives the item's length */
+    /* random field sequence: a count, then that many places of the profile, each with its item */
+    ASTERIX_ANY,
+    ASTERIX_COMPOUND /* compound item: a field specification, then the parts that it names */
 };
 
 struct asterix_item {
-    const char *name; /* "120" */
+    const char *name; /* number in the standard, like "120" */
     enum asterix_form form;
     uint8_t bytes;
     uint8_t num_parts;
-    const struct asterix_item *parts; /* of a compound; none is a compound again */
+    /* parts of a compound item; they are not compound themselves */
+    const struct asterix_item *parts;
 };
 
 struct asterix_category {
@@ -34,10 +37,13 @@ struct asterix_category {
     const struct asterix_item *items;
 };
 
-/* NULL where the category is not known. CAT001 has two profiles. */
+/*
+ * Profile of a category, or NULL where it is not known. CAT001 has one profile for plots and one
+ * for tracks.
+ */
 const struct asterix_category *asterix_category_find(uint8_t category, bool is_track);
 
-/* Places in the profiles. */
+/* Indices of items in the profiles: Iccc_nnn is item nnn of category ccc. */
 enum { I001_020 = 1, I001_ITEMS = 21, I001_TRACK_ITEMS = 22 };
 enum { I002_010 = 0, I002_000, I002_020, I002_030, I002_041, I002_ITEMS = 14 };
 enum { I034_010 = 0, I034_000, I034_030, I034_020, I034_041, I034_120 = 10, I034_ITEMS = 14 };

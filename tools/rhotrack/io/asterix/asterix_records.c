@@ -10,7 +10,7 @@
 #include "io/asterix/asterix_file.h"
 
 #define PI 3.141592653589793
-#define HOLD_S 5.0 /* waiting costs nothing in a file */
+#define HOLD_S 5.0 /* wait for late plots of a look; waiting costs nothing in a file */
 
 /* ---- Columns ---- */
 
@@ -45,7 +45,7 @@ static const struct table_column all_columns[NUM_COLUMNS] = {
     [AT_SCAN] = {.name = "scan", .decimals = 0},
 };
 
-static bool has_column(const struct asterix_columns *columns, int column)
+static bool has_table_column(const struct asterix_columns *columns, int column)
 {
     if (column >= AT_SECTOR_FROM_RAD) {
         return columns->has_scan;
@@ -59,7 +59,7 @@ struct table *asterix_records_empty_table(const char *path, const struct asterix
     size_t count = 0;
 
     for (int i = 0; i < NUM_COLUMNS; i++) {
-        if (has_column(columns, i)) {
+        if (has_table_column(columns, i)) {
             list[count++] = all_columns[i];
         }
     }
@@ -68,94 +68,105 @@ struct table *asterix_records_empty_table(const char *path, const struct asterix
 
 /* ---- Records ---- */
 
-/* A record: its time, and its cells by enum column. */
-struct record {
+/* A row of the table: its time, its rank among rows of equal time, and its cells by enum column. */
+struct output_row {
     int64_t time_128;
     uint64_t order;
     double cells[NUM_COLUMNS];
 };
 
-/* Clockwise from north as counter-clockwise from east, within +-pi. */
-static double azimuth_rad(uint32_t azimuth)
+/*
+ * Azimuth in radians counter-clockwise from east, -pi .. pi, from ASTERIX units clockwise from
+ * north.
+ */
+static double azimuth_rad_from_units(uint32_t azimuth)
 {
     return remainder(PI / 2 - 2 * PI / ASTERIX_TURN * azimuth, 2 * PI);
 }
 
-/* The number that the column's decimals say: a file that was converted means the same. */
-static void put_cell(struct record *record, enum column column, double value)
+/*
+ * Sets a cell, rounded to the column's decimals, so that a converted CSV file gives equal values.
+ */
+static void put_rounded_cell(struct output_row *row, enum column column, double value)
 {
     static const double scales[] = {1, 10, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
     double scale = scales[all_columns[column].decimals];
 
-    record->cells[column] = rint(value * scale) / scale;
+    row->cells[column] = rint(value * scale) / scale;
 }
 
-static void put_plot(struct record *record, const struct asterix_mark *mark)
+static void put_plot_cells(struct output_row *row, const struct asterix_mark *mark)
 {
-    put_cell(record, AT_RANGE_M, mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M);
-    put_cell(record, AT_AZIMUTH_RAD, azimuth_rad(mark->azimuth));
+    put_rounded_cell(row, AT_RANGE_M,
+                     mark->is_ground ? mark->ground_m : mark->range * ASTERIX_RANGE_M);
+    put_rounded_cell(row, AT_AZIMUTH_RAD, azimuth_rad_from_units(mark->azimuth));
     if (mark->has_alt) {
-        put_cell(record, AT_ALT_M, mark->alt * ASTERIX_HEIGHT_M);
+        put_rounded_cell(row, AT_ALT_M, mark->alt * ASTERIX_HEIGHT_M);
     }
     if (mark->has_doppler) {
-        put_cell(record, AT_RANGE_RATE_MPS, mark->doppler_mps);
+        put_rounded_cell(row, AT_RANGE_RATE_MPS, mark->doppler_mps);
     }
 }
 
-static void put_radar_place(struct record *record, const struct asterix_place *place)
+static void put_radar_place_cells(struct output_row *row, const struct asterix_place *place)
 {
-    put_cell(record, AT_SENSOR_LAT_DEG, place->lat_deg);
-    put_cell(record, AT_SENSOR_LON_DEG, place->lon_deg);
-    put_cell(record, AT_SENSOR_ALT_M, place->alt_m);
+    put_rounded_cell(row, AT_SENSOR_LAT_DEG, place->lat_deg);
+    put_rounded_cell(row, AT_SENSOR_LON_DEG, place->lon_deg);
+    put_rounded_cell(row, AT_SENSOR_ALT_M, place->alt_m);
 }
 
-/* A row of a scan: its opening (NULL), or a plot. */
-static struct record row_of_scan(const struct asterix_scan *scan, const struct asterix_mark *mark)
+/* A row of a scan: of a plot, or with NULL the row without a plot that begins the scan. */
+static struct output_row row_of_scan(const struct asterix_scan *scan,
+                                     const struct asterix_mark *mark)
 {
-    struct record record = {.time_128 = mark ? mark->time_128 : scan->time_128};
+    struct output_row row = {.time_128 = mark ? mark->time_128 : scan->time_128};
 
     for (int i = 0; i < NUM_COLUMNS; i++) {
-        record.cells[i] = (double)NAN;
+        row.cells[i] = (double)NAN;
     }
-    put_cell(&record, AT_SENSOR_ID, scan->sensor_id);
+    put_rounded_cell(&row, AT_SENSOR_ID, scan->sensor_id);
     if (mark) {
-        put_plot(&record, mark);
+        put_plot_cells(&row, mark);
     }
     if (scan->place.is_given) {
-        put_radar_place(&record, &scan->place);
+        put_radar_place_cells(&row, &scan->place);
     }
-    /* The antenna turns clockwise: counter-clockwise the sector goes from its end to its start. */
+    /*
+     * The antenna turns clockwise, so that counter-clockwise the sector goes from its end to its
+     * start.
+     */
     if (!scan->is_turn) {
-        put_cell(&record, AT_SECTOR_FROM_RAD, azimuth_rad(scan->look.from + scan->look.advance));
-        put_cell(&record, AT_SECTOR_TO_RAD, azimuth_rad(scan->look.from));
+        put_rounded_cell(&row, AT_SECTOR_FROM_RAD,
+                         azimuth_rad_from_units(scan->look.from + scan->look.advance));
+        put_rounded_cell(&row, AT_SECTOR_TO_RAD, azimuth_rad_from_units(scan->look.from));
     }
     if (scan->is_numbered) {
-        put_cell(&record, AT_SCAN, scan->number);
+        put_rounded_cell(&row, AT_SCAN, scan->number);
     }
-    return record;
+    return row;
 }
 
-static void add_row_to_table(struct table *table, const struct record *record, uint32_t line)
+static void add_row_to_table(struct table *table, const struct output_row *row, uint32_t line)
 {
-    double *cells = table_add_row_of_numbers(table, asterix_time_us(record->time_128), line);
+    double *cells = table_add_row_of_numbers(table, asterix_time_us(row->time_128), line);
     int column = 0;
 
     for (size_t i = 0; i < table->num_columns; i++) {
         while (strcmp(table->names[i], all_columns[column].name) != 0) {
-            column++; /* they are in one order */
+            column++; /* the table's columns are in the order of enum column */
         }
-        cells[i] = record->cells[column];
+        cells[i] = row->cells[column];
     }
 }
 
 void asterix_records_add_scan(struct table *table, const struct asterix_scan *scan)
 {
-    struct record record = row_of_scan(scan, NULL);
+    struct output_row row = row_of_scan(scan, NULL);
 
-    add_row_to_table(table, &record, 2);
+    add_row_to_table(table, &row, 2);
     for (size_t i = 0; i < scan->count; i++) {
-        record = row_of_scan(scan, &scan->marks[i]);
-        add_row_to_table(table, &record, (uint32_t)i + 3);
+        row = row_of_scan(scan, &scan->marks[i]);
+        add_row_to_table(table, &row, (uint32_t)i + 3);
     }
 }
 
@@ -166,14 +177,15 @@ struct asterix_records {
     struct asterix_file *file;
     struct asterix_scans *scans;
     struct asterix_columns columns;
-    struct record *list; /* by time from `next` on */
+    struct output_row *list; /* rows not given out yet, from `next` on, sorted by time */
     size_t count, capacity, next;
     uint64_t order, late;
-    uint32_t line;     /* of the next one in the CSV file that says the same */
-    int64_t given_128; /* the newest row's that was given out */
+    uint32_t line;     /* line number of the next row in the CSV file that `convert` would write */
+    int64_t given_128; /* time of the newest row given out */
     bool has_given, is_over, is_hushed;
-    bool has_interval; /* plots of radars without crossings become scans here */
-    int32_t placeless[ASTERIX_MAX_SENSORS]; /* radars whose place nobody says, beside others */
+    bool has_interval; /* scan_interval_s gathers plots of radars without crossings into scans */
+    /* radars whose place is not known, where places matter */
+    int32_t placeless[ASTERIX_MAX_SENSORS];
     size_t num_placeless;
 };
 
@@ -244,9 +256,8 @@ void asterix_records_report_left_out(const char *path, const struct asterix_coun
 
 /* ---- Looking at the file ---- */
 
-/* Notes which columns the file fills. True where the record tells a time or a place. */
-static bool note_columns_filled(struct asterix_records *records,
-                                const struct asterix_record *record)
+/* Notes which columns the record fills, and its radar. Returns whether it has a plot or a time. */
+static bool preview_record(struct asterix_records *records, const struct asterix_record *record)
 {
     struct asterix_service service;
     struct asterix_plot plot;
@@ -263,14 +274,14 @@ static bool note_columns_filled(struct asterix_records *records,
     return service.has_type && service.has_time;
 }
 
-static void look_through_recording(struct asterix_records *records, bool keep_going)
+static void preview_recording(struct asterix_records *records, bool keep_going)
 {
     struct asterix_file *file = asterix_file_open(records->path, keep_going);
     struct asterix_record record;
     bool has_any = false;
 
     while (asterix_file_next_record(file, &record)) {
-        has_any |= note_columns_filled(records, &record);
+        has_any |= preview_record(records, &record);
     }
     if (!has_any && asterix_file_num_skipped_blocks(file, ASTERIX_TRACKS) > 0) {
         fail(EXIT_USAGE, "%s: %s", records->path, asterix_records_no_tracks);
@@ -285,8 +296,8 @@ static void look_through_recording(struct asterix_records *records, bool keep_go
 }
 
 /*
- * A radar whose place nobody says stands at the origin, which is right of one radar alone and
- * without places on the earth.
+ * Finds radars without a place, which are put at the origin: that is correct only for a single
+ * radar without an origin on the earth.
  */
 static void find_placeless_radars(struct asterix_records *records,
                                   const struct parameters *parameters)
@@ -319,7 +330,7 @@ struct asterix_records *asterix_records_open(const char *path, const struct para
     records->columns.has_scan = rules.interval_s > 0;
     records->has_interval = rules.interval_s > 0;
     records->scans = asterix_scans_open(&rules);
-    look_through_recording(records, keep_going);
+    preview_recording(records, keep_going);
     if (parameters) {
         find_placeless_radars(records, parameters);
     }
@@ -334,41 +345,41 @@ void asterix_records_report_nothing(struct asterix_records *records)
 
 /* ---- Rows ---- */
 
-static void add_scan_row(struct asterix_records *records, const struct asterix_scan *scan,
-                         const struct asterix_mark *mark)
+static void queue_row(struct asterix_records *records, const struct asterix_scan *scan,
+                      const struct asterix_mark *mark)
 {
-    struct record record = row_of_scan(scan, mark);
+    struct output_row row = row_of_scan(scan, mark);
 
-    if (records->has_given && record.time_128 < records->given_128) {
+    if (records->has_given && row.time_128 < records->given_128) {
         records->late++;
         return;
     }
-    record.order = records->order++;
+    row.order = records->order++;
     records->list =
         must_grow(records->list, records->count, &records->capacity, sizeof *records->list);
-    records->list[records->count++] = record;
+    records->list[records->count++] = row;
 }
 
-static void add_scan_rows(struct asterix_records *records, const struct asterix_scan *scan)
+static void queue_scan_rows(struct asterix_records *records, const struct asterix_scan *scan)
 {
     if (scan->is_numbered) {
-        add_scan_row(records, scan, NULL);
+        queue_row(records, scan, NULL);
     }
     for (size_t i = 0; i < scan->count; i++) {
-        add_scan_row(records, scan, &scan->marks[i]);
+        queue_row(records, scan, &scan->marks[i]);
     }
 }
 
-static int by_time(const void *a, const void *b)
+static int by_time_and_order(const void *a, const void *b)
 {
-    const struct record *one = a, *other = b;
+    const struct output_row *one = a, *other = b;
     int order = (one->time_128 > other->time_128) - (one->time_128 < other->time_128);
 
     return order ? order : (one->order > other->order) - (one->order < other->order);
 }
 
-/* Replaces the records that were given out by those of the next scans. */
-static void add_complete_scans(struct asterix_records *records)
+/* Removes the rows that were given out, and adds those of the scans that are complete. */
+static void queue_complete_scans(struct asterix_records *records)
 {
     struct asterix_scan scan;
     size_t before = records->count;
@@ -381,10 +392,10 @@ static void add_complete_scans(struct asterix_records *records)
             records->next = 0;
             before = 0;
         }
-        add_scan_rows(records, &scan);
+        queue_scan_rows(records, &scan);
     }
     if (records->count != before) {
-        qsort(records->list, records->count, sizeof *records->list, by_time);
+        qsort(records->list, records->count, sizeof *records->list, by_time_and_order);
     }
 }
 
@@ -413,8 +424,8 @@ static void report_at_end(const struct asterix_records *records)
     }
 }
 
-/* One record more, or the end. */
-static void take_next_record(struct asterix_records *records)
+/* Processes the next record of the file, or its end. */
+static void process_next_record(struct asterix_records *records)
 {
     struct asterix_record record;
 
@@ -424,13 +435,13 @@ static void take_next_record(struct asterix_records *records)
         asterix_scans_finish(records->scans);
         records->is_over = true;
     }
-    add_complete_scans(records);
+    queue_complete_scans(records);
     if (records->is_over && !records->is_hushed) {
         report_at_end(records);
     }
 }
 
-/* A record that nothing can come before any more. */
+/* Whether the next row can be given out: no earlier row can follow. */
 static bool has_settled_row(const struct asterix_records *records)
 {
     return records->next < records->count &&
@@ -440,18 +451,18 @@ static bool has_settled_row(const struct asterix_records *records)
 
 bool asterix_records_next_row(struct asterix_records *records, struct table *table)
 {
-    const struct record *record;
+    const struct output_row *row;
 
     while (!has_settled_row(records)) {
         if (records->is_over) {
             return false;
         }
-        take_next_record(records);
+        process_next_record(records);
     }
-    record = &records->list[records->next++];
+    row = &records->list[records->next++];
     records->has_given = true;
-    records->given_128 = record->time_128;
-    add_row_to_table(table, record, records->line++);
+    records->given_128 = row->time_128;
+    add_row_to_table(table, row, records->line++);
     return true;
 }
 

@@ -8,23 +8,22 @@
 #include "base/common.h"
 #include "io/asterix/asterix_sensor.h"
 
-#define PERIOD_MIN_128 (ASTERIX_TIME_HZ / 2) /* no radar turns faster */
-#define SILENT_128                                                                                 \
-    (60 * ASTERIX_TIME_HZ) /* a radar that is not heard for so long is not waited for */
+#define PERIOD_MIN_128 (ASTERIX_TIME_HZ / 2) /* shorter than any radar's turn */
+#define SILENT_128 (60 * ASTERIX_TIME_HZ)    /* a radar silent for this time is not waited for */
 
 struct asterix_scans {
     int64_t hold_128, interval_128, wait_128;
     bool is_by_turn;
-    struct asterix_sensor *sensors; /* ASTERIX_MAX_SENSORS of them */
+    struct asterix_sensor *sensors; /* ASTERIX_MAX_SENSORS elements */
     size_t num_sensors;
     bool has_start, has_clock, is_over;
-    int64_t start_128; /* near the first time */
+    int64_t start_128; /* reference near the time of the first record */
     bool has_hint;
-    int64_t hint_128;           /* a time of day that is near to truncated ones */
-    int64_t clock_128;          /* the latest of all */
-    struct asterix_scan *ready; /* with marks of their own */
+    int64_t hint_128;           /* a full time of day, which resolves truncated ones */
+    int64_t clock_128;          /* latest time of all radars */
+    struct asterix_scan *ready; /* complete scans to be taken; each owns its plots */
     size_t num_ready, ready_capacity, next_ready;
-    struct asterix_mark *given; /* of the scan that was handed out */
+    struct asterix_mark *given; /* plots of the scan handed out last */
     struct asterix_counts counts;
 };
 
@@ -86,9 +85,9 @@ const struct asterix_counts *asterix_scans_counts(const struct asterix_scans *sc
     return &scans->counts;
 }
 
-/* NULL: no room. */
-static struct asterix_sensor *find_sensor(struct asterix_scans *scans,
-                                          const struct asterix_source *source)
+/* The radar's state, begun where it is new; NULL where there is no room for another radar. */
+static struct asterix_sensor *find_or_add_sensor(struct asterix_scans *scans,
+                                                 const struct asterix_source *source)
 {
     int32_t sensor_id = asterix_sensor_id(source);
     size_t i = 0;
@@ -115,9 +114,12 @@ static int by_time(const void *a, const void *b)
     return order ? order : (one->azimuth > other->azimuth) - (one->azimuth < other->azimuth);
 }
 
-/* A complete revolution or sector becomes a scan. */
-static void make_scan_ready(struct asterix_scans *scans, struct asterix_sensor *sensor,
-                            struct asterix_open_scan *open)
+/*
+ * Queues a complete look or turn as a scan: sorts its plots by time, and keeps only quantities that
+ * all of them have.
+ */
+static void queue_complete_scan(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                                struct asterix_open_scan *open)
 {
     struct asterix_scan scan = {.sensor_id = sensor->sensor_id,
                                 .is_numbered = open->has_look || scans->interval_128 > 0,
@@ -139,49 +141,49 @@ static void make_scan_ready(struct asterix_scans *scans, struct asterix_sensor *
     scans->ready[scans->num_ready++] = scan;
 }
 
-static void end_turn(struct asterix_scans *scans, struct asterix_sensor *sensor)
+static void queue_turn_as_scan(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
     if (sensor->has_turn) {
         sensor->has_turn = false;
-        make_scan_ready(scans, sensor, &sensor->turn);
+        queue_complete_scan(scans, sensor, &sensor->turn);
         sensor->turn = (struct asterix_open_scan){.has_look = false};
     }
 }
 
-/* The sensor's first open look is complete. */
-static void complete_first_look(struct asterix_scans *scans, struct asterix_sensor *sensor)
+/* Takes the radar's oldest open look as complete: it becomes a scan, or is added to the turn. */
+static void finish_oldest_look(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
     struct asterix_open_scan open = asterix_sensor_take_scan(sensor);
 
     if (!scans->is_by_turn || !open.has_look) {
-        make_scan_ready(scans, sensor, &open);
+        queue_complete_scan(scans, sensor, &open);
         return;
     }
     if (!asterix_sensor_extend_turn(sensor, &open)) {
-        end_turn(scans, sensor);
+        queue_turn_as_scan(scans, sensor);
         (void)asterix_sensor_extend_turn(sensor, &open);
     }
     if (sensor->turn.look.advance == ASTERIX_TURN) {
-        end_turn(scans, sensor);
+        queue_turn_as_scan(scans, sensor);
     }
 }
 
-static void complete_looks_until(struct asterix_scans *scans, struct asterix_sensor *sensor,
-                                 int64_t time_128)
+static void finish_looks_until(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                               int64_t time_128)
 {
     while (sensor->num_open > 0 && sensor->open[0].look.end_128 <= time_128) {
-        complete_first_look(scans, sensor);
+        finish_oldest_look(scans, sensor);
     }
 }
 
-/* All that the sensor has. */
-static void flush_sensor(struct asterix_scans *scans, struct asterix_sensor *sensor)
+/* Ends all looks of the radar and its turn, and drops plots that fit none. */
+static void finish_all_scans_of_sensor(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
     if (sensor->has_crossings) {
         asterix_sensor_end_last_look(sensor, scans->hold_128);
     }
-    complete_looks_until(scans, sensor, INT64_MAX);
-    end_turn(scans, sensor);
+    finish_looks_until(scans, sensor, INT64_MAX);
+    queue_turn_as_scan(scans, sensor);
     asterix_sensor_drop_waiting(sensor, true, &scans->counts);
 }
 
@@ -216,22 +218,26 @@ int64_t asterix_scans_settled_128(const struct asterix_scans *scans)
     return settled_128;
 }
 
-/* Ends the scans of sensors that are silent. */
-static void flush_silent_sensors(struct asterix_scans *scans)
+/* Ends the scans of radars that have been silent too long. */
+static void finish_scans_of_silent_sensors(struct asterix_scans *scans)
 {
     for (size_t i = 0; i < scans->num_sensors; i++) {
         struct asterix_sensor *sensor = &scans->sensors[i];
 
         if (sensor->has_clock && scans->clock_128 - sensor->seen_128 > SILENT_128 &&
             (sensor->num_open > 0 || sensor->waiting.count > 0)) {
-            flush_sensor(scans, sensor);
+            finish_all_scans_of_sensor(scans, sensor);
         }
     }
 }
 
-/* The record's time, and clocks set to it. */
-static bool take_time_of_day(struct asterix_scans *scans, struct asterix_sensor *sensor,
-                             uint32_t time_of_day_128, int64_t *time_128)
+/*
+ * Converts a record's time of day to a continuous time, and advances the clocks. Returns false for
+ * a bad time.
+ */
+static bool unwrap_time_and_advance_clocks(struct asterix_scans *scans,
+                                           struct asterix_sensor *sensor, uint32_t time_of_day_128,
+                                           int64_t *time_128)
 {
     const int64_t *reference_128 = scans->has_clock   ? &scans->clock_128
                                    : scans->has_start ? &scans->start_128
@@ -249,7 +255,7 @@ static bool take_time_of_day(struct asterix_scans *scans, struct asterix_sensor 
     return true;
 }
 
-/* The time of day that is nearest to what is known, of one that lacks multiples of 512 s. */
+/* Full time of day of a truncated one (modulo 512 s), nearest to the radar's newest known time. */
 static uint32_t untruncated_time_of_day(const struct asterix_scans *scans,
                                         const struct asterix_sensor *sensor, uint32_t truncated_128)
 {
@@ -264,8 +270,12 @@ static uint32_t untruncated_time_of_day(const struct asterix_scans *scans,
     return (uint32_t)(of_day_128 < 0 ? of_day_128 + ASTERIX_DAY : of_day_128);
 }
 
-/* A radar without crossings is waited for so long, but where that is known. */
-static void end_wait_for_crossings(struct asterix_scans *scans, struct asterix_sensor *sensor)
+/*
+ * Once wait_128 is over, takes a radar without crossings as one that reports none, and forms scans
+ * of its plots that waited.
+ */
+static void end_wait_for_crossings_if_due(struct asterix_scans *scans,
+                                          struct asterix_sensor *sensor)
 {
     if (sensor->is_known || sensor->has_crossings ||
         sensor->clock_128 - sensor->first_128 < scans->wait_128) {
@@ -281,21 +291,23 @@ static void end_wait_for_crossings(struct asterix_scans *scans, struct asterix_s
     sensor->waiting.count = 0;
 }
 
-/* After a record of the sensor. */
-static void complete_what_is_over(struct asterix_scans *scans, struct asterix_sensor *sensor)
+/*
+ * Forms the scans that are complete after a record of the radar, and ends those of silent radars.
+ */
+static void finish_due_scans(struct asterix_scans *scans, struct asterix_sensor *sensor)
 {
-    end_wait_for_crossings(scans, sensor);
-    complete_looks_until(scans, sensor, sensor->clock_128 - scans->hold_128);
+    end_wait_for_crossings_if_due(scans, sensor);
+    finish_looks_until(scans, sensor, sensor->clock_128 - scans->hold_128);
     if (sensor->has_crossings) {
         asterix_sensor_drop_waiting(sensor, false, &scans->counts);
     }
-    flush_silent_sensors(scans);
+    finish_scans_of_silent_sensors(scans);
 }
 
 /* ---- Plots ---- */
 
-/* Where it counts among those that are left out, or NULL. */
-static uint64_t *left_out_counter(struct asterix_counts *counts, const struct asterix_plot *plot)
+/* The counter of the reason for which a plot is left out, or NULL where it is used. */
+static uint64_t *counter_if_left_out(struct asterix_counts *counts, const struct asterix_plot *plot)
 {
     if (plot->is_simulated || plot->is_test || plot->is_fixed) {
         return &counts->not_real;
@@ -310,8 +322,8 @@ static uint64_t *left_out_counter(struct asterix_counts *counts, const struct as
     return NULL;
 }
 
-static struct asterix_mark mark_of_plot(const struct asterix_plot *plot, int64_t time_128,
-                                        struct asterix_counts *counts)
+static struct asterix_mark make_scan_plot(const struct asterix_plot *plot, int64_t time_128,
+                                          struct asterix_counts *counts)
 {
     struct asterix_mark mark = {
         .time_128 = time_128, .range = plot->range, .azimuth = plot->azimuth};
@@ -326,8 +338,8 @@ static struct asterix_mark mark_of_plot(const struct asterix_plot *plot, int64_t
     return mark;
 }
 
-static void add_mark(struct asterix_scans *scans, struct asterix_sensor *sensor,
-                     const struct asterix_mark *mark)
+static void add_plot_unless_late(struct asterix_scans *scans, struct asterix_sensor *sensor,
+                                 const struct asterix_mark *mark)
 {
     if (mark->time_128 < asterix_sensor_settled_time(sensor, scans->hold_128)) {
         scans->counts.late++;
@@ -338,9 +350,9 @@ static void add_mark(struct asterix_scans *scans, struct asterix_sensor *sensor,
     }
 }
 
-static void take_plot(struct asterix_scans *scans, const struct asterix_plot *plot)
+static void process_plot(struct asterix_scans *scans, const struct asterix_plot *plot)
 {
-    uint64_t *count = left_out_counter(&scans->counts, plot);
+    uint64_t *count = counter_if_left_out(&scans->counts, plot);
     struct asterix_sensor *sensor;
     uint32_t of_day_128 = plot->time_128;
     int64_t time_128;
@@ -350,26 +362,26 @@ static void take_plot(struct asterix_scans *scans, const struct asterix_plot *pl
         (*count)++;
         return;
     }
-    sensor = find_sensor(scans, &plot->source);
+    sensor = find_or_add_sensor(scans, &plot->source);
     if (sensor && plot->is_time_truncated) {
         of_day_128 = untruncated_time_of_day(scans, sensor, plot->time_128);
     }
     if (!sensor) {
         scans->counts.no_room++;
-    } else if (!take_time_of_day(scans, sensor, of_day_128, &time_128)) {
+    } else if (!unwrap_time_and_advance_clocks(scans, sensor, of_day_128, &time_128)) {
         scans->counts.bad_times++;
     } else {
-        const struct asterix_mark mark = mark_of_plot(plot, time_128, &scans->counts);
+        const struct asterix_mark mark = make_scan_plot(plot, time_128, &scans->counts);
 
-        add_mark(scans, sensor, &mark);
-        complete_what_is_over(scans, sensor);
+        add_plot_unless_late(scans, sensor, &mark);
+        finish_due_scans(scans, sensor);
     }
 }
 
 /* ---- Antenna ---- */
 
-static void learn_place_and_period(struct asterix_sensor *sensor,
-                                   const struct asterix_service *service)
+static void note_place_and_period(struct asterix_sensor *sensor,
+                                  const struct asterix_service *service)
 {
     if (!sensor->place.is_given) {
         sensor->place = service->place;
@@ -387,26 +399,26 @@ static bool is_crossing(const struct asterix_service *service)
             (service->type == ASTERIX_SECTOR && service->has_sector));
 }
 
-static void take_service(struct asterix_scans *scans, const struct asterix_service *service)
+static void process_service(struct asterix_scans *scans, const struct asterix_service *service)
 {
     struct asterix_sensor *sensor =
-        service->source.is_given ? find_sensor(scans, &service->source) : NULL;
+        service->source.is_given ? find_or_add_sensor(scans, &service->source) : NULL;
     uint16_t azimuth = service->type == ASTERIX_NORTH ? 0 : (uint16_t)(service->sector << 8);
     int64_t time_128;
 
     scans->counts.services++;
     if (sensor) {
-        learn_place_and_period(sensor, service);
+        note_place_and_period(sensor, service);
     }
     if (service->has_type && service->type != ASTERIX_NORTH && service->type != ASTERIX_SECTOR) {
         scans->counts.services_other++;
     } else if (!sensor || !is_crossing(service) ||
-               !take_time_of_day(scans, sensor, service->time_128, &time_128) ||
+               !unwrap_time_and_advance_clocks(scans, sensor, service->time_128, &time_128) ||
                !asterix_sensor_cross_azimuth(sensor, time_128, azimuth, scans->hold_128,
                                              &scans->counts)) {
         scans->counts.services_left++;
     } else {
-        complete_what_is_over(scans, sensor);
+        finish_due_scans(scans, sensor);
     }
 }
 
@@ -416,12 +428,12 @@ void asterix_scans_take_record(struct asterix_scans *scans, const struct asterix
         struct asterix_plot plot;
 
         asterix_plot_read(record, &plot);
-        take_plot(scans, &plot);
+        process_plot(scans, &plot);
     } else if (asterix_category_is_service(record->category)) {
         struct asterix_service service;
 
         asterix_service_read(record, &service);
-        take_service(scans, &service);
+        process_service(scans, &service);
     }
 }
 
@@ -433,14 +445,14 @@ void asterix_scans_preview_record(struct asterix_scans *scans, const struct aste
         struct asterix_plot plot;
 
         asterix_plot_read(record, &plot);
-        sensor = plot.source.is_given ? find_sensor(scans, &plot.source) : NULL;
+        sensor = plot.source.is_given ? find_or_add_sensor(scans, &plot.source) : NULL;
     } else if (asterix_category_is_service(record->category)) {
         struct asterix_service service;
 
         asterix_service_read(record, &service);
-        sensor = service.source.is_given ? find_sensor(scans, &service.source) : NULL;
+        sensor = service.source.is_given ? find_or_add_sensor(scans, &service.source) : NULL;
         if (sensor) {
-            learn_place_and_period(sensor, &service);
+            note_place_and_period(sensor, &service);
             sensor->has_crossings |= is_crossing(&service);
             if (service.has_time && !scans->has_hint) {
                 scans->has_hint = true;
@@ -460,9 +472,9 @@ void asterix_scans_finish(struct asterix_scans *scans)
 
         if (sensor->has_clock && !sensor->is_known && !sensor->has_crossings) {
             scans->wait_128 = 0;
-            end_wait_for_crossings(scans, sensor);
+            end_wait_for_crossings_if_due(scans, sensor);
         }
-        flush_sensor(scans, sensor);
+        finish_all_scans_of_sensor(scans, sensor);
     }
     scans->is_over = true;
 }

@@ -6,14 +6,14 @@
 
 #include "base/common.h"
 
-#define JUMP_128 (60 * ASTERIX_TIME_HZ) /* a time as far off as this is not believed at once */
-#define WAIT_128 (90 * ASTERIX_TIME_HZ) /* a plot waits for its look: beyond the slowest turn */
+/* a larger step in time must be confirmed by the next record */
+#define JUMP_128 (60 * ASTERIX_TIME_HZ)
+/* longest wait of a plot for its look: more than the slowest turn */
+#define WAIT_128 (90 * ASTERIX_TIME_HZ)
 
 /* ---- Time ---- */
 
-/*
- * The time of that time of day that is nearest to the reference; half a day before is the next day.
- */
+/* The time nearest to the reference that has the given time of day. */
 static int64_t unwrap_time_of_day(int64_t reference_128, uint32_t time_of_day_128)
 {
     int64_t of_day = reference_128 % ASTERIX_DAY;
@@ -65,8 +65,8 @@ void asterix_marks_add(struct asterix_marks *marks, const struct asterix_mark *m
     marks->list[marks->count++] = *mark;
 }
 
-static struct asterix_open_scan *begin_open_scan(struct asterix_sensor *sensor,
-                                                 const struct asterix_look *look, bool has_look)
+static struct asterix_open_scan *add_open_scan(struct asterix_sensor *sensor,
+                                               const struct asterix_look *look, bool has_look)
 {
     struct asterix_open_scan *open;
 
@@ -77,9 +77,12 @@ static struct asterix_open_scan *begin_open_scan(struct asterix_sensor *sensor,
     return open;
 }
 
-/* Into the look that saw its azimuth nearest to its time. Returns false where none did. */
-static bool place_in_look(struct asterix_sensor *sensor, const struct asterix_mark *mark,
-                          int64_t hold_128)
+/*
+ * Adds a plot to the open look that passed its azimuth nearest to its time. Returns false where
+ * none did.
+ */
+static bool place_plot_in_look(struct asterix_sensor *sensor, const struct asterix_mark *mark,
+                               int64_t hold_128)
 {
     struct asterix_open_scan *nearest = NULL;
     int64_t least_128 = INT64_MAX, distance_128;
@@ -105,15 +108,15 @@ static void place_waiting_plots(struct asterix_sensor *sensor, int64_t hold_128)
     size_t kept = 0;
 
     for (size_t i = 0; i < sensor->waiting.count; i++) {
-        if (!place_in_look(sensor, &sensor->waiting.list[i], hold_128)) {
+        if (!place_plot_in_look(sensor, &sensor->waiting.list[i], hold_128)) {
             sensor->waiting.list[kept++] = sensor->waiting.list[i];
         }
     }
     sensor->waiting.count = kept;
 }
 
-/* Of the plots that wait; otherwise where there are none. */
-static int64_t first_waiting_time(const struct asterix_sensor *sensor, int64_t otherwise_128)
+/* Time of the earliest waiting plot; otherwise_128 where none waits. */
+static int64_t first_waiting_plot_time(const struct asterix_sensor *sensor, int64_t otherwise_128)
 {
     int64_t first_128 = otherwise_128;
 
@@ -125,22 +128,24 @@ static int64_t first_waiting_time(const struct asterix_sensor *sensor, int64_t o
     return first_128;
 }
 
-/* It had no look yet: plots that wait may make one before the first crossing, or be without. */
+/*
+ * Whether the radar has had no look: waiting plots may be placed in looks before the first
+ * crossing.
+ */
 static bool is_before_first_look(const struct asterix_sensor *sensor)
 {
     return !sensor->has_closed && sensor->num_open == 0;
 }
 
 /*
- * Before the first look: back to the first plot, but at most a turn, as the antenna then turned. As
- * wide as that look, the earliest one as wide as is left.
+ * Adds looks before the first one, back to the earliest waiting plot but at most one turn, at the
+ * same rotation rate. Each is as wide as the first look, the earliest as wide as is left.
  */
-static void begin_looks_before_first(struct asterix_sensor *sensor,
-                                     const struct asterix_look *first)
+static void add_looks_before_first(struct asterix_sensor *sensor, const struct asterix_look *first)
 {
     const int64_t turn_128 = asterix_look_turn_time_128(first);
-    int64_t took_128 = first->start_128 - first_waiting_time(sensor, first->start_128);
-    uint32_t before, width; /* of the antenna's way to the first look; of a look */
+    int64_t took_128 = first->start_128 - first_waiting_plot_time(sensor, first->start_128);
+    uint32_t before, width; /* angle from the look's start to the first look; width of the look */
 
     if (!is_before_first_look(sensor)) {
         return;
@@ -154,15 +159,15 @@ static void begin_looks_before_first(struct asterix_sensor *sensor,
         look.start_128 = first->start_128 - before * turn_128 / ASTERIX_TURN;
         look.end_128 = first->start_128 - (before - width) * turn_128 / ASTERIX_TURN;
         if (look.end_128 > look.start_128) {
-            begin_open_scan(sensor, &look, true);
+            add_open_scan(sensor, &look, true);
         }
     }
 }
 
-static int64_t find_settled_time(const struct asterix_sensor *sensor, int64_t hold_128)
+static int64_t earliest_time_to_come(const struct asterix_sensor *sensor, int64_t hold_128)
 {
     int64_t settled_128 = sensor->clock_128 - hold_128;
-    int64_t looks_128 = sensor->clock_128; /* the start of those that are not complete */
+    int64_t looks_128 = sensor->clock_128; /* start of the earliest look that is not complete */
 
     if (sensor->has_crossings && sensor->antenna.has_last && sensor->antenna.last_128 < looks_128) {
         looks_128 = sensor->antenna.last_128;
@@ -179,14 +184,15 @@ static int64_t find_settled_time(const struct asterix_sensor *sensor, int64_t ho
             looks_128 = start_128;
         }
     }
-    looks_128 -= hold_128; /* plots may be so much earlier than their look */
+    looks_128 -= hold_128; /* a plot may be earlier than its look by hold_128 */
     settled_128 = looks_128 < settled_128 ? looks_128 : settled_128;
-    return is_before_first_look(sensor) ? first_waiting_time(sensor, settled_128) : settled_128;
+    return is_before_first_look(sensor) ? first_waiting_plot_time(sensor, settled_128)
+                                        : settled_128;
 }
 
 int64_t asterix_sensor_settled_time(struct asterix_sensor *sensor, int64_t hold_128)
 {
-    int64_t settled_128 = find_settled_time(sensor, hold_128);
+    int64_t settled_128 = earliest_time_to_come(sensor, hold_128);
 
     if (!sensor->has_settled || settled_128 > sensor->settled_128) {
         sensor->has_settled = true;
@@ -209,8 +215,8 @@ bool asterix_sensor_cross_azimuth(struct asterix_sensor *sensor, int64_t time_12
     sensor->has_crossings = true;
     counts->gaps += is_gap;
     if (crossing == ASTERIX_LOOKED) {
-        begin_looks_before_first(sensor, &look);
-        begin_open_scan(sensor, &look, true);
+        add_looks_before_first(sensor, &look);
+        add_open_scan(sensor, &look, true);
         place_waiting_plots(sensor, hold_128);
     }
     return crossing != ASTERIX_BACK;
@@ -219,12 +225,12 @@ bool asterix_sensor_cross_azimuth(struct asterix_sensor *sensor, int64_t time_12
 void asterix_sensor_add_plot(struct asterix_sensor *sensor, const struct asterix_mark *mark,
                              int64_t hold_128)
 {
-    if (!place_in_look(sensor, mark, hold_128)) {
+    if (!place_plot_in_look(sensor, mark, hold_128)) {
         asterix_marks_add(&sensor->waiting, mark);
     }
 }
 
-/* The newest scan that began before a time, else the oldest; NULL where none is open. */
+/* The newest open scan that began before a time, else the oldest; NULL where none is open. */
 static struct asterix_open_scan *find_scan_begun_before(struct asterix_sensor *sensor,
                                                         int64_t time_128)
 {
@@ -246,7 +252,7 @@ void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor, const struct
         interval_128 > 0 ? find_scan_begun_before(sensor, mark->time_128) : NULL;
 
     if (!open || mark->time_128 >= open->look.end_128) {
-        asterix_marks_add(&begin_open_scan(sensor, &look, false)->marks, mark);
+        asterix_marks_add(&add_open_scan(sensor, &look, false)->marks, mark);
         return;
     }
     if (mark->time_128 < open->look.start_128) {
@@ -278,7 +284,7 @@ void asterix_sensor_end_last_look(struct asterix_sensor *sensor, int64_t hold_12
 
     if (sensor->waiting.count > 0 &&
         asterix_antenna_look_so_far(&sensor->antenna, sensor->clock_128, &look)) {
-        begin_open_scan(sensor, &look, true);
+        add_open_scan(sensor, &look, true);
         place_waiting_plots(sensor, hold_128);
     }
     sensor->antenna.has_last = false;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Private to asterix_scans: one radar, its antenna, and its plots that are no complete scan yet. */
+/*
+ * Private to asterix_scans: state of one radar: its antenna, and the plots of scans under way.
+ */
 #ifndef RHOTRACK_TOOL_ASTERIX_SENSOR_H
 #define RHOTRACK_TOOL_ASTERIX_SENSOR_H
 
@@ -10,78 +12,83 @@ struct asterix_marks {
     size_t count, capacity;
 };
 
-/* A scan on its way. The look's start is there in any case. */
+/* A scan being filled with plots. Without a look, look holds only its start and end times. */
 struct asterix_open_scan {
     bool has_look;
     struct asterix_look look;
     struct asterix_marks marks;
 };
 
-/* Starts as zeros, and the number. */
+/* State of one radar. Initialised with zeros and the sensor number. */
 struct asterix_sensor {
     int32_t sensor_id;
-    bool has_crossings; /* it tells them */
-    bool is_known;      /* whether it does was looked at, or waited for */
+    bool has_crossings; /* the radar reports antenna crossings */
+    bool is_known;      /* has_crossings is final: the file was previewed, or wait_s is over */
     struct asterix_place place;
     bool has_clock;
-    int64_t first_128, clock_128; /* its first time, and its latest */
-    int64_t seen_128;             /* the latest of all radars when it was heard last */
+    int64_t first_128, clock_128; /* first and latest time of the radar */
+    int64_t seen_128;             /* latest time of all radars when this one was heard last */
     bool has_suspect;
-    int64_t suspect_128; /* a time that jumped */
+    int64_t suspect_128; /* a jump in time, not confirmed yet */
     struct asterix_antenna antenna;
-    struct asterix_open_scan *open; /* by their starts */
+    struct asterix_open_scan *open; /* open looks, in the order of their start times */
     size_t num_open, open_capacity;
-    bool has_settled, has_closed; /* closed: a look was complete */
-    int64_t settled_128;          /* nothing comes before it */
+    bool has_settled, has_closed; /* has_closed: a first look was completed */
+    /* time before which no more plots are accepted; it never goes back */
+    int64_t settled_128;
     bool has_turn;
-    struct asterix_open_scan turn; /* complete looks that are no whole turn yet */
-    struct asterix_marks waiting;  /* no look is known yet that saw them */
-    int32_t scan;                  /* number of the newest one */
+    struct asterix_open_scan turn; /* complete looks that form no whole turn yet */
+    struct asterix_marks waiting;  /* plots that no known look has passed yet */
+    int32_t scan;                  /* number of the newest scan */
 };
 
 /*
- * Time of day as a time that goes on at midnight, or false: a jump. reference: where the radar has
- * no time yet.
+ * Converts a time of day to a time that continues over midnight. Returns false for a jump in time.
+ * reference: a time near the first one; NULL: the first day.
  */
 bool asterix_sensor_unwrap_time(struct asterix_sensor *sensor, uint32_t time_of_day_128,
                                 const int64_t *reference_128, int64_t *time_128);
 
-/* Nothing of the sensor that comes is before this time, but what is late. It never goes back. */
+/* Time before which further plots of the radar count as late. It never goes back. */
 int64_t asterix_sensor_settled_time(struct asterix_sensor *sensor, int64_t hold_128);
 
-/* The antenna crosses an azimuth. Returns false where that is before the newest crossing. */
+/*
+ * Processes an antenna crossing: may end a look, into which waiting plots then go. Returns false
+ * where it is older than the newest crossing, or too late.
+ */
 bool asterix_sensor_cross_azimuth(struct asterix_sensor *sensor, int64_t time_128, uint16_t azimuth,
                                   int64_t hold_128, struct asterix_counts *counts);
 
-/* A plot: into a look that saw it, or kept until there is one. */
+/* Adds a plot to the look that passed it, or keeps it until there is one. */
 void asterix_sensor_add_plot(struct asterix_sensor *sensor, const struct asterix_mark *mark,
                              int64_t hold_128);
 
 /*
- * A plot of a radar without crossings: into a scan of interval_128, or of its own where that is 0.
+ * Adds a plot of a radar without crossings to a scan of interval_128, or as a scan of its own where
+ * that is 0.
  */
 void asterix_sensor_add_plot_by_time(struct asterix_sensor *sensor, const struct asterix_mark *mark,
                                      int64_t interval_128);
 
-/* Plots that waited for a look in vain, if it is over, are given up. */
+/* Drops and counts waiting plots: all, or those that waited longer than any turn takes. */
 void asterix_sensor_drop_waiting(struct asterix_sensor *sensor, bool all,
                                  struct asterix_counts *counts);
 
-/* Plots since the newest north crossing become a scan. */
+/* Closes the look since the newest crossing, at the end of input, if plots wait for it. */
 void asterix_sensor_end_last_look(struct asterix_sensor *sensor, int64_t hold_128);
 
-/* The first open scan, which is taken out: its marks are the caller's. */
+/* Removes and returns the oldest open scan; its plots then belong to the caller. */
 struct asterix_open_scan asterix_sensor_take_scan(struct asterix_sensor *sensor);
 
 /*
- * A complete look after those of the turn: false, and nothing is changed, where it does not go on
- * where they end.
+ * Adds a complete look to the radar's turn. Returns false, and changes nothing, where the look does
+ * not begin where the turn ends.
  */
 bool asterix_sensor_extend_turn(struct asterix_sensor *sensor, struct asterix_open_scan *open);
 
 /*
- * Heights and speeds count where all plots of a scan have them; else heights make ground ranges of
- * slant ranges.
+ * Keeps heights and Doppler speeds only where all plots of a scan have them; else heights convert
+ * slant ranges to ground ranges.
  */
 void asterix_marks_all_or_none(struct asterix_marks *marks, const struct asterix_place *place,
                                struct asterix_counts *counts);

@@ -28,7 +28,7 @@ enum column {
     NUM_COLUMNS
 };
 
-static const char *status_name(int status)
+static const char *track_status_name(int status)
 {
     switch (status) {
     case RHO_MESSAGE_TRACK_TENTATIVE:
@@ -45,7 +45,7 @@ static const char *status_name(int status)
 static const struct table_column all_columns[NUM_COLUMNS] = {
     [AT_T_S] = {.name = "t_s", .decimals = 6},
     [AT_TRACK_ID] = {.name = "track_id", .decimals = 0},
-    [AT_STATUS] = {.name = "status", .decimals = 0, .word = status_name},
+    [AT_STATUS] = {.name = "status", .decimals = 0, .word = track_status_name},
     [AT_X_M] = {.name = "x_m", .decimals = 3},
     [AT_Y_M] = {.name = "y_m", .decimals = 3},
     [AT_Z_M] = {.name = "z_m", .decimals = 3},
@@ -61,11 +61,14 @@ static const struct table_column all_columns[NUM_COLUMNS] = {
 
 struct reading {
     struct table *table;
-    struct local_frame *frame; /* NULL: the origin is not set */
+    struct local_frame *frame; /* NULL where the origin is not set */
     bool has_time;
-    int64_t time_128;              /* of the newest record, since the midnight before the first */
-    uint32_t line;                 /* of the CSV file that says the same */
-    uint64_t incomplete, on_earth; /* on_earth: of these, without a place but for 105 */
+    /* time of the newest record, since the midnight before the first */
+    int64_t time_128;
+    /* line number of the next row in the CSV file that `convert` would write */
+    uint32_t line;
+    /* on_earth: number of incomplete records that have a place in I062/105 alone */
+    uint64_t incomplete, on_earth;
 };
 
 bool asterix_file_has_only_tracks(const char *path)
@@ -84,7 +87,10 @@ bool asterix_file_has_only_tracks(const char *path)
     return has_tracks && !has_radar;
 }
 
-/* A time of day half a day or more before the one before is of the next day. */
+/*
+ * Converts a time of day to a continuous time: half a day or more before the newest is the next
+ * day.
+ */
 static int64_t time_since_first_midnight(struct reading *reading, uint32_t of_day_128)
 {
     const int64_t day_128 = reading->time_128 - reading->time_128 % ASTERIX_DAY;
@@ -103,8 +109,8 @@ static double rms_sigma(double x, double y)
     return sqrt(0.5 * (x * x + y * y));
 }
 
-static void put_place(const struct reading *reading, const struct asterix_track *track,
-                      double *cells)
+static void put_position_cells(const struct reading *reading, const struct asterix_track *track,
+                               double *cells)
 {
     if (track->has_geodetic && reading->frame) {
         const double geodetic[3] = {track->lat_deg, track->lon_deg,
@@ -121,7 +127,7 @@ static void put_place(const struct reading *reading, const struct asterix_track 
     }
 }
 
-static void put_motion(const struct asterix_track *track, double *cells)
+static void put_motion_cells(const struct asterix_track *track, double *cells)
 {
     if (track->has_velocity) {
         cells[AT_VX_MPS] = track->vx_mps;
@@ -140,7 +146,7 @@ static void put_motion(const struct asterix_track *track, double *cells)
     }
 }
 
-static void add_track(struct reading *reading, const struct asterix_track *track)
+static void add_track_row(struct reading *reading, const struct asterix_track *track)
 {
     const bool is_placed =
         track->has_place || (track->has_geodetic && reading->frame && fabs(track->lat_deg) <= 90);
@@ -159,14 +165,14 @@ static void add_track(struct reading *reading, const struct asterix_track *track
                        : track->is_tentative ? RHO_MESSAGE_TRACK_TENTATIVE
                        : track->is_coasting  ? RHO_MESSAGE_TRACK_COASTING
                                              : RHO_MESSAGE_TRACK_CONFIRMED;
-    put_place(reading, track, cells);
-    put_motion(track, cells);
+    put_position_cells(reading, track, cells);
+    put_motion_cells(track, cells);
     if (track->source.is_given) {
         cells[AT_SENSOR_ID] = asterix_sensor_id(&track->source);
     }
 }
 
-static void report_incomplete(const struct reading *reading, const char *path)
+static void report_or_refuse_incomplete(const struct reading *reading, const char *path)
 {
     if (reading->table->num_rows == 0 && reading->on_earth > 0) {
         fail(EXIT_USAGE, "%s: tracks (CAT062) with places on the earth alone (I062/105): %s", path,
@@ -195,11 +201,11 @@ struct table *asterix_track_table_read(const char *path, const struct parameters
         struct asterix_track track;
 
         asterix_track_read(&record, &track);
-        add_track(&reading, &track);
+        add_track_row(&reading, &track);
     }
     asterix_file_report_skipped(file);
     asterix_file_close(file);
     local_frame_close(reading.frame);
-    report_incomplete(&reading, path);
+    report_or_refuse_incomplete(&reading, path);
     return reading.table;
 }

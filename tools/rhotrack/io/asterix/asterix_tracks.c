@@ -9,26 +9,26 @@
 #include "io/asterix/asterix.h"
 #include "io/csv/local_frame.h"
 
-/* A track of a list. */
+/* One track of a list. */
 struct entry {
     int32_t track_id;
     struct asterix_track track;
 };
 
 struct list {
-    struct entry *entries; /* by identity */
+    struct entry *entries; /* sorted by track_id */
     size_t count, capacity;
 };
 
 struct asterix_tracks {
     FILE *file;
     struct asterix_source source;
-    struct local_frame *frame; /* NULL: the origin is not set */
-    struct list now, before;   /* the list under way, and the one written last */
+    struct local_frame *frame; /* NULL where the origin is not set */
+    struct list now, before;   /* list being collected, and the list written last */
     bool has_sensor, is_multisensor;
-    int16_t sensor_id; /* of the first track that said one */
+    int16_t sensor_id; /* sensor of the first track */
     uint8_t block[ASTERIX_TRACKS_BLOCK];
-    size_t size; /* of the block; 0: none is begun */
+    size_t size; /* bytes of the block so far; 0: none is begun */
 };
 
 bool asterix_tracks_path_is_asterix(const char *path)
@@ -73,7 +73,7 @@ void asterix_tracks_close(struct asterix_tracks *tracks)
 
 /* ---- Blocks ---- */
 
-static void end_block(struct asterix_tracks *tracks)
+static void write_block(struct asterix_tracks *tracks)
 {
     if (tracks->size > 0) {
         tracks->block[0] = ASTERIX_TRACKS;
@@ -84,13 +84,13 @@ static void end_block(struct asterix_tracks *tracks)
     }
 }
 
-static void write_track(struct asterix_tracks *tracks, const struct asterix_track *track)
+static void add_track_record(struct asterix_tracks *tracks, const struct asterix_track *track)
 {
     uint8_t record[ASTERIX_TRACK_BYTES];
     size_t size = asterix_track_write(track, record);
 
     if (tracks->size + size > sizeof tracks->block) {
-        end_block(tracks);
+        write_block(tracks);
     }
     if (tracks->size == 0) {
         tracks->size = ASTERIX_HEADER_BYTES;
@@ -101,7 +101,7 @@ static void write_track(struct asterix_tracks *tracks, const struct asterix_trac
 
 /* ---- Tracks ---- */
 
-/* Time of day. */
+/* Time of day in 1/128 s from utime in microseconds. */
 static uint32_t time_of_day_128(int64_t utime)
 {
     int64_t day_us = INT64_C(86400000000), of_day = utime % day_us;
@@ -110,7 +110,7 @@ static uint32_t time_of_day_128(int64_t utime)
     return (uint32_t)((of_day * ASTERIX_TIME_HZ + 500000) / 1000000 % ASTERIX_DAY);
 }
 
-/* Of the covariance's lower triangle. */
+/* Diagonal element of the covariance, which is stored as its lower triangle. */
 static double variance_of_state(const struct rho_message_track *track, int state)
 {
     return (double)track->covariance[state * (state + 1) / 2 + state];
@@ -121,8 +121,9 @@ static double sigma_of_state(const struct rho_message_track *track, int state)
     return sqrt(fmax(0.0, variance_of_state(track, state)));
 }
 
-static void put_geodetic(const struct asterix_tracks *tracks,
-                         const struct rho_message_track *message, struct asterix_track *track)
+static void set_geodetic_position(const struct asterix_tracks *tracks,
+                                  const struct rho_message_track *message,
+                                  struct asterix_track *track)
 {
     const double place_m[3] = {(double)message->x_m, (double)message->y_m, (double)message->z_m};
     bool has_height = variance_of_state(message, 2) > 0;
@@ -165,11 +166,11 @@ static struct asterix_track asterix_track_of(const struct asterix_tracks *tracks
         .sigma_vy_mps = sigma_of_state(message, 4),
     };
 
-    put_geodetic(tracks, message, &track);
+    set_geodetic_position(tracks, message, &track);
     return track;
 }
 
-/* A track is of one sensor as long as no track was of another. */
+/* Notes a track's sensor: tracks are monosensor as long as all are of one sensor. */
 static void note_sensor_of_track(struct asterix_tracks *tracks, int16_t sensor_id)
 {
     tracks->is_multisensor |= tracks->has_sensor && sensor_id != tracks->sensor_id;
@@ -179,26 +180,26 @@ static void note_sensor_of_track(struct asterix_tracks *tracks, int16_t sensor_i
 
 /* ---- Lists ---- */
 
-static int by_identity(const void *a, const void *b)
+static int by_track_id(const void *a, const void *b)
 {
     const struct entry *one = a, *other = b;
 
     return (one->track_id > other->track_id) - (one->track_id < other->track_id);
 }
 
-static void write_last_record(struct asterix_tracks *tracks, const struct entry *entry,
-                              uint32_t time_128)
+static void add_end_record(struct asterix_tracks *tracks, const struct entry *entry,
+                           uint32_t time_128)
 {
     struct asterix_track track = entry->track;
 
     track.is_first = false;
     track.is_last = true;
     track.time_128 = time_128;
-    write_track(tracks, &track);
+    add_track_record(tracks, &track);
 }
 
-/* By identity: tracks of this list, and those of the one before that it does not have. */
-static void write_list(struct asterix_tracks *tracks, uint32_t time_128)
+/* Writes the list's tracks, and end records of those that only the list before had, by track_id. */
+static void write_track_list(struct asterix_tracks *tracks, uint32_t time_128)
 {
     const struct list *before = &tracks->before;
     size_t gone = 0;
@@ -207,28 +208,28 @@ static void write_list(struct asterix_tracks *tracks, uint32_t time_128)
         struct entry *entry = &tracks->now.entries[i];
 
         while (gone < before->count && before->entries[gone].track_id < entry->track_id) {
-            write_last_record(tracks, &before->entries[gone++], time_128);
+            add_end_record(tracks, &before->entries[gone++], time_128);
         }
         entry->track.is_first =
             gone == before->count || before->entries[gone].track_id > entry->track_id;
         gone += !entry->track.is_first;
         entry->track.is_monosensor = !tracks->is_multisensor;
-        write_track(tracks, &entry->track);
+        add_track_record(tracks, &entry->track);
     }
     while (gone < before->count) {
-        write_last_record(tracks, &before->entries[gone++], time_128);
+        add_end_record(tracks, &before->entries[gone++], time_128);
     }
-    end_block(tracks);
+    write_block(tracks);
 }
 
-static void end_list(struct asterix_tracks *tracks, int64_t utime)
+static void write_and_keep_list(struct asterix_tracks *tracks, int64_t utime)
 {
     struct list before = tracks->before;
 
     if (tracks->now.count > 0) {
-        qsort(tracks->now.entries, tracks->now.count, sizeof *tracks->now.entries, by_identity);
+        qsort(tracks->now.entries, tracks->now.count, sizeof *tracks->now.entries, by_track_id);
     }
-    write_list(tracks, time_of_day_128(utime));
+    write_track_list(tracks, time_of_day_128(utime));
     tracks->before = tracks->now;
     tracks->now = before;
     tracks->now.count = 0;
@@ -249,6 +250,6 @@ void asterix_tracks_add(struct asterix_tracks *tracks, const struct rho_message_
         }
     }
     if (message->part + 1 >= message->num_parts) {
-        end_list(tracks, message->utime);
+        write_and_keep_list(tracks, message->utime);
     }
 }

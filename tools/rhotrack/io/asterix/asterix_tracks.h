@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * asterix_tracks: tracks as a recording in ASTERIX, CAT062: one record a track and list, in data
- * blocks of ASTERIX_TRACKS_BLOCK bytes at most, which fit datagrams. Lists begin blocks.
+ * asterix_track_writer: writes tracks as an ASTERIX recording, CAT062: one record for each track
+ * and list, in data blocks of at most ASTERIX_TRACKS_BLOCK bytes, which fit datagrams. Each list
+ * begins a block.
  *
- * A track's number is its identity modulo 65536. Its first record says so, and when a list no
- * longer has it one record more says that it was the last, with what the track was at the list
- * before, at the time of the list without it. Place and velocity are those of the local frame;
- * latitude and longitude, and where heights are measured the altitude above the ellipsoid, are
- * there where the origin is set. SAC and SIC are the parameters asterix_sac and asterix_sic.
+ * A track's number is its identity modulo 65536. Its first record is marked as first. When a list
+ * no longer has the track, one more record marks its end, with the state of the list before and the
+ * time of the list without it. Position and velocity are those of the local frame; latitude and
+ * longitude, and where heights are measured the altitude above the ellipsoid, are added where the
+ * origin is set. SAC and SIC are the parameters asterix_sac and asterix_sic.
  */
 #ifndef RHOTRACK_TOOL_ASTERIX_TRACKS_H
 #define RHOTRACK_TOOL_ASTERIX_TRACKS_H
@@ -22,18 +23,18 @@
 
 struct asterix_tracks;
 
-/* Whether an output of this name is such a recording: it ends with .ast or .asterix. */
+/* Whether an output of this name is an ASTERIX recording: it ends with .ast or .asterix. */
 bool asterix_tracks_path_is_asterix(const char *path);
 
-/* Exit 2 where an output of this name is asked for with covariances, which it has no place for. */
+/* Exit 2 where an ASTERIX output is requested with covariances, for which CAT062 has no item. */
 void asterix_tracks_refuse_covariance(const char *path, bool with_covariance);
 
-/* The file stays the caller's. */
+/* Starts writing to a file, which the caller keeps and closes. */
 struct asterix_tracks *asterix_tracks_open(FILE *file, const struct parameters *parameters);
 
-/* A list, or a part of it: with the last part it is complete, and written. */
+/* Adds a message of tracks; the last part of a list writes the whole list. */
 void asterix_tracks_add(struct asterix_tracks *tracks,
                         const struct rho_message_track_list *message);
-void asterix_tracks_close(struct asterix_tracks *tracks); /* NULL: nothing */
+void asterix_tracks_close(struct asterix_tracks *tracks); /* Frees the writer; NULL is allowed. */
 
 #endif

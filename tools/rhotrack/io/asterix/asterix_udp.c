@@ -14,7 +14,8 @@
 #include "base/common.h"
 
 #define SCHEME "udp://"
-#define BUFFER_BYTES (2 << 20) /* what gathers while this program waits for a processor */
+/* socket buffer, for datagrams that arrive while the program is busy */
+#define BUFFER_BYTES (2 << 20)
 
 bool asterix_udp_is_url(const char *text)
 {
@@ -23,7 +24,7 @@ bool asterix_udp_is_url(const char *text)
 
 /* ---- Records ---- */
 
-static bool take_block_records(struct asterix_scans *scans, const struct asterix_block *block)
+static bool process_block_records(struct asterix_scans *scans, const struct asterix_block *block)
 {
     struct asterix_record record;
     struct asterix_error error;
@@ -53,7 +54,7 @@ void asterix_datagram_take_records(struct asterix_scans *scans, const uint8_t *d
         if (!asterix_category_is_plots(block.category) &&
             !asterix_category_is_service(block.category)) {
             heard->others++;
-        } else if (!take_block_records(scans, &block)) {
+        } else if (!process_block_records(scans, &block)) {
             heard->bad++;
             return;
         }
@@ -62,7 +63,7 @@ void asterix_datagram_take_records(struct asterix_scans *scans, const uint8_t *d
 
 /* ---- The socket ---- */
 
-static struct sockaddr_in read_url(const char *url)
+static struct sockaddr_in parse_url(const char *url)
 {
     struct sockaddr_in address = {.sin_family = AF_INET};
     char *text = must_copy_text(url + strlen(SCHEME)), *port = strrchr(text, ':'), *end = NULL;
@@ -88,7 +89,7 @@ static void fail_if_error(const char *url, int result)
     }
 }
 
-static void join_group(const char *url, int receiver, const struct sockaddr_in *group)
+static void join_multicast_group(const char *url, int receiver, const struct sockaddr_in *group)
 {
     struct ip_mreqn member = {.imr_multiaddr = group->sin_addr};
 
@@ -105,7 +106,7 @@ static void join_group(const char *url, int receiver, const struct sockaddr_in *
 
 int asterix_udp_open(const char *url)
 {
-    struct sockaddr_in address = read_url(url);
+    struct sockaddr_in address = parse_url(url);
     int receiver = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), yes = 1, bytes = BUFFER_BYTES;
 
     fail_if_error(url, receiver < 0);
@@ -115,7 +116,7 @@ int asterix_udp_open(const char *url)
     }
     fail_if_error(url, bind(receiver, (const struct sockaddr *)&address, sizeof address));
     if (IN_MULTICAST(ntohl(address.sin_addr.s_addr))) {
-        join_group(url, receiver, &address);
+        join_multicast_group(url, receiver, &address);
     }
     return receiver;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * asterix_values: the values of items. Lengths are checked: an item that is there has the bytes of
- * its form.
+ * asterix_values: decodes the values of items. Lengths were checked before: an item that is there
+ * has all bytes of its form.
  */
 #include "io/asterix/asterix.h"
 #include "io/asterix/asterix_items.h"
@@ -18,7 +18,7 @@ static uint32_t read_unsigned(const uint8_t *data, int bytes)
     return value;
 }
 
-/* The last so many bits, two's complement. */
+/* The lowest `bits` bits as a two's complement number. */
 static int32_t sign_extend(uint32_t value, int bits)
 {
     uint32_t top = UINT32_C(1) << (bits - 1), all = top | (top - 1);
@@ -45,8 +45,9 @@ int32_t asterix_sensor_id(const struct asterix_source *source)
 
 /* ---- CAT048 ---- */
 
-/* 020: what sort of plot. The second byte is there where the first has its last bit set. */
-static void read_descriptor(const uint8_t *item, size_t size, struct asterix_plot *plot)
+/* I048/020, target report descriptor. Its second byte is there where the first has FX set. */
+static void read_target_report_descriptor(const uint8_t *item, size_t size,
+                                          struct asterix_plot *plot)
 {
     plot->has_type = true;
     plot->type = item[0] >> 5;
@@ -58,7 +59,7 @@ static void read_descriptor(const uint8_t *item, size_t size, struct asterix_plo
     }
 }
 
-/* 120: the calculated speed comes first where it is there. */
+/* I048/120, radial Doppler speed: the calculated speed comes first where it is there. */
 static void read_doppler(const uint8_t *item, struct asterix_plot *plot)
 {
     plot->has_doppler = item[0] >> 7 & 1;
@@ -107,7 +108,7 @@ static void read_cat048_plot(const struct asterix_record *record, struct asterix
         plot->time_128 = read_unsigned(time, 3);
     }
     if (record->items[I048_020]) {
-        read_descriptor(record->items[I048_020], record->sizes[I048_020], plot);
+        read_target_report_descriptor(record->items[I048_020], record->sizes[I048_020], plot);
     }
     if (position) {
         plot->has_position = true;
@@ -123,7 +124,7 @@ static void read_cat048_plot(const struct asterix_record *record, struct asterix
 
 /* ---- CAT001 ---- */
 
-/* Items of both profiles, and where they are: of plots, of tracks. */
+/* Items of CAT001 that both profiles have; cat001_item knows their indices. */
 enum { OLD_010, OLD_020, OLD_040, OLD_070, OLD_090, OLD_120, OLD_141, OLD_161, NUM_OLD };
 
 static const uint8_t *cat001_item(const struct asterix_record *record, int item)
@@ -134,7 +135,7 @@ static const uint8_t *cat001_item(const struct asterix_record *record, int item)
     return place < 0 ? NULL : record->items[place];
 }
 
-/* 020: its second byte is there where the first has its last bit set. Doppler speeds are raw. */
+/* I001/020 has a second byte where the first has FX set. Doppler speeds of CAT001 are raw. */
 static void read_cat001_plot(const struct asterix_record *record, struct asterix_plot *plot)
 {
     const uint8_t *type = cat001_item(record, OLD_020), *position = cat001_item(record, OLD_040);
@@ -176,13 +177,13 @@ void asterix_plot_read(const struct asterix_record *record, struct asterix_plot 
 
 /* ---- CAT034, CAT002 ---- */
 
-#define QUARTER_TURN 4194304 /* 90 degrees */
+#define QUARTER_TURN 4194304 /* 90 degrees in units of item I034/120 */
 
 /*
- * Item 120, the radar's place: height in metres, latitude and longitude in 180/2^23 degrees. A
+ * I034/120, the radar's place: height in metres, latitude and longitude in 180/2^23 degrees. A
  * latitude beyond the poles counts as missing.
  */
-static void read_place(const uint8_t *item, struct asterix_service *service)
+static void read_radar_place(const uint8_t *item, struct asterix_service *service)
 {
     int32_t lat = read_signed(item + 2, 3);
 
@@ -214,14 +215,16 @@ void asterix_service_read(const struct asterix_record *record, struct asterix_se
     service->has_period = period;
     service->period_128 = period ? (uint16_t)read_unsigned(period, 2) : 0;
     if (!is_old && record->items[I034_120]) {
-        read_place(record->items[I034_120], service);
+        read_radar_place(record->items[I034_120], service);
     }
 }
 
 /* ---- CAT062 ---- */
 
-/* 080: CNF in the first byte, TSB and TSE in the second, CST in the fourth. */
-static void read_status(const uint8_t *item, size_t size, struct asterix_track *track)
+/*
+ * I062/080, track status: bit CNF in the first byte, TSB and TSE in the second, CST in the fourth.
+ */
+static void read_track_status(const uint8_t *item, size_t size, struct asterix_track *track)
 {
     track->has_status = true;
     track->is_monosensor = item[0] >> 7 & 1;
@@ -231,8 +234,8 @@ static void read_status(const uint8_t *item, size_t size, struct asterix_track *
     track->is_coasting = size > 3 && (item[3] >> 7 & 1);
 }
 
-/* The parts of 500 before ATV have these lengths. */
-static void read_accuracies(const uint8_t *item, size_t size, struct asterix_track *track)
+/* I062/500, parts APC and ATV; the table has the lengths of the five parts before ATV. */
+static void read_track_sigmas(const uint8_t *item, size_t size, struct asterix_track *track)
 {
     static const uint8_t bytes[] = {4, 2, 4, 1, 1};
     const uint8_t *at = item + (item[0] & 1 ? 2 : 1), *velocity = at;
@@ -250,7 +253,7 @@ static void read_accuracies(const uint8_t *item, size_t size, struct asterix_tra
     track->sigma_vy_mps = track->has_sigma ? 0.25 * velocity[1] : 0;
 }
 
-static void read_motion(const struct asterix_record *record, struct asterix_track *track)
+static void read_track_motion(const struct asterix_record *record, struct asterix_track *track)
 {
     const uint8_t *velocity = record->items[I062_185], *accel = record->items[I062_210];
     const uint8_t *climb = record->items[I062_220];
@@ -271,7 +274,7 @@ static void read_motion(const struct asterix_record *record, struct asterix_trac
     }
 }
 
-static void read_position(const struct asterix_record *record, struct asterix_track *track)
+static void read_track_position(const struct asterix_record *record, struct asterix_track *track)
 {
     const uint8_t *place = record->items[I062_100], *geodetic = record->items[I062_105];
     const uint8_t *altitude = record->items[I062_130];
@@ -302,11 +305,11 @@ void asterix_track_read(const struct asterix_record *record, struct asterix_trac
     track->has_number = number;
     track->number = number ? (uint16_t)read_unsigned(number, 2) : 0;
     if (record->items[I062_080]) {
-        read_status(record->items[I062_080], record->sizes[I062_080], track);
+        read_track_status(record->items[I062_080], record->sizes[I062_080], track);
     }
-    read_position(record, track);
-    read_motion(record, track);
+    read_track_position(record, track);
+    read_track_motion(record, track);
     if (record->items[I062_500]) {
-        read_accuracies(record->items[I062_500], record->sizes[I062_500], track);
+        read_track_sigmas(record->items[I062_500], record->sizes[I062_500], track);
     }
 }

@@ -12,20 +12,20 @@
 #define TYPE_IPV4 0x0800u
 #define TYPE_IPV6 0x86ddu
 #define TYPE_VLAN 0x8100u
-#define TYPE_VLANS 0x88a8u /* an outer one */
+#define TYPE_VLANS 0x88a8u /* outer VLAN tag */
 #define VLAN_BYTES 4u
 #define PROTOCOL_UDP 17u
 #define IPV4_BYTES 20u
 #define IPV6_BYTES 40u
 #define UDP_BYTES 8u
-#define FRAGMENT 0x3fffu /* of a datagram: more follow, or it is not the first */
+#define FRAGMENT 0x3fffu /* IPv4 bits of a fragment: more fragments, or an offset */
 
 struct captured_datagrams {
     char *path;
     pcap_t *capture;
     int link;
     uint64_t packets, incomplete;
-    bool is_cut; /* it ends within a packet, or is not readable further */
+    bool is_cut; /* the file ends within a packet, or is damaged */
 };
 
 /* ---- What sort of file ---- */
@@ -34,7 +34,7 @@ bool captured_datagrams_is_capture(const char *path)
 {
     static const uint8_t beginnings[][4] = {
         {0xa1, 0xb2, 0xc3, 0xd4}, {0xd4, 0xc3, 0xb2, 0xa1}, /* pcap, microseconds */
-        {0xa1, 0xb2, 0x3c, 0x4d}, {0x4d, 0x3c, 0xb2, 0xa1}, /* ... and nanoseconds */
+        {0xa1, 0xb2, 0x3c, 0x4d}, {0x4d, 0x3c, 0xb2, 0xa1}, /* pcap, nanoseconds */
         {0x0a, 0x0d, 0x0d, 0x0a},                           /* pcapng */
     };
     uint8_t bytes[4];
@@ -85,19 +85,19 @@ struct captured_datagrams *captured_datagrams_open(const char *path)
 
 /* ---- Headers ---- */
 
-/* What is left of a packet. */
-struct rest {
+/* The bytes of a packet that are not parsed yet. */
+struct packet_rest {
     const uint8_t *data;
     size_t size;
 };
 
-static unsigned two_bytes(const uint8_t *data)
+static unsigned read_uint16(const uint8_t *data)
 {
     return (unsigned)data[0] << 8 | data[1];
 }
 
-/* Takes so many bytes off; false where there are fewer. */
-static bool skip_bytes(struct rest *rest, size_t size)
+/* Skips `size` bytes; false where fewer are left. */
+static bool skip_bytes(struct packet_rest *rest, size_t size)
 {
     if (rest->size < size) {
         return false;
@@ -107,8 +107,9 @@ static bool skip_bytes(struct rest *rest, size_t size)
     return true;
 }
 
-/* Type of the packet behind the link's header; 0: none that is read. */
-static unsigned skip_link_header(const struct captured_datagrams *captured, struct rest *rest)
+/* Skips the link's header. Returns the type of the packet behind it; 0: none that is read. */
+static unsigned skip_link_header(const struct captured_datagrams *captured,
+                                 struct packet_rest *rest)
 {
     static const struct {
         int link;
@@ -123,10 +124,10 @@ static unsigned skip_link_header(const struct captured_datagrams *captured, stru
         if (rest->size < links[i].bytes) {
             return 0;
         }
-        type = two_bytes(rest->data + links[i].type_at);
+        type = read_uint16(rest->data + links[i].type_at);
         skip_bytes(rest, links[i].bytes);
         while ((type == TYPE_VLAN || type == TYPE_VLANS) && rest->size >= VLAN_BYTES) {
-            type = two_bytes(rest->data + 2);
+            type = read_uint16(rest->data + 2);
             skip_bytes(rest, VLAN_BYTES);
         }
         return type;
@@ -137,8 +138,11 @@ static unsigned skip_link_header(const struct captured_datagrams *captured, stru
     return rest->size > 0 && rest->data[0] >> 4 == 6 ? TYPE_IPV6 : TYPE_IPV4;
 }
 
-/* To the UDP header. Sets what is left to what belongs to the packet: frames may be longer. */
-static bool skip_ipv4_header(struct rest *rest, bool *is_incomplete)
+/*
+ * Skips the header of an IPv4 packet that holds UDP, and cuts what is left to the packet's length,
+ * since frames may be longer. False: no such packet, or incomplete.
+ */
+static bool skip_ipv4_header(struct packet_rest *rest, bool *is_incomplete)
 {
     size_t header, total;
 
@@ -146,11 +150,11 @@ static bool skip_ipv4_header(struct rest *rest, bool *is_incomplete)
         return false;
     }
     header = (size_t)(rest->data[0] & 15u) * 4u;
-    total = two_bytes(rest->data + 2);
+    total = read_uint16(rest->data + 2);
     if (header < IPV4_BYTES || total < header) {
         return false;
     }
-    *is_incomplete = (two_bytes(rest->data + 6) & FRAGMENT) != 0 || total > rest->size;
+    *is_incomplete = (read_uint16(rest->data + 6) & FRAGMENT) != 0 || total > rest->size;
     if (*is_incomplete) {
         return false;
     }
@@ -158,8 +162,8 @@ static bool skip_ipv4_header(struct rest *rest, bool *is_incomplete)
     return skip_bytes(rest, header);
 }
 
-/* Without extension headers. */
-static bool skip_ipv6_header(struct rest *rest)
+/* Skips the header of an IPv6 packet that holds UDP, without extension headers. */
+static bool skip_ipv6_header(struct packet_rest *rest)
 {
     if (rest->size < IPV6_BYTES || rest->data[0] >> 4 != 6 || rest->data[6] != PROTOCOL_UDP) {
         return false;
@@ -167,8 +171,8 @@ static bool skip_ipv6_header(struct rest *rest)
     return skip_bytes(rest, IPV6_BYTES);
 }
 
-/* A datagram's content; false where the packet is none. */
-static bool find_udp_content(struct captured_datagrams *captured, struct rest *rest)
+/* Cuts a packet to its UDP content; false where it has none, or is incomplete, which is counted. */
+static bool find_udp_content(struct captured_datagrams *captured, struct packet_rest *rest)
 {
     const unsigned type = skip_link_header(captured, rest);
     bool is_incomplete = false;
@@ -180,7 +184,7 @@ static bool find_udp_content(struct captured_datagrams *captured, struct rest *r
         captured->incomplete += is_incomplete;
         return false;
     }
-    size = two_bytes(rest->data + 4);
+    size = read_uint16(rest->data + 4);
     if (size > rest->size) {
         captured->incomplete++;
         return false;
@@ -199,7 +203,7 @@ bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_goin
     int got;
 
     while ((got = pcap_next_ex(captured->capture, &header, &bytes)) == 1) {
-        struct rest rest = {bytes, header->caplen};
+        struct packet_rest rest = {bytes, header->caplen};
         captured->packets++;
         if (find_udp_content(captured, &rest)) {
             *data = rest.data;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * captured_datagrams: what UDP datagrams carried, from a network recording (pcap or pcapng, as
- * tcpdump and Wireshark write them), in the order in which they were recorded.
+ * captured_datagrams: the contents of the UDP datagrams of a network recording (pcap or pcapng, as
+ * tcpdump and Wireshark write them), in the recorded order.
  *
- * Read by libpcap. Links: Ethernet with any number of VLAN tags, Linux cooked, raw IP and loopback.
- * Packets of other protocols are passed over. Fragments and packets of which the recording has only
- * the beginning are left out and counted.
+ * Recordings are read by libpcap. Links: Ethernet with any number of VLAN tags, Linux cooked, raw
+ * IP and loopback. Packets of other protocols are skipped. Fragments and packets that the recording
+ * cut short are left out and counted.
  */
 #ifndef RHOTRACK_TOOL_CAPTURED_DATAGRAMS_H
 #define RHOTRACK_TOOL_CAPTURED_DATAGRAMS_H
@@ -14,29 +14,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Whether a plain file begins as a network recording does. */
+/* Whether a plain file begins like a network recording. */
 bool captured_datagrams_is_capture(const char *path);
 
 struct captured_datagrams;
 
-/* Errors: exit 2. */
+/* Opens a network recording. Errors: exit 2. */
 struct captured_datagrams *captured_datagrams_open(const char *path);
 
 /*
- * The next datagram's content, of at least one byte, valid until the next call. Returns false after
- * the last; a file that ends within a packet is an error, exit 2, but with keep_going it ends
- * there.
+ * Reads the next datagram's content, of at least one byte, valid until the next call. Returns false
+ * after the last. A file that ends within a packet: exit 2, or with keep_going it ends there.
  */
 bool captured_datagrams_next(struct captured_datagrams *captured, bool keep_going,
                              const uint8_t **data, size_t *size);
 
-/* The number of the packet that was read last, from 1 on, as Wireshark counts. */
+/* Number of the packet that was read last, from 1, as Wireshark counts. */
 uint64_t captured_datagrams_packet_number(const struct captured_datagrams *captured);
 
-/* How many were left out so far, as a part of them is not there. */
+/* Number of datagrams left out so far, since they are fragments or cut short. */
 uint64_t captured_datagrams_num_incomplete(const struct captured_datagrams *captured);
 
-/* Why it could not be read to its end; NULL: it was. */
+/* Reason why the recording could not be read to its end; NULL where it could. */
 const char *captured_datagrams_why_cut(const struct captured_datagrams *captured);
 
 void captured_datagrams_close(struct captured_datagrams *captured);

@@ -12,7 +12,7 @@
 #define ALT_MIN_M (-1e4)
 #define ALT_MAX_M 1e6
 
-/* A radar's frame, kept as long as it stays where it is. */
+/* A radar's frame, kept while the radar does not move. */
 struct kept_radar {
     int32_t sensor_id;
     bool has_own_north;
@@ -20,15 +20,16 @@ struct kept_radar {
     struct radar_frame *frame;
 };
 
-/* Columns are indices into the table, -1 where it has none. */
+/* Columns of one table, as indices, -1 where it has no such column; and the radars' frames. */
 struct geodetic {
     const struct parameters *parameters;
-    struct local_frame *origin; /* NULL: not needed so far */
+    struct local_frame *origin; /* frame of the origin; NULL until it is needed */
     bool is_polar;
     int lat_deg, lon_deg, alt_m, sigma_alt_m;
     int sensor_x_m, sensor_y_m, sensor_z_m, sensor_lat_deg, sensor_lon_deg, sensor_alt_m;
-    struct kept_radar radars[RHO_MAX_SENSORS]; /* where there are more, the oldest one goes */
-    size_t num_radars;                         /* ever kept */
+    /* ring of frames: a further radar replaces the oldest one */
+    struct kept_radar radars[RHO_MAX_SENSORS];
+    size_t num_radars; /* number of radars ever kept */
 };
 
 /* ---- Columns ---- */
@@ -134,7 +135,7 @@ void geodetic_close(struct geodetic *geodetic)
     free(geodetic);
 }
 
-/* PROJ takes its time to begin: not before there is a place. */
+/* Frame of the origin, made when a position first needs it, since PROJ starts slowly. */
 static const struct local_frame *origin_frame(struct geodetic *geodetic)
 {
     if (!geodetic->origin) {
@@ -150,9 +151,9 @@ bool geodetic_has_place_columns(const struct geodetic *geodetic)
 
 /* ---- Cells ---- */
 
-/* lat_deg, lon_deg, and alt_m where the row has it. */
-static bool read_geodetic(const struct row_check *check, int lat_deg, int lon_deg, int alt_m,
-                          double geodetic[3])
+/* Reads latitude, longitude, and height where the row has it; else the height stays as it was. */
+static bool read_lat_lon_alt(const struct row_check *check, int lat_deg, int lon_deg, int alt_m,
+                             double geodetic[3])
 {
     return row_read_double(check, lat_deg, -90, 90, &geodetic[0]) &&
            row_read_double(check, lon_deg, LON_MIN_DEG, LON_MAX_DEG, &geodetic[1]) &&
@@ -183,7 +184,7 @@ bool geodetic_read_place(struct geodetic *geodetic, const struct row_check *chec
     double on_earth[3] = {0, 0, geodetic->parameters->value[PARAMETER_ORIGIN_ALT_M]};
 
     *has_alt = row_has_cell(check, geodetic->alt_m);
-    if (!read_geodetic(check, geodetic->lat_deg, geodetic->lon_deg, geodetic->alt_m, on_earth)) {
+    if (!read_lat_lon_alt(check, geodetic->lat_deg, geodetic->lon_deg, geodetic->alt_m, on_earth)) {
         return false;
     }
     local_frame_to_local(origin_frame(geodetic), on_earth, place_m);
@@ -196,8 +197,8 @@ bool geodetic_read_place(struct geodetic *geodetic, const struct row_check *chec
 
 /* ---- Radars ---- */
 
-static struct kept_radar *find_radar(struct geodetic *geodetic, int32_t sensor_id,
-                                     bool has_own_north)
+static struct kept_radar *find_radar_slot(struct geodetic *geodetic, int32_t sensor_id,
+                                          bool has_own_north)
 {
     for (size_t i = 0; i < RHO_MAX_SENSORS; i++) {
         struct kept_radar *radar = &geodetic->radars[i];
@@ -220,11 +221,12 @@ static bool is_same_place(const double one[3], const double other[3])
     return true;
 }
 
-/* Its frame, made anew where the radar is not the one that was kept there, or has moved. */
-static const struct radar_frame *radar_frame_of_sensor(struct geodetic *geodetic, int32_t sensor_id,
-                                                       bool has_own_north, const double on_earth[3])
+/* The radar's frame; it is made anew where the slot is another radar's, or the radar has moved. */
+static const struct radar_frame *get_or_make_radar_frame(struct geodetic *geodetic,
+                                                         int32_t sensor_id, bool has_own_north,
+                                                         const double on_earth[3])
 {
-    struct kept_radar *radar = find_radar(geodetic, sensor_id, has_own_north);
+    struct kept_radar *radar = find_radar_slot(geodetic, sensor_id, has_own_north);
 
     if (!radar->frame || radar->sensor_id != sensor_id || radar->has_own_north != has_own_north ||
         !is_same_place(radar->geodetic, on_earth)) {
@@ -237,7 +239,10 @@ static const struct radar_frame *radar_frame_of_sensor(struct geodetic *geodetic
     return radar->frame;
 }
 
-/* The row's place, else the parameters'. *is_said false: neither is on the earth. */
+/*
+ * Reads the radar's latitude, longitude and height from the row, else from the parameters. *is_said
+ * is false where neither gives them.
+ */
 static bool find_radar_place(const struct geodetic *geodetic, const struct row_check *check,
                              int32_t sensor_id, double on_earth[3], bool *is_said)
 {
@@ -248,8 +253,8 @@ static bool find_radar_place(const struct geodetic *geodetic, const struct row_c
                row_has_cell(check, geodetic->sensor_lon_deg);
     if (*is_said) {
         on_earth[2] = has_known ? on_earth[2] : parameters->value[PARAMETER_ORIGIN_ALT_M];
-        return read_geodetic(check, geodetic->sensor_lat_deg, geodetic->sensor_lon_deg,
-                             geodetic->sensor_alt_m, on_earth);
+        return read_lat_lon_alt(check, geodetic->sensor_lat_deg, geodetic->sensor_lon_deg,
+                                geodetic->sensor_alt_m, on_earth);
     }
     *is_said = has_known && !row_has_cell(check, geodetic->sensor_x_m) &&
                !row_has_cell(check, geodetic->sensor_y_m);
@@ -276,7 +281,7 @@ bool geodetic_find_radar_frame(struct geodetic *geodetic, const struct row_check
         return false;
     }
     if (is_said) {
-        *frame = radar_frame_of_sensor(geodetic, sensor_id, true, on_earth);
+        *frame = get_or_make_radar_frame(geodetic, sensor_id, true, on_earth);
     }
     return !row_has_cell(check, geodetic->sensor_lat_deg) ||
            check_distance_to_origin(check, geodetic->sensor_lat_deg, on_earth,
@@ -285,7 +290,7 @@ bool geodetic_find_radar_frame(struct geodetic *geodetic, const struct row_check
 
 /* ---- Polar plots ---- */
 
-/* With an origin a place in metres is one on the earth, too. */
+/* The radar's frame; with an origin also for a radar whose position is given in metres. */
 static const struct radar_frame *frame_of_polar_plot(struct geodetic *geodetic,
                                                      const struct geodetic_polar *polar)
 {
@@ -295,11 +300,11 @@ static const struct radar_frame *frame_of_polar_plot(struct geodetic *geodetic,
         return polar->frame;
     }
     local_frame_to_geodetic(origin_frame(geodetic), polar->place_m, on_earth);
-    return radar_frame_of_sensor(geodetic, polar->sensor_id, false, on_earth);
+    return get_or_make_radar_frame(geodetic, polar->sensor_id, false, on_earth);
 }
 
-static bool read_height(const struct geodetic *geodetic, const struct row_check *check,
-                        const struct geodetic_polar *polar, struct radar_height *height)
+static bool read_target_height(const struct geodetic *geodetic, const struct row_check *check,
+                               const struct geodetic_polar *polar, struct radar_height *height)
 {
     const struct parameters *parameters = geodetic->parameters;
 
@@ -312,16 +317,19 @@ static bool read_height(const struct geodetic *geodetic, const struct row_check 
                             (double)RHO_LIMIT_SIGMA_MAX, &height->sigma_alt_m));
 }
 
-/* The elevation is that of the range without its bias, as which the range will be taken. */
-static bool read_elevation(struct geodetic *geodetic, const struct row_check *check,
-                           struct geodetic_polar *polar)
+/*
+ * Computes the elevation from the target's height and the range without its bias, since the bias is
+ * subtracted from the range later.
+ */
+static bool set_elevation_from_height(struct geodetic *geodetic, const struct row_check *check,
+                                      struct geodetic_polar *polar)
 {
     double range_m = polar->look.range_m;
     double bias_m = parameters_value_of_sensor(geodetic->parameters, polar->sensor_id,
                                                SENSOR_RANGE_BIAS_M, 0.0);
     struct radar_height height;
 
-    if (!read_height(geodetic, check, polar, &height)) {
+    if (!read_target_height(geodetic, check, polar, &height)) {
         return false;
     }
     polar->look.range_m -= bias_m;
@@ -339,7 +347,7 @@ bool geodetic_convert_polar(struct geodetic *geodetic, const struct row_check *c
                             struct geodetic_polar *polar)
 {
     if (row_has_cell(check, geodetic->alt_m)) {
-        return read_elevation(geodetic, check, polar);
+        return set_elevation_from_height(geodetic, check, polar);
     }
     if (polar->frame) {
         radar_frame_turn_look(polar->frame, polar->has_elevation, &polar->look);

@@ -9,12 +9,12 @@
 #include "base/common.h"
 
 #define DEG_RAD 0.017453292519943295
-#define EARTH_RADIUS_M 6371000.0 /* where only a first guess depends on it */
+#define EARTH_RADIUS_M 6371000.0 /* only for the first guess of an iteration */
 
 struct local_frame {
     PJ_CONTEXT *context;
     PJ *to_local; /* longitude, latitude (radians), height to x, y, z */
-    double alt_m; /* of the origin */
+    double alt_m; /* height of the origin */
 };
 
 struct local_frame *local_frame_open(double lat_deg, double lon_deg, double alt_m)
@@ -27,7 +27,8 @@ struct local_frame *local_frame_open(double lat_deg, double lon_deg, double alt_
              "+lat_0=%.17g +lon_0=%.17g +h_0=%.17g",
              lat_deg, lon_deg, alt_m);
     frame->context = proj_context_create();
-    proj_log_level(frame->context, PJ_LOG_NONE); /* it misses its database, which is not needed */
+    /* PROJ complains of its missing database, which is not needed */
+    proj_log_level(frame->context, PJ_LOG_NONE);
     frame->to_local = proj_create(frame->context, pipeline);
     if (!frame->to_local) {
         fail(EXIT_RUNTIME, "PROJ: %s: %s", pipeline,
@@ -73,7 +74,7 @@ void local_frame_at_height(const struct local_frame *frame, double x_m, double y
 {
     double place_m[3] = {x_m, y_m, alt_m - frame->alt_m};
 
-    for (int i = 0; i < 10; i++) { /* of the rest each step leaves a twentieth at 2000 km */
+    for (int i = 0; i < 10; i++) { /* each step leaves a twentieth of the error at 2000 km */
         local_frame_to_geodetic(frame, place_m, geodetic);
         place_m[2] += alt_m - geodetic[2];
     }
@@ -111,10 +112,10 @@ static void place_at_elevation(const struct local_frame_plot *plot, double sin_e
 }
 
 /*
- * The height grows steadily with the sine of the elevation. On a sphere of radius a it follows from
- * the triangle with the earth's centre, (a + h)^2 = (a + s)^2 + r^2 + 2 (a + s) r sin e, whose
- * derivative serves for Newton's method on the ellipsoid: each step is right to its flattening,
- * 1/298.
+ * Newton's method for the sine of the elevation, with which the height increases steadily. On a
+ * sphere of radius a the height follows from the triangle with the earth's centre, (a + h)^2 = (a +
+ * s)^2 + r^2 + 2 (a + s) r sin e, whose derivative is used on the ellipsoid: the error of each step
+ * is relative to its flattening, 1/298.
  */
 bool local_frame_from_range_and_height(const struct local_frame *radar,
                                        const struct local_frame_plot *plot, double place_m[3])

@@ -9,10 +9,10 @@
 #include "io/csv/table_stream.h"
 #include "io/log/lcm_log.h"
 
-#define ROWS_MAX 5000       /* looked at */
-#define STEPS_MIN 20        /* from plot to plot, before a direction is believed */
-#define CLOCKWISE_SHARE 0.9 /* of them */
-#define HALF_TURN_RAD 3.15  /* azimuths beyond it are no angles of -pi .. pi */
+#define ROWS_MAX 5000       /* largest number of rows previewed */
+#define STEPS_MIN 20        /* fewest steps in azimuth from plot to plot that give a sense */
+#define CLOCKWISE_SHARE 0.9 /* least share of rising steps */
+#define HALF_TURN_RAD 3.15  /* a larger azimuth is not in -pi .. pi */
 
 struct azimuths {
     double lowest, highest, last_s, last_rad, last_sensor;
@@ -43,8 +43,8 @@ static bool azimuths_run_clockwise(const struct azimuths *azimuths)
            azimuths->rising >= CLOCKWISE_SHARE * steps;
 }
 
-/* The cell's number, or NaN. */
-static double cell_number(const struct table *table, int column)
+/* The number in a cell of the table's only row, or NaN where there is none. */
+static double cell_number_or_nan(const struct table *table, int column)
 {
     double value;
 
@@ -54,7 +54,7 @@ static double cell_number(const struct table *table, int column)
                : value;
 }
 
-static double cell_time_s(const struct table *table, int column)
+static double cell_time_s_or_nan(const struct table *table, int column)
 {
     int64_t time_us;
 
@@ -63,14 +63,14 @@ static double cell_time_s(const struct table *table, int column)
                : (double)time_us * 1e-6;
 }
 
-static void look_for_place(const struct table *table, const char *lat, const char *lon,
-                           const char *alt, struct origin_and_turn *look)
+static void note_place_of_row(const struct table *table, const char *lat, const char *lon,
+                              const char *alt, struct origin_and_turn *look)
 {
-    const double lat_deg = cell_number(table, table_find_column(table, lat));
-    const double lon_deg = cell_number(table, table_find_column(table, lon));
+    const double lat_deg = cell_number_or_nan(table, table_find_column(table, lat));
+    const double lon_deg = cell_number_or_nan(table, table_find_column(table, lon));
 
     if (!look->has_place && fabs(lat_deg) <= 90 && lon_deg >= -180 && lon_deg <= 360) {
-        const double alt_m = alt ? cell_number(table, table_find_column(table, alt)) : 0;
+        const double alt_m = alt ? cell_number_or_nan(table, table_find_column(table, alt)) : 0;
 
         *look = (struct origin_and_turn){.has_place = true,
                                          .lat_deg = lat_deg,
@@ -79,7 +79,7 @@ static void look_for_place(const struct table *table, const char *lat, const cha
     }
 }
 
-static bool is_plain_file(const char *path)
+static bool is_plain_csv_file(const char *path)
 {
     struct stat status;
 
@@ -94,7 +94,7 @@ struct origin_and_turn origin_and_turn_of(const char *path)
     struct table_stream *stream;
     const struct table *table;
 
-    if (!is_plain_file(path)) {
+    if (!is_plain_csv_file(path)) {
         return look;
     }
     stream = table_stream_open(path, NULL, true, false);
@@ -110,14 +110,16 @@ struct origin_and_turn origin_and_turn_of(const char *path)
              row < ROWS_MAX && (has_azimuth || (may_have_place && !look.has_place)) &&
              table_stream_next(stream) == TABLE_STREAM_ROW;
              row++) {
-            const double azimuth_rad = cell_number(table, azimuth);
+            const double azimuth_rad = cell_number_or_nan(table, azimuth);
 
-            look_for_place(table, "sensor_lat_deg", "sensor_lon_deg", "sensor_alt_m", &look);
-            look_for_place(table, "lat_deg", "lon_deg", NULL, &look); /* of a target: no height */
+            note_place_of_row(table, "sensor_lat_deg", "sensor_lon_deg", "sensor_alt_m", &look);
+            /* of a target: its height is no height for the origin */
+            note_place_of_row(table, "lat_deg", "lon_deg", NULL, &look);
             if (!isnan(azimuth_rad)) {
-                const double sensor = cell_number(table, table_find_column(table, "sensor_id"));
+                const double sensor =
+                    cell_number_or_nan(table, table_find_column(table, "sensor_id"));
 
-                add_azimuth(&azimuths, cell_time_s(table, time), isnan(sensor) ? 0 : sensor,
+                add_azimuth(&azimuths, cell_time_s_or_nan(table, time), isnan(sensor) ? 0 : sensor,
                             azimuth_rad);
             }
         }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * origin_and_turn: what the first rows of a CSV file of plots tell before it is read: a place on
- * the earth, where the local frame may have its origin, and azimuths that run as a compass does.
+ * origin_and_azimuth_sense: previews the first rows of a CSV file of plots, before it is read: for
+ * a place on the earth that can be the local frame's origin, and for azimuths that increase
+ * clockwise as on a compass.
  */
 #ifndef RHOTRACK_TOOL_ORIGIN_AND_TURN_H
 #define RHOTRACK_TOOL_ORIGIN_AND_TURN_H
@@ -9,13 +10,13 @@
 #include <stdbool.h>
 
 struct origin_and_turn {
-    bool has_place; /* of the first sensor, else of the first plot */
+    bool has_place; /* place of the first sensor, else of the first plot */
     double lat_deg, lon_deg, alt_m;
-    /* a turning radar's azimuth_rad, 0 .. 2 pi and rising with time: antennas turn clockwise */
+    /* azimuth_rad is 0 .. 2 pi and mostly rises with time, as clockwise azimuths of antennas do */
     bool runs_clockwise;
 };
 
-/* Nothing of what is no plain file, no CSV, or a truth. */
+/* Previews a file. No place and no sense for a file that is not plain, not CSV, or a truth. */
 struct origin_and_turn origin_and_turn_of(const char *path);
 
 #endif

@@ -8,7 +8,7 @@
 #include "rhotrack/types.h"
 
 #define TURN 6.283185307179586
-#define EARTH_RADIUS_M 6371000.0 /* where only a noise depends on it */
+#define EARTH_RADIUS_M 6371000.0 /* only for a noise, and not for a position */
 
 struct radar_frame {
     const struct local_frame *common;
@@ -51,9 +51,9 @@ double radar_frame_turn_rad(const struct radar_frame *frame)
 
 /* ---- From frame to frame ---- */
 
-/* A place of the radar's frame as a line of sight of the common one. */
-static void look_at_place(const struct radar_frame *frame, const double own_m[3],
-                          struct radar_look *look)
+/* Azimuth and elevation in the common frame of a position in the radar's own frame. */
+static void set_look_to_place(const struct radar_frame *frame, const double own_m[3],
+                              struct radar_look *look)
 {
     double place_m[3];
 
@@ -76,7 +76,7 @@ void radar_frame_turn_look(const struct radar_frame *frame, bool has_elevation,
         return;
     }
     if (has_elevation) {
-        look_at_place(frame, own_m, look);
+        set_look_to_place(frame, own_m, look);
     } else {
         look->azimuth_rad = remainder(look->azimuth_rad + frame->turn_rad, TURN);
     }
@@ -85,10 +85,9 @@ void radar_frame_turn_look(const struct radar_frame *frame, bool has_elevation,
 /* ---- Heights ---- */
 
 /*
- * An error of the range moves the place along the line of sight u and none of it elsewhere only if
- * the height went with it: what both say is dP . u = dr and dP . n = dh, n being the vertical at
- * the target, which u meets at the elevation e. So upwards, at right angles to u, dP = (dh - sin e
- * dr) / cos e.
+ * Sigma of the position upwards, at right angles to the line of sight u, divided by the range.
+ * Range and height determine the position by dP . u = dr and dP . n = dh, n being the vertical at
+ * the target, which u meets at the elevation e: the error upwards is (dh - sin e dr) / cos e.
  */
 static double sigma_up_over_range(const struct radar_height *height, double sin_elevation,
                                   double range_m)
@@ -114,8 +113,8 @@ static bool elevation_on_flat_earth(double radar_z_m, const struct radar_height 
 }
 
 /*
- * The elevation of the line of sight where it meets the target, on a sphere: from the triangle with
- * its centre.
+ * Sine of the elevation of the line of sight at the target, on a spherical earth: from the triangle
+ * of radar, target and the earth's centre.
  */
 static double elevation_sine_at_target(double radar_alt_m, double target_alt_m, double range_m)
 {
@@ -141,7 +140,7 @@ bool radar_frame_elevation_from_height(const struct radar_frame *frame, double r
     if (!local_frame_from_range_and_height(frame->own, &plot, own_m)) {
         return false;
     }
-    look_at_place(frame, own_m, look);
+    set_look_to_place(frame, own_m, look);
     *sigma_elevation_rad = sigma_up_over_range(
         height, elevation_sine_at_target(frame->alt_m, height->alt_m, look->range_m),
         look->range_m);

@@ -6,8 +6,8 @@
 #include "rhotrack/detail/measurement.h"
 #include <math.h>
 
-/* A row on its way through the checks. */
-struct checking {
+/* A row being read and checked. */
+struct row_reading {
     struct row_check cells;
     const struct record_columns *columns;
 };
@@ -20,7 +20,7 @@ bool record_table_has_bearings(const struct table *table)
            table_find_column(table, "range_m") < 0;
 }
 
-/* Other kinds of files have other columns: say so rather than that x_m is missing. */
+/* Refuses bearings by name, rather than with a missing x_m. */
 static void check_plot_columns(const struct table *table)
 {
     if (table_find_column(table, "x_m") < 0 && table_find_column(table, "range_m") < 0 &&
@@ -40,7 +40,7 @@ static void check_not_both_columns(const struct table *table, int first, int sec
     }
 }
 
-/* Other kinds of files have other columns: say so rather than that bearing_rad is missing. */
+/* Refuses plots by name, rather than with a missing bearing_rad. */
 static void check_bearing_columns(const struct table *table)
 {
     static const char *const others[][2] = {{"x_m", "plots, which are no bearings"},
@@ -150,50 +150,51 @@ void record_columns_free(struct record_columns *columns)
 
 /* ---- Cells ---- */
 
-static bool read_speed(const struct checking *checking, int column, float *value)
+static bool read_speed(const struct row_reading *reading, int column, float *value)
 {
-    return row_read_float(&checking->cells, column, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS,
+    return row_read_float(&reading->cells, column, -RHO_LIMIT_SPEED_MPS, RHO_LIMIT_SPEED_MPS,
                           value);
 }
 
 /* ---- Rows ---- */
 
-static bool read_velocity(const struct checking *checking, struct record *row)
+static bool read_velocity(const struct row_reading *reading, struct record *row)
 {
-    const struct record_columns *columns = checking->columns;
-    bool has_vx = row_has_cell(&checking->cells, columns->vx_mps),
-         has_vy = row_has_cell(&checking->cells, columns->vy_mps);
-    bool has_vz = row_has_cell(&checking->cells, columns->vz_mps);
+    const struct record_columns *columns = reading->columns;
+    bool has_vx = row_has_cell(&reading->cells, columns->vx_mps),
+         has_vy = row_has_cell(&reading->cells, columns->vy_mps);
+    bool has_vz = row_has_cell(&reading->cells, columns->vz_mps);
 
     if (!has_vx && !has_vy && !has_vz) {
         return true;
     }
     if (!has_vx || !has_vy) {
-        return row_refuse(&checking->cells, "%s is missing beside the other velocity",
+        return row_refuse(&reading->cells, "%s is missing beside the other velocity",
                           has_vx ? "vy_mps" : "vx_mps");
     }
     if (!has_vz && (row->measures & RHO_MEASURES_Z)) {
-        return row_refuse(&checking->cells, "vz_mps is missing beside z_m and vx_mps");
+        return row_refuse(&reading->cells, "vz_mps is missing beside z_m and vx_mps");
     }
     row->measures |= RHO_MEASURES_VELOCITY;
-    return read_speed(checking, columns->vx_mps, &row->plot.vx_mps) &&
-           read_speed(checking, columns->vy_mps, &row->plot.vy_mps) &&
-           (!has_vz || read_speed(checking, columns->vz_mps, &row->plot.vz_mps));
+    return read_speed(reading, columns->vx_mps, &row->plot.vx_mps) &&
+           read_speed(reading, columns->vy_mps, &row->plot.vy_mps) &&
+           (!has_vz || read_speed(reading, columns->vz_mps, &row->plot.vz_mps));
 }
 
-/* A sigma: the row's own, else the sensor's, else the one for all. */
-static bool read_sigma(const struct checking *checking, int column, double otherwise, float *value)
+/* Reads a sigma: the row's own, else `otherwise`, the sensor's or the common one. */
+static bool read_sigma(const struct row_reading *reading, int column, double otherwise,
+                       float *value)
 {
-    if (row_has_cell(&checking->cells, column)) {
-        return row_read_float(&checking->cells, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX,
+    if (row_has_cell(&reading->cells, column)) {
+        return row_read_float(&reading->cells, column, RHO_LIMIT_SIGMA_MIN, RHO_LIMIT_SIGMA_MAX,
                               value);
     }
     *value = (float)otherwise;
     return true;
 }
 
-/* A range rate, if the row has one, and its sigma. */
-static bool read_range_rate(const struct checking *checking, const struct parameters *parameters,
+/* Reads a range rate, if the row has one, and its sigma. */
+static bool read_range_rate(const struct row_reading *reading, const struct parameters *parameters,
                             int32_t sensor_id, uint32_t *measures, float *rate_mps,
                             float *sigma_mps)
 {
@@ -201,15 +202,15 @@ static bool read_range_rate(const struct checking *checking, const struct parame
         parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_RATE_MPS,
                                    parameters->value[PARAMETER_SIGMA_RANGE_RATE_MPS]);
 
-    if (!row_has_cell(&checking->cells, checking->columns->range_rate_mps)) {
+    if (!row_has_cell(&reading->cells, reading->columns->range_rate_mps)) {
         return true;
     }
     *measures |= RHO_MEASURES_RANGE_RATE;
-    return read_speed(checking, checking->columns->range_rate_mps, rate_mps) &&
-           read_sigma(checking, checking->columns->sigma_range_rate_mps, otherwise, sigma_mps);
+    return read_speed(reading, reading->columns->range_rate_mps, rate_mps) &&
+           read_sigma(reading, reading->columns->sigma_range_rate_mps, otherwise, sigma_mps);
 }
 
-static bool read_sigmas(const struct checking *checking, const struct parameters *parameters,
+static bool read_sigmas(const struct row_reading *reading, const struct parameters *parameters,
                         struct record *row)
 {
     double sigma_m = parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_M,
@@ -218,19 +219,20 @@ static bool read_sigmas(const struct checking *checking, const struct parameters
                                                   parameters->value[PARAMETER_SIGMA_MPS]);
     struct rho_plot *plot = &row->plot;
 
-    if (!read_sigma(checking, checking->columns->sigma_m, sigma_m, &plot->sigma_range_m) ||
-        !read_sigma(checking, checking->columns->sigma_mps, sigma_mps, &plot->sigma_mps)) {
+    if (!read_sigma(reading, reading->columns->sigma_m, sigma_m, &plot->sigma_range_m) ||
+        !read_sigma(reading, reading->columns->sigma_mps, sigma_mps, &plot->sigma_mps)) {
         return false;
     }
     plot->sigma_cross_m = plot->sigma_up_m = plot->sigma_range_m;
     return true;
 }
 
-static bool read_geodetic(const struct checking *checking, struct rho_plot *plot, bool *has_z)
+static bool read_geodetic_place(const struct row_reading *reading, struct rho_plot *plot,
+                                bool *has_z)
 {
     double place_m[3];
 
-    if (!geodetic_read_place(checking->columns->geodetic, &checking->cells, place_m, has_z)) {
+    if (!geodetic_read_place(reading->columns->geodetic, &reading->cells, place_m, has_z)) {
         return false;
     }
     plot->x_m = (float)place_m[0];
@@ -239,33 +241,33 @@ static bool read_geodetic(const struct checking *checking, struct rho_plot *plot
     return true;
 }
 
-static bool read_place(const struct checking *checking, struct rho_plot *plot, bool *has_z)
+static bool read_place(const struct row_reading *reading, struct rho_plot *plot, bool *has_z)
 {
-    const struct record_columns *columns = checking->columns;
+    const struct record_columns *columns = reading->columns;
 
     if (geodetic_has_place_columns(columns->geodetic)) {
-        return read_geodetic(checking, plot, has_z);
+        return read_geodetic_place(reading, plot, has_z);
     }
-    *has_z = row_has_cell(&checking->cells, columns->z_m);
-    return row_read_position(&checking->cells, columns->x_m, &plot->x_m) &&
-           row_read_position(&checking->cells, columns->y_m, &plot->y_m) &&
-           (!*has_z || row_read_position(&checking->cells, columns->z_m, &plot->z_m));
+    *has_z = row_has_cell(&reading->cells, columns->z_m);
+    return row_read_position(&reading->cells, columns->x_m, &plot->x_m) &&
+           row_read_position(&reading->cells, columns->y_m, &plot->y_m) &&
+           (!*has_z || row_read_position(&reading->cells, columns->z_m, &plot->z_m));
 }
 
-static bool read_cartesian_plot(const struct checking *checking,
+static bool read_cartesian_plot(const struct row_reading *reading,
                                 const struct parameters *parameters, struct record *row)
 {
     bool has_z = false;
 
     row->has_measurement = true;
-    if (!read_place(checking, &row->plot, &has_z)) {
+    if (!read_place(reading, &row->plot, &has_z)) {
         return false;
     }
     row->measures = has_z ? RHO_MEASURES_Z : 0;
-    return read_velocity(checking, row) && read_sigmas(checking, parameters, row) &&
-           read_range_rate(checking, parameters, row->sensor_id, &row->measures,
+    return read_velocity(reading, row) && read_sigmas(reading, parameters, row) &&
+           read_range_rate(reading, parameters, row->sensor_id, &row->measures,
                            &row->plot.range_rate_mps, &row->plot.sigma_range_rate_mps) &&
-           row_read_snr(&checking->cells, checking->columns->snr_db, &row->plot.snr_db);
+           row_read_snr(&reading->cells, reading->columns->snr_db, &row->plot.snr_db);
 }
 
 /* ---- Polar rows ---- */
@@ -273,18 +275,18 @@ static bool read_cartesian_plot(const struct checking *checking,
 #define DEG_RAD 0.017453292519943295
 #define PI 3.141592653589793
 
-static bool read_range(const struct checking *checking, float *range_m)
+static bool read_range(const struct row_reading *reading, float *range_m)
 {
-    int column = checking->columns->range_m;
+    int column = reading->columns->range_m;
 
-    if (!row_read_float(&checking->cells, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
+    if (!row_read_float(&reading->cells, column, -RHO_LIMIT_POSITION_M, RHO_LIMIT_POSITION_M,
                         range_m)) {
         return false;
     }
-    return *range_m > 0.0f || row_refuse_cell(&checking->cells, column, "is not above 0");
+    return *range_m > 0.0f || row_refuse_cell(&reading->cells, column, "is not above 0");
 }
 
-/* Clockwise from north, in degrees, as counter-clockwise from east in radians. */
+/* Converts degrees clockwise from north to radians counter-clockwise from east. */
 static float radians_from_compass_deg(float azimuth_deg)
 {
     double azimuth_rad = PI / 2 - (double)azimuth_deg * DEG_RAD;
@@ -292,15 +294,15 @@ static float radians_from_compass_deg(float azimuth_deg)
     return (float)remainder(azimuth_rad, 2 * PI);
 }
 
-static bool read_azimuth(const struct checking *checking, float *azimuth_rad)
+static bool read_azimuth(const struct row_reading *reading, float *azimuth_rad)
 {
-    const struct record_columns *columns = checking->columns;
+    const struct record_columns *columns = reading->columns;
     float azimuth_deg = 0.0f;
 
     if (columns->azimuth_deg < 0) {
-        return row_read_angle(&checking->cells, columns->azimuth_rad, azimuth_rad);
+        return row_read_angle(&reading->cells, columns->azimuth_rad, azimuth_rad);
     }
-    if (!row_read_float(&checking->cells, columns->azimuth_deg, -(float)ROW_ANGLE_MAX,
+    if (!row_read_float(&reading->cells, columns->azimuth_deg, -(float)ROW_ANGLE_MAX,
                         (float)ROW_ANGLE_MAX, &azimuth_deg)) {
         return false;
     }
@@ -308,19 +310,19 @@ static bool read_azimuth(const struct checking *checking, float *azimuth_rad)
     return true;
 }
 
-static bool read_elevation(const struct checking *checking, uint32_t *measures,
+static bool read_elevation(const struct row_reading *reading, uint32_t *measures,
                            float *elevation_rad)
 {
-    const struct record_columns *columns = checking->columns;
+    const struct record_columns *columns = reading->columns;
 
-    if (row_has_cell(&checking->cells, columns->elevation_rad)) {
+    if (row_has_cell(&reading->cells, columns->elevation_rad)) {
         *measures |= RHO_MEASURES_Z;
-        return row_read_float(&checking->cells, columns->elevation_rad, -(float)(PI / 2),
+        return row_read_float(&reading->cells, columns->elevation_rad, -(float)(PI / 2),
                               (float)(PI / 2), elevation_rad);
     }
-    if (row_has_cell(&checking->cells, columns->elevation_deg)) {
+    if (row_has_cell(&reading->cells, columns->elevation_deg)) {
         *measures |= RHO_MEASURES_Z;
-        if (!row_read_float(&checking->cells, columns->elevation_deg, -90.0f, 90.0f,
+        if (!row_read_float(&reading->cells, columns->elevation_deg, -90.0f, 90.0f,
                             elevation_rad)) {
             return false;
         }
@@ -329,22 +331,23 @@ static bool read_elevation(const struct checking *checking, uint32_t *measures,
     return true;
 }
 
-static bool read_polar_sigmas(const struct checking *checking, const struct parameters *parameters,
-                              int32_t sensor_id, struct rho_polar_plot *polar)
+static bool read_polar_sigmas(const struct row_reading *reading,
+                              const struct parameters *parameters, int32_t sensor_id,
+                              struct rho_polar_plot *polar)
 {
-    const struct record_columns *columns = checking->columns;
+    const struct record_columns *columns = reading->columns;
     const double *value = parameters->value;
 
-    return read_sigma(checking, columns->sigma_range_m,
+    return read_sigma(reading, columns->sigma_range_m,
                       parameters_value_of_sensor(parameters, sensor_id, SENSOR_SIGMA_RANGE_M,
                                                  value[PARAMETER_SIGMA_RANGE_M]),
                       &polar->sigma_range_m) &&
-           row_read_sigma_rad(&checking->cells, columns->sigma_azimuth_rad,
+           row_read_sigma_rad(&reading->cells, columns->sigma_azimuth_rad,
                               parameters_value_of_sensor(parameters, sensor_id,
                                                          SENSOR_SIGMA_AZIMUTH_RAD,
                                                          value[PARAMETER_SIGMA_AZIMUTH_RAD]),
                               &polar->sigma_azimuth_rad) &&
-           row_read_sigma_rad(&checking->cells, columns->sigma_elevation_rad,
+           row_read_sigma_rad(&reading->cells, columns->sigma_elevation_rad,
                               parameters_value_of_sensor(parameters, sensor_id,
                                                          SENSOR_SIGMA_ELEVATION_RAD,
                                                          value[PARAMETER_SIGMA_ELEVATION_RAD]),
@@ -352,11 +355,11 @@ static bool read_polar_sigmas(const struct checking *checking, const struct para
 }
 
 /*
- * Turns the radar's angles from its own level frame into the local frame; a height that is known
- * otherwise gives the elevation.
+ * Turns the radar's angles from its own level frame to the local frame; a target height in the row
+ * gives the elevation.
  */
-static bool turn_to_local_frame(const struct checking *checking, const struct record *row,
-                                uint32_t *measures, struct rho_polar_plot *polar)
+static bool convert_to_local_frame(const struct row_reading *reading, const struct record *row,
+                                   uint32_t *measures, struct rho_polar_plot *polar)
 {
     struct geodetic_polar seen = {
         .sensor_id = row->sensor_id,
@@ -367,7 +370,7 @@ static bool turn_to_local_frame(const struct checking *checking, const struct re
         .sigma_range_m = (double)polar->sigma_range_m,
         .sigma_elevation_rad = (double)polar->sigma_elevation_rad};
 
-    if (!geodetic_convert_polar(checking->columns->geodetic, &checking->cells, &seen)) {
+    if (!geodetic_convert_polar(reading->columns->geodetic, &reading->cells, &seen)) {
         return false;
     }
     polar->azimuth_rad = (float)seen.look.azimuth_rad;
@@ -377,26 +380,26 @@ static bool turn_to_local_frame(const struct checking *checking, const struct re
     return true;
 }
 
-static bool read_polar_plot(const struct checking *checking, const struct parameters *parameters,
+static bool read_polar_plot(const struct row_reading *reading, const struct parameters *parameters,
                             struct record *row)
 {
     struct rho_polar_plot polar = {0};
     struct rho_sensor seen_from = row->sensor;
 
-    seen_from.time_bias_s = 0.0f; /* it comes off the scan's time */
+    seen_from.time_bias_s = 0.0f; /* the time bias is subtracted from the scan's time instead */
     row->has_measurement = true;
     row->measures = 0;
-    if (!read_range(checking, &polar.range_m) || !read_azimuth(checking, &polar.azimuth_rad) ||
-        !read_elevation(checking, &row->measures, &polar.elevation_rad) ||
-        !read_polar_sigmas(checking, parameters, row->sensor_id, &polar) ||
-        !turn_to_local_frame(checking, row, &row->measures, &polar) ||
-        !read_range_rate(checking, parameters, row->sensor_id, &row->measures,
-                         &polar.range_rate_mps, &polar.sigma_range_rate_mps) ||
-        !row_read_snr(&checking->cells, checking->columns->snr_db, &polar.snr_db)) {
+    if (!read_range(reading, &polar.range_m) || !read_azimuth(reading, &polar.azimuth_rad) ||
+        !read_elevation(reading, &row->measures, &polar.elevation_rad) ||
+        !read_polar_sigmas(reading, parameters, row->sensor_id, &polar) ||
+        !convert_to_local_frame(reading, row, &row->measures, &polar) ||
+        !read_range_rate(reading, parameters, row->sensor_id, &row->measures, &polar.range_rate_mps,
+                         &polar.sigma_range_rate_mps) ||
+        !row_read_snr(&reading->cells, reading->columns->snr_db, &polar.snr_db)) {
         return false;
     }
     if (rho_measurement_from_polar(&polar, row->measures, &seen_from, &row->plot) != RHO_OK) {
-        return row_refuse(&checking->cells,
+        return row_refuse(&reading->cells,
                           "range_m %.9g at azimuth %.9g rad is no place that is believed, "
                           "once the sensor's place and biases are taken into account",
                           (double)polar.range_m, (double)polar.azimuth_rad);
@@ -406,8 +409,11 @@ static bool read_polar_plot(const struct checking *checking, const struct parame
 
 /* ---- Sensors ---- */
 
-/* Sectors, too, are counted from the radar's own east; the parameters' have been turned already. */
-static void take_place_on_earth(struct record *row)
+/*
+ * Sets the sensor's position from its radar frame, and turns the row's sector, which counts from
+ * the radar's own east; sectors in the parameters have been turned already.
+ */
+static void set_place_from_radar_frame(struct record *row)
 {
     const double *place_m = radar_frame_place_m(row->frame);
     float turn_rad = (float)radar_frame_turn_rad(row->frame);
@@ -423,40 +429,41 @@ static void take_place_on_earth(struct record *row)
 }
 
 /*
- * The sensor as it was described, at the place that the row says. In a file with places every row
- * describes it: an empty cell means the place that was described, not that of the scan before.
+ * Reads the sensor: its description in the parameters, at the position that the row gives. In a
+ * file with positions every row gives one: an empty cell means the position in the parameters, not
+ * that of the scan before.
  */
-static bool read_sensor(const struct checking *checking, const struct parameters *parameters,
+static bool read_sensor(const struct row_reading *reading, const struct parameters *parameters,
                         struct record *row)
 {
-    const struct record_columns *columns = checking->columns;
-    bool has_place = row_has_cell(&checking->cells, columns->sensor_x_m) ||
-                     row_has_cell(&checking->cells, columns->sensor_y_m);
-    bool has_height = row_has_cell(&checking->cells, columns->sensor_z_m);
+    const struct record_columns *columns = reading->columns;
+    bool has_place = row_has_cell(&reading->cells, columns->sensor_x_m) ||
+                     row_has_cell(&reading->cells, columns->sensor_y_m);
+    bool has_height = row_has_cell(&reading->cells, columns->sensor_z_m);
 
     row->has_sensor = parameters_to_sensor(parameters, row->sensor_id, &row->sensor) ||
                       columns->sensor_x_m >= 0 || columns->sensor_z_m >= 0;
     parameters_to_any_sensor(parameters, row->sensor_id, &row->sensor);
     row->bias_us = rho_measurement_time_bias_us(&row->sensor);
-    if (!geodetic_find_radar_frame(columns->geodetic, &checking->cells, row->sensor_id,
+    if (!geodetic_find_radar_frame(columns->geodetic, &reading->cells, row->sensor_id,
                                    &row->frame)) {
         return false;
     }
     if (row->frame) {
-        take_place_on_earth(row);
+        set_place_from_radar_frame(row);
         return true;
     }
     return (!has_place ||
-            (row_read_position(&checking->cells, columns->sensor_x_m, &row->sensor.x_m) &&
-             row_read_position(&checking->cells, columns->sensor_y_m, &row->sensor.y_m))) &&
+            (row_read_position(&reading->cells, columns->sensor_x_m, &row->sensor.x_m) &&
+             row_read_position(&reading->cells, columns->sensor_y_m, &row->sensor.y_m))) &&
            (!has_height ||
-            row_read_position(&checking->cells, columns->sensor_z_m, &row->sensor.z_m));
+            row_read_position(&reading->cells, columns->sensor_z_m, &row->sensor.z_m));
 }
 
 /* ---- Bearings ---- */
 
-/* Takes the sensor's azimuth bias off; the time bias comes off the scan's time. */
-static void take_off_azimuth_bias(const struct parameters *parameters, struct record *row)
+/* Subtracts the sensor's azimuth bias; the time bias is subtracted from the scan's time. */
+static void subtract_azimuth_bias(const struct parameters *parameters, struct record *row)
 {
     double bias_rad =
         parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_AZIMUTH_BIAS_RAD, 0.0);
@@ -466,11 +473,11 @@ static void take_off_azimuth_bias(const struct parameters *parameters, struct re
     }
 }
 
-static bool read_bearing(const struct checking *checking, const struct parameters *parameters,
+static bool read_bearing(const struct row_reading *reading, const struct parameters *parameters,
                          struct record *row)
 {
-    const struct row_check *check = &checking->cells;
-    const struct record_columns *columns = checking->columns;
+    const struct row_check *check = &reading->cells;
+    const struct record_columns *columns = reading->columns;
     double sigma_rad = parameters_value_of_sensor(parameters, row->sensor_id, SENSOR_SIGMA_RAD,
                                                   parameters->value[PARAMETER_SIGMA_RAD]);
 
@@ -478,16 +485,16 @@ static bool read_bearing(const struct checking *checking, const struct parameter
     if (!row_read_angle(check, columns->bearing_rad, &row->bearing.bearing_rad)) {
         return false;
     }
-    take_off_azimuth_bias(parameters, row);
+    subtract_azimuth_bias(parameters, row);
     return row_read_sigma_rad(check, columns->sigma_rad, sigma_rad, &row->bearing.sigma_rad) &&
            row_read_snr(check, columns->snr_db, &row->bearing.snr_db);
 }
 
-static bool read_bearings_row(const struct checking *checking, const struct parameters *parameters,
-                              struct record *row)
+static bool read_bearings_row(const struct row_reading *reading,
+                              const struct parameters *parameters, struct record *row)
 {
-    const struct row_check *check = &checking->cells;
-    const struct record_columns *columns = checking->columns;
+    const struct row_check *check = &reading->cells;
+    const struct record_columns *columns = reading->columns;
 
     if (!row_read_position(check, columns->sensor_x_m, &row->sensor.x_m) ||
         !row_read_position(check, columns->sensor_y_m, &row->sensor.y_m) ||
@@ -497,58 +504,58 @@ static bool read_bearings_row(const struct checking *checking, const struct para
     }
     row->bias_us = parameters_time_bias_us(parameters, row->sensor_id);
     return row_check_unbiased_time(check, row->time_us, row->bias_us) &&
-           (!row_has_cell(check, columns->bearing_rad) || read_bearing(checking, parameters, row));
+           (!row_has_cell(check, columns->bearing_rad) || read_bearing(reading, parameters, row));
 }
 
 /* ---- All ---- */
 
-static bool has_plot(const struct checking *checking)
+static bool has_plot(const struct row_reading *reading)
 {
-    const struct record_columns *columns = checking->columns;
+    const struct record_columns *columns = reading->columns;
     const int measured[] = {
         columns->x_m,           columns->y_m,           columns->z_m,
         columns->vx_mps,        columns->vy_mps,        columns->vz_mps,
         columns->range_m,       columns->azimuth_rad,   columns->azimuth_deg,
         columns->elevation_rad, columns->elevation_deg, columns->range_rate_mps};
-    bool has_any = geodetic_row_has_place(columns->geodetic, &checking->cells);
+    bool has_any = geodetic_row_has_place(columns->geodetic, &reading->cells);
 
     for (size_t i = 0; i < sizeof measured / sizeof *measured; i++) {
-        has_any |= row_has_cell(&checking->cells, measured[i]);
+        has_any |= row_has_cell(&reading->cells, measured[i]);
     }
     return has_any;
 }
 
-static bool read_plots_row(const struct checking *checking, const struct parameters *parameters,
+static bool read_plots_row(const struct row_reading *reading, const struct parameters *parameters,
                            struct record *row)
 {
-    const struct row_check *check = &checking->cells;
-    const struct record_columns *columns = checking->columns;
+    const struct row_check *check = &reading->cells;
+    const struct record_columns *columns = reading->columns;
 
     if (!row_read_sector(check, columns->sector_from_rad, columns->sector_to_rad,
                          &row->sector_from_rad, &row->sector_to_rad) ||
-        !read_sensor(checking, parameters, row) ||
+        !read_sensor(reading, parameters, row) ||
         !row_check_unbiased_time(check, row->time_us, row->bias_us)) {
         return false;
     }
-    if (!has_plot(checking)) {
+    if (!has_plot(reading)) {
         return true;
     }
-    return columns->range_m >= 0 ? read_polar_plot(checking, parameters, row)
-                                 : read_cartesian_plot(checking, parameters, row);
+    return columns->range_m >= 0 ? read_polar_plot(reading, parameters, row)
+                                 : read_cartesian_plot(reading, parameters, row);
 }
 
 bool record_read(const struct table *table, const struct record_columns *columns, size_t row,
                  const struct parameters *parameters, struct record *record,
                  char reason[ROW_REASON_BYTES])
 {
-    struct checking checking = {.cells = {.table = table, .row = row}, .columns = columns};
+    struct row_reading reading = {.cells = {.table = table, .row = row}, .columns = columns};
 
-    checking.cells.reason = reason;
+    reading.cells.reason = reason;
     *record = (struct record){.line = table->lines[row]};
-    return row_read_time_and_sensor(&checking.cells, columns->t_s, columns->sensor_id,
+    return row_read_time_and_sensor(&reading.cells, columns->t_s, columns->sensor_id,
                                     &record->time_us, &record->sensor_id) &&
-           row_read_received(&checking.cells, columns->received_s, &record->received_us) &&
-           row_read_number(&checking.cells, columns->scan, columns->epoch, &record->number) &&
-           (columns->is_bearings ? read_bearings_row(&checking, parameters, record)
-                                 : read_plots_row(&checking, parameters, record));
+           row_read_received(&reading.cells, columns->received_s, &record->received_us) &&
+           row_read_number(&reading.cells, columns->scan, columns->epoch, &record->number) &&
+           (columns->is_bearings ? read_bearings_row(&reading, parameters, record)
+                                 : read_plots_row(&reading, parameters, record));
 }

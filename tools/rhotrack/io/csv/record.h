@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * record: one row of plots or bearings, checked, as the library takes it: its time, its sensor, and
- * what was measured, if anything was. Scans are gathered from records (scan_gather.h).
+ * record: reads one row of plots or bearings, checked and converted to the library's form: its
+ * time, its sensor, and its measurement, if it has one. Scans are gathered from records
+ * (scan_gather.h).
  */
 #ifndef RHOTRACK_TOOL_RECORD_H
 #define RHOTRACK_TOOL_RECORD_H
@@ -19,26 +20,27 @@
 enum record_kind { RECORD_PLOTS, RECORD_BEARINGS };
 
 struct record {
-    int64_t time_us;          /* the row's own time, bias_us still in it */
-    int32_t bias_us;          /* the sensor's time bias, which is still in */
-    int64_t received_us;      /* where the file has that column */
-    struct row_number number; /* of the scan */
+    int64_t time_us;          /* the row's own time, the sensor's time bias not yet subtracted */
+    int32_t bias_us;          /* time bias of the sensor, still contained in time_us */
+    int64_t received_us;      /* reception time, where the file has that column */
+    struct row_number number; /* number of the scan */
     int32_t sensor_id;
-    uint32_t line;                        /* of the file */
-    float sector_from_rad, sector_to_rad; /* the scan's sector; both 0: not given */
+    uint32_t line;                        /* line in the file */
+    float sector_from_rad, sector_to_rad; /* sector of the scan; both 0: not given */
     bool has_measurement;
     uint32_t measures;          /* RHO_MEASURES_... of the plot */
-    struct rho_plot plot;       /* or, its offset is 0 in both, */
-    struct rho_bearing bearing; /* by the kind */
-    bool has_sensor;            /* the sensor below is described; its place is set in any case */
+    struct rho_plot plot;       /* measurement of RECORD_PLOTS; its offset is 0 */
+    struct rho_bearing bearing; /* measurement of RECORD_BEARINGS; its offset is 0 */
+    /* a description of the sensor was given; its position is set in any case */
+    bool has_sensor;
     struct rho_sensor sensor;
-    /* of a sensor whose place is said on the earth; until the next row */
+    /* frame of a radar placed by latitude and longitude, or NULL; valid until the next row */
     const struct radar_frame *frame;
 };
 
 /*
- * Columns by index, -1 where the file has none. Of plots either x_m and y_m are there, or range_m
- * and an azimuth, or latitude and longitude.
+ * Column indices, -1 where the file has no such column. A file of plots has either x_m and y_m, or
+ * range_m and an azimuth, or latitude and longitude.
  */
 struct record_columns {
     bool is_bearings;
@@ -53,21 +55,20 @@ struct record_columns {
     struct geodetic *geodetic;
 };
 
-/* The file holds bearings, and neither places nor ranges. */
+/* Whether the file holds bearings, and neither Cartesian nor polar plots. */
 bool record_table_has_bearings(const struct table *table);
 
 /*
- * Finds the columns; exit 2 where one is missing that is needed, or the file holds the other kind.
- * Plots need sensor_id where needs_sensor and the parameters describe a
- * sensor, else all is sensor 0's; bearings always do. To be freed
- * before the parameters go.
+ * Finds the columns; exit 2 where a needed column is missing, or the file holds the other kind.
+ * Plots need sensor_id where needs_sensor and the parameters describe a sensor, else all are of
+ * sensor 0; bearings always need it. To be freed before the parameters.
  */
 struct record_columns record_columns_find(const struct table *table,
                                           const struct parameters *parameters,
                                           enum record_kind kind, bool needs_sensor);
 void record_columns_free(struct record_columns *columns);
 
-/* Reads a row. Returns false and the reason where it is bad. */
+/* Reads a row. Returns false and sets the reason where the row is bad. */
 bool record_read(const struct table *table, const struct record_columns *columns, size_t row,
                  const struct parameters *parameters, struct record *record,
                  char reason[ROW_REASON_BYTES]);

@@ -67,7 +67,8 @@ bool row_read_float(const struct row_check *check, int column, float min, float 
 
 bool row_read_angle(const struct row_check *check, int column, float *angle_rad)
 {
-    static const double half_turn = 3.1415927410125732; /* the nearest float, as files have it */
+    /* the float nearest to pi, as files may have it */
+    static const double half_turn = 3.1415927410125732;
     double number = 0.0;
 
     if (!row_read_double(check, column, -ROW_ANGLE_MAX, ROW_ANGLE_MAX, &number)) {

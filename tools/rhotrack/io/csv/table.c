@@ -54,7 +54,7 @@ int table_need_column(const struct table *table, const char *name)
                       *names ? " (or " : "", names, *names ? ")" : "", found, hint);
 }
 
-/* The row's cell as text; of a table of numbers NULL. */
+/* The cell's text; NULL in a table of numbers. */
 static const char *cell_text(const struct table *table, size_t row, int column)
 {
     return table->cells ? table->cells[row * table->num_columns + (size_t)column] : NULL;
@@ -65,8 +65,8 @@ static double cell_number(const struct table *table, size_t row, int column)
     return table->numbers[row * table->num_columns + (size_t)column];
 }
 
-/* The cell's number is in another unit than its column. */
-static bool column_has_factor(const struct table *table, int column)
+/* Whether the cell's number is in another unit than the column's. */
+static bool column_has_unit_factor(const struct table *table, int column)
 {
     return table->factors && (table->factors[column] < 0 || table->factors[column] > 0);
 }
@@ -125,7 +125,7 @@ const char *table_read_number(const struct table *table, size_t row, int column,
     if (text) {
         const char *why = text_to_number(text, value);
 
-        if (!why && column_has_factor(table, column)) {
+        if (!why && column_has_unit_factor(table, column)) {
             *value = *value * table->factors[column] + table->offsets[column];
         }
         return why;
@@ -140,9 +140,9 @@ const char *table_read_float(const struct table *table, size_t row, int column, 
     double number = 0.0;
     const char *why = table_read_number(table, row, column, &number);
 
-    *value = why                                         ? 0.0f
-             : text && !column_has_factor(table, column) ? strtof(text, NULL)
-                                                         : (float)number;
+    *value = why                                              ? 0.0f
+             : text && !column_has_unit_factor(table, column) ? strtof(text, NULL)
+                                                              : (float)number;
     return why;
 }
 
@@ -167,10 +167,10 @@ const char *table_read_time_us(const struct table *table, size_t row, int column
     const char *text = cell_text(table, row, column);
 
     if (text) {
-        return time_us_of_text(text, column_has_factor(table, column) ? table->factors[column] : 0,
-                               time_us);
+        return time_us_of_text(
+            text, column_has_unit_factor(table, column) ? table->factors[column] : 0, time_us);
     }
-    *time_us = table->times_us[row]; /* no table of numbers has another column of times */
+    *time_us = table->times_us[row]; /* the only column of times in a table of numbers */
     return NULL;
 }
 

@@ -58,7 +58,10 @@ void table_dialect_point_for_comma(char *cell)
 
 #define RAD_DEG (180 / 3.14159265358979323846)
 
-/* Compass: clockwise from north. A size, such as a sigma, has no direction. */
+/*
+ * Kinds of quantities, for their units. COMPASS: clockwise from north. SIZE: an angle without a
+ * direction, such as a sigma.
+ */
 enum dimension { NUMBER, TIME, LENGTH, SPEED, DEGREES, RADIANS, COMPASS, COMPASS_TO_EAST, SIZE };
 
 static const struct {
@@ -95,7 +98,10 @@ static const struct {
     {"deg", SIZE, 1 / RAD_DEG, 0},
 };
 
-/* Words that files have for a column; an angle without a unit is not guessed. */
+/*
+ * Words that files use for a column, with the kind of units that may follow; an angle without a
+ * unit is not accepted.
+ */
 static const struct {
     const char *word, *column;
     enum dimension dimension;
@@ -154,8 +160,11 @@ static const struct {
 
 #define NAME_BYTES 40
 
-/* "Range [km]" is range_km, a degree sign deg; false where the name is too long. */
-static bool plain_name(const char *name, char plain[NAME_BYTES])
+/*
+ * Normalises a column name: "Range [km]" to range_km, a degree sign to deg. Returns false where the
+ * name is too long, or empty.
+ */
+static bool normalise_column_name(const char *name, char plain[NAME_BYTES])
 {
     size_t used = 0;
 
@@ -179,10 +188,10 @@ static bool plain_name(const char *name, char plain[NAME_BYTES])
 }
 
 struct unit {
-    double factor, offset; /* factor 0: none */
+    double factor, offset; /* factor 0: no known unit */
 };
 
-/* The unit of that dimension behind a word. */
+/* Finds the unit that follows a word in a column name. */
 static struct unit find_unit(const char *rest, enum dimension dimension)
 {
     rest += *rest == '_';
@@ -199,7 +208,7 @@ static bool is_unit_known(struct unit unit)
     return unit.factor < 0 || unit.factor > 0;
 }
 
-/* The name begins with the word, and a unit may follow. */
+/* Whether the name is the word, alone or followed by a unit. */
 static bool begins_with_word(const char *plain, const char *word)
 {
     const size_t length = strlen(word);
@@ -211,7 +220,7 @@ static const char *column_for_name(const char *name, struct unit *unit)
 {
     char plain[NAME_BYTES];
 
-    if (!plain_name(name, plain)) {
+    if (!normalise_column_name(name, plain)) {
         return NULL;
     }
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
@@ -227,7 +236,7 @@ static const char *column_for_name(const char *name, struct unit *unit)
 
 /* ---- --columns ---- */
 
-/* Names of columns that readers ask for and no word above stands for. */
+/* Names of columns that readers use and that no entry of `words` gives. */
 static const char *const others[] = {"azimuth_rad",
                                      "bearing_rad",
                                      "elevation_rad",
@@ -257,7 +266,7 @@ static const char *const others[] = {"azimuth_rad",
 #define NUM_WORDS (sizeof words / sizeof *words)
 #define NUM_OTHERS (sizeof others / sizeof *others)
 
-/* Every name that is read. */
+/* All accepted names by index; NULL after the last. */
 static const char *known_name_at(size_t index)
 {
     return index < NUM_OTHERS                   ? others[index]
@@ -284,12 +293,12 @@ static struct {
     const char *name, *column;
 } renamed[COLUMNS_MAX];
 static size_t num_renamed;
-static bool is_renaming_done; /* of some file */
-static char names_seen[240];  /* of the newest other one */
+static bool is_renaming_done; /* a file had the columns of --columns */
+static char names_seen[240];  /* column names of the newest file without them */
 
 void table_dialect_set_columns_option(const char *text)
 {
-    char *copy = must_copy_text(text), *rest = copy, *pair; /* for as long as the program runs */
+    char *copy = must_copy_text(text), *rest = copy, *pair; /* kept as long as the program runs */
 
     while ((pair = strsep(&rest, ",")) != NULL) {
         char *column = strchr(pair, '=');
@@ -326,8 +335,8 @@ void table_dialect_list_names(const struct table *table, char *text, size_t byte
     }
 }
 
-/* A file has all the columns of --columns, or none: then it is of another form. */
-static void check_all_renamed(const struct table *table, size_t found, const char *missing)
+/* Exit 2 where a file has some of the columns of --columns, but not all. */
+static void fail_if_partly_renamed(const struct table *table, size_t found, const char *missing)
 {
     if (found > 0 && missing) {
         char names[240];
@@ -350,7 +359,7 @@ static void rename_columns(struct table *table)
             missing = renamed[i].column;
         }
     }
-    check_all_renamed(table, found, missing);
+    fail_if_partly_renamed(table, found, missing);
 
     for (size_t i = 0; i < num_renamed; i++) {
         const int column = table_find_column(table, renamed[i].column);
@@ -389,8 +398,8 @@ static bool is_renamed(const char *name)
 /* ---- A header ---- */
 
 /*
- * A header that the readers know needs no other names, but for the sensor's; extra columns of any
- * name are ignored.
+ * Whether the header already names a time and a place as the readers do; other columns then keep
+ * their names, except the sensor's, since extra columns may have any name.
  */
 static bool has_known_columns(const struct table *table)
 {
@@ -429,7 +438,7 @@ void table_dialect_name_columns(struct table *table)
             continue;
         }
         if (!column || table_find_column(table, column) >= 0) {
-            continue; /* not known, or there already: the first one counts */
+            continue; /* not known, or there already: the first column of a name counts */
         }
         table->names[i] = column;
         if (unit.factor < 1 || unit.factor > 1) {
@@ -443,13 +452,13 @@ static const char *known_word_at(size_t index)
     return index < NUM_WORDS ? words[index].word : NULL;
 }
 
-/* The name is a word for that column, or nearly one, whatever its unit. */
+/* Whether a name of the file is a word for that column, or nearly one, with any unit. */
 static bool may_mean_column(const char *name, const char *column)
 {
     char plain[NAME_BYTES];
     const char *nearest;
 
-    if (!plain_name(name, plain)) {
+    if (!normalise_column_name(name, plain)) {
         return false;
     }
     nearest = name_hint_nearest(plain, known_word_at);
@@ -464,17 +473,17 @@ static bool may_mean_column(const char *name, const char *column)
 }
 
 /*
- * An angle's unit and where it counts from are never guessed: a column in degrees is suggested as
- * such, for any other one both forms are told.
+ * Writes advice on a missing angle: its unit and reference are never guessed, so a column in
+ * degrees is suggested as such, and for any other column both forms.
  */
-static void hint_angle(const char *name, const char *column, char *text, size_t bytes)
+static void format_angle_hint(const char *name, const char *column, char *text, size_t bytes)
 {
     const int length = (int)(strlen(column) - strlen("_rad"));
     const bool is_elevation = text_begins_with(column, "elevation");
     const char *compass = is_elevation ? "" : " (clockwise from north)";
     const char *east = is_elevation ? "" : " (counter-clockwise from east)";
     char plain[NAME_BYTES];
-    const char *unit = plain_name(name, plain) ? strrchr(plain, '_') : NULL;
+    const char *unit = normalise_column_name(name, plain) ? strrchr(plain, '_') : NULL;
 
     if (unit && strcmp(unit, "_deg") == 0) {
         snprintf(text, bytes, "did you mean '%.40s'? --columns '%.*s_deg=%.40s'%s", name, length,
@@ -486,7 +495,7 @@ static void hint_angle(const char *name, const char *column, char *text, size_t 
              length, column, name, compass, length, column, name, east);
 }
 
-static bool is_angle(const char *column)
+static bool is_angle_column(const char *column)
 {
     return strcmp(column, "azimuth_rad") == 0 || strcmp(column, "bearing_rad") == 0 ||
            strcmp(column, "elevation_rad") == 0;
@@ -500,8 +509,8 @@ void table_dialect_hint_column(const struct table *table, const char *column, ch
     for (size_t i = 0; i < table->num_columns; i++) {
         if (may_mean_column(table->names[i], column) &&
             column_for_name(table->names[i], &unit) == NULL) {
-            if (is_angle(column)) {
-                hint_angle(table->names[i], column, text, bytes);
+            if (is_angle_column(column)) {
+                format_angle_hint(table->names[i], column, text, bytes);
             } else {
                 snprintf(text, bytes, "did you mean '%.40s'? --columns '%s=%.40s'", table->names[i],
                          column, table->names[i]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * table_dialect: the forms in which CSV files come: what separates their cells, decimal commas, and
- * other names and units of the columns.
+ * table_dialect: the forms in which CSV files come: separators of cells, decimal commas, and other
+ * names and units of columns.
  */
 #ifndef RHOTRACK_TOOL_TABLE_DIALECT_H
 #define RHOTRACK_TOOL_TABLE_DIALECT_H
@@ -9,43 +9,47 @@
 #include "io/csv/table.h"
 
 /*
- * What separates the cells of a header line: a comma where there is one outside quotes, else a
- * semicolon, else a tab, else a blank (one or more of them).
+ * Finds the separator of a header line's cells: a comma where there is one outside quotes, else a
+ * semicolon, else a tab, else one or more blanks.
  */
 char table_dialect_find_delimiter(const char *line, size_t length);
 
-/* Copies a line whose cells are separated by blanks with one comma between them; returns its length
- * in `copy`, which has room for `length` bytes. */
+/*
+ * Copies a line whose cells are separated by blanks, with one comma between them. Returns the
+ * length of `copy`, which has room for `length` bytes.
+ */
 size_t table_dialect_join_blanks(const char *line, size_t length, char *copy);
 
-/* A number with a decimal comma gets a point; other texts stay. */
+/* Replaces the decimal comma of a number by a point; other texts stay. */
 void table_dialect_point_for_comma(char *cell);
 
 /*
- * Names the columns of a header as the readers do, in any case and with the units that
- * tools/README.md has. A header that already names its time and a place, and a name that is known,
- * stay as they are. Sets factors, by which numbers are to be multiplied, where one is not 1.
+ * Renames the columns of a header to the names that the readers use, from any case and with the
+ * units that tools/README.md lists. Known names stay, and so does a header that already names its
+ * time and a place. Sets the table's factors and offsets where units differ.
  */
 void table_dialect_name_columns(struct table *table);
 
 /*
- * NAME=COLUMN[,NAME=COLUMN...] of --columns: in files that have such a column it is read as if its
- * header were that name. Exit 2 where a name is none that is read. The text must outlive the
- * reading.
+ * Sets NAME=COLUMN[,NAME=COLUMN...] of the option --columns: in files that have such a COLUMN it is
+ * read as if its name were NAME. Exit 2 where a NAME is not one that is read.
  */
 void table_dialect_set_columns_option(const char *text);
 
-/* Exit 2 where none of the files so far has a column of --columns. */
+/* Exit 2 where no file so far has the columns of --columns. */
 void table_dialect_check_columns_option(void);
 
-/* The names that a file has. */
+/* Writes the names of a table's columns, separated by commas. */
 void table_dialect_list_names(const struct table *table, char *text, size_t bytes);
 
-/* What to do about a column that is missing: the one that it may be, and how to say so. */
+/*
+ * Writes advice on a missing column: the column of the file that it may be, and the option to say
+ * so.
+ */
 void table_dialect_hint_column(const struct table *table, const char *column, char *text,
                                size_t bytes);
 
-/* Other names of a column ("time, timestamp"); "" where there are none. */
+/* Writes other accepted names of a column, like "time, timestamp"; "" where there are none. */
 void table_dialect_other_names(const char *column, char *text, size_t bytes);
 
 #endif

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads tables, whole ones and row by row: bytes of a file to lines, lines to rows. */
+/*
+ * Reads tables, as a whole and row by row: bytes of a file to lines, lines to rows.
+ */
 #include "io/csv/table_stream.h"
 
 #include <csv.h>
@@ -23,42 +25,44 @@
 #define FIRST_TEXT 1024u
 
 /*
- * libcsv knows no lines, so the file is given to it line by line, and each row keeps the line that
- * it began on. Of a stream there are in memory: the row under way from its second line on
- * (refuse_row may go back to it), and what was read ahead; and the newest whole row.
+ * State of reading. libcsv does not count lines, so the file is given to it line by line, and each
+ * row keeps the line on which it began. In memory are: the newest whole row, the row under way from
+ * its second line on (refused rows are read again from there), and bytes read ahead.
  */
 struct table_stream {
     struct table *table;
     bool keep_going, is_whole, follow, is_plain;
-    int file;                        /* -1: all is in memory, or comes from */
-    struct asterix_records *asterix; /* a recording; or NULL */
-    const char *own;                 /* the path to look at again; NULL: standard input */
+    int file;                        /* file descriptor; -1 for an ASTERIX recording */
+    struct asterix_records *asterix; /* ASTERIX recording; NULL: a CSV file */
+    /* path, to see whether the file was replaced; NULL: standard input */
+    const char *own;
     struct csv_parser parser;
-    char delimiter; /* 0: no header yet */
-    char *joined;   /* a line with commas for its blanks */
+    char delimiter; /* separator of cells; 0: no header yet */
+    char *joined;   /* buffer for a line with commas in place of blanks */
     size_t joined_capacity;
     char *content;
     size_t bytes, capacity, position;
-    uint64_t offset; /* of the content in the file */
-    bool is_end;     /* nothing comes behind the content */
-    uint32_t line;   /* the current one, 1-based */
+    uint64_t offset; /* offset in the file of content */
+    bool is_end;     /* the file has no bytes after the content */
+    uint32_t line;   /* number of the current line, from 1 */
     size_t text_used, text_header, text_capacity;
     char **row; /* cells of the row under way */
     size_t row_cells, row_capacity, row_text, row_bytes;
     uint32_t row_line;
-    size_t row_next; /* place of the line after the row's first */
+    size_t row_next; /* position of the line after the row's first line */
     bool row_is_open, row_is_complete, has_row;
     size_t rows_capacity;
 };
 
-_Noreturn static void parse_fail(const struct table_stream *stream, uint32_t line, const char *what)
+_Noreturn static void fail_at_line(const struct table_stream *stream, uint32_t line,
+                                   const char *what)
 {
     fail(EXIT_USAGE, "%s:%u: %s", stream->table->path, (unsigned)line, what);
 }
 
 /* ---- The file ---- */
 
-/* Drops the bytes of rows that were parsed. */
+/* Drops the bytes of rows that were parsed, unless the whole file is kept. */
 static void drop_parsed_bytes(struct table_stream *stream)
 {
     size_t keep = stream->row_is_open ? stream->row_next : stream->position;
@@ -73,7 +77,7 @@ static void drop_parsed_bytes(struct table_stream *stream)
     stream->offset += keep;
 }
 
-/* With follow a pipe is not waited for. */
+/* Whether a pipe has no bytes ready, which with follow is not waited for. */
 static bool is_pipe_silent(const struct table_stream *stream)
 {
     struct pollfd ready = {.fd = stream->file, .events = POLLIN};
@@ -81,8 +85,8 @@ static bool is_pipe_silent(const struct table_stream *stream)
     return stream->follow && !stream->is_plain && poll(&ready, 1, 0) <= 0;
 }
 
-/* Room for some bytes more than there are. */
-static void need_room(struct table_stream *stream, size_t bytes)
+/* Makes room for `bytes` more bytes in the content. */
+static void make_content_room(struct table_stream *stream, size_t bytes)
 {
     while (stream->capacity - stream->bytes < bytes) {
         stream->capacity *= 2;
@@ -90,7 +94,7 @@ static void need_room(struct table_stream *stream, size_t bytes)
     }
 }
 
-static bool read_more(struct table_stream *stream)
+static bool read_more_bytes(struct table_stream *stream)
 {
     ssize_t got;
 
@@ -98,7 +102,7 @@ static bool read_more(struct table_stream *stream)
         return false;
     }
     drop_parsed_bytes(stream);
-    need_room(stream, 1);
+    make_content_room(stream, 1);
     do {
         got = read(stream->file, stream->content + stream->bytes, stream->capacity - stream->bytes);
     } while (got < 0 && errno == EINTR);
@@ -113,8 +117,8 @@ static bool read_more(struct table_stream *stream)
 /* ---- Lines ---- */
 
 /*
- * Length of the line at the current position with its end; 0: it is not there as a whole, or there
- * is none.
+ * Length of the line at the current position with its line end; 0 where it is not there as a whole,
+ * or there is none.
  */
 static size_t line_length(const struct table_stream *stream)
 {
@@ -136,11 +140,11 @@ static size_t line_length(const struct table_stream *stream)
 static void refuse_nul_bytes(const struct table_stream *stream, size_t length)
 {
     if (memchr(stream->content + stream->position, '\0', length)) {
-        parse_fail(stream, stream->line, "not a text file: it has a NUL byte");
+        fail_at_line(stream, stream->line, "not a text file: it has a NUL byte");
     }
 }
 
-/* True where a line outside a row says nothing: blank, or a comment. */
+/* Whether a line outside a row is blank or a comment. */
 static bool is_blank_or_comment(const char *line, size_t length)
 {
     size_t i = 0;
@@ -153,7 +157,7 @@ static bool is_blank_or_comment(const char *line, size_t length)
 
 /* ---- Rows ---- */
 
-/* A name that the file has; others are constants (table_dialect.h). */
+/* Whether a name points into the file's text; others are constants (table_dialect.h). */
 static bool is_name_from_file(const struct table_stream *stream, const char *name)
 {
     const char *text = stream->table->text;
@@ -162,7 +166,7 @@ static bool is_name_from_file(const struct table_stream *stream, const char *nam
            (uintptr_t)name < (uintptr_t)text + stream->text_used;
 }
 
-/* Room for a cell. Names and cells that are there keep their places in the text. */
+/* Makes room for a cell's text; names and cells that point into the text are moved with it. */
 static void grow_cell_text(struct table_stream *stream, size_t bytes)
 {
     struct table *table = stream->table;
@@ -212,7 +216,7 @@ static void on_row_end(int end, void *user)
     ((struct table_stream *)user)->row_is_complete = true;
 }
 
-static void start_parser(struct table_stream *stream)
+static void reset_parser(struct table_stream *stream)
 {
     if (csv_init(&stream->parser, CSV_STRICT | CSV_STRICT_FINI)) {
         fail(EXIT_RUNTIME, "out of memory");
@@ -227,7 +231,7 @@ static void start_parser(struct table_stream *stream)
 static void begin_row(struct table_stream *stream, size_t length)
 {
     if (!stream->is_whole) {
-        stream->table->num_rows = 0; /* the new one takes its place */
+        stream->table->num_rows = 0; /* the new row replaces the newest one */
         stream->text_used = stream->text_header;
     }
     stream->row_is_open = true;
@@ -239,23 +243,23 @@ static void begin_row(struct table_stream *stream, size_t length)
 }
 
 /*
- * A bad row is the end, or with keep_going forgotten: reading goes on behind its first line, since
- * the others may belong to it only by a wrong quotation mark. The header must be good.
+ * Handles a bad row: exit 2, or with keep_going skips its first line alone, since the further lines
+ * may belong to it only by a wrong quotation mark. A bad header is always an error.
  */
-static void refuse_row(struct table_stream *stream, const char *what)
+static void fail_or_skip_row(struct table_stream *stream, const char *what)
 {
     if (!stream->keep_going || !stream->table->names) {
-        parse_fail(stream, stream->row_line, what);
+        fail_at_line(stream, stream->row_line, what);
     }
     stream->table->rows_skipped++;
     stream->text_used = stream->row_text;
     stream->position = stream->row_next;
     stream->line = stream->row_line + 1;
     csv_free(&stream->parser);
-    start_parser(stream);
+    reset_parser(stream);
 }
 
-static void take_header(struct table_stream *stream)
+static void process_header_row(struct table_stream *stream)
 {
     struct table *table = stream->table;
     double number;
@@ -296,14 +300,14 @@ static void add_row_to_table(struct table_stream *stream)
     stream->has_row = true;
 }
 
-static void end_row(struct table_stream *stream)
+static void process_complete_row(struct table_stream *stream)
 {
     size_t expected = stream->table->num_columns;
     char what[80];
 
     stream->row_is_open = stream->row_is_complete = false;
     if (!stream->table->names) {
-        take_header(stream);
+        process_header_row(stream);
         return;
     }
     if (stream->row_cells == expected) {
@@ -312,15 +316,15 @@ static void end_row(struct table_stream *stream)
     }
     snprintf(what, sizeof what, "%s row: %zu cells, the header has %zu",
              stream->row_cells < expected ? "short" : "long", stream->row_cells, expected);
-    refuse_row(stream, what);
+    fail_or_skip_row(stream, what);
 }
 
-/* The header line tells what separates the cells. */
-static void find_delimiter(struct table_stream *stream, const char *line, size_t length)
+/* Sets the separator of cells from the header line. */
+static void set_delimiter_from_header(struct table_stream *stream, const char *line, size_t length)
 {
     stream->delimiter = table_dialect_find_delimiter(line, length);
     csv_free(&stream->parser);
-    start_parser(stream);
+    reset_parser(stream);
 }
 
 static const char *join_blanks(struct table_stream *stream, const char *line, size_t *length)
@@ -335,13 +339,13 @@ static const char *join_blanks(struct table_stream *stream, const char *line, si
 
 static const char too_long[] = "a row of more than 1 MiB: a quoted cell has no end";
 
-/* Gives the line at the current position to libcsv. */
+/* Gives the line at the current position to libcsv, and completes a row that ends with it. */
 static void parse_line(struct table_stream *stream, size_t length)
 {
     const char *line = stream->content + stream->position;
 
     if (!stream->delimiter) {
-        find_delimiter(stream, line, length);
+        set_delimiter_from_header(stream, line, length);
     }
     if (!stream->row_is_open) {
         begin_row(stream, length);
@@ -350,7 +354,7 @@ static void parse_line(struct table_stream *stream, size_t length)
     stream->line++;
     stream->row_bytes += length;
     if (!stream->is_whole && stream->row_bytes > TABLE_STREAM_ROW_BYTES) {
-        refuse_row(stream, too_long);
+        fail_or_skip_row(stream, too_long);
         return;
     }
     if (stream->delimiter == ' ') {
@@ -361,19 +365,19 @@ static void parse_line(struct table_stream *stream, size_t length)
             fail(EXIT_RUNTIME, "%s: %s", stream->table->path,
                  csv_strerror(csv_error(&stream->parser)));
         }
-        refuse_row(stream, "a quotation mark inside a cell");
+        fail_or_skip_row(stream, "a quotation mark inside a cell");
     } else if (stream->row_is_complete) {
-        end_row(stream);
+        process_complete_row(stream);
     }
 }
 
 /* ---- Lines to rows ---- */
 
 /*
- * What a file is that begins with such bytes, where it is no text; NULL: it may be text. Recordings
- * and logs that are plain files are read elsewhere.
+ * Name of the binary format that a file begins with, as an error message; NULL: it may be text.
+ * Recordings and logs that are plain files do not get here.
  */
-static const char *what_binary_format(const uint8_t *start, size_t bytes, bool is_file)
+static const char *name_binary_format(const uint8_t *start, size_t bytes, bool is_file)
 {
     static const uint8_t log_sync[] = {0xED, 0xA1, 0xDA, 0x01};
 
@@ -391,13 +395,13 @@ static const char *what_binary_format(const uint8_t *start, size_t bytes, bool i
                      "as a file";
 }
 
-/* Exit 2 with the name of the format where the file is no text. */
+/* Exit 2 with the format's name where the file is not CSV. */
 static void refuse_foreign_format(const struct table_stream *stream)
 {
     const char *start = stream->content + stream->position, *what = NULL;
 
     if (stream->offset + stream->position == 0) {
-        what = what_binary_format((const uint8_t *)start, stream->bytes - stream->position,
+        what = name_binary_format((const uint8_t *)start, stream->bytes - stream->position,
                                   stream->own && stream->is_plain);
     }
     if (*start == '{') {
@@ -405,7 +409,7 @@ static void refuse_foreign_format(const struct table_stream *stream)
                "file or LCM log";
     }
     if (what) {
-        parse_fail(stream, stream->line, what);
+        fail_at_line(stream, stream->line, what);
     }
 }
 
@@ -416,12 +420,12 @@ static void check_line(const struct table_stream *stream, size_t length)
     }
     refuse_nul_bytes(stream, length);
     if (!stream->is_whole && length > TABLE_STREAM_ROW_BYTES) {
-        parse_fail(stream, stream->line, "a line of more than 1 MiB");
+        fail_at_line(stream, stream->line, "a line of more than 1 MiB");
     }
 }
 
-/* The bytes that were read ahead have no line end: the row may be too long. */
-static void check_row_length(struct table_stream *stream)
+/* Refuses the row where the bytes read ahead have no line end and are too many. */
+static void refuse_too_long_row(struct table_stream *stream)
 {
     size_t from = stream->row_is_open ? stream->row_next : stream->position;
 
@@ -429,7 +433,7 @@ static void check_row_length(struct table_stream *stream)
         return;
     }
     check_line(stream, stream->bytes - stream->position);
-    refuse_row(stream, too_long);
+    fail_or_skip_row(stream, too_long);
 }
 
 static void skip_byte_order_mark(struct table_stream *stream, size_t *length)
@@ -442,8 +446,8 @@ static void skip_byte_order_mark(struct table_stream *stream, size_t *length)
 }
 
 /*
- * The line at the current position. Returns WAITS where it is not there yet, END where there is
- * none; else ROW.
+ * Finds the line at the current position, and reads more bytes as needed. Returns WAITS where it is
+ * not there yet, END at the end of the file, else ROW.
  */
 static enum table_stream_found find_line(struct table_stream *stream, size_t *length)
 {
@@ -451,8 +455,8 @@ static enum table_stream_found find_line(struct table_stream *stream, size_t *le
         if (stream->is_end) {
             return TABLE_STREAM_END;
         }
-        check_row_length(stream);
-        if (line_length(stream) == 0 && !read_more(stream)) {
+        refuse_too_long_row(stream);
+        if (line_length(stream) == 0 && !read_more_bytes(stream)) {
             return TABLE_STREAM_WAITS;
         }
     }
@@ -461,23 +465,23 @@ static enum table_stream_found find_line(struct table_stream *stream, size_t *le
 }
 
 /*
- * The last row may have no line end, or no end of its quotes. Returns false where nothing more was
- * found.
+ * Ends a last row without a line end, or refuses it where its quotes are not closed. Returns false
+ * where there was no such row.
  */
 static bool finish_last_row(struct table_stream *stream)
 {
     if (csv_fini(&stream->parser, on_cell, on_row_end, stream)) {
-        refuse_row(stream, "a quoted cell has no end");
+        fail_or_skip_row(stream, "a quoted cell has no end");
         return true;
     }
     if (stream->row_is_complete) {
-        end_row(stream);
+        process_complete_row(stream);
         return true;
     }
     return false;
 }
 
-static void take_line(struct table_stream *stream, size_t length)
+static void process_line(struct table_stream *stream, size_t length)
 {
     check_line(stream, length);
     if (stream->row_is_open || !is_blank_or_comment(stream->content + stream->position, length)) {
@@ -488,7 +492,7 @@ static void take_line(struct table_stream *stream, size_t length)
     }
 }
 
-/* Of a recording the header is there from the start. */
+/* Reads the next row of an ASTERIX recording, whose header is there from the start. */
 static enum table_stream_found next_asterix_row(struct table_stream *stream, bool to_header)
 {
     if (to_header) {
@@ -501,7 +505,7 @@ static enum table_stream_found next_asterix_row(struct table_stream *stream, boo
     return stream->is_end ? TABLE_STREAM_END : TABLE_STREAM_ROW;
 }
 
-/* Goes on up to the next row, or to the header. */
+/* Reads on to the next row, or with to_header to the header. */
 static enum table_stream_found parse_to_row(struct table_stream *stream, bool to_header)
 {
     if (stream->asterix) {
@@ -516,7 +520,7 @@ static enum table_stream_found parse_to_row(struct table_stream *stream, bool to
             return found;
         }
         if (found == TABLE_STREAM_ROW) {
-            take_line(stream, length);
+            process_line(stream, length);
         } else if (!finish_last_row(stream)) {
             return found;
         }
@@ -526,31 +530,31 @@ static enum table_stream_found parse_to_row(struct table_stream *stream, bool to
 
 /* ---- Ends ---- */
 
-static void check_header(const struct table_stream *stream)
+static void need_header(const struct table_stream *stream)
 {
     if (stream->table->names) {
         return;
     }
     if (stream->offset + stream->bytes == 0) {
-        parse_fail(stream, 1, "the file is empty");
+        fail_at_line(stream, 1, "the file is empty");
     }
-    parse_fail(stream, stream->line - 1, "no header row");
+    fail_at_line(stream, stream->line - 1, "no header row");
 }
 
-static void check_any_good_row(const struct table_stream *stream)
+static void need_any_good_row(const struct table_stream *stream)
 {
     const struct table *table = stream->table;
 
-    check_header(stream);
+    need_header(stream);
     if (!table->num_rows && table->rows_skipped) {
-        parse_fail(stream, table->header_line, "not one good row after the header");
+        fail_at_line(stream, table->header_line, "not one good row after the header");
     }
 }
 
 /* ---- Whole files ---- */
 
-static void open_asterix(struct table_stream *stream, const char *path,
-                         const struct parameters *parameters)
+static void open_asterix_recording(struct table_stream *stream, const char *path,
+                                   const struct parameters *parameters)
 {
     if (stream->follow) {
         fail(EXIT_USAGE, "%s: --follow takes CSV files, and this is a recording in ASTERIX", path);
@@ -575,10 +579,10 @@ static struct table_stream *open_stream(const char *path, const struct parameter
     stream->follow = follow;
     stream->capacity = FIRST_CAPACITY;
     stream->content = must_alloc(stream->capacity);
-    start_parser(stream);
+    reset_parser(stream);
     stream->file = -1;
     if (!is_standard && asterix_file_is_asterix(path)) {
-        open_asterix(stream, path, parameters);
+        open_asterix_recording(stream, path, parameters);
         return stream;
     }
     stream->file = is_standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
@@ -589,7 +593,7 @@ static struct table_stream *open_stream(const char *path, const struct parameter
     return stream;
 }
 
-/* All but the table. */
+/* Frees the stream without its table. */
 static void free_stream(struct table_stream *stream)
 {
     if (stream->file >= 0) {
@@ -603,16 +607,17 @@ static void free_stream(struct table_stream *stream)
     free(stream);
 }
 
-/* The content as rows; the stream is freed. */
-static struct table *parse_whole(struct table_stream *stream)
+/* Parses the whole content to rows, and frees the stream. */
+static struct table *parse_whole_and_free_stream(struct table_stream *stream)
 {
     struct table *table = stream->table;
 
-    stream->text_capacity = stream->bytes + 2; /* a cell is not longer than its text in the file */
+    /* a cell is never longer than its text in the file */
+    stream->text_capacity = stream->bytes + 2;
     table->text = must_alloc(stream->text_capacity);
     while (parse_to_row(stream, false) == TABLE_STREAM_ROW) {
     }
-    check_any_good_row(stream);
+    need_any_good_row(stream);
     free_stream(stream);
     return table;
 }
@@ -634,9 +639,9 @@ struct table *table_read_with_parameters(const char *path, const struct paramete
 
     stream->is_whole = true;
     while (!stream->asterix && !stream->is_end) {
-        read_more(stream);
+        read_more_bytes(stream);
     }
-    return parse_whole(stream);
+    return parse_whole_and_free_stream(stream);
 }
 
 /* ---- Row by row ---- */
@@ -649,7 +654,7 @@ struct table_stream *table_stream_open(const char *path, const struct parameters
     stream->text_capacity = FIRST_TEXT;
     stream->table->text = must_alloc(stream->text_capacity);
     if (parse_to_row(stream, true) == TABLE_STREAM_END) {
-        check_header(stream);
+        need_header(stream);
     }
     return stream;
 }
@@ -659,7 +664,7 @@ enum table_stream_found table_stream_next(struct table_stream *stream)
     enum table_stream_found found = parse_to_row(stream, false);
 
     if (found == TABLE_STREAM_END) {
-        check_header(stream);
+        need_header(stream);
     }
     return found;
 }

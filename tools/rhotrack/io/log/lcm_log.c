@@ -46,18 +46,17 @@ static void store_big_endian(uint8_t *data, uint64_t value, int bytes)
     }
 }
 
-/* Begins as a sync word does, as far as there are bytes. */
+/* Whether the bytes begin with a sync word, or with its beginning where fewer than 4 are there. */
 static bool may_begin_sync_word(const uint8_t *data, size_t size)
 {
     return memcmp(data, sync_word, size < SYNC_BYTES ? size : SYNC_BYTES) == 0;
 }
 
 /*
- * The length of the event that the bytes begin with; while its header is cut off, the number of
- * bytes after which more is known; 0 where the header, or as much of the channel as is there, is
- * that of no event.
+ * Length of the event that the bytes begin with, or the header's length while the header is cut
+ * off; 0 where the header, or the part of the channel that is there, is not that of an event.
  */
-static size_t event_bytes(const uint8_t *data, size_t size)
+static size_t event_length_from_header(const uint8_t *data, size_t size)
 {
     uint64_t channel, content;
     size_t there;
@@ -68,7 +67,8 @@ static size_t event_bytes(const uint8_t *data, size_t size)
     if (size < LCM_LOG_HEADER_BYTES) {
         return LCM_LOG_HEADER_BYTES;
     }
-    channel = load_big_endian(data + 20, 4); /* negative ones are too large */
+    /* a negative length reads as a very large one, and is refused below */
+    channel = load_big_endian(data + 20, 4);
     content = load_big_endian(data + 24, 4);
     if (channel < 1 || channel > LCM_LOG_MAX_CHANNEL || content > LCM_LOG_MAX_DATA) {
         return 0;
@@ -81,8 +81,8 @@ static size_t event_bytes(const uint8_t *data, size_t size)
 }
 
 /*
- * Where the next bytes are that may be a sync word, or the beginning of one at the end; size where
- * there are none.
+ * Offset from which the bytes are a sync word, or the beginning of one at the end of the buffer;
+ * size where there is none.
  */
 static size_t find_sync_word(const uint8_t *data, size_t from, size_t size)
 {
@@ -102,17 +102,17 @@ static size_t find_sync_word(const uint8_t *data, size_t from, size_t size)
 }
 
 /*
- * A whole header, its channel too, that begins inside an event of so many bytes; bytes where there
- * is none.
+ * Offset of a whole header with its channel name that begins inside an event of `bytes` bytes;
+ * bytes where there is none.
  */
-static size_t find_event_header(const uint8_t *data, size_t bytes, size_t size)
+static size_t find_header_inside_event(const uint8_t *data, size_t bytes, size_t size)
 {
     size_t at = find_sync_word(data, 1, size);
 
     while (at < bytes) {
         size_t left = size - at;
 
-        if (left > LCM_LOG_HEADER_BYTES && event_bytes(data + at, left) > 0 &&
+        if (left > LCM_LOG_HEADER_BYTES && event_length_from_header(data + at, left) > 0 &&
             left - LCM_LOG_HEADER_BYTES >= load_big_endian(data + at + 20, 4)) {
             return at;
         }
@@ -133,13 +133,13 @@ static void fill_event(const uint8_t *data, size_t bytes, struct lcm_log_event *
     event->size = bytes - LCM_LOG_HEADER_BYTES - channel;
 }
 
-static enum lcm_log_found skip_found(size_t bytes, size_t *count)
+static enum lcm_log_found found_bytes_to_skip(size_t bytes, size_t *count)
 {
     *count = bytes;
     return LCM_LOG_SKIP;
 }
 
-static enum lcm_log_found more_needed(size_t bytes, size_t *count)
+static enum lcm_log_found found_too_few_bytes(size_t bytes, size_t *count)
 {
     *count = bytes;
     return LCM_LOG_MORE;
@@ -148,24 +148,24 @@ static enum lcm_log_found more_needed(size_t bytes, size_t *count)
 enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
                                  struct lcm_log_event *event, size_t *count)
 {
-    size_t bytes = event_bytes(data, size), inside;
+    size_t bytes = event_length_from_header(data, size), inside;
 
     if (bytes == 0) {
-        return skip_found(find_sync_word(data, size > 0, size), count);
+        return found_bytes_to_skip(find_sync_word(data, size > 0, size), count);
     }
     if (size < bytes && is_end) {
-        return skip_found(find_sync_word(data, 1, size), count);
+        return found_bytes_to_skip(find_sync_word(data, 1, size), count);
     }
     if (size < bytes + SYNC_BYTES && !is_end) {
-        return more_needed(bytes + SYNC_BYTES, count);
+        return found_too_few_bytes(bytes + SYNC_BYTES, count);
     }
     if (size > bytes && !may_begin_sync_word(data + bytes, size - bytes)) {
         if (size < bytes + HEADER_MAX_BYTES && !is_end) {
-            return more_needed(bytes + HEADER_MAX_BYTES, count);
+            return found_too_few_bytes(bytes + HEADER_MAX_BYTES, count);
         }
-        inside = find_event_header(data, bytes, size);
+        inside = find_header_inside_event(data, bytes, size);
         if (inside < bytes) {
-            return skip_found(inside, count);
+            return found_bytes_to_skip(inside, count);
         }
     }
     fill_event(data, bytes, event);
@@ -175,7 +175,7 @@ enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
 
 /* ---- Files ---- */
 
-struct place {
+struct skipped_place {
     uint64_t offset, bytes;
 };
 
@@ -183,11 +183,12 @@ struct lcm_log_reader {
     char *path;
     int file;
     uint8_t *buffer;
-    size_t capacity, first, end; /* buffer[first .. end) is not parsed yet */
-    uint64_t offset;             /* of buffer[first] in the file */
-    bool is_end;                 /* the file has no more */
+    size_t capacity, first, end; /* unparsed bytes are buffer[first .. end) */
+    uint64_t offset;             /* offset in the file of buffer[first] */
+    bool is_end;                 /* the end of the file has been read */
     struct lcm_log_counts counts;
-    struct place shown[PLACES_SHOWN], last; /* the first few, the newest */
+    /* skipped places: the first few, for the report, and the newest */
+    struct skipped_place shown[PLACES_SHOWN], last;
     bool last_has_sync;
 };
 
@@ -202,7 +203,7 @@ bool lcm_log_is_log(const char *path)
         return true;
     }
     if (stat(path, &status) || !S_ISREG(status.st_mode) || !(file = fopen(path, "rb"))) {
-        return false; /* a pipe could not be read again */
+        return false; /* a pipe could not be read again from its beginning */
     }
     is_log =
         fread(start, 1, SYNC_BYTES, file) == SYNC_BYTES && may_begin_sync_word(start, SYNC_BYTES);
@@ -230,10 +231,10 @@ struct lcm_log_reader *lcm_log_open(const char *path)
 }
 
 /*
- * Makes room behind what is there: in front of it where that is half the buffer, else in a larger
- * one.
+ * Makes room behind the buffer's unparsed bytes: by moving them to the front where they fill at
+ * most half of the buffer, else by doubling the buffer.
  */
-static void make_room(struct lcm_log_reader *reader)
+static void make_buffer_room(struct lcm_log_reader *reader)
 {
     size_t there = reader->end - reader->first;
 
@@ -250,13 +251,15 @@ static void make_room(struct lcm_log_reader *reader)
     reader->buffer = must_realloc(reader->buffer, reader->capacity);
 }
 
-/* Reads until so many bytes are there, or the file ends: memory grows with what it really has. */
-static void read_until(struct lcm_log_reader *reader, size_t bytes)
+/*
+ * Reads until `bytes` unparsed bytes are buffered, or the file ends: memory grows with real bytes.
+ */
+static void read_until_buffered(struct lcm_log_reader *reader, size_t bytes)
 {
     while (!reader->is_end && reader->end - reader->first < bytes) {
         ssize_t got;
 
-        make_room(reader);
+        make_buffer_room(reader);
         do {
             got = read(reader->file, reader->buffer + reader->end, reader->capacity - reader->end);
         } while (got < 0 && errno == EINTR);
@@ -268,17 +271,18 @@ static void read_until(struct lcm_log_reader *reader, size_t bytes)
     }
 }
 
-static void count_skipped(struct lcm_log_reader *reader, const uint8_t *data, size_t bytes)
+static void count_skipped_bytes(struct lcm_log_reader *reader, const uint8_t *data, size_t bytes)
 {
     struct lcm_log_counts *counts = &reader->counts;
-    struct place *last = &reader->last;
+    struct skipped_place *last = &reader->last;
 
     if (last->bytes == 0 || last->offset + last->bytes != reader->offset) {
         counts->places_skipped++;
-        *last = (struct place){reader->offset, 0};
+        *last = (struct skipped_place){reader->offset, 0};
     }
     reader->last_has_sync =
-        may_begin_sync_word(data, bytes); /* a whole one: they do not end before */
+        /* the skipped bytes begin with a whole sync word: a skip never ends inside of one */
+        may_begin_sync_word(data, bytes);
     last->bytes += bytes;
     counts->bytes_skipped += bytes;
     if (counts->places_skipped <= PLACES_SHOWN) {
@@ -286,7 +290,7 @@ static void count_skipped(struct lcm_log_reader *reader, const uint8_t *data, si
     }
 }
 
-static void pass_bytes(struct lcm_log_reader *reader, size_t bytes)
+static void advance_reader(struct lcm_log_reader *reader, size_t bytes)
 {
     reader->first += bytes;
     reader->offset += bytes;
@@ -300,7 +304,7 @@ bool lcm_log_next(struct lcm_log_reader *reader, struct lcm_log_event *event)
         const uint8_t *data;
         enum lcm_log_found found;
 
-        read_until(reader, wanted);
+        read_until_buffered(reader, wanted);
         data = reader->buffer + reader->first;
         if (reader->first == reader->end) {
             return false;
@@ -309,12 +313,12 @@ bool lcm_log_next(struct lcm_log_reader *reader, struct lcm_log_event *event)
         if (found == LCM_LOG_EVENT) {
             event->offset = reader->offset;
             reader->counts.events++;
-            pass_bytes(reader, wanted);
+            advance_reader(reader, wanted);
             return true;
         }
         if (found == LCM_LOG_SKIP) {
-            count_skipped(reader, data, wanted);
-            pass_bytes(reader, wanted);
+            count_skipped_bytes(reader, data, wanted);
+            advance_reader(reader, wanted);
             wanted = LCM_LOG_HEADER_BYTES;
         }
     }
@@ -330,7 +334,7 @@ uint64_t lcm_log_position(const struct lcm_log_reader *reader)
     return reader->offset;
 }
 
-/* The last skipped bytes begin as an event does and reach the end: it was cut off. */
+/* Whether the file ends within an event: the last skipped bytes begin with a sync word. */
 static bool is_last_event_cut_off(const struct lcm_log_reader *reader)
 {
     return reader->is_end && reader->first == reader->end && reader->last_has_sync &&

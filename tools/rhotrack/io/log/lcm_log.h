@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * lcm_log: LCM event logs, as lcm-logger writes and lcm-logplayer reads them.
+ * lcm_log: reading and writing LCM event logs, as lcm-logger writes and lcm-logplayer reads them.
  *
  * An event is the sync word 0xEDA1DA01, int64 event number, int64 utime (us), int32 length of the
  * channel, int32 length of the data, channel, data; big endian. The reader trusts none of these
- * numbers: what is no whole event is skipped up to the next sync word, and counted. Damage can make
- * an event longer than it was, over the events behind it: one that is not followed by another sync
- * word is therefore none where a whole header begins inside it.
+ * numbers: bytes that form no whole event are skipped up to the next sync word, and counted. Damage
+ * can make an event's length too large, so that it covers the events after it: an event that is not
+ * followed by a sync word is therefore skipped where another whole event header begins inside it.
  */
 #ifndef RHOTRACK_TOOL_LCM_LOG_H
 #define RHOTRACK_TOOL_LCM_LOG_H
@@ -18,32 +18,33 @@
 
 #define LCM_LOG_SYNC UINT32_C(0xEDA1DA01)
 #define LCM_LOG_HEADER_BYTES 28u
-#define LCM_LOG_CHANNEL_AT 20u /* in the header: the channel's length, the data's */
+/* offsets in an event's header: length of the channel, length of the data */
+#define LCM_LOG_CHANNEL_AT 20u
 #define LCM_LOG_DATA_AT 24u
-#define LCM_LOG_MAX_CHANNEL 63u /* characters, as in LCM's datagrams; at least one, and no NUL */
+#define LCM_LOG_MAX_CHANNEL 63u /* longest channel name in characters, as in LCM's datagrams */
 #define LCM_LOG_MAX_DATA (UINT32_C(64) << 20)
 
 struct lcm_log_event {
     int64_t number, utime;
     char channel[LCM_LOG_MAX_CHANNEL + 1];
-    const uint8_t *data; /* inside the bytes that were parsed */
+    const uint8_t *data; /* the event's payload, inside the buffer that was parsed */
     size_t size;
-    uint64_t offset; /* of the event in its file */
+    uint64_t offset; /* byte offset of the event in its file */
 };
 
 /* ---- Bytes ---- */
 
 enum lcm_log_found {
-    /* the bytes begin with an event, *count bytes long; all of *event but offset is set */
+    /* the bytes begin with an event of *count bytes; all of *event but offset is set */
     LCM_LOG_EVENT,
-    LCM_LOG_SKIP, /* the first *count bytes belong to no event */
-    LCM_LOG_MORE  /* it cannot be told before *count bytes are there; never at the end */
+    LCM_LOG_SKIP, /* the first *count bytes belong to no event, and are to be skipped */
+    LCM_LOG_MORE  /* *count bytes are needed before the outcome is known; never with is_end */
 };
 
 /*
- * Tells what the bytes begin with. is_end: nothing comes behind them. *count is never 0, but where
- * size is 0 and it is the end; of an event or a skip it is at most size, of MORE it is beyond. Any
- * bytes will do. Cost: proportional to *count.
+ * Parses the beginning of a buffer: an event, bytes to skip, or too few bytes. is_end: no bytes of
+ * the file follow the buffer. For an event or a skip *count is at most size (0 only where size is 0
+ * at the end), for LCM_LOG_MORE it is beyond size. Accepts any bytes. Cost: proportional to *count.
  */
 enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
                                  struct lcm_log_event *event, size_t *count);
@@ -53,20 +54,20 @@ enum lcm_log_found lcm_log_parse(const uint8_t *data, size_t size, bool is_end,
 struct lcm_log_reader;
 
 /*
- * Whether a file is a log: a name that ends with .lcm, or a file (no pipe) that begins with a sync
- * word.
+ * Whether a file is an LCM log: its name ends with .lcm, or it is a plain file that begins with a
+ * sync word.
  */
 bool lcm_log_is_log(const char *path);
 
 /*
- * Errors: exit 2. Memory: a few times the longest event; of a log that lies about lengths what is
- * really there.
+ * Opens a log for reading. Errors: exit 2. Memory: a few times the longest event; a false length in
+ * a damaged log does not enlarge it beyond the bytes that the file really has.
  */
 struct lcm_log_reader *lcm_log_open(const char *path);
 
 /*
- * The next event, valid until the next call. Returns false after the last. Bytes that cannot be
- * read: exit 2.
+ * Reads the next event, valid until the next call. Returns false after the last event. Exit 2 where
+ * the file cannot be read.
  */
 bool lcm_log_next(struct lcm_log_reader *reader, struct lcm_log_event *event);
 
@@ -76,36 +77,38 @@ struct lcm_log_counts {
 };
 struct lcm_log_counts lcm_log_counts(const struct lcm_log_reader *reader);
 
-/* How many bytes of the file are parsed. */
+/* Number of bytes of the file that have been parsed, skipped ones included. */
 uint64_t lcm_log_position(const struct lcm_log_reader *reader);
 
-/* Tells on standard error what was skipped: the first few places, then a sum. */
+/* Reports skipped bytes on standard error: the first few places each, then a sum. */
 void lcm_log_report_skipped(const struct lcm_log_reader *reader);
 void lcm_log_close(struct lcm_log_reader *reader);
 
 /* ---- Writing ---- */
 
-/* An event's header; channel and data: their bytes, which follow it. */
+/*
+ * Fills an event's header; channel and data are the lengths in bytes of the parts that follow it.
+ */
 void lcm_log_put_header(uint8_t header[LCM_LOG_HEADER_BYTES], int64_t number, int64_t utime,
                         size_t channel, size_t data);
 
-/* An event's bytes, with its header. */
+/* Bytes of a whole event, header included, given the lengths of its channel and data. */
 uint64_t lcm_log_event_bytes(uint64_t channel, uint64_t data);
 
-/* The file is the caller's: to be opened, flushed, and closed. Numbers go up from 0. */
+/* Writer of events, numbered from 0. The caller opens, flushes and closes the file. */
 struct lcm_log_writer {
     FILE *file;
-    int64_t number; /* of the next event */
+    int64_t number; /* event number of the next event */
 };
 
 /*
- * Returns false where the file did not take it (errno says why), or the channel or the size is none
- * of a log.
+ * Writes one event. Returns false where writing failed (errno says why), or where the channel name
+ * or the data is too long for a log, or the channel name is empty.
  */
 bool lcm_log_write(struct lcm_log_writer *writer, int64_t utime, const char *channel,
                    const uint8_t *data, size_t size);
 
-/* The same; where it would return false: exit 1 with the file's name. */
+/* Writes one event like lcm_log_write; exit 1 with the file's name where that fails. */
 void lcm_log_must_write(struct lcm_log_writer *writer, const char *path, int64_t utime,
                         const char *channel, const uint8_t *data, size_t size);
 

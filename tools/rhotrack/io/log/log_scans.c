@@ -12,7 +12,7 @@
 #include "io/scans/out_of_sequence_counts.h"
 #include "rhotrack/message.h"
 
-/* of rho_scan_assembler_config */
+/* largest values that rho_scan_assembler_config accepts */
 #define HOLD_MAX_MS 10000.0
 #define LATE_MAX_S 60.0
 
@@ -46,23 +46,24 @@ unsigned log_scans_kinds(const char *path)
 struct log_scans {
     const char *path;
     const struct parameters *parameters;
-    bool is_held; /* by the caller */
+    bool is_held; /* the caller's reorder buffer holds scans, not the assembler */
     struct rho_scan_assembler *assembler;
     struct out_of_sequence_counts order;
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
-    int64_t clock_us;   /* the latest event's */
-    int64_t heard_us;   /* the last scan's last part's */
-    bool has_event;     /* the assembler has not taken it yet */
-    bool is_over;       /* there are no more events */
-    uint64_t num_given; /* by the assembler */
-    uint64_t first;     /* what it gives before this one is left out */
+    int64_t clock_us;   /* latest time of the log's events so far */
+    int64_t heard_us;   /* reception time of the last part of the newest scan given */
+    bool has_event;     /* the assembler had no room for the event: it is offered again */
+    bool is_over;       /* the log has no more events */
+    uint64_t num_given; /* number of scans that the assembler has given */
+    /* number of scans given before the clock was set back, which are left out */
+    uint64_t first;
 };
 
 /*
- * A log's events may stand at the times that the sensors said, as `convert` writes them: a sensor
- * whose time bias is taken off comes so much too early or too late then, and is waited for. Nobody
- * waits for a file.
+ * hold_ms, and the span of the sensors' time biases: in a log that `convert` wrote, events stand at
+ * the times that the sensors stated, so that a sensor whose bias is removed comes too early or too
+ * late by its bias. Waiting costs nothing in a file.
  */
 int64_t log_scans_hold_us(const struct parameters *parameters)
 {
@@ -73,10 +74,11 @@ int64_t log_scans_hold_us(const struct parameters *parameters)
 }
 
 /*
- * The caller holds the scans, with all the room there is: the assembler, which has less and would
- * drop out-of-sequence scans, holds none, and takes none for out of sequence too early.
+ * Sets the assembler's waits. Where the caller holds the scans, with more room than the assembler,
+ * which would drop out-of-sequence scans, the assembler waits only for the sensors' clocks.
+ * late_max_s grows by the whole wait, so that scans held for it are not dropped as too late.
  */
-static void lengthen_waits(struct parameters *parameters, bool is_held)
+static void set_assembler_waits(struct parameters *parameters, bool is_held)
 {
     double hold_ms = (double)log_scans_hold_us(parameters) * 1e-3;
     double clocks_ms = hold_ms - parameters->value[PARAMETER_HOLD_MS];
@@ -86,12 +88,12 @@ static void lengthen_waits(struct parameters *parameters, bool is_held)
         fmin(parameters->value[PARAMETER_LATE_MAX_S] + hold_ms * 1e-3, LATE_MAX_S);
 }
 
-/* The assembler as it was before the first event. */
-static void start_assembler(struct log_scans *scans)
+/* Opens the log, and sets the assembler to its state before the first event. */
+static void open_log_and_assembler(struct log_scans *scans)
 {
     struct parameters parameters = *scans->parameters;
 
-    lengthen_waits(&parameters, scans->is_held);
+    set_assembler_waits(&parameters, scans->is_held);
     parameters_to_assembler(&parameters, scans->assembler);
     scans->assembler->config.is_record = 1;
     scans->order = (struct out_of_sequence_counts){0};
@@ -101,8 +103,11 @@ static void start_assembler(struct log_scans *scans)
     scans->num_given = 0;
 }
 
-/* Offers the event to the assembler, which may have no room before something is taken from it. */
-static void offer_event(struct log_scans *scans)
+/*
+ * Offers the event to the assembler. has_event stays set while the assembler has no room for it:
+ * scans must be taken out first.
+ */
+static void offer_event_to_assembler(struct log_scans *scans)
 {
     const struct lcm_log_event *event = &scans->event;
 
@@ -111,29 +116,29 @@ static void offer_event(struct log_scans *scans)
                                                            event->utime) == RHO_ERROR_CAPACITY;
 }
 
-static void next_event(struct log_scans *scans)
+static void read_and_offer_event(struct log_scans *scans)
 {
     scans->is_over = !lcm_log_next(scans->reader, &scans->event);
     if (!scans->is_over) {
         scans->clock_us =
             scans->event.utime > scans->clock_us ? scans->event.utime : scans->clock_us;
-        offer_event(scans);
+        offer_event_to_assembler(scans);
     }
 }
 
-static int64_t now_us(const struct log_scans *scans)
+static int64_t assembler_clock_us(const struct log_scans *scans)
 {
     return scans->is_over ? INT64_MAX : scans->event.utime;
 }
 
-/* The next scan of all. An event that waits is offered again after each call for the next scan. */
-static bool take_next_scan(struct log_scans *scans, struct rho_scan_assembler_item *item)
+/* The next scan of the assembler. An event that waits is offered again after each scan taken. */
+static bool assemble_next_scan(struct log_scans *scans, struct rho_scan_assembler_item *item)
 {
     for (;;) {
         if (scans->has_event) {
-            offer_event(scans);
+            offer_event_to_assembler(scans);
         }
-        if (rho_scan_assembler_next(scans->assembler, now_us(scans), item)) {
+        if (rho_scan_assembler_next(scans->assembler, assembler_clock_us(scans), item)) {
             scans->num_given++;
             scans->heard_us = item->heard_us;
             return true;
@@ -142,21 +147,24 @@ static bool take_next_scan(struct log_scans *scans, struct rho_scan_assembler_it
             return false;
         }
         if (!scans->has_event) {
-            next_event(scans);
+            read_and_offer_event(scans);
         }
     }
 }
 
-static int64_t item_time_us(const struct rho_scan_assembler_item *item)
+static int64_t item_scan_time_us(const struct rho_scan_assembler_item *item)
 {
     return item->kind == RHO_SCAN_ASSEMBLER_BEARINGS ? item->bearings.time_us : item->scan.time_us;
 }
 
-/* The clock was set back: two recordings in one file cannot be stepped as one. */
-static void leave_out_scans_before(struct log_scans *scans,
-                                   const struct rho_scan_assembler_item *item, bool keep_going)
+/*
+ * The sensors' clock was set back: two recordings in one file cannot be stepped as one. Exit 2, or
+ * the scans before are left out.
+ */
+static void refuse_or_skip_scans_before(struct log_scans *scans,
+                                        const struct rho_scan_assembler_item *item, bool keep_going)
 {
-    double time_s = 1e-6 * (double)item_time_us(item);
+    double time_s = 1e-6 * (double)item_scan_time_us(item);
     uint64_t before = scans->num_given - 1;
 
     if (!keep_going) {
@@ -172,18 +180,20 @@ static void leave_out_scans_before(struct log_scans *scans,
     scans->first = before;
 }
 
-/* Goes through the whole log. */
-static void look_through_log(struct log_scans *scans, uint64_t bytes, bool keep_going)
+/*
+ * Goes through the whole log to count its scans, and to find the last time the clock was set back.
+ */
+static void find_clock_restart_in_log(struct log_scans *scans, uint64_t bytes, bool keep_going)
 {
     struct rho_scan_assembler_item item;
     int64_t last_us = INT64_MIN;
     struct progress progress = progress_start("scans looked through", 0);
 
-    while (take_next_scan(scans, &item)) {
-        if (item.is_restart && item_time_us(&item) < last_us) {
-            leave_out_scans_before(scans, &item, keep_going);
+    while (assemble_next_scan(scans, &item)) {
+        if (item.is_restart && item_scan_time_us(&item) < last_us) {
+            refuse_or_skip_scans_before(scans, &item, keep_going);
         }
-        last_us = item_time_us(&item);
+        last_us = item_scan_time_us(&item);
         progress_show_bytes(&progress, scans->num_given, lcm_log_position(scans->reader), bytes);
     }
     progress_end(&progress);
@@ -240,8 +250,8 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
     scans->parameters = parameters;
     scans->is_held = is_held;
     scans->assembler = must_alloc(sizeof *scans->assembler);
-    start_assembler(scans);
-    look_through_log(scans, plain_file_size(path), keep_going);
+    open_log_and_assembler(scans);
+    find_clock_restart_in_log(scans, plain_file_size(path), keep_going);
     if (is_reported) {
         const struct scan_losses losses =
             out_of_sequence_counts_losses(&scans->order, &scans->assembler->counters);
@@ -260,7 +270,7 @@ struct log_scans *log_scans_open(const char *path, const struct parameters *para
 
 bool log_scans_next(struct log_scans *scans, struct rho_scan_assembler_item *item)
 {
-    while (take_next_scan(scans, item)) {
+    while (assemble_next_scan(scans, item)) {
         if (scans->num_given > scans->first) {
             return true;
         }
@@ -271,7 +281,7 @@ bool log_scans_next(struct log_scans *scans, struct rho_scan_assembler_item *ite
 void log_scans_rewind(struct log_scans *scans)
 {
     lcm_log_close(scans->reader);
-    start_assembler(scans);
+    open_log_and_assembler(scans);
 }
 
 int64_t log_scans_clock_us(const struct log_scans *scans)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * log_scans: the sensors' scans of an LCM log, put together as rhotrack node does it live
- * (rhotrack/scan_assembler.h), with the times of the log's events as the reception clock.
+ * log_scans: the sensors' scans of an LCM log, assembled as rhotrack node does live
+ * (rhotrack/scan_assembler.h), with the times of the log's events as reception times.
  */
 #ifndef RHOTRACK_TOOL_LOG_SCANS_H
 #define RHOTRACK_TOOL_LOG_SCANS_H
@@ -13,46 +13,48 @@
 #include "settings/parameters.h"
 
 /*
- * Which sensors' channels a log has; values to be or-ed. Logs are looked at twice: exit 2 where it
- * is a pipe.
+ * Kinds of sensor scans that a log has channels of, LOG_HAS_... or-ed. Exit 2 where the path is a
+ * pipe: logs are read twice.
  */
 #define LOG_HAS_PLOTS 1u
 #define LOG_HAS_BEARINGS 2u
 unsigned log_scans_kinds(const char *path);
 
 /*
- * A log's scans one by one, in the order in which the tracker would step them, in memory that does
- * not grow with the log: opening looks at all of them once. With is_reported, what was skipped goes
- * to standard error, and in one line every counter of the assembler that tells of a fault. Exit 2
- * where there is no scan, or the sensors' common clock starts anew at a time before (two recordings
- * in one): with keep_going what came before is left out instead. Where it goes on at a later time
- * (a long pause) so do the scans, but for the follow_scans - 1 that it takes to be believed. With
- * is_held they come as they are whole: the caller holds them for log_scans_hold_us.
+ * Opens a log to take its scans one by one, in the order in which the tracker would step them, in
+ * memory that does not grow with the log: opening reads the whole log once.
+ *
+ * is_reported: skipped bytes, and in one line all faults that the assembler counted, are reported
+ * on standard error. Exit 2 where the log has no scan, or where the sensors' common clock is set
+ * back (two recordings in one file); with keep_going the scans before are left out instead. After a
+ * long pause the scans go on, but for the follow_scans - 1 scans until the assembler accepts the
+ * new time. is_held: scans are given as soon as they are whole, since the caller delays them by
+ * log_scans_hold_us itself.
  */
 struct log_scans;
 struct log_scans *log_scans_open(const char *path, const struct parameters *parameters,
                                  bool keep_going, bool is_reported, bool is_held);
 
-/* The next one, valid until the next call. Returns false after the last. */
+/* Takes the next scan, valid until the next call. Returns false after the last scan. */
 bool log_scans_next(struct log_scans *scans, struct rho_scan_assembler_item *item);
 
-/* The log from its beginning again. */
+/* Starts again at the beginning of the log. */
 void log_scans_rewind(struct log_scans *scans);
 
 /*
- * The latest time of the events so far, and when the last part of the scan that was given last was
- * received.
+ * Reception times: the latest time of the log's events so far, and the time at which the last part
+ * of the newest scan that was given arrived.
  */
 int64_t log_scans_clock_us(const struct log_scans *scans);
 int64_t log_scans_heard_us(const struct log_scans *scans);
 
 /*
- * hold_ms, and as long as sensors' clocks may be apart: so long scans wait for earlier ones. The
- * assembler's room may not last for it.
+ * Time that scans wait for earlier ones: hold_ms plus the largest difference of sensors' time
+ * biases. The assembler's buffers may be too small for such a wait.
  */
 int64_t log_scans_hold_us(const struct parameters *parameters);
 
-/* How many bytes of the log are taken. */
+/* Number of bytes of the log that have been read. */
 uint64_t log_scans_position(const struct log_scans *scans);
 void log_scans_close(struct log_scans *scans);
 

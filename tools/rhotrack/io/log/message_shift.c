@@ -3,7 +3,7 @@
 
 #include "rhotrack/message.h"
 
-/* Where the members stand, and how many bytes they are. */
+/* Byte offsets of a message's first members, and their sizes. */
 enum { UTIME_AT = 8, SCAN_AT = 16, EPOCH_AT = 20, TIME_BYTES = 8, NUMBER_BYTES = 4 };
 
 static uint64_t get_big_endian(const uint8_t *data, int bytes)

@@ -10,10 +10,10 @@
 #include "io/rows/rows_scans.h"
 #include "io/rows/rows_turns.h"
 
-/* One of the files: a log, or rows and their scans. */
+/* One input file with its next message: a log, or a table's rows and their scans. */
 struct input {
     const char *path;
-    struct lcm_log_reader *log; /* NULL: rows */
+    struct lcm_log_reader *log; /* NULL: the file is a table of rows */
     struct lcm_log_event log_event;
     struct rows_file file;
     struct rows_scans scans;
@@ -26,7 +26,7 @@ struct input {
 struct message_source {
     struct input *inputs;
     int num_inputs;
-    struct input *taken; /* whose event was handed out: it goes on at the next call */
+    struct input *taken; /* input whose message was handed out; the next call advances it */
 };
 
 static void next_log_event(struct input *input)
@@ -47,7 +47,7 @@ static void next_rows_message(struct input *input)
                                           .size = input->output.size};
 }
 
-static void advance_input(struct input *input)
+static void advance_to_next_message(struct input *input)
 {
     if (input->log) {
         next_log_event(input);
@@ -68,7 +68,7 @@ static void open_input(struct input *input, const char *path, const struct param
         rows_scans_make(&input->scans, &input->file,
                         llround(parameters->value[PARAMETER_SCAN_INTERVAL_S] * 1e6));
     }
-    advance_input(input);
+    advance_to_next_message(input);
     if (!input->has_event) {
         fail(EXIT_USAGE, "%s: not one %s in it", path,
              input->log ? "event of an LCM log" : "good scan");
@@ -91,7 +91,7 @@ struct message_source *message_source_open(char *const *paths, int num_paths,
 bool message_source_next(struct message_source *source, struct message_event *event)
 {
     if (source->taken) {
-        advance_input(source->taken);
+        advance_to_next_message(source->taken);
     }
     source->taken = NULL;
     for (int i = 0; i < source->num_inputs; i++) {

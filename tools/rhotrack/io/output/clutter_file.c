@@ -16,7 +16,7 @@
 #include "io/csv/table.h"
 #include "pipeline/pipeline.h"
 
-/* Places that are known by hand, where nobody says how well. */
+/* sigma of echoes entered by hand, where no sigma is configured */
 #define SIGMA_BY_HAND_M 30.0
 
 #define SAVE_US 60000000
@@ -24,7 +24,10 @@
 #define ALL_REGIONS (RHO_ECHO_TABLES - 1)
 #define REGION_MAX (ALL_REGIONS - 1)
 
-/* The least of each class (rhotrack/detail/clutter_map.h): it stands for the class in the file. */
+/*
+ * Smallest value of each class of hits and gaps (rhotrack/detail/clutter_map.h), which stands for
+ * the class in the file.
+ */
 static const uint16_t hits_of_class[RHO_ECHO_HIT_CLASSES] = {1, 2, 3, RHO_ECHO_KNOWN_HITS};
 static const uint8_t unseen_of_class[RHO_ECHO_GAP_CLASSES] = {1, 2, 3, 5, 9};
 
@@ -33,11 +36,12 @@ static const uint8_t unseen_of_class[RHO_ECHO_GAP_CLASSES] = {1, 2, 3, 5, 9};
 struct columns {
     int sensor_id, x_m, y_m, sigma_m, sigma_range_m, sigma_cross_m, hits;
     int region, unseen, looks, returns;
-    struct geodetic *geodetic; /* lat_deg and lon_deg stand for x_m and y_m; else NULL */
+    /* NULL where x_m and y_m, not lat_deg and lon_deg, give the positions */
+    struct geodetic *geodetic;
 };
 
-/* One row: an echo, or a part of what was learned. */
-struct learned {
+/* Statistics of returns for a class of echoes in a region. */
+struct return_counts {
     uint16_t hits;
     uint8_t region, unseen;
     float looks, returns;
@@ -46,10 +50,13 @@ struct learned {
 struct clutter_row {
     bool is_echo;
     struct clutter_echo echo;
-    struct learned learned;
+    struct return_counts counts;
 };
 
-/* Plots and tracks have places and sensors, too; a map would be written over them. */
+/*
+ * Refuses files of plots and tracks, which have positions and sensors too: the map would overwrite
+ * them.
+ */
 static void refuse_other_tables(const struct table *table)
 {
     static const char *const others[] = {"t_s", "range_m", "bearing_rad"};
@@ -121,22 +128,23 @@ static bool read_place(const struct row_check *check, const struct columns *colu
     return true;
 }
 
-/* Set by somebody, for this sensor or for all. */
-static bool is_sigma_said(const struct parameters *parameters, int32_t sensor_id,
-                          enum sensor_parameter_id own, enum parameter_id of_all)
+/* Whether the user set a sigma, for this sensor or for all. */
+static bool is_sigma_configured(const struct parameters *parameters, int32_t sensor_id,
+                                enum sensor_parameter_id own, enum parameter_id of_all)
 {
     return parameters->source[of_all] >= SOURCE_CONFIG ||
            !isnan(parameters_value_of_sensor(parameters, sensor_id, own, NAN));
 }
 
-/* The noise of its sensor's plots there. */
-static void default_sigmas(const struct parameters *parameters, struct clutter_echo *echo)
+/* Sets an echo's sigmas to the noise of its sensor's plots at that range. */
+static void set_default_sigmas(const struct parameters *parameters, struct clutter_echo *echo)
 {
     double range_m = SIGMA_BY_HAND_M, cross_m = SIGMA_BY_HAND_M;
     const int32_t id = echo->sensor_id;
 
-    if (is_sigma_said(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD, PARAMETER_SIGMA_AZIMUTH_RAD) ||
-        is_sigma_said(parameters, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)) {
+    if (is_sigma_configured(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD,
+                            PARAMETER_SIGMA_AZIMUTH_RAD) ||
+        is_sigma_configured(parameters, id, SENSOR_SIGMA_RANGE_M, PARAMETER_SIGMA_RANGE_M)) {
         struct rho_sensor sensor;
 
         parameters_to_any_sensor(parameters, id, &sensor);
@@ -146,7 +154,7 @@ static void default_sigmas(const struct parameters *parameters, struct clutter_e
             parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_AZIMUTH_RAD,
                                        parameters->value[PARAMETER_SIGMA_AZIMUTH_RAD]) *
             hypot((double)echo->x_m - (double)sensor.x_m, (double)echo->y_m - (double)sensor.y_m);
-    } else if (is_sigma_said(parameters, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M)) {
+    } else if (is_sigma_configured(parameters, id, SENSOR_SIGMA_M, PARAMETER_SIGMA_M)) {
         range_m = cross_m = parameters_value_of_sensor(parameters, id, SENSOR_SIGMA_M,
                                                        parameters->value[PARAMETER_SIGMA_M]);
     }
@@ -169,7 +177,7 @@ static bool read_echo(const struct row_check *check, const struct columns *colum
         !read_place(check, columns, echo)) {
         return false;
     }
-    default_sigmas(parameters, echo);
+    set_default_sigmas(parameters, echo);
     if (!read_sigma(check, columns->sigma_m, &echo->sigma_range_m) ||
         !read_sigma(check, columns->sigma_m, &echo->sigma_cross_m) ||
         !read_sigma(check, columns->sigma_range_m, &echo->sigma_range_m) ||
@@ -182,8 +190,8 @@ static bool read_echo(const struct row_check *check, const struct columns *colum
     return true;
 }
 
-static bool read_learned(const struct row_check *check, const struct columns *columns,
-                         struct learned *learned)
+static bool read_return_counts(const struct row_check *check, const struct columns *columns,
+                               struct return_counts *counts)
 {
     int32_t hits, unseen, region = ALL_REGIONS;
 
@@ -194,17 +202,17 @@ static bool read_learned(const struct row_check *check, const struct columns *co
         !read_count(check, columns->unseen, 1, UINT8_MAX, &unseen) ||
         (row_has_cell(check, columns->region) &&
          !read_count(check, columns->region, 0, REGION_MAX, &region)) ||
-        !row_read_float(check, columns->looks, 0.0f, 1e9f, &learned->looks) ||
-        !row_read_float(check, columns->returns, 0.0f, learned->looks, &learned->returns)) {
+        !row_read_float(check, columns->looks, 0.0f, 1e9f, &counts->looks) ||
+        !row_read_float(check, columns->returns, 0.0f, counts->looks, &counts->returns)) {
         return false;
     }
-    learned->hits = (uint16_t)hits;
-    learned->unseen = (uint8_t)unseen;
-    learned->region = (uint8_t)region;
+    counts->hits = (uint16_t)hits;
+    counts->unseen = (uint8_t)unseen;
+    counts->region = (uint8_t)region;
     return true;
 }
 
-/* All rows, checked before any of them is taught. */
+/* Reads and checks all rows before any of them changes the map. */
 static struct clutter_row *read_rows(const char *path, const struct parameters *parameters,
                                      size_t *count)
 {
@@ -218,7 +226,7 @@ static struct clutter_row *read_rows(const char *path, const struct parameters *
 
         rows[row].is_echo = !row_has_cell(&check, columns.looks);
         if (!(rows[row].is_echo ? read_echo(&check, &columns, parameters, &rows[row].echo)
-                                : read_learned(&check, &columns, &rows[row].learned))) {
+                                : read_return_counts(&check, &columns, &rows[row].counts))) {
             table_fail_at_row(table, row, "%s", reason);
         }
     }
@@ -245,32 +253,33 @@ struct clutter_echo *clutter_file_read_echoes(const char *path, const struct par
     return echoes;
 }
 
-static void teach_echo(struct rho_clutter_map *map, const struct clutter_echo *echo)
+static void add_echo_to_map(struct rho_clutter_map *map, const struct clutter_echo *echo)
 {
     must_succeed(rho_clutter_map_teach(map, echo->sensor_id, echo->x_m, echo->y_m,
                                        echo->sigma_range_m, echo->sigma_cross_m, echo->hits),
                  "clutter map");
 }
 
-static void teach_learned(struct rho_clutter_map *map, const struct learned *learned)
+static void add_return_counts_to_map(struct rho_clutter_map *map,
+                                     const struct return_counts *counts)
 {
-    must_succeed(rho_clutter_map_teach_returns(map, learned->region, learned->hits, learned->unseen,
-                                               learned->looks, learned->returns),
+    must_succeed(rho_clutter_map_teach_returns(map, counts->region, counts->hits, counts->unseen,
+                                               counts->looks, counts->returns),
                  "clutter map");
 }
 
-static void teach_file_to_map(const char *path, const struct parameters *parameters,
-                              struct rho_clutter_map *map)
+static void load_file_into_map(const char *path, const struct parameters *parameters,
+                               struct rho_clutter_map *map)
 {
     size_t count, echoes = 0;
     struct clutter_row *rows = read_rows(path, parameters, &count);
 
     for (size_t i = 0; i < count; i++) {
         if (rows[i].is_echo) {
-            teach_echo(map, &rows[i].echo);
+            add_echo_to_map(map, &rows[i].echo);
             echoes++;
         } else {
-            teach_learned(map, &rows[i].learned);
+            add_return_counts_to_map(map, &rows[i].counts);
         }
     }
     fprintf(stderr, "rhotrack: %s: %zu echoes", path, echoes);
@@ -283,7 +292,7 @@ static void teach_file_to_map(const char *path, const struct parameters *paramet
 
 /* ---- what is kept ---- */
 
-/* Within what may be taught. */
+/* Standard deviation, within the limits that the map accepts. */
 static float sigma_m_of(float variance_m2)
 {
     const float sigma_m = sqrtf(variance_m2);
@@ -291,7 +300,7 @@ static float sigma_m_of(float variance_m2)
     return fminf(fmaxf(sigma_m, RHO_LIMIT_SIGMA_MIN), RHO_LIMIT_SIGMA_MAX);
 }
 
-/* The next known echo that stands; false: there is none any more. */
+/* Reads the next known, stationary echo of the map; false after the last. */
 static bool next_echo(const struct rho_clutter_map *map, uint32_t *place, struct clutter_echo *next)
 {
     const struct rho_echo *echo;
@@ -311,15 +320,16 @@ static bool next_echo(const struct rho_clutter_map *map, uint32_t *place, struct
     return false;
 }
 
-/* The same of what was learned. */
-static bool next_learned(const struct rho_clutter_map *map, unsigned *at, struct learned *next)
+/* Reads the next class with statistics of returns; false after the last. */
+static bool next_return_counts(const struct rho_clutter_map *map, unsigned *at,
+                               struct return_counts *next)
 {
     while (*at < RHO_ECHO_TABLES * RHO_ECHO_HIT_CLASSES * RHO_ECHO_GAP_CLASSES) {
         const unsigned i = (*at)++, classes = i / RHO_ECHO_GAP_CLASSES;
 
-        *next = (struct learned){.region = (uint8_t)(classes / RHO_ECHO_HIT_CLASSES),
-                                 .hits = hits_of_class[classes % RHO_ECHO_HIT_CLASSES],
-                                 .unseen = unseen_of_class[i % RHO_ECHO_GAP_CLASSES]};
+        *next = (struct return_counts){.region = (uint8_t)(classes / RHO_ECHO_HIT_CLASSES),
+                                       .hits = hits_of_class[classes % RHO_ECHO_HIT_CLASSES],
+                                       .unseen = unseen_of_class[i % RHO_ECHO_GAP_CLASSES]};
         rho_clutter_map_learned(map, next->region, next->hits, next->unseen, &next->looks,
                                 &next->returns);
         if (next->looks > 0.0f) {
@@ -332,13 +342,13 @@ static bool next_learned(const struct rho_clutter_map *map, unsigned *at, struct
 void clutter_file_copy_echoes(struct rho_clutter_map *to, const struct rho_clutter_map *from)
 {
     struct clutter_echo echo;
-    struct learned learned;
+    struct return_counts counts;
 
     for (uint32_t place = 0; next_echo(from, &place, &echo);) {
-        teach_echo(to, &echo);
+        add_echo_to_map(to, &echo);
     }
-    for (unsigned at = 0; next_learned(from, &at, &learned);) {
-        teach_learned(to, &learned);
+    for (unsigned at = 0; next_return_counts(from, &at, &counts);) {
+        add_return_counts_to_map(to, &counts);
     }
 }
 
@@ -353,22 +363,21 @@ static void write_echo(FILE *file, const struct clutter_echo *echo)
             float_text(echo->sigma_cross_m, cross), (unsigned)echo->hits);
 }
 
-static void write_learned(FILE *file, const struct learned *learned)
+static void write_return_counts(FILE *file, const struct return_counts *counts)
 {
     char looks[FLOAT_TEXT_BYTES], returns[FLOAT_TEXT_BYTES], region[8] = "";
 
-    if (learned->region != ALL_REGIONS) {
-        snprintf(region, sizeof region, "%u", (unsigned)learned->region);
+    if (counts->region != ALL_REGIONS) {
+        snprintf(region, sizeof region, "%u", (unsigned)counts->region);
     }
-    fprintf(file, ",,,,,%u,%s,%u,%s,%s\n", (unsigned)learned->hits, region,
-            (unsigned)learned->unseen, float_text(learned->looks, looks),
-            float_text(learned->returns, returns));
+    fprintf(file, ",,,,,%u,%s,%u,%s,%s\n", (unsigned)counts->hits, region, (unsigned)counts->unseen,
+            float_text(counts->looks, looks), float_text(counts->returns, returns));
 }
 
 static bool write_map(FILE *file, const struct rho_clutter_map *map)
 {
     struct clutter_echo echo;
-    struct learned learned;
+    struct return_counts counts;
 
     fputs("# Clutter map. Rows with a sensor are echoes that stand; rows with looks, what was "
           "learned "
@@ -378,14 +387,17 @@ static bool write_map(FILE *file, const struct rho_clutter_map *map)
     for (uint32_t place = 0; next_echo(map, &place, &echo);) {
         write_echo(file, &echo);
     }
-    for (unsigned at = 0; next_learned(map, &at, &learned);) {
-        write_learned(file, &learned);
+    for (unsigned at = 0; next_return_counts(map, &at, &counts);) {
+        write_return_counts(file, &counts);
     }
     return !ferror(file);
 }
 
-/* A new file beside, with the rights of the old one or of a new one. NULL: errno says why. */
-static FILE *open_beside(const char *path, char **temporary)
+/*
+ * Creates a temporary file beside the path, with the old file's permissions or those of a new one.
+ * Returns NULL where that fails; errno says why.
+ */
+static FILE *open_temporary_beside(const char *path, char **temporary)
 {
     struct stat status;
     mode_t mask = umask(0);
@@ -402,12 +414,12 @@ static FILE *open_beside(const char *path, char **temporary)
     return fdopen(descriptor, "w");
 }
 
-/* map NULL: nothing but whether it could be written. */
-static bool replace_file(const char *path, const struct rho_clutter_map *map)
+/* Replaces the file by one with the map. map NULL: tests only whether it could be written. */
+static bool replace_or_test_file(const char *path, const struct rho_clutter_map *map)
 {
-    char *real = realpath(path, NULL), *temporary; /* a link stays one */
+    char *real = realpath(path, NULL), *temporary; /* a symbolic link is kept */
     const char *target = real ? real : path;
-    FILE *file = open_beside(target, &temporary);
+    FILE *file = open_temporary_beside(target, &temporary);
     bool is_good = file != NULL;
 
     if (file && map) {
@@ -456,9 +468,9 @@ struct clutter_file clutter_file_open(const char *path, const struct parameters 
     } else if (!S_ISREG(status.st_mode)) {
         fail(EXIT_USAGE, "%s: is no file that a clutter map could be written to", path);
     } else if (map) {
-        teach_file_to_map(path, parameters, map);
+        load_file_into_map(path, parameters, map);
     }
-    if (!replace_file(path, NULL)) {
+    if (!replace_or_test_file(path, NULL)) {
         fail(EXIT_RUNTIME, "%s: cannot be written: %s", path, strerror(errno));
     }
     return file;
@@ -470,7 +482,7 @@ bool clutter_file_save(struct clutter_file *file, const struct rho_clutter_map *
         return true;
     }
     file->saved_us = clock_us();
-    if (!replace_file(file->path, map)) {
+    if (!replace_or_test_file(file->path, map)) {
         fprintf(stderr, "rhotrack: %s: cannot be written: %s\n", file->path, strerror(errno));
         return false;
     }

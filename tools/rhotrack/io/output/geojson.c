@@ -15,13 +15,13 @@ struct point {
     float place_m[3];
 };
 
-/* A track that goes on. */
+/* A track that has not been written yet. */
 struct track {
     struct point *points;
     size_t count, capacity;
-    struct geojson_row last; /* its newest row */
+    struct geojson_row last; /* newest row */
     bool was_confirmed, has_height, is_over;
-    uint64_t seen_at; /* the count of times */
+    uint64_t seen_at; /* value of geojson.times at its newest row */
 };
 
 struct geojson {
@@ -29,8 +29,8 @@ struct geojson {
     struct local_frame *frame;
     double origin_alt_m;
     struct identity_numbers ids;
-    struct track **tracks;  /* by number; NULL: written */
-    size_t capacity, first; /* those before `first` are written */
+    struct track **tracks;  /* tracks by number; NULL: written already */
+    size_t capacity, first; /* all tracks before `first` are written */
     uint64_t times;
     int64_t newest_us;
     bool has_features;
@@ -58,8 +58,8 @@ struct geojson *geojson_open(FILE *file, const struct parameters *parameters)
 
 /* ---- Places on the earth ---- */
 
-/* To a centimetre: what is written has no more digits. */
-static double rounded(double value, double steps)
+/* Rounds to 1/steps, so that no more digits are written. */
+static double round_to_steps(double value, double steps)
 {
     return round(value * steps) / steps;
 }
@@ -81,10 +81,10 @@ static cJSON *position_json(const double on_earth[3], bool has_height)
 {
     cJSON *position = cJSON_CreateArray();
 
-    cJSON_AddItemToArray(position, cJSON_CreateNumber(rounded(on_earth[1], 1e7)));
-    cJSON_AddItemToArray(position, cJSON_CreateNumber(rounded(on_earth[0], 1e7)));
+    cJSON_AddItemToArray(position, cJSON_CreateNumber(round_to_steps(on_earth[1], 1e7)));
+    cJSON_AddItemToArray(position, cJSON_CreateNumber(round_to_steps(on_earth[0], 1e7)));
     if (has_height) {
-        cJSON_AddItemToArray(position, cJSON_CreateNumber(rounded(on_earth[2], 100)));
+        cJSON_AddItemToArray(position, cJSON_CreateNumber(round_to_steps(on_earth[2], 100)));
     }
     return position;
 }
@@ -97,8 +97,8 @@ static cJSON *time_json(double time_us)
 }
 
 /*
- * Where it heads at its place, where north and up are others than in the origin: from the places a
- * second apart.
+ * Heading and climb at the target, where north and up differ from those at the origin: from two
+ * positions a second apart.
  */
 static void add_motion_properties(const struct geojson *geojson, const struct track *track,
                                   cJSON *properties)
@@ -114,16 +114,17 @@ static void add_motion_properties(const struct geojson *geojson, const struct tr
     own = local_frame_open(here[0], here[1], here[2]);
     local_frame_to_local(own, there, motion_mps);
     local_frame_close(own);
-    cJSON_AddNumberToObject(
-        properties, "speed_mps",
-        rounded(sqrt((double)state[3] * (double)state[3] + (double)state[4] * (double)state[4] +
-                     (double)state[5] * (double)state[5]),
-                100));
+    cJSON_AddNumberToObject(properties, "speed_mps",
+                            round_to_steps(sqrt((double)state[3] * (double)state[3] +
+                                                (double)state[4] * (double)state[4] +
+                                                (double)state[5] * (double)state[5]),
+                                           100));
     cJSON_AddNumberToObject(
         properties, "heading_deg",
-        rounded(fmod(atan2(motion_mps[0], motion_mps[1]) * 57.29577951308232 + 360, 360), 100));
+        round_to_steps(fmod(atan2(motion_mps[0], motion_mps[1]) * 57.29577951308232 + 360, 360),
+                       100));
     if (track->has_height) {
-        cJSON_AddNumberToObject(properties, "climb_mps", rounded(motion_mps[2], 100));
+        cJSON_AddNumberToObject(properties, "climb_mps", round_to_steps(motion_mps[2], 100));
     }
 }
 
@@ -137,7 +138,8 @@ static cJSON *properties_json(const struct geojson *geojson, const struct track 
     cJSON_AddStringToObject(properties, "status", track->last.status);
     cJSON_AddBoolToObject(properties, "is_over", track->is_over);
     add_motion_properties(geojson, track, properties);
-    cJSON_AddNumberToObject(properties, "sigma_m", rounded((double)track->last.sigma_m, 100));
+    cJSON_AddNumberToObject(properties, "sigma_m",
+                            round_to_steps((double)track->last.sigma_m, 100));
     cJSON_AddNumberToObject(properties, "hits", track->last.hits);
     cJSON_AddNumberToObject(properties, "misses", track->last.misses);
     return properties;
@@ -174,28 +176,29 @@ static cJSON *geometry_json(const char *type, cJSON *coordinates)
     return geometry;
 }
 
-/* A line that grows: its pieces, the newest of them, and the times of all positions. */
+/* A line under construction: its pieces, the newest piece, and the times of all positions. */
 struct line {
     cJSON *pieces, *piece, *times;
-    double on_earth[3], time_us; /* of the newest position */
+    double on_earth[3], time_us; /* newest position and its time */
     bool has_any;
 };
 
-static void add_position(struct line *line, const double on_earth[3], double time_us,
-                         bool has_height)
+static void add_line_position(struct line *line, const double on_earth[3], double time_us,
+                              bool has_height)
 {
     cJSON_AddItemToArray(line->piece, position_json(on_earth, has_height));
     cJSON_AddItemToArray(line->times, time_json(time_us));
 }
 
-static void begin_piece(struct line *line)
+static void begin_line_piece(struct line *line)
 {
     line->piece = cJSON_CreateArray();
     cJSON_AddItemToArray(line->pieces, line->piece);
 }
 
-/* At longitude 180 the piece ends, and the next one begins on the other side (RFC 7946, 3.1.9). */
-static void cut_at_180(struct line *line, const double on_earth[3], double time_us, bool has_height)
+/* Ends the piece at longitude 180, and begins the next one on the other side (RFC 7946, 3.1.9). */
+static void cut_line_at_180(struct line *line, const double on_earth[3], double time_us,
+                            bool has_height)
 {
     double side = line->on_earth[1] > 0 ? 180 : -180;
     double step_deg = on_earth[1] + 2 * side - line->on_earth[1];
@@ -204,10 +207,10 @@ static void cut_at_180(struct line *line, const double on_earth[3], double time_
                     line->on_earth[2] + share * (on_earth[2] - line->on_earth[2])};
     double at_us = line->time_us + share * (time_us - line->time_us);
 
-    add_position(line, at, at_us, has_height);
-    begin_piece(line);
+    add_line_position(line, at, at_us, has_height);
+    begin_line_piece(line);
     at[1] = -side;
-    add_position(line, at, at_us, has_height);
+    add_line_position(line, at, at_us, has_height);
 }
 
 static void write_track_line(struct geojson *geojson, const struct track *track)
@@ -216,15 +219,15 @@ static void write_track_line(struct geojson *geojson, const struct track *track)
     cJSON *properties = properties_json(geojson, track, "track");
     bool is_one;
 
-    begin_piece(&line);
+    begin_line_piece(&line);
     for (size_t i = 0; i < track->count; i++) {
         double on_earth[3], time_us = (double)track->points[i].time_us;
 
         place_on_earth(geojson, track, track->points[i].place_m, on_earth);
         if (line.has_any && fabs(on_earth[1] - line.on_earth[1]) > 180) {
-            cut_at_180(&line, on_earth, time_us, track->has_height);
+            cut_line_at_180(&line, on_earth, time_us, track->has_height);
         }
-        add_position(&line, on_earth, time_us, track->has_height);
+        add_line_position(&line, on_earth, time_us, track->has_height);
         memcpy(line.on_earth, on_earth, sizeof line.on_earth);
         line.time_us = time_us;
         line.has_any = true;
@@ -251,8 +254,8 @@ static void write_last_place(struct geojson *geojson, const struct track *track)
                   properties);
 }
 
-/* A line has two positions at least. */
-static void write_track(struct geojson *geojson, struct track *track)
+/* Writes the track's line, if it has two positions, and its last position, and frees the track. */
+static void write_and_free_track(struct geojson *geojson, struct track *track)
 {
     if (track->was_confirmed && track->count > 1) {
         write_track_line(geojson, track);
@@ -308,7 +311,7 @@ void geojson_end_time(struct geojson *geojson)
 
         if (track && track->seen_at != geojson->times) {
             track->is_over = true;
-            write_track(geojson, track);
+            write_and_free_track(geojson, track);
             geojson->tracks[i] = NULL;
         }
     }
@@ -325,7 +328,7 @@ void geojson_close(struct geojson *geojson)
 
         if (track) {
             track->is_over |= track->last.time_us < geojson->newest_us;
-            write_track(geojson, track);
+            write_and_free_track(geojson, track);
         }
     }
     fputs(geojson->has_features ? "\n]}\n" : "{\"type\":\"FeatureCollection\",\"features\":[]}\n",

@@ -19,7 +19,7 @@ static int int_of_cell(double cell)
     return rows_is_cell_empty(cell) ? 0 : (int)cell;
 }
 
-static void add_row(struct geojson *geojson, const struct rows *rows, const struct row *row)
+static void add_track_row(struct geojson *geojson, const struct rows *rows, const struct row *row)
 {
     static const char *const state[] = {"x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"};
     const double *cells = rows_cells(rows, row);
@@ -44,7 +44,7 @@ void geojson_write_rows(FILE *file, struct rows *rows, const struct parameters *
     qsort(rows->list, rows->count, sizeof *rows->list, by_time);
     for (size_t i = 0; i < rows->count; i++) {
         if (rows_saw_something(rows, &rows->list[i])) {
-            add_row(geojson, rows, &rows->list[i]);
+            add_track_row(geojson, rows, &rows->list[i]);
         }
     }
     geojson_close(geojson);

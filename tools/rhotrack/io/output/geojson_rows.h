@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* geojson_rows: rows of tracks, from a file or a log, as GeoJSON (geojson.h). */
+/*
+ * geojson_rows: writes rows of tracks, from a file or a log, as GeoJSON (geojson.h).
+ */
 #ifndef RHOTRACK_TOOL_GEOJSON_ROWS_H
 #define RHOTRACK_TOOL_GEOJSON_ROWS_H
 
@@ -8,7 +10,7 @@
 #include "io/rows/rows.h"
 #include "settings/parameters.h"
 
-/* Rows of rows_kind_tracks; they are put in the order of time. */
+/* Writes rows of rows_kind_tracks, which it sorts by time. */
 void geojson_write_rows(FILE *file, struct rows *rows, const struct parameters *parameters);
 
 #endif

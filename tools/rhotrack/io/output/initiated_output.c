@@ -17,7 +17,7 @@ struct initiated_output {
     const char *path;
     bool is_log;
     struct lcm_log_writer log;
-    struct rho_message_peak_list list; /* not yet written */
+    struct rho_message_peak_list list; /* peaks that are not written yet */
 };
 
 struct initiated_output *initiated_output_open(const char *path)
@@ -76,7 +76,7 @@ void initiated_output_add_row(struct initiated_output *found, const struct initi
 void initiated_output_close(struct initiated_output *found)
 {
     if (found->is_log) {
-        write_peak_list(found); /* an empty list, too, says that nothing was found */
+        write_peak_list(found); /* an empty list, too, tells that no track was found */
     }
     output_close(&found->output);
     free(found);

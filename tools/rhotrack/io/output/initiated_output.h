@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * initiated_output: tracks found by `initiate` to a file: CSV, or where its name ends with .lcm an
- * LCM log of RHO_PEAKS messages, as many as they take.
+ * initiated_output: writes the tracks that `initiate` finds to a file: CSV, or where its name ends
+ * with .lcm an LCM log of as many RHO_PEAKS messages as are needed.
  */
 #ifndef RHOTRACK_TOOL_INITIATED_OUTPUT_H
 #define RHOTRACK_TOOL_INITIATED_OUTPUT_H
@@ -10,11 +10,11 @@
 
 struct initiated_output;
 
-/* path NULL: CSV to standard output. Errors: exit 1. */
+/* Opens the output. path NULL: CSV to standard output. Errors: exit 1; 2 for other formats. */
 struct initiated_output *initiated_output_open(const char *path);
 void initiated_output_add_row(struct initiated_output *found, const struct initiated *row);
 
-/* The file appears under its name. */
+/* Closes the output; the file then appears under its name. */
 void initiated_output_close(struct initiated_output *found);
 
 #endif

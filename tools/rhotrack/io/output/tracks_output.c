@@ -12,7 +12,7 @@
 #include "pipeline/pipeline.h"
 #include "rhotrack/publish.h"
 
-#define EPOCH 1 /* a file has one tracker, started once */
+#define EPOCH 1 /* a file is the output of one tracker, started once */
 
 struct tracks_output {
     struct output output;
@@ -20,10 +20,10 @@ struct tracks_output {
     bool is_log, has_header;
     struct tracks_columns columns;
     struct lcm_log_writer log;
-    struct asterix_tracks *asterix; /* NULL: no such recording */
+    struct asterix_tracks *asterix; /* NULL: the output is not ASTERIX */
     int32_t step;
-    struct rho_report *single; /* of a step that has one track */
-    struct geojson *map;       /* or NULL */
+    struct rho_report *single; /* report of a step with a single track, allocated when needed */
+    struct geojson *map;       /* GeoJSON writer; NULL: the output is not GeoJSON */
 };
 
 bool tracks_output_path_is_log(const char *path)
@@ -82,7 +82,7 @@ void tracks_output_add_bodies(struct tracks_output *tracks, const struct rho_tra
 }
 
 /*
- * Not before there is something to write: what is refused on the way leaves no header on standard
+ * Writes the CSV header before the first row, so that an error before leaves no header on standard
  * output.
  */
 static void write_header_once(struct tracks_output *tracks)
@@ -99,8 +99,8 @@ void tracks_output_flush(struct tracks_output *tracks)
     output_flush(&tracks->output);
 }
 
-static void write_message(struct tracks_output *tracks, int64_t time_us, const uint8_t *data,
-                          size_t size)
+static void write_list_message(struct tracks_output *tracks, int64_t time_us, const uint8_t *data,
+                               size_t size)
 {
     struct rho_message_track_list message;
 
@@ -123,11 +123,11 @@ static void write_track_list(struct tracks_output *tracks, const struct rho_repo
         must_succeed(
             rho_publish_tracks(report, tracks->step, EPOCH, part, buffer, sizeof buffer, &size),
             "publish");
-        write_message(tracks, report->time_us, buffer, size);
+        write_list_message(tracks, report->time_us, buffer, size);
     }
 }
 
-/* Logs alone have room for them. */
+/* Writes the bodies of a step's tracks, to an LCM log alone. */
 static void write_bodies(struct tracks_output *tracks, const struct rho_report *report)
 {
     const struct rho_tracker *tracker = tracks->columns.bodies;
@@ -157,7 +157,7 @@ static void add_track_to_geojson(struct geojson *map, int64_t time_us,
     geojson_add_row(map, &row);
 }
 
-/* Every report names all tracks that go on. */
+/* Adds all tracks of a report; tracks that are not in it have ended. */
 static void add_report_to_geojson(struct geojson *map, const struct rho_report *report)
 {
     for (int i = 0; i < report->num_tracks; i++) {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* zones_output: who enters and leaves zones, as CSV; what they have counted, in words and JSON. */
+/*
+ * zones_output: writes the events of tracks that enter and leave zones as CSV, and the zones'
+ * counts as text and JSON.
+ */
 #ifndef RHOTRACK_TOOL_ZONES_OUTPUT_H
 #define RHOTRACK_TOOL_ZONES_OUTPUT_H
 
@@ -12,17 +15,17 @@ struct zones_output {
     struct output output;
 };
 
-/* path NULL: no file. */
+/* Opens the events file; path NULL: no file. */
 struct zones_output zones_output_open(const char *path);
 
-/* The events of the zones' last step. */
+/* Writes the events of the zones' last step. */
 void zones_output_write_events(const struct zones_output *output, const struct rho_zones *zones);
 void zones_output_close(struct zones_output *output);
 
-/* A line a zone on standard error. */
+/* Prints the counts on standard error, one line a zone. */
 void zones_print_counts(const struct rho_zones *zones);
 
-/* An array with an object a zone. */
+/* The counts as a JSON array with one object a zone. */
 cJSON *zones_counts_json(const struct rho_zones *zones);
 
 #endif

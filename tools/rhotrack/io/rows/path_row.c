@@ -62,9 +62,9 @@ static void read_place(const struct path_columns *columns, size_t row, struct pa
     path->z_m = place_m[2];
 }
 
-/* Exit 2 where a cell is bad. */
-static void check_cell(const struct path_columns *columns, size_t row, int column,
-                       const char *reason)
+/* Exit 2 where there is a reason why the cell is bad. */
+static void fail_if_bad_cell(const struct path_columns *columns, size_t row, int column,
+                             const char *reason)
 {
     char buffer[TABLE_TEXT_BYTES];
     if (reason) {
@@ -82,8 +82,8 @@ static int read_status(const struct path_columns *columns, size_t row)
                 return status;
             }
         }
-        check_cell(columns, row, columns->status,
-                   "is none of tentative, confirmed, coasting, deleted");
+        fail_if_bad_cell(columns, row, columns->status,
+                         "is none of tentative, confirmed, coasting, deleted");
     }
     return status;
 }
@@ -92,9 +92,10 @@ struct path_row path_row_read(const struct path_columns *columns, size_t row)
 {
     const struct table *table = columns->table;
     struct path_row path;
-    check_cell(columns, row, columns->time,
-               table_read_time_us(table, row, columns->time, &path.time_us));
-    check_cell(columns, row, columns->id, table_read_int32(table, row, columns->id, &path.id));
+    fail_if_bad_cell(columns, row, columns->time,
+                     table_read_time_us(table, row, columns->time, &path.time_us));
+    fail_if_bad_cell(columns, row, columns->id,
+                     table_read_int32(table, row, columns->id, &path.id));
     read_place(columns, row, &path);
     path.vx_mps = table_number_or(table, row, columns->vx, NAN);
     path.vy_mps = table_number_or(table, row, columns->vy, NAN);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* rows_bearings: bearings, bearing_scan_t: one time, one sigma and one message a scan. */
+/*
+ * rows_bearings: rows of bearings, and bearing_scan_t messages: one time, one sigma and one message
+ * for each scan.
+ */
 #include "io/rows/rows.h"
 
 enum column {

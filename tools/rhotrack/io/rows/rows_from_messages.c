@@ -18,8 +18,8 @@ void rows_from_messages_start(struct rows_collection *collection, const struct r
     rows_start(&collection->rows, kind);
 }
 
-static const char *why_message_bad(enum rho_status status, const struct rows_kind *kind,
-                                   const char *field, char *reason)
+static const char *describe_bad_message(enum rho_status status, const struct rows_kind *kind,
+                                        const char *field, char *reason)
 {
     const char *name = rho_message_type_name(kind->type);
 
@@ -45,7 +45,7 @@ static const char *why_message_bad(enum rho_status status, const struct rows_kin
     return reason;
 }
 
-/* Takes back the rows of the newest message. */
+/* Removes the rows of the newest message, down to a count of rows. */
 static void drop_newest_rows(struct rows *rows, size_t count)
 {
     rows->num_cells = rows->list[count].cells;
@@ -63,7 +63,7 @@ const char *rows_from_messages_add(struct rows_collection *collection, const cha
     enum rho_status status = kind->decode(data, size, &collection->rows, &message, &field);
 
     if (status != RHO_OK) {
-        return why_message_bad(status, kind, field, reason);
+        return describe_bad_message(status, kind, field, reason);
     }
     if (kind->has_sensor &&
         strtol(channel + strlen(kind->channel), NULL, 10) != message.key.sensor_id) {
@@ -120,15 +120,15 @@ static int by_part(const void *a, const void *b)
     return order ? order : rows_compare_numbers((int64_t)one->arrival, (int64_t)other->arrival);
 }
 
-/* Rows that are wanted, in their order. */
+/* Rows to be kept, collected in their final order. */
 struct ordering {
     struct rows_collection *collection;
     struct row *list;
     size_t count;
 };
 
-static void take_row_in_order(struct ordering *ordering, size_t index,
-                              const struct rows_message *message, uint64_t order)
+static void append_row(struct ordering *ordering, size_t index, const struct rows_message *message,
+                       uint64_t order)
 {
     struct row *row = &ordering->list[ordering->count++];
 
@@ -148,11 +148,11 @@ static uint64_t first_arrival_of(const struct rows_message *messages, size_t cou
 }
 
 /*
- * The row that saw nothing, if its time is not that of the first of the others, which were just
- * taken.
+ * Adds the row of a scan itself, which has no measurement, unless an element of the scan, added
+ * from index `before` on, has the scan's time. Counts a list without elements.
  */
-static void take_empty_row(struct ordering *ordering, const struct rows_message *message,
-                           size_t before, uint64_t order)
+static void append_scan_row_if_needed(struct ordering *ordering, const struct rows_message *message,
+                                      size_t before, uint64_t order)
 {
     int64_t earliest_us = INT64_MAX;
 
@@ -163,16 +163,19 @@ static void take_empty_row(struct ordering *ordering, const struct rows_message 
     }
     if (ordering->collection->rows.kind->has_sensor) {
         if (earliest_us != message->key.time_us) {
-            take_row_in_order(ordering, message->first - 1, message, order);
+            append_row(ordering, message->first - 1, message, order);
         }
     } else if (ordering->count == before) {
         ordering->collection->lists_empty++;
     }
 }
 
-/* Messages of one scan, in the order of their parts. */
-static void take_scan_rows(struct ordering *ordering, const struct rows_message *messages,
-                           size_t count)
+/*
+ * Adds the rows of one scan, whose messages are in the order of their parts; repeated parts are
+ * left out.
+ */
+static void append_scan_rows(struct ordering *ordering, const struct rows_message *messages,
+                             size_t count)
 {
     uint64_t order = first_arrival_of(messages, count) << SCAN_SHIFT;
     size_t before = ordering->count, parts = 0;
@@ -184,12 +187,12 @@ static void take_scan_rows(struct ordering *ordering, const struct rows_message 
         }
         parts++;
         for (size_t row = 0; row < messages[i].count; row++) {
-            take_row_in_order(ordering, messages[i].first + row, &messages[i],
-                              order + 1 + (ordering->count - before));
+            append_row(ordering, messages[i].first + row, &messages[i],
+                       order + 1 + (ordering->count - before));
         }
     }
     ordering->collection->scans_incomplete += parts < (size_t)messages[0].num_parts;
-    take_empty_row(ordering, &messages[0], before, order);
+    append_scan_row_if_needed(ordering, &messages[0], before, order);
 }
 
 static int by_time(const void *a, const void *b)
@@ -225,7 +228,7 @@ void rows_from_messages_finish(struct rows_collection *collection)
         while (end < collection->count && by_scan(messages, collection->messages + end) == 0) {
             end++;
         }
-        take_scan_rows(&ordering, messages, end - first);
+        append_scan_rows(&ordering, messages, end - first);
     }
     qsort(ordering.list, ordering.count, sizeof *ordering.list,
           collection->rows.has_received ? by_reception : by_time);

@@ -34,13 +34,13 @@ static double *cell_of(const struct rows_geodetic *geodetic, double *cells, cons
     return &cells[rows_find_column(geodetic->kind, name)];
 }
 
-static void put_cell(const struct rows_geodetic *geodetic, double *cells, const char *name,
-                     double value)
+static void put_float_cell(const struct rows_geodetic *geodetic, double *cells, const char *name,
+                           double value)
 {
     *cell_of(geodetic, cells, name) = (double)(float)value;
 }
 
-static double number_or(double cell, double otherwise)
+static double cell_or(double cell, double otherwise)
 {
     return rows_is_cell_empty(cell) ? otherwise : cell;
 }
@@ -54,40 +54,43 @@ static bool fill_place_cells(const struct rows_geodetic *geodetic, const struct 
     bool has_alt;
 
     if (geodetic->kind->has_sensor && !geodetic_row_has_place(geodetic->geodetic, check)) {
-        return true; /* a scan that saw nothing */
+        return true; /* a scan without detections */
     }
     if (!geodetic_read_place(geodetic->geodetic, check, place_m, &has_alt)) {
         return false;
     }
-    put_cell(geodetic, cells, "x_m", place_m[0]);
-    put_cell(geodetic, cells, "y_m", place_m[1]);
+    put_float_cell(geodetic, cells, "x_m", place_m[0]);
+    put_float_cell(geodetic, cells, "y_m", place_m[1]);
     if (has_alt) {
-        put_cell(geodetic, cells, "z_m", place_m[2]);
+        put_float_cell(geodetic, cells, "z_m", place_m[2]);
     }
     return true;
 }
 
 /* ---- Radars ---- */
 
-static void turn_cell(double *cell, double turn_rad)
+static void rotate_angle_cell(double *cell, double turn_rad)
 {
     if (!rows_is_cell_empty(*cell)) {
         *cell = (double)(float)remainder(*cell + turn_rad, TURN);
     }
 }
 
-/* Sectors are counted from the radar's own east, as azimuths are. */
-static void put_radar_place(const struct rows_geodetic *geodetic, const struct radar_frame *frame,
-                            double *cells)
+/*
+ * Sets the radar's position, and turns the sector, which counts from the radar's own east, to the
+ * local frame.
+ */
+static void put_radar_place_and_sector(const struct rows_geodetic *geodetic,
+                                       const struct radar_frame *frame, double *cells)
 {
     const double *place_m = radar_frame_place_m(frame);
 
-    turn_cell(cell_of(geodetic, cells, "sector_from_rad"), radar_frame_turn_rad(frame));
-    turn_cell(cell_of(geodetic, cells, "sector_to_rad"), radar_frame_turn_rad(frame));
+    rotate_angle_cell(cell_of(geodetic, cells, "sector_from_rad"), radar_frame_turn_rad(frame));
+    rotate_angle_cell(cell_of(geodetic, cells, "sector_to_rad"), radar_frame_turn_rad(frame));
     if (geodetic->kind == &rows_kind_polar) {
-        put_cell(geodetic, cells, "sensor_x_m", place_m[0]);
-        put_cell(geodetic, cells, "sensor_y_m", place_m[1]);
-        put_cell(geodetic, cells, "sensor_z_m", place_m[2]);
+        put_float_cell(geodetic, cells, "sensor_x_m", place_m[0]);
+        put_float_cell(geodetic, cells, "sensor_y_m", place_m[1]);
+        put_float_cell(geodetic, cells, "sensor_z_m", place_m[2]);
     }
 }
 
@@ -101,22 +104,22 @@ static struct geodetic_polar read_polar_cells(const struct rows_geodetic *geodet
 
     return (struct geodetic_polar){
         .sensor_id = sensor_id,
-        .place_m = {number_or(*cell_of(geodetic, cells, "sensor_x_m"), 0),
-                    number_or(*cell_of(geodetic, cells, "sensor_y_m"), 0),
-                    number_or(*cell_of(geodetic, cells, "sensor_z_m"), 0)},
+        .place_m = {cell_or(*cell_of(geodetic, cells, "sensor_x_m"), 0),
+                    cell_or(*cell_of(geodetic, cells, "sensor_y_m"), 0),
+                    cell_or(*cell_of(geodetic, cells, "sensor_z_m"), 0)},
         .look = {*cell_of(geodetic, cells, "range_m"), *cell_of(geodetic, cells, "azimuth_rad"),
-                 number_or(elevation_rad, 0)},
+                 cell_or(elevation_rad, 0)},
         .has_elevation = !rows_is_cell_empty(elevation_rad),
-        .sigma_range_m = number_or(*cell_of(geodetic, cells, "sigma_range_m"), sigma_range_m)};
+        .sigma_range_m = cell_or(*cell_of(geodetic, cells, "sigma_range_m"), sigma_range_m)};
 }
 
 /*
- * The look can be turned into the local frame. Empty cells, and cells outside their range, are
- * refused afterwards, as in any file.
+ * Whether range and angles are in range for the conversion to the local frame. Empty cells, and
+ * cells out of range, are refused later, as in any file.
  */
-static bool can_turn_look(const struct geodetic_polar *polar)
+static bool can_convert_look(const struct geodetic_polar *polar)
 {
-    const double half_turn = (double)3.1415927f; /* the nearest float, as files may say it */
+    const double half_turn = (double)3.1415927f; /* the float nearest to pi, as files may have it */
 
     return polar->look.range_m > 0 && fabs(polar->look.azimuth_rad) <= half_turn &&
            fabs(polar->look.elevation_rad) <= half_turn / 2;
@@ -129,18 +132,18 @@ static bool fill_polar_cells(const struct rows_geodetic *geodetic, const struct 
     bool had_elevation = polar.has_elevation;
 
     polar.frame = frame;
-    if (!can_turn_look(&polar)) {
+    if (!can_convert_look(&polar)) {
         return true;
     }
     if (!geodetic_convert_polar(geodetic->geodetic, check, &polar)) {
         return false;
     }
-    put_cell(geodetic, cells, "azimuth_rad", polar.look.azimuth_rad);
+    put_float_cell(geodetic, cells, "azimuth_rad", polar.look.azimuth_rad);
     if (polar.has_elevation) {
-        put_cell(geodetic, cells, "elevation_rad", polar.look.elevation_rad);
+        put_float_cell(geodetic, cells, "elevation_rad", polar.look.elevation_rad);
     }
     if (polar.has_elevation && !had_elevation) {
-        put_cell(geodetic, cells, "sigma_elevation_rad", polar.sigma_elevation_rad);
+        put_float_cell(geodetic, cells, "sigma_elevation_rad", polar.sigma_elevation_rad);
     }
     return true;
 }
@@ -158,7 +161,7 @@ bool rows_geodetic_fill(const struct rows_geodetic *geodetic, const struct row_c
         return false;
     }
     if (frame) {
-        put_radar_place(geodetic, frame, cells);
+        put_radar_place_and_sector(geodetic, frame, cells);
     }
     return geodetic->kind == &rows_kind_polar
                ? fill_polar_cells(geodetic, check, frame, sensor_id, cells)

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The kinds of rows that there are, and their channels. */
+/*
+ * rows_kinds: the list of all kinds of rows, and the kind of a channel.
+ */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +15,7 @@ const struct rows_kind *const rows_kinds[NUM_ROWS_KINDS] = {
     [ROWS_TRACKS] = &rows_kind_tracks,
 };
 
-/* A sensor's number as the channel has it: no zeros before it, no plus. */
+/* Whether a text is a sensor number as channels have it: without leading zeros or a plus sign. */
 static bool is_sensor_number(const char *text)
 {
     char again[16];

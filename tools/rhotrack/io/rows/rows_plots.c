@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* rows_plots: Cartesian plots, plot_scan_t. */
+/*
+ * rows_plots: rows of Cartesian plots, and plot_scan_t messages.
+ */
 #include "io/rows/rows.h"
 
 enum column {
@@ -35,7 +37,7 @@ static const struct rows_column columns[NUM_COLUMNS] = {
     [RANGE_RATE_MPS] = {"range_rate_mps", COLUMN_NO_ROOM, NO_GROUP, NULL, NULL},
 };
 
-/* A plot with a velocity and a height has a vertical velocity, too. */
+/* A plot with a velocity and a height must have a vertical velocity too. */
 static const char *why_row_invalid(const double *cells)
 {
     if (rows_is_cell_empty(cells[X_M]) || rows_is_cell_empty(cells[Y_M])) {
@@ -55,7 +57,7 @@ static const char *why_row_invalid(const double *cells)
     return NULL;
 }
 
-static int measured_kind(const double *cells)
+static int plot_message_kind(const double *cells)
 {
     bool has_height = !rows_is_cell_empty(cells[Z_M]);
 
@@ -100,7 +102,7 @@ static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const c
         .scan = part->scan->head.scan,
         .epoch = part->scan->head.epoch,
         .sensor_id = (int16_t)part->scan->head.sensor_id,
-        .kind = (int8_t)measured_kind(part->count ? rows_part_cells(part, 0) : head),
+        .kind = (int8_t)plot_message_kind(part->count ? rows_part_cells(part, 0) : head),
         .part = part->part,
         .num_parts = part->scan->num_parts,
         .sector_from_rad = rows_float_or_zero(head[SECTOR_FROM_RAD]),
@@ -193,7 +195,7 @@ const struct rows_kind rows_kind_plots = {
     .columns = columns,
     .num_columns = NUM_COLUMNS,
     .why_not = why_row_invalid,
-    .pattern = measured_kind,
+    .pattern = plot_message_kind,
     .fit = rows_in_one_message,
     .encode = encode_part,
     .decode = decode_message,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_polar: polar plots, polar_scan_t. Sigmas are the message's: plots with others go into
- * another part.
+ * rows_polar: rows of polar plots, and polar_scan_t messages. A message has one set of sigmas:
+ * plots with other sigmas go into another part.
  */
 #include <math.h>
 
@@ -30,7 +30,7 @@ enum column {
 
 enum group { NO_GROUP, SECTOR, PLACE };
 
-/* Clockwise from north, in degrees, as counter-clockwise from east in radians. */
+/* Converts degrees clockwise from north to radians counter-clockwise from east. */
 static double radians_from_compass_deg(double azimuth_deg)
 {
     return remainder(PI / 2 - azimuth_deg * DEG_RAD, 2 * PI);
@@ -155,8 +155,8 @@ static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const c
 }
 
 /*
- * Fills the cells that all rows of the message share. A place is always written: an empty one would
- * mean another place than the origin.
+ * Fills the cells that all rows of the message share. A position is always written, even 0: an
+ * empty one would mean the position in the parameters.
  */
 static void put_scan_cells(double *cells, const struct rho_message_polar_scan *message)
 {

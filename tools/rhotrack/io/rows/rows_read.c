@@ -13,7 +13,7 @@
 #include "io/rows/rows_geodetic.h"
 #include "io/scans/scan_numbers.h"
 
-/* A file on its way; columns are indices into the table, -1 where it has none. */
+/* State of reading a table; columns are indices into it, -1 where it has no such column. */
 struct reading {
     struct rows_file *file;
     const struct table *table;
@@ -21,11 +21,11 @@ struct reading {
     int t_s, received_s, sensor_id, scan, epoch;
     int columns[ROWS_MAX_COLUMNS];
     bool is_degrees[ROWS_MAX_COLUMNS];
-    int place; /* of kinds that have it: the first column of a radar's place, else -1 */
+    int place; /* first column of a radar's position in the kind's columns, else -1 */
     struct rows_geodetic geodetic;
-    struct scan_numbers numbers; /* of scans, by their first rows */
+    struct scan_numbers numbers; /* numbered scans, by the indices of their first rows */
     bool has_last;
-    int64_t last_us; /* the latest time so far, or when the last row was received */
+    int64_t last_us; /* latest time of a row, or of its reception where that is given */
 };
 
 /* ---- Columns ---- */
@@ -42,7 +42,7 @@ static const struct rows_kind *kind_of_table(const struct table *table)
     bool has_sensor = table_find_column(table, "sensor_id") >= 0;
 
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
-        /* plots of a scene say whose they are */
+        /* simulated plots may name their target, and have a sensor */
         if (table_find_column(table, marks[i].name) >= 0 &&
             !(marks[i].kind == ROWS_TRUTH && has_sensor)) {
             return rows_kinds[marks[i].kind];
@@ -212,8 +212,9 @@ static bool read_cells(const struct reading *reading, const struct row_check *ch
     return true;
 }
 
-/* Where a radar stands, if its row does not say. */
-static void fill_radar_place(const struct reading *reading, int32_t sensor_id, double *cells)
+/* Fills a radar's position from the parameters where its row does not state it. */
+static void fill_missing_radar_place(const struct reading *reading, int32_t sensor_id,
+                                     double *cells)
 {
     static const enum sensor_parameter_id ids[] = {SENSOR_X_M, SENSOR_Y_M, SENSOR_Z_M};
 
@@ -245,7 +246,7 @@ static bool read_time_and_numbers(const struct reading *reading, const struct ro
            (reading->epoch < 0 || read_int32(check, reading->epoch, &row->epoch));
 }
 
-/* Encodes the newest row as a message of its own: what no message can hold is refused. */
+/* Encodes the newest row as a message of its own, and refuses a row that no message can hold. */
 static bool check_by_encoding(const struct reading *reading, const struct row_check *check)
 {
     const struct rows *rows = &reading->file->rows;
@@ -273,7 +274,7 @@ static struct row_number scan_number_of_row(const struct reading *reading, const
         .is_given = reading->file->has_scan, .scan = row->scan, .epoch = row->epoch};
 }
 
-/* The row belongs to a scan that has begun, by its number. */
+/* Whether the row belongs to a numbered scan that has begun before. */
 static bool is_in_begun_scan(const struct reading *reading, const struct row *row)
 {
     const struct row_number number = scan_number_of_row(reading, row);
@@ -283,27 +284,25 @@ static bool is_in_begun_scan(const struct reading *reading, const struct row *ro
                                                         reading->file->rows.list[first].time_us, 0);
 }
 
-/* The time that must not go back: of reception where the file has it, else of the scan. */
-static int64_t row_clock_us(const struct reading *reading, const struct row *row)
+/* The time by which rows are ordered: of reception where the file has it, else the row's own. */
+static int64_t row_order_time_us(const struct reading *reading, const struct row *row)
 {
     return reading->received_s >= 0 ? row->received_us : row->time_us;
 }
 
-/*
- * Rows come as they were received, or scans in the order of time, in which numbered ones go back;
- * lists are put in order.
- */
+/* Checks that times do not go back, except within a numbered scan; lists may be in any order. */
 static bool check_time_order(const struct reading *reading, const struct row_check *check,
                              const struct row *row)
 {
     if (!reading->file->rows.kind->has_sensor || !reading->has_last ||
-        row_clock_us(reading, row) >= reading->last_us ||
+        row_order_time_us(reading, row) >= reading->last_us ||
         (reading->received_s < 0 && is_in_begun_scan(reading, row))) {
         return true;
     }
     return row_refuse(check, "%s goes back from %.6f s to %.6f s",
                       reading->received_s >= 0 ? "received_s" : "time",
-                      (double)reading->last_us * 1e-6, (double)row_clock_us(reading, row) * 1e-6);
+                      (double)reading->last_us * 1e-6,
+                      (double)row_order_time_us(reading, row) * 1e-6);
 }
 
 static void note_good_row(struct reading *reading, const struct row *row)
@@ -314,8 +313,8 @@ static void note_good_row(struct reading *reading, const struct row *row)
         scan_numbers_set_scan(&reading->numbers, row->sensor_id, &number,
                               reading->file->rows.count - 1);
     }
-    if (!reading->has_last || row_clock_us(reading, row) > reading->last_us) {
-        reading->last_us = row_clock_us(reading, row);
+    if (!reading->has_last || row_order_time_us(reading, row) > reading->last_us) {
+        reading->last_us = row_order_time_us(reading, row);
     }
     reading->has_last = true;
 }
@@ -329,7 +328,7 @@ static bool check_row(const struct reading *reading, const struct row_check *che
     if (!check_time_order(reading, check, row) || !read_cells(reading, check, cells)) {
         return false;
     }
-    fill_radar_place(reading, row->sensor_id, cells);
+    fill_missing_radar_place(reading, row->sensor_id, cells);
     if (!rows_geodetic_fill(&reading->geodetic, check, row->sensor_id, cells)) {
         return false;
     }

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_read: rows from a CSV file, each checked by what its message may hold.
+ * rows_read: reads the rows of a CSV file, and checks that messages can hold each.
  *
- * Columns scan and epoch, of scans and lists both, number these; a file without them has none
- * numbered. Times of scans do not go back, but within a scan that has a number; nor do those of a
- * column received_s, of plots: then all times may go back.
+ * Columns scan and epoch number scans and lists. Times of scans must not go back, except within a
+ * numbered scan. Where plots have a column received_s, its times must not go back instead.
  */
 #ifndef RHOTRACK_TOOL_ROWS_READ_H
 #define RHOTRACK_TOOL_ROWS_READ_H
@@ -14,31 +13,31 @@
 #include "io/rows/rows.h"
 #include "settings/parameters.h"
 
-/* A file and what was read of it. */
+/* A file's rows. */
 struct rows_file {
     char *path;
     bool keep_going;
     struct rows rows;
-    bool has_scan, has_epoch; /* the columns */
+    bool has_scan, has_epoch; /* the file has these columns */
     uint64_t rows_skipped;
 };
 
 /*
  * Reads a file. Errors: exit 2, with file and line; with keep_going bad rows are skipped and
- * counted instead. Places of radars that the file does not say come from the parameters.
+ * counted instead. Positions of radars that the file lacks come from the parameters.
  */
 void rows_read_csv(struct rows_file *file, const char *path, const struct parameters *parameters,
                    bool keep_going);
 
 /*
- * The same from a table, which stays the caller's; path is for messages. False: there is not one
- * good row.
+ * Reads rows from a table, which stays the caller's; path is for error messages. Returns false
+ * where there is no good row.
  */
 struct table;
 bool rows_read_table(struct rows_file *file, const char *path, const struct table *table,
                      const struct parameters *parameters, bool keep_going);
 
-/* A row that turned out bad: exit 2 with its line, or counted. */
+/* Handles a bad row: exit 2 with its line, or with keep_going counts it. */
 void rows_refuse_row(struct rows_file *file, const struct row *row, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void rows_read_end(struct rows_file *file);

@@ -9,16 +9,17 @@
 #include "base/common.h"
 #include "io/csv/row_check.h"
 
-#define OWN_TIME_MAX_US 60000000 /* dt_us of the messages; no scan_interval_s is longer */
+#define OWN_TIME_MAX_US 60000000 /* limit of dt_us in messages; scan_interval_s is never longer */
 
-/* The scans of a file under way. Rows of one scan are neighbours. */
-struct making {
+/* State of grouping a file's rows into scans; rows of one scan are adjacent after sorting. */
+struct scan_grouping {
     struct rows_scans *scans;
     struct rows_file *file;
     const struct rows_kind *kind;
     int64_t interval_us;
     struct row *rows;
-    size_t *before; /* of lists without numbers: the row before of the same name and time */
+    /* for lists without numbers: index of the row before with the same identity and time */
+    size_t *before;
 };
 
 /* ---- Rows that belong together ---- */
@@ -33,7 +34,7 @@ static int by_scan_and_order(const void *a, const void *b)
     return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
 }
 
-/* Of lists the time counts, too: their rows may be in any order. */
+/* Order of lists' rows: by time as well, since the file may have them in any order. */
 static int by_list_and_order(const void *a, const void *b)
 {
     const struct row *one = a, *other = b;
@@ -44,15 +45,15 @@ static int by_list_and_order(const void *a, const void *b)
     return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
 }
 
-struct named {
+struct named_row {
     int64_t time_us;
     double name;
     size_t row;
 };
 
-static int by_name(const void *a, const void *b)
+static int by_time_and_name(const void *a, const void *b)
 {
-    const struct named *one = a, *other = b;
+    const struct named_row *one = a, *other = b;
     int order = rows_compare_numbers(one->time_us, other->time_us);
 
     order = order ? order : (one->name > other->name) - (one->name < other->name);
@@ -60,25 +61,25 @@ static int by_name(const void *a, const void *b)
 }
 
 /*
- * For each row the one before that names the same track or target at that time; SIZE_MAX where
+ * For each row, finds the row before with the same track or target at the same time; SIZE_MAX where
  * there is none.
  */
-static void find_same_name_before(struct making *making)
+static void find_earlier_same_names(struct scan_grouping *grouping)
 {
-    size_t count = making->file->rows.count;
-    struct named *named = must_alloc(count * sizeof *named);
+    size_t count = grouping->file->rows.count;
+    struct named_row *named = must_alloc(count * sizeof *named);
 
-    making->before = must_alloc(count * sizeof *making->before);
+    grouping->before = must_alloc(count * sizeof *grouping->before);
     for (size_t i = 0; i < count; i++) {
-        named[i] = (struct named){making->rows[i].time_us,
-                                  rows_cells(&making->file->rows, &making->rows[i])[0], i};
+        named[i] = (struct named_row){grouping->rows[i].time_us,
+                                      rows_cells(&grouping->file->rows, &grouping->rows[i])[0], i};
     }
-    qsort(named, count, sizeof *named, by_name);
+    qsort(named, count, sizeof *named, by_time_and_name);
     for (size_t i = 0; i < count; i++) {
         bool is_again = i > 0 && named[i].time_us == named[i - 1].time_us &&
                         !(named[i].name > named[i - 1].name);
 
-        making->before[named[i].row] = is_again ? named[i - 1].row : SIZE_MAX;
+        grouping->before[named[i].row] = is_again ? named[i - 1].row : SIZE_MAX;
     }
     free(named);
 }
@@ -88,123 +89,131 @@ static bool is_same_cell(double one, double other)
     return rows_is_cell_empty(one) ? rows_is_cell_empty(other) : one <= other && one >= other;
 }
 
-/* The first column of that flag in which two rows differ, or NULL. */
-static const char *differing_column(const struct making *making, const double *cells,
-                                    const double *others, unsigned flag)
+/* Name of the first column with that flag in which two rows differ, or NULL. */
+static const char *find_differing_column(const struct scan_grouping *grouping, const double *cells,
+                                         const double *others, unsigned flag)
 {
-    for (int i = 0; i < making->kind->num_columns; i++) {
-        if ((making->kind->columns[i].flags & flag) && !is_same_cell(cells[i], others[i])) {
-            return making->kind->columns[i].name;
+    for (int i = 0; i < grouping->kind->num_columns; i++) {
+        if ((grouping->kind->columns[i].flags & flag) && !is_same_cell(cells[i], others[i])) {
+            return grouping->kind->columns[i].name;
         }
     }
     return NULL;
 }
 
-/* Rows of one turn that one scan of messages can hold: with the last one that saw something. */
-static bool joins_turn(const struct making *making, size_t first, size_t index)
+/*
+ * Whether a row belongs to the turn that begins with the row first, and agrees with the turn's
+ * newest row that has a measurement, so that one scan of messages can hold it.
+ */
+static bool joins_turn(const struct scan_grouping *grouping, size_t first, size_t index)
 {
-    const struct row *row = &making->rows[index], *other = &making->rows[index - 1];
-    const double *cells = rows_cells(&making->file->rows, row), *others;
+    const struct row *row = &grouping->rows[index], *other = &grouping->rows[index - 1];
+    const double *cells = rows_cells(&grouping->file->rows, row), *others;
 
-    while (other > &making->rows[first] && !rows_saw_something(&making->file->rows, other)) {
+    while (other > &grouping->rows[first] && !rows_saw_something(&grouping->file->rows, other)) {
         other--;
     }
-    others = rows_cells(&making->file->rows, other);
-    return row->turn == making->rows[first].turn &&
-           row->time_us - making->rows[first].time_us <= OWN_TIME_MAX_US &&
-           !differing_column(making, cells, others, COLUMN_OF_SCAN) &&
-           (!rows_saw_something(&making->file->rows, row) ||
-            !rows_saw_something(&making->file->rows, other) ||
-            (!differing_column(making, cells, others, COLUMN_OF_PLOTS) &&
-             (!making->kind->pattern ||
-              making->kind->pattern(cells) == making->kind->pattern(others))));
+    others = rows_cells(&grouping->file->rows, other);
+    return row->turn == grouping->rows[first].turn &&
+           row->time_us - grouping->rows[first].time_us <= OWN_TIME_MAX_US &&
+           !find_differing_column(grouping, cells, others, COLUMN_OF_SCAN) &&
+           (!rows_saw_something(&grouping->file->rows, row) ||
+            !rows_saw_something(&grouping->file->rows, other) ||
+            (!find_differing_column(grouping, cells, others, COLUMN_OF_PLOTS) &&
+             (!grouping->kind->pattern ||
+              grouping->kind->pattern(cells) == grouping->kind->pattern(others))));
 }
 
-/* Does a row belong to the scan or list that begins with the row first? */
-static bool joins_scan(const struct making *making, size_t first, size_t index)
+/* Whether a row belongs to the scan or list that begins with the row first. */
+static bool joins_scan(const struct scan_grouping *grouping, size_t first, size_t index)
 {
-    const struct row *start = &making->rows[first], *row = &making->rows[index];
+    const struct row *start = &grouping->rows[first], *row = &grouping->rows[index];
 
     if (row->sensor_id != start->sensor_id || row->epoch != start->epoch ||
         row->scan != start->scan) {
         return false;
     }
-    if (!making->kind->has_sensor) {
+    if (!grouping->kind->has_sensor) {
         return row->time_us == start->time_us &&
-               (!making->before || making->before[index] == SIZE_MAX ||
-                making->before[index] < first);
+               (!grouping->before || grouping->before[index] == SIZE_MAX ||
+                grouping->before[index] < first);
     }
     if (row->turn > 0) {
-        return joins_turn(making, first, index);
+        return joins_turn(grouping, first, index);
     }
-    if (making->file->has_scan) {
+    if (grouping->file->has_scan) {
         return llabs(row->time_us - start->time_us) <= OWN_TIME_MAX_US;
     }
     return row->time_us == start->time_us ||
-           (row->time_us > start->time_us && row->time_us - making->interval_us < start->time_us);
+           (row->time_us > start->time_us && row->time_us - grouping->interval_us < start->time_us);
 }
 
 /* ---- What rows of a scan have in common ---- */
 
-/* Why a row that saw something does not fit to the first of its scan that did. */
-static bool check_plot_fits_scan(struct making *making, const struct rows_scan *scan,
+/*
+ * Checks that a row with a measurement agrees with the scan's first such row, and refuses it
+ * otherwise.
+ */
+static bool check_plot_fits_scan(struct scan_grouping *grouping, const struct rows_scan *scan,
                                  const struct row *row)
 {
-    const struct row *first = &making->rows[scan->first];
-    const double *cells = rows_cells(&making->file->rows, row);
-    const double *others = rows_cells(&making->file->rows, first);
-    const char *name = differing_column(making, cells, others, COLUMN_OF_PLOTS);
+    const struct row *first = &grouping->rows[scan->first];
+    const double *cells = rows_cells(&grouping->file->rows, row);
+    const double *others = rows_cells(&grouping->file->rows, first);
+    const char *name = find_differing_column(grouping, cells, others, COLUMN_OF_PLOTS);
 
     if (name) {
-        rows_refuse_row(making->file, row,
+        rows_refuse_row(grouping->file, row,
                         "%s is not that of the scan's other rows: a message has one", name);
         return false;
     }
-    if (making->kind->pattern && making->kind->pattern(cells) != making->kind->pattern(others)) {
+    if (grouping->kind->pattern &&
+        grouping->kind->pattern(cells) != grouping->kind->pattern(others)) {
         rows_refuse_row(
-            making->file, row,
+            grouping->file, row,
             "height, velocity or range rate must be given in all rows of a scan or in none");
         return false;
     }
-    if (making->kind->rows_max > 0 && scan->count >= making->kind->rows_max) {
-        rows_refuse_row(making->file, row, "more than %zu rows are one scan: no message holds them",
-                        making->kind->rows_max);
+    if (grouping->kind->rows_max > 0 && scan->count >= grouping->kind->rows_max) {
+        rows_refuse_row(grouping->file, row,
+                        "more than %zu rows are one scan: no message holds them",
+                        grouping->kind->rows_max);
         return false;
     }
     return true;
 }
 
-static bool check_received_fits_scan(struct making *making, const struct rows_scan *scan,
+static bool check_received_fits_scan(struct scan_grouping *grouping, const struct rows_scan *scan,
                                      const struct row *row)
 {
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.reason = reason};
 
-    if (making->file->rows.has_received &&
+    if (grouping->file->rows.has_received &&
         !row_check_received_together(&check, row->received_us, scan->head.received_us,
-                                     making->file->has_scan, making->interval_us)) {
-        rows_refuse_row(making->file, row, "%s", reason);
+                                     grouping->file->has_scan, grouping->interval_us)) {
+        rows_refuse_row(grouping->file, row, "%s", reason);
         return false;
     }
     return true;
 }
 
-static bool check_row_fits_scan(struct making *making, const struct rows_scan *scan,
+static bool check_row_fits_scan(struct scan_grouping *grouping, const struct rows_scan *scan,
                                 const struct row *row)
 {
     const char *name =
-        differing_column(making, rows_cells(&making->file->rows, row),
-                         rows_cells(&making->file->rows, &scan->head), COLUMN_OF_SCAN);
+        find_differing_column(grouping, rows_cells(&grouping->file->rows, row),
+                              rows_cells(&grouping->file->rows, &scan->head), COLUMN_OF_SCAN);
 
     if (name) {
-        rows_refuse_row(making->file, row, "%s is not that of the scan's first row", name);
+        rows_refuse_row(grouping->file, row, "%s is not that of the scan's first row", name);
         return false;
     }
-    if (!check_received_fits_scan(making, scan, row)) {
+    if (!check_received_fits_scan(grouping, scan, row)) {
         return false;
     }
-    if (making->kind->has_one_time && row->time_us != scan->utime) {
-        rows_refuse_row(making->file, row,
+    if (grouping->kind->has_one_time && row->time_us != scan->utime) {
+        rows_refuse_row(grouping->file, row,
                         "t_s is not that of the scan's first row: a scan of bearings has one time");
         return false;
     }
@@ -213,25 +222,28 @@ static bool check_row_fits_scan(struct making *making, const struct rows_scan *s
 
 /* ---- Scans ---- */
 
-/* The time that opens the scan: with numbers a row that saw nothing may stand anywhere. */
-static int64_t scan_time_of_rows(const struct making *making, size_t first, size_t end)
+/*
+ * Time of a scan: with numbers that of its row without a measurement, which may stand anywhere,
+ * else of its first row.
+ */
+static int64_t scan_time_of_rows(const struct scan_grouping *grouping, size_t first, size_t end)
 {
-    for (size_t i = first; making->file->has_scan && i < end; i++) {
-        if (!rows_saw_something(&making->file->rows, &making->rows[i])) {
-            return making->rows[i].time_us;
+    for (size_t i = first; grouping->file->has_scan && i < end; i++) {
+        if (!rows_saw_something(&grouping->file->rows, &grouping->rows[i])) {
+            return grouping->rows[i].time_us;
         }
     }
-    return making->rows[first].time_us;
+    return grouping->rows[first].time_us;
 }
 
-static size_t count_parts(const struct making *making, const struct rows_scan *scan)
+static size_t count_parts(const struct scan_grouping *grouping, const struct rows_scan *scan)
 {
     struct rows_part rest = {
-        .rows = &making->file->rows, .scan = scan, .first = scan->first, .count = scan->count};
+        .rows = &grouping->file->rows, .scan = scan, .first = scan->first, .count = scan->count};
     size_t parts = 0;
 
     while (rest.count > 0) {
-        size_t taken = making->kind->fit(&rest);
+        size_t taken = grouping->kind->fit(&rest);
 
         rest.first += taken;
         rest.count -= taken;
@@ -240,32 +252,33 @@ static size_t count_parts(const struct making *making, const struct rows_scan *s
     return parts > 0 ? parts : 1;
 }
 
-/* Rows first .. end are a scan; those that saw something are moved together. */
-static void add_scan(struct making *making, size_t first, size_t end)
+/* Makes a scan of the rows first .. end; those with a measurement are moved together. */
+static void add_scan_of_rows(struct scan_grouping *grouping, size_t first, size_t end)
 {
-    struct rows_scans *scans = making->scans;
-    struct rows_scan scan = {.utime = scan_time_of_rows(making, first, end),
-                             .head = making->rows[first],
+    struct rows_scans *scans = grouping->scans;
+    struct rows_scan scan = {.utime = scan_time_of_rows(grouping, first, end),
+                             .head = grouping->rows[first],
                              .first = first,
-                             .order = making->rows[first].order};
+                             .order = grouping->rows[first].order};
     size_t parts;
 
-    scan.due_us = making->file->rows.has_received ? making->rows[end - 1].received_us : scan.utime;
+    scan.due_us =
+        grouping->file->rows.has_received ? grouping->rows[end - 1].received_us : scan.utime;
     for (size_t i = first; i < end; i++) {
-        struct row row = making->rows[i];
-        bool is_plot = rows_saw_something(&making->file->rows, &row);
+        struct row row = grouping->rows[i];
+        bool is_plot = rows_saw_something(&grouping->file->rows, &row);
 
-        if (!check_row_fits_scan(making, &scan, &row) ||
-            (is_plot && scan.count > 0 && !check_plot_fits_scan(making, &scan, &row))) {
+        if (!check_row_fits_scan(grouping, &scan, &row) ||
+            (is_plot && scan.count > 0 && !check_plot_fits_scan(grouping, &scan, &row))) {
             continue;
         }
         if (is_plot) {
-            making->rows[first + scan.count++] = row;
+            grouping->rows[first + scan.count++] = row;
         }
     }
-    parts = count_parts(making, &scan);
+    parts = count_parts(grouping, &scan);
     if (parts > INT16_MAX) {
-        rows_refuse_row(making->file, &scan.head, "a scan of %zu parts; messages number 32767",
+        rows_refuse_row(grouping->file, &scan.head, "a scan of %zu parts; messages number 32767",
                         parts);
         return;
     }
@@ -284,16 +297,18 @@ static int by_sensor(const void *a, const void *b)
     return order ? order : rows_compare_numbers((int64_t)one->order, (int64_t)other->order);
 }
 
-/* Of each sensor in the order of time, also those that were received in another one. */
-static void number_scans(const struct making *making)
+/*
+ * Numbers each sensor's scans in the order of time, even where they were received in another order.
+ */
+static void number_scans(const struct scan_grouping *grouping)
 {
-    struct rows_scan *list = making->scans->list;
+    struct rows_scan *list = grouping->scans->list;
     int32_t number = 0;
 
-    if (making->scans->count > 0) {
-        qsort(list, making->scans->count, sizeof *list, by_sensor);
+    if (grouping->scans->count > 0) {
+        qsort(list, grouping->scans->count, sizeof *list, by_sensor);
     }
-    for (size_t i = 0; i < making->scans->count; i++) {
+    for (size_t i = 0; i < grouping->scans->count; i++) {
         bool is_next = i > 0 && list[i].head.sensor_id == list[i - 1].head.sensor_id &&
                        list[i].head.epoch == list[i - 1].head.epoch;
 
@@ -302,7 +317,7 @@ static void number_scans(const struct making *making)
     }
 }
 
-static int by_time(const void *a, const void *b)
+static int by_due_time(const void *a, const void *b)
 {
     const struct rows_scan *one = a, *other = b;
     int order = rows_compare_numbers(one->due_us, other->due_us);
@@ -312,29 +327,29 @@ static int by_time(const void *a, const void *b)
 
 void rows_scans_make(struct rows_scans *scans, struct rows_file *file, int64_t interval_us)
 {
-    struct making making = {.scans = scans,
-                            .file = file,
-                            .kind = file->rows.kind,
-                            .interval_us = interval_us,
-                            .rows = file->rows.list};
+    struct scan_grouping grouping = {.scans = scans,
+                                     .file = file,
+                                     .kind = file->rows.kind,
+                                     .interval_us = interval_us,
+                                     .rows = file->rows.list};
 
     *scans = (struct rows_scans){.file = file};
     qsort(file->rows.list, file->rows.count, sizeof *file->rows.list,
-          making.kind->has_sensor ? by_scan_and_order : by_list_and_order);
-    if (!making.kind->has_sensor && !file->has_scan) {
-        find_same_name_before(&making);
+          grouping.kind->has_sensor ? by_scan_and_order : by_list_and_order);
+    if (!grouping.kind->has_sensor && !file->has_scan) {
+        find_earlier_same_names(&grouping);
     }
     for (size_t first = 0, end; first < file->rows.count; first = end) {
-        for (end = first + 1; end < file->rows.count && joins_scan(&making, first, end); end++) {
+        for (end = first + 1; end < file->rows.count && joins_scan(&grouping, first, end); end++) {
         }
-        add_scan(&making, first, end);
+        add_scan_of_rows(&grouping, first, end);
     }
-    free(making.before);
+    free(grouping.before);
     if (!file->has_scan) {
-        number_scans(&making);
+        number_scans(&grouping);
     }
     if (scans->count > 0) {
-        qsort(scans->list, scans->count, sizeof *scans->list, by_time);
+        qsort(scans->list, scans->count, sizeof *scans->list, by_due_time);
     }
 }
 
@@ -371,7 +386,8 @@ bool rows_scans_next_message(const struct rows_scans *scans, struct rows_at *at,
     output->utime = part.scan->due_us;
     write_channel_name(kind, part.scan->head.sensor_id, output->channel);
     output->size = kind->encode(&part, output->data, &field);
-    if (output->size == 0) { /* each row was good alone */
+    /* each row can be encoded alone: the value fails in this combination of rows */
+    if (output->size == 0) {
         fail(EXIT_USAGE, "%s:%u: %s is outside the range of a %s", scans->file->path,
              (unsigned)part.scan->head.line, field, rho_message_type_name(kind->type));
     }

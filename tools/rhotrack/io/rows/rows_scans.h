@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_scans: a file's rows as scans and lists in the order of time, or as they were received, and
- * these as messages.
+ * rows_scans: groups a file's rows into scans and lists, in the order of time or of reception, and
+ * encodes these as messages.
  *
- * Rows of a sensor are one scan where they have the same scan and epoch (columns of these names),
- * else the same t_s, or are within scan_interval_s of the first. Its time is that of its first row,
- * or, with a column scan, of the row that saw nothing, if it has one. Truth and tracks of one t_s
- * are one list; with a column scan of one scan, else a track that is named again begins the next
- * one. What has no number is counted from 1, for each sensor; epoch is 1.
+ * Rows of a sensor form one scan where they have the same scan and epoch (columns of these names),
+ * else the same t_s, or are within scan_interval_s of the first row. The time of a scan is that of
+ * its first row, or, with a column scan, of its row without a measurement, if there is one. Truth
+ * and tracks of one t_s form one list; with a column scan those of one scan, else a track that is
+ * named again begins the next list. Scans and lists without numbers are counted from 1, for each
+ * sensor; epoch is 1.
  */
 #ifndef RHOTRACK_TOOL_ROWS_SCANS_H
 #define RHOTRACK_TOOL_ROWS_SCANS_H
@@ -16,18 +17,18 @@
 
 struct rows_scans {
     struct rows_file *file;
-    struct rows_scan *list; /* in the order in which they are due */
+    struct rows_scan *list; /* scans in the order in which they are due */
     size_t count, capacity;
 };
 
 /*
- * Sorts the file's rows. What cannot be one scan is refused as rows_read_csv does: other heights,
- * sectors, places, sigmas.
+ * Sorts the file's rows and groups them. Rows that cannot be in one scan (other sectors, positions,
+ * sigmas, or measured quantities) are refused as rows_read_csv does.
  */
 void rows_scans_make(struct rows_scans *scans, struct rows_file *file, int64_t interval_us);
 void rows_scans_free(struct rows_scans *scans);
 
-/* Where to go on: zeros at first. */
+/* Position of the next message. Initialised with zeros. */
 struct rows_at {
     size_t scan, row;
     int16_t part;
@@ -35,15 +36,15 @@ struct rows_at {
 
 #define ROWS_CHANNEL_BYTES 64
 
-/* A message in the caller's memory. */
+/* An encoded message in the caller's memory. */
 struct rows_output {
-    int64_t utime; /* of the scan, or when it was received */
+    int64_t utime; /* time of the scan, or of its reception */
     char channel[ROWS_CHANNEL_BYTES];
     uint8_t data[ROWS_MESSAGE_BYTES];
     size_t size;
 };
 
-/* The next message. Returns false after the last. */
+/* Encodes the next message. Returns false after the last. */
 bool rows_scans_next_message(const struct rows_scans *scans, struct rows_at *at,
                              struct rows_output *output);
 

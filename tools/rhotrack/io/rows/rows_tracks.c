@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_tracks: tracks, track_list_t. Messages have the covariance, files sigma_m and sigma_mps, and
- * the covariance where asked for: a file without it gives one that is the same on all measured
- * axes, and so has these sigmas.
+ * rows_tracks: rows of tracks, and track_list_t messages. Messages have the covariance, files
+ * sigma_m and sigma_mps, and the covariance where requested: a file without it gives a covariance
+ * that is equal on all measured axes, with these sigmas.
  */
 #include <math.h>
 
@@ -80,26 +80,27 @@ static const struct rows_column columns[NUM_COLUMNS] = {
     [MANEUVER_PROBABILITY] = {"maneuver_probability", COLUMN_NOT_ZERO, 0, NULL, NULL},
 };
 
-/* Of the covariance's lower triangle. */
+/* Index of a variance in the covariance, which is stored as its lower triangle. */
 static int variance_index(int state)
 {
     return state * (state + 1) / 2 + state;
 }
 
-/* Their squares are in the covariance. */
+/* limits of a sigma whose square float32 can hold */
 #define SIGMA_MIN 1e-18
 #define SIGMA_MAX 1e18
 
-static bool is_sigma(double cell)
+static bool is_sigma_encodable(double cell)
 {
     return !(cell < 0.0) && !(cell > 0.0 && cell < SIGMA_MIN) && !(cell > SIGMA_MAX);
 }
 
 static const char *why_row_invalid(const double *cells)
 {
-    if (!is_sigma(cells[SIGMA_M]) || !is_sigma(cells[SIGMA_MPS])) {
-        return is_sigma(cells[SIGMA_M]) ? "sigma_mps is neither 0 nor within 1e-18 .. 1e18"
-                                        : "sigma_m is neither 0 nor within 1e-18 .. 1e18";
+    if (!is_sigma_encodable(cells[SIGMA_M]) || !is_sigma_encodable(cells[SIGMA_MPS])) {
+        return is_sigma_encodable(cells[SIGMA_M])
+                   ? "sigma_mps is neither 0 nor within 1e-18 .. 1e18"
+                   : "sigma_m is neither 0 nor within 1e-18 .. 1e18";
     }
     return NULL;
 }
@@ -122,7 +123,9 @@ static bool has_covariance(const double *cells)
     return false;
 }
 
-/* Variances of the axes that are measured; heights where there is one, or a speed upwards. */
+/*
+ * Equal variances on the measured axes; z counts as measured where the row has a height or climb.
+ */
 static void covariance_from_sigmas(const double *cells, float *covariance)
 {
     float sigma_m = rows_float_or_zero(cells[SIGMA_M]),
@@ -199,8 +202,8 @@ static size_t encode_part(const struct rows_part *part, uint8_t *buffer, const c
 /* ---- Messages to rows ---- */
 
 /*
- * Root mean variance over the measured axes, as the tracker's own: those whose place or speed has a
- * variance.
+ * Root mean variance over the measured axes, as the tracker computes it: the axes on which position
+ * or velocity has a variance.
  */
 static double rms_sigma_of(const float *covariance, int first)
 {

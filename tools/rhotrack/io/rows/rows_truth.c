@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* rows_truth: where the targets really were, truth_list_t. */
+/*
+ * rows_truth: rows of true target positions, and truth_list_t messages.
+ */
 #include "io/rows/rows.h"
 
 enum column { TARGET_ID, X_M, Y_M, Z_M, VX_MPS, VY_MPS, VZ_MPS, NUM_COLUMNS };

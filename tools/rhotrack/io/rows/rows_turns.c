@@ -5,9 +5,9 @@
 
 #include "io/turns/antenna_turns.h"
 
-/* The place of a row's plot as its sensor sees it. Returns false where it saw nothing. */
-static bool find_plot_place(const struct rows_file *file, const struct row *row,
-                            const struct parameters *parameters, double place_m[2])
+/* Position of a row's plot relative to its sensor. Returns false for a row without a plot. */
+static bool plot_place_from_sensor(const struct rows_file *file, const struct row *row,
+                                   const struct parameters *parameters, double place_m[2])
 {
     const struct rows_kind *kind = file->rows.kind;
     const double *cells = rows_cells(&file->rows, row);
@@ -56,13 +56,13 @@ void rows_turns_find(struct rows_file *file, const struct parameters *parameters
         const struct row *row = &file->rows.list[i];
 
         goes_on =
-            !find_plot_place(file, row, parameters, place_m) ||
+            !plot_place_from_sensor(file, row, parameters, place_m) ||
             antenna_turns_look_at_row(turns, row->sensor_id, row->time_us, place_m[0], place_m[1]);
     }
     if (antenna_turns_find_rules(turns, file->path, parameters->value[PARAMETER_V_MAX_MPS])) {
         for (size_t i = 0; i < file->rows.count; i++) {
             struct row *row = &file->rows.list[i];
-            const bool has_place = find_plot_place(file, row, parameters, place_m);
+            const bool has_place = plot_place_from_sensor(file, row, parameters, place_m);
 
             row->turn = antenna_turns_number_row(turns, row->sensor_id, row->time_us,
                                                  has_place ? place_m : NULL);

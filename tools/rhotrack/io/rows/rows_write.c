@@ -62,7 +62,7 @@ static void write_cell(FILE *file, const struct rows_column *column, double cell
     } else if (column->flags & (COLUMN_INT16 | COLUMN_INT32)) {
         fprintf(file, "%" PRId32, (int32_t)cell);
     } else if (!(cell < 0.0) && !(cell > 0.0) && !rows_is_plus_zero((float)cell)) {
-        fputs("-0", file); /* float_text has none */
+        fputs("-0", file); /* float_text does not write -0 */
     } else {
         fputs(float_text((float)cell, text), file);
     }
@@ -121,13 +121,13 @@ void rows_write_csv(FILE *file, const struct rows *rows, bool with_covariance)
 
 /* ---- As a table ---- */
 
-/* Of the numbers that a float32 stands for the one of the fewest digits: files say the same. */
+/* The number with the fewest digits that gives the same float32, as the CSV file has it. */
 static double shortest_float(double cell)
 {
     char text[FLOAT_TEXT_BYTES];
 
     if (!(cell < 0.0) && !(cell > 0.0)) {
-        return cell; /* empty, 0, or -0, which float_text does not have */
+        return cell; /* NaN, 0, or -0, which float_text does not write */
     }
     return strtod(float_text((float)cell, text), NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rows_write: rows as a CSV file. Times to the microsecond, numbers in the fewest digits that keep
- * float32; optional columns are there where a row needs them, scan and epoch always.
+ * rows_write: writes rows as a CSV file. Times have microseconds, numbers the fewest digits that
+ * keep float32; optional columns are written where a row needs them, scan and epoch always.
  */
 #ifndef RHOTRACK_TOOL_ROWS_WRITE_H
 #define RHOTRACK_TOOL_ROWS_WRITE_H
@@ -14,8 +14,8 @@
 void rows_write_csv(FILE *file, const struct rows *rows, bool with_covariance);
 
 /*
- * The same as a table, covariances too, without the times of reception; a row's line is that of
- * such a file.
+ * Converts rows to a table, with covariances, without reception times; a row's line is that in the
+ * CSV file that rows_write_csv would write.
  */
 struct table *rows_to_table(const char *path, const struct rows *rows);
 

@@ -14,7 +14,7 @@
 #include "io/log/log_scans.h"
 #include "io/scans/scan_files.h"
 
-/* Scans of one time: whose, and where. */
+/* The scans of one time, to find duplicates: their sensors, files and lines. */
 struct scans_of_time {
     int64_t time_us;
     size_t count;
@@ -30,15 +30,16 @@ struct bearing_frame_reader {
     int64_t tolerance_us;
     struct scan_files files;
     struct known_sensors known;
-    struct frame_sensor sensors[RHO_MAX_SENSORS]; /* the same, sorted */
+    /* the sensors of `known` in the order of sensor_id */
+    struct frame_sensor sensors[RHO_MAX_SENSORS];
     struct scans_of_time before;
-    struct rho_frame frame; /* handed out, of */
+    struct rho_frame frame; /* the frame handed out, with its scans */
     struct rho_bearing_scan scans[RHO_MAX_SENSORS];
-    struct sensor_scan next; /* the first scan behind it */
+    struct sensor_scan next; /* first scan after the frame */
     bool has_next;
-    uint64_t skip; /* frames before this one are left out */
+    uint64_t skip; /* number of frames left out at the beginning */
     uint64_t duplicates_skipped;
-    struct bearing_frame_reader_counts counts; /* so far */
+    struct bearing_frame_reader_counts counts; /* counts of this pass through the files */
     struct bearing_frame_reader_counts total;
 };
 
@@ -55,7 +56,7 @@ bool bearing_frame_reader_file_has_bearings(const char *path)
         return false;
     }
     if (stat(path, &status) || !S_ISREG(status.st_mode)) {
-        return false; /* a pipe could not be read again */
+        return false; /* a pipe could not be read again from its beginning */
     }
     table = table_read_header(path);
     is_bearings = record_table_has_bearings(table);
@@ -65,9 +66,12 @@ bool bearing_frame_reader_file_has_bearings(const char *path)
 
 /* ---- Scans in order ---- */
 
-/* Fails, or counts the scan and lets it go. */
-static void refuse_duplicate_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan,
-                                  size_t earlier)
+/*
+ * Handles a second scan of one sensor at one time: exit 2, or counts its rows as skipped and frees
+ * it.
+ */
+static void fail_or_skip_duplicate_scan(struct bearing_frame_reader *reader,
+                                        struct sensor_scan *scan, size_t earlier)
 {
     if (!reader->keep_going) {
         fail(EXIT_USAGE, "%s:%u: sensor %d has another scan at %.6f s: line %u of %s", scan->path,
@@ -80,10 +84,10 @@ static void refuse_duplicate_scan(struct bearing_frame_reader *reader, struct se
 }
 
 /*
- * A sensor's scan at the time of another one of its own, of another file: which of them was before
- * cannot be told.
+ * Whether the sensor already has a scan at this time, from another file; their order cannot be
+ * told, so the later one is refused. Notes the scan otherwise.
  */
-static bool is_duplicate_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan)
+static bool refuse_if_duplicate_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan)
 {
     struct scans_of_time *before = &reader->before;
 
@@ -93,7 +97,7 @@ static bool is_duplicate_scan(struct bearing_frame_reader *reader, struct sensor
     }
     for (size_t i = 0; i < before->count; i++) {
         if (before->list[i].sensor_id == scan->bearings.sensor_id) {
-            refuse_duplicate_scan(reader, scan, i);
+            fail_or_skip_duplicate_scan(reader, scan, i);
             return true;
         }
     }
@@ -103,13 +107,13 @@ static bool is_duplicate_scan(struct bearing_frame_reader *reader, struct sensor
     return false;
 }
 
-static bool read_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan)
+static bool read_next_scan(struct bearing_frame_reader *reader, struct sensor_scan *scan)
 {
     do {
         if (!scan_files_next(&reader->files, scan)) {
             return false;
         }
-    } while (is_duplicate_scan(reader, scan));
+    } while (refuse_if_duplicate_scan(reader, scan));
     reader->counts.scans++;
     reader->counts.bearings += scan->bearings.num_bearings;
     return true;
@@ -117,7 +121,10 @@ static bool read_scan(struct bearing_frame_reader *reader, struct sensor_scan *s
 
 /* ---- Scans to frames ---- */
 
-/* True where the scan is a further one of the frame; it is not before it. */
+/*
+ * Whether a scan that is not before the frame belongs to it: within the tolerance, of another
+ * sensor.
+ */
 static bool belongs_to_frame(const struct bearing_frame_reader *reader,
                              const struct rho_bearing_scan *scan)
 {
@@ -140,35 +147,35 @@ static void drop_frame(struct bearing_frame_reader *reader)
     reader->frame = (struct rho_frame){.num_scans = 0};
 }
 
-static int compare_scans(const void *a, const void *b)
+static int compare_scan_sensors(const void *a, const void *b)
 {
     const struct rho_bearing_scan *first = a, *second = b;
 
     return (first->sensor_id > second->sensor_id) - (first->sensor_id < second->sensor_id);
 }
 
-/* Makes the next frame. Returns false after the last. */
-static bool make_frame(struct bearing_frame_reader *reader)
+/* Makes the next frame of the scans that follow. Returns false after the last. */
+static bool make_next_frame(struct bearing_frame_reader *reader)
 {
     struct rho_frame *frame = &reader->frame;
 
     drop_frame(reader);
-    if (!reader->has_next && !read_scan(reader, &reader->next)) {
+    if (!reader->has_next && !read_next_scan(reader, &reader->next)) {
         return false;
     }
     *frame = (struct rho_frame){.time_us = reader->next.bearings.time_us, .scans = reader->scans};
     do {
         reader->scans[frame->num_scans++] = reader->next.bearings;
-        reader->has_next = read_scan(reader, &reader->next);
+        reader->has_next = read_next_scan(reader, &reader->next);
     } while (reader->has_next && belongs_to_frame(reader, &reader->next.bearings));
-    qsort(reader->scans, frame->num_scans, sizeof *reader->scans, compare_scans);
+    qsort(reader->scans, frame->num_scans, sizeof *reader->scans, compare_scan_sensors);
     reader->counts.frames++;
     return true;
 }
 
 const struct rho_frame *bearing_frame_reader_next(struct bearing_frame_reader *reader)
 {
-    while (make_frame(reader)) {
+    while (make_next_frame(reader)) {
         if (reader->counts.frames > reader->skip) {
             return &reader->frame;
         }
@@ -204,14 +211,15 @@ static void rewind_files(struct bearing_frame_reader *reader)
 }
 
 /*
- * Sensors and counts: how many frames had so many scans is known before how many sensors there are.
+ * Reads all frames to count them and to find the sensors. Frames are counted by their number of
+ * scans, since the number of sensors is known only at the end.
  */
 static void count_frames_and_sensors(struct bearing_frame_reader *reader, uint64_t bytes)
 {
     uint64_t frames_of[RHO_MAX_SENSORS + 1] = {0};
     struct progress progress = progress_start("frames looked through", 0);
 
-    while (make_frame(reader)) {
+    while (make_next_frame(reader)) {
         frames_of[reader->frame.num_scans]++;
         progress_show_bytes(&progress, reader->counts.frames, bearing_frame_reader_position(reader),
                             bytes);

@@ -9,7 +9,7 @@
 
 #define SPAN_MAX_US INT64_C(900000000000000)
 
-static void make_room(struct hough_batch *batch, uint32_t plots)
+static void make_room_for_plots(struct hough_batch *batch, uint32_t plots)
 {
     if (batch->num_plots + plots <= batch->room) {
         return;
@@ -20,23 +20,23 @@ static void make_room(struct hough_batch *batch, uint32_t plots)
     batch->t_s = must_realloc(batch->t_s, batch->room * sizeof *batch->t_s);
 }
 
-static bool is_plot_usable(const struct rho_plot *plot)
+static bool is_plot_in_range(const struct rho_plot *plot)
 {
     return rho_is_coordinate(plot->x_m) && rho_is_coordinate(plot->y_m);
 }
 
-/* Times count from the first scan, until all are there. */
-static void add_scan(struct hough_batch *batch, const struct rho_scan *scan, int64_t first_us)
+/* Adds a scan's plots, with times from the first scan until the last scan is known. */
+static void add_scan_plots(struct hough_batch *batch, const struct rho_scan *scan, int64_t first_us)
 {
     if (scan->time_us - first_us > SPAN_MAX_US) {
         fail(EXIT_USAGE, "the scans taken span %.3g s; at most %.0g s make a batch",
              1e-6 * (double)(scan->time_us - first_us), 1e-6 * (double)SPAN_MAX_US);
     }
-    make_room(batch, scan->num_plots);
+    make_room_for_plots(batch, scan->num_plots);
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
 
-        if (!is_plot_usable(plot)) {
+        if (!is_plot_in_range(plot)) {
             batch->num_invalid++;
             continue;
         }
@@ -56,7 +56,7 @@ struct hough_batch hough_batch_from_revolutions(const struct revolutions *revolu
     int64_t first_us = revolutions->count > 0 ? revolutions->list[0].scan.time_us : 0;
 
     for (size_t i = 0; i < revolutions->count; i++) {
-        add_scan(&batch, &revolutions->list[i].scan, first_us);
+        add_scan_plots(&batch, &revolutions->list[i].scan, first_us);
     }
     for (uint32_t i = 0; i < batch.num_plots; i++) {
         batch.t_s[i] -= (float)(1e-6 * (double)(batch.time_us - first_us));

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* hough_batch: the plots of scans in the arrays that the library's Hough transforms take. */
+/*
+ * hough_batch: the plots of several scans as the arrays that the library's Hough transforms take.
+ */
 #ifndef RHOTRACK_TOOL_HOUGH_BATCH_H
 #define RHOTRACK_TOOL_HOUGH_BATCH_H
 
@@ -7,21 +9,23 @@
 #include "rhotrack/hough.h"
 
 struct hough_batch {
-    int64_t time_us; /* of the last scan, which times count from */
+    int64_t time_us; /* time of the last scan, which t_s counts from */
     unsigned num_scans;
     uint32_t scan_end[RHO_MAX_SCANS];
     uint32_t num_plots, num_invalid, room;
     float *x_m, *y_m, *t_s;
-    double range_m; /* of the farthest plot */
+    double range_m; /* range of the farthest plot from the origin */
 };
 
-/* At most RHO_MAX_SCANS scans. Exit 2 where they span too long a time. */
+/* Makes a batch of at most RHO_MAX_SCANS scans. Exit 2 where they span too long a time. */
 struct hough_batch hough_batch_from_revolutions(const struct revolutions *revolutions);
 
-/* Says on standard error how many plots are left out, since they are no coordinates. */
+/*
+ * Reports on standard error how many plots are left out, since their coordinates are out of range.
+ */
 void hough_batch_report_left_out(const struct hough_batch *batch);
 
-/* As the library takes them; the arrays stay the batch's. */
+/* The batch in the library's form; the arrays still belong to the batch. */
 struct rho_hough_points hough_batch_points(const struct hough_batch *batch);
 void hough_batch_free(struct hough_batch *batch);
 

@@ -10,18 +10,17 @@
 #include "io/scans/scan_reader.h"
 
 struct inputs {
-    struct scan_reader *scan_reader;                   /* or NULL */
-    struct bearing_frame_reader *bearing_frame_reader; /* or NULL */
-    /* the next of each kind */
+    struct scan_reader *scan_reader;                   /* NULL: no files of plots */
+    struct bearing_frame_reader *bearing_frame_reader; /* NULL: no files of bearings */
+    /* next scan and next frame, read ahead */
     const struct rho_scan *scan;
     const struct rho_sensor *sensor;
     const struct rho_frame *frame;
-    bool has_scan,
-        has_frame;  /* read ahead; the next one overwrites it: not before the caller is done */
-    uint64_t bytes; /* of all files; 0: not known */
+    bool has_scan, has_frame; /* the scan or frame that was read ahead has not been handed out */
+    uint64_t bytes;           /* bytes of all files; 0: not known */
 };
 
-/* The kinds of scans in a file: a table has one, a log may have both. */
+/* Kinds of scans in a file, LOG_HAS_... or-ed: a table has one kind, a log may have both. */
 static unsigned kinds_in_file(const char *path)
 {
     unsigned kinds;
@@ -30,10 +29,10 @@ static unsigned kinds_in_file(const char *path)
         return bearing_frame_reader_file_has_bearings(path) ? LOG_HAS_BEARINGS : LOG_HAS_PLOTS;
     }
     kinds = log_scans_kinds(path);
-    return kinds ? kinds : LOG_HAS_PLOTS; /* whose reader says what is missing */
+    return kinds ? kinds : LOG_HAS_PLOTS; /* the reader of plots reports what is missing */
 }
 
-/* The paths that hold a kind, in their order. Returns how many. */
+/* Lists the paths of files that hold a kind of scans, in the given order. Returns their number. */
 static int paths_of_kind(char *const *paths, int num_paths, unsigned kind, char **sorted)
 {
     int count = 0;
@@ -63,7 +62,10 @@ static void read_next_frame(struct inputs *inputs)
     }
 }
 
-/* A log of both kinds is read twice, and counts so. */
+/*
+ * Sum of the files' sizes; a log of both kinds is read by two readers, and counts twice. 0: not
+ * known.
+ */
 static uint64_t sum_file_sizes(char *const *paths, int num_paths)
 {
     uint64_t sum = 0;

@@ -16,10 +16,13 @@ static const struct known_sensor *find_sensor(const struct known_sensors *known,
     return NULL;
 }
 
-/* The line that first named a sensor; and its file, where that is not `path`. */
+/*
+ * Writes a sensor's position and the line that named it first, with the file where it is not
+ * `path`.
+ */
 #define WHERE_BYTES 120
-static const char *first_named_at(const struct known_sensor *known, const char *path,
-                                  char text[WHERE_BYTES])
+static const char *format_first_naming(const struct known_sensor *known, const char *path,
+                                       char text[WHERE_BYTES])
 {
     int length = snprintf(text, WHERE_BYTES, "%.9g, %.9g, line %u", (double)known->sensor.x_m,
                           (double)known->sensor.y_m, (unsigned)known->line);
@@ -41,7 +44,8 @@ static bool check_new_sensor(const struct known_sensors *known, const char *path
         if (hypot((double)row->sensor.x_m - (double)other->x_m,
                   (double)row->sensor.y_m - (double)other->y_m) < SAME_PLACE_M) {
             return row_refuse(check, "sensor %d is where sensor %d is: %s", (int)row->sensor_id,
-                              (int)other->sensor_id, first_named_at(&known->list[i], path, text));
+                              (int)other->sensor_id,
+                              format_first_naming(&known->list[i], path, text));
         }
     }
     if (known->is_closed) {
@@ -64,7 +68,7 @@ bool known_sensors_check_row(const struct known_sensors *sensors, const char *pa
     if (row->sensor.x_m < known->sensor.x_m || row->sensor.x_m > known->sensor.x_m ||
         row->sensor.y_m < known->sensor.y_m || row->sensor.y_m > known->sensor.y_m) {
         return row_refuse(check, "sensor %d has moved: it was at %s", (int)row->sensor_id,
-                          first_named_at(known, path, text));
+                          format_first_naming(known, path, text));
     }
     return true;
 }

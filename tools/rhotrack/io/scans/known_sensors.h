@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * known_sensors: sensors of bearings in all files, which stand still, and where each was named
- * first.
+ * known_sensors: the passive sensors of all input files, which must not move, with the file and
+ * line that named each first.
  */
 #ifndef RHOTRACK_TOOL_KNOWN_SENSORS_H
 #define RHOTRACK_TOOL_KNOWN_SENSORS_H
 
 #include "io/csv/record.h"
 
-/* A sensor of the files. */
+/* A passive sensor and its position. */
 struct frame_sensor {
     int32_t sensor_id;
     float x_m, y_m;
@@ -20,16 +20,16 @@ struct known_sensor {
     uint32_t line;
 };
 
-/* In the order in which they were first named. */
+/* All sensors so far, in the order in which they were named first. */
 struct known_sensors {
     struct known_sensor list[RHO_MAX_SENSORS];
     size_t count;
-    bool is_closed; /* the files were read once: there are no others */
+    bool is_closed; /* all files were read once: a further sensor is an error */
 };
 
 /*
- * The row's sensor is where it was before, or a new one at a place of its own, of which there is
- * room for RHO_MAX_SENSORS. Returns false and sets the reason.
+ * Checks a row's sensor: it must stand where it stood before, or be a new one away from all others;
+ * there may be RHO_MAX_SENSORS. Returns false and sets the reason otherwise.
  */
 bool known_sensors_check_row(const struct known_sensors *sensors, const char *path,
                              const struct record *row, const struct row_check *check);

@@ -6,8 +6,8 @@ void out_of_sequence_counts_note_message(struct out_of_sequence_counts *order,
                                          const struct rho_scan_assembler *assembler)
 {
     /*
-     * a clock that is set anew makes all that waits late, in the same call as its own scan is
-     * accepted
+     * a restarted clock makes all waiting scans late in the call that accepts its own scan: these
+     * are not out of sequence
      */
     order->out_of_order += assembler->counters.scans_accepted > before->scans_accepted &&
                            assembler->counters.scans_late > before->scans_late &&
@@ -26,7 +26,7 @@ enum rho_status out_of_sequence_counts_take_message(struct out_of_sequence_count
     return status;
 }
 
-static uint32_t count_less(uint32_t count, uint32_t part)
+static uint32_t subtract_or_zero(uint32_t count, uint32_t part)
 {
     return count > part ? count - part : 0;
 }
@@ -34,7 +34,8 @@ static uint32_t count_less(uint32_t count, uint32_t part)
 struct scan_losses out_of_sequence_counts_losses(const struct out_of_sequence_counts *order,
                                                  const struct rho_scan_assembler_counters *counters)
 {
-    return (struct scan_losses){.out_of_order = order->out_of_order,
-                                .dropped = count_less(counters->scans_late, order->out_of_order),
-                                .lost = count_less(counters->scans_lost, order->out_of_order)};
+    return (struct scan_losses){
+        .out_of_order = order->out_of_order,
+        .dropped = subtract_or_zero(counters->scans_late, order->out_of_order),
+        .lost = subtract_or_zero(counters->scans_lost, order->out_of_order)};
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * out_of_sequence_counts: how many out-of-sequence scans were used, dropped and lost.
+ * out_of_sequence_counts: counts out-of-sequence scans by outcome: used, dropped, lost.
  *
- * The assembler's counters are those of the wire: a scan behind a newer one counts as late, and its
- * number as lost before, also where it is then put in order or updates tracks. What a person reads
- * keeps the three apart.
+ * The scan assembler's counters describe the wire: a scan that arrives after a newer one counts as
+ * late, and its number was counted as lost before, even if it is then put in order or updates
+ * tracks. Reports keep the three apart.
  */
 #ifndef RHOTRACK_TOOL_OUT_OF_SEQUENCE_COUNTS_H
 #define RHOTRACK_TOOL_OUT_OF_SEQUENCE_COUNTS_H
@@ -14,25 +14,28 @@
 
 #include "rhotrack/scan_assembler.h"
 
-/* All zero at the start. */
+/* Count kept beside the scan assembler's counters. Initialised with zeros. */
 struct out_of_sequence_counts {
-    uint32_t out_of_order; /* scans that were late and used */
+    uint32_t out_of_order; /* out-of-sequence scans that were put in order or updated tracks */
 };
 
-/* `lost` falls again where a number that was skipped comes after all. */
+/* Scans by outcome. `lost` decreases again when a scan whose number was skipped arrives. */
 struct scan_losses {
     uint32_t out_of_order;
-    uint32_t dropped; /* late, and not used */
-    uint32_t lost;    /* numbers skipped that were not used later */
+    uint32_t dropped; /* scans that came late and were not used */
+    uint32_t lost;    /* scans whose numbers were skipped and that did not arrive later */
 };
 
-/* rho_scan_assembler_take, watched. */
+/* Passes a message to rho_scan_assembler_take, and counts whether a late scan was accepted. */
 enum rho_status out_of_sequence_counts_take_message(struct out_of_sequence_counts *order,
                                                     struct rho_scan_assembler *assembler,
                                                     const char *channel, const uint8_t *data,
                                                     size_t size, int64_t now_us);
 
-/* The same of a scan assembler that has taken a message, with its counters from before. */
+/*
+ * Counts whether a message that the assembler has taken was a late scan that was accepted; before:
+ * the assembler's counters before the message.
+ */
 void out_of_sequence_counts_note_message(struct out_of_sequence_counts *order,
                                          const struct rho_scan_assembler_counters *before,
                                          const struct rho_scan_assembler *assembler);

@@ -37,10 +37,7 @@ static size_t first_received_scan(const struct reorder_buffer *buffer)
     return first;
 }
 
-/*
- * When the one that was received first has waited long enough: what came after that is not waited
- * for.
- */
+/* Scans received more than hold_us after the scan that was received first do not go before it. */
 bool reorder_buffer_take(struct reorder_buffer *buffer, bool all, struct sensor_scan *scan)
 {
     size_t first;

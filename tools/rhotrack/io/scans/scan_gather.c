@@ -17,18 +17,16 @@ void scan_gather_set_reception(struct scan_gather *gather, int64_t clock_us)
     gather->clock_us = clock_us;
 }
 
-/* The time that must not go back: of reception where the file has it, else of the scan. */
-static int64_t row_clock_us(const struct scan_gather *gather, int64_t time_us)
+/* The time by which rows are ordered: of reception where the file has it, else the row's own. */
+static int64_t row_order_time_us(const struct scan_gather *gather, int64_t time_us)
 {
     return gather->has_clock ? gather->clock_us : time_us;
 }
 
 /* ---- Rows ---- */
 
-/*
- * The sensor's newest scan, or the newest with that order; NULL where it is not in memory any more.
- */
-static struct gathered_scan *newest_scan_of(struct scan_gather *gather, int32_t sensor_id)
+/* The sensor's newest scan in memory; NULL where there is none. */
+static struct gathered_scan *newest_scan_of_sensor(struct scan_gather *gather, int32_t sensor_id)
 {
     for (size_t i = gather->count; i-- > 0;) {
         if (gather->scans[i].sensor_id == sensor_id) {
@@ -38,8 +36,10 @@ static struct gathered_scan *newest_scan_of(struct scan_gather *gather, int32_t 
     return NULL;
 }
 
-/* Scans are in the order of their numbers within the file. */
-static struct gathered_scan *scan_with_order(struct scan_gather *gather, size_t order)
+/*
+ * The scan in memory with an index in the file, by binary search; NULL where it is not in memory.
+ */
+static struct gathered_scan *find_scan_by_order(struct scan_gather *gather, size_t order)
 {
     size_t first = 0, end = gather->count;
 
@@ -60,9 +60,10 @@ struct gathered_scan *scan_gather_find_scan(struct scan_gather *gather, int32_t 
                                             const struct row_number *number, int64_t time_us)
 {
     size_t order = scan_numbers_find_scan(&gather->numbers, sensor_id, number);
-    struct gathered_scan *scan = order == SCAN_NUMBERS_NONE ? NULL : scan_with_order(gather, order);
+    struct gathered_scan *scan =
+        order == SCAN_NUMBERS_NONE ? NULL : find_scan_by_order(gather, order);
 
-    scan = scan ? scan : newest_scan_of(gather, sensor_id);
+    scan = scan ? scan : newest_scan_of_sensor(gather, sensor_id);
     return scan && row_joins_scan(number, time_us, &scan->number, scan->start_us,
                                   gather->interval_us)
                ? scan
@@ -73,7 +74,7 @@ bool scan_gather_check_time(const struct scan_gather *gather, const struct gathe
                             int64_t time_us, const struct row_check *check)
 {
     bool is_within = scan && scan->number.is_given && !gather->has_clock;
-    int64_t clock_us = row_clock_us(gather, time_us);
+    int64_t clock_us = row_order_time_us(gather, time_us);
 
     return is_within || !gather->has_rows || clock_us >= gather->last_us ||
            row_refuse(check, "%s goes back from %.6f s to %.6f s",
@@ -83,14 +84,14 @@ bool scan_gather_check_time(const struct scan_gather *gather, const struct gathe
 
 static void note_row_time(struct scan_gather *gather, struct gathered_scan *scan, int64_t time_us)
 {
-    scan->heard_us = row_clock_us(gather, time_us);
+    scan->heard_us = row_order_time_us(gather, time_us);
     if (!gather->has_rows || scan->heard_us > gather->last_us) {
         gather->last_us = scan->heard_us;
     }
     gather->has_rows = true;
 }
 
-static void count_scan_begun(struct scan_gather *gather, int32_t sensor_id)
+static void count_begun_since(struct scan_gather *gather, int32_t sensor_id)
 {
     for (size_t i = 0; i < gather->count; i++) {
         gather->scans[i].begun_since += gather->scans[i].sensor_id == sensor_id;
@@ -102,13 +103,13 @@ struct gathered_scan *scan_gather_begin_scan(struct scan_gather *gather,
 {
     struct gathered_scan *begun;
 
-    count_scan_begun(gather, scan->sensor_id);
+    count_begun_since(gather, scan->sensor_id);
     gather->scans =
         must_grow(gather->scans, gather->count, &gather->capacity, sizeof *gather->scans);
     begun = &gather->scans[gather->count++];
     *begun = *scan;
     begun->start_us = begun->time_us = time_us;
-    begun->begun_us = begun->heard_us = row_clock_us(gather, time_us);
+    begun->begun_us = begun->heard_us = row_order_time_us(gather, time_us);
     begun->order = gather->order++;
     scan_numbers_drop_before(&gather->numbers, gather->scans[0].order);
     scan_numbers_set_scan(&gather->numbers, scan->sensor_id, &scan->number, begun->order);
@@ -130,7 +131,7 @@ void scan_gather_add_element(struct scan_gather *gather, struct gathered_scan *s
 void scan_gather_add_empty_row(struct scan_gather *gather, struct gathered_scan *scan,
                                int64_t time_us)
 {
-    /* that time is over */
+    /* a later scan was given out already: the scan keeps the time of its first row */
     bool is_given =
         gather->has_given && !gather->has_clock && time_us - scan->bias_us < gather->given_us;
 
@@ -144,11 +145,11 @@ void scan_gather_add_empty_row(struct scan_gather *gather, struct gathered_scan 
 /* ---- Scans ---- */
 
 /*
- * Not all rows take equally long to be received: a scan that is gathered over an interval has ended
- * when its sensor's next one has begun, or as long after it.
+ * Whether a scan gathered over an interval is complete by reception times, which lag by different
+ * delays: its sensor's next scan has begun, or two intervals have passed.
  */
-static bool is_scan_received(const struct scan_gather *gather, const struct gathered_scan *scan,
-                             int64_t since_us)
+static bool is_interval_scan_complete(const struct scan_gather *gather,
+                                      const struct gathered_scan *scan, int64_t since_us)
 {
     return scan->begun_since > 0 || since_us >= 2 * gather->interval_us;
 }
@@ -158,7 +159,7 @@ static bool is_scan_complete(const struct scan_gather *gather, const struct gath
     int64_t since_us = gather->last_us - scan->begun_us;
 
     if (gather->has_clock && gather->interval_us > 0 && !scan->number.is_given) {
-        return is_scan_received(gather, scan, since_us);
+        return is_interval_scan_complete(gather, scan, since_us);
     }
     if (scan->number.is_given && since_us <= RHO_LIMIT_OFFSET_US &&
         !(gather->begun_max && scan->begun_since >= gather->begun_max)) {
@@ -172,27 +173,28 @@ int64_t gathered_scan_time_us(const struct gathered_scan *scan)
     return scan->time_us - scan->bias_us;
 }
 
-/* A row to come may begin a scan that is before it: its sensor's clock may be ahead. */
-static bool may_be_preceded(const struct scan_gather *gather, const struct gathered_scan *scan)
+/* Whether a row to come may begin an earlier scan, since its sensor's clock may be ahead. */
+static bool may_be_preceded_by_new_scan(const struct scan_gather *gather,
+                                        const struct gathered_scan *scan)
 {
     return !gather->has_clock &&
            gather->last_us - gather->bias_max_us < gathered_scan_time_us(scan);
 }
 
-static bool comes_before(const struct scan_gather *gather, const struct gathered_scan *one,
-                         const struct gathered_scan *other)
+static bool goes_out_before(const struct scan_gather *gather, const struct gathered_scan *one,
+                            const struct gathered_scan *other)
 {
     return gather->has_clock ? one->begun_us < other->begun_us
                              : gathered_scan_time_us(one) < gathered_scan_time_us(other);
 }
 
-/* The one that is before all others. */
-static size_t find_first_scan(const struct scan_gather *gather)
+/* Index of the scan that goes out before all others. */
+static size_t find_next_scan_out(const struct scan_gather *gather)
 {
     size_t first = 0;
 
     for (size_t i = 1; i < gather->count; i++) {
-        if (comes_before(gather, &gather->scans[i], &gather->scans[first])) {
+        if (goes_out_before(gather, &gather->scans[i], &gather->scans[first])) {
             first = i;
         }
     }
@@ -201,10 +203,11 @@ static size_t find_first_scan(const struct scan_gather *gather)
 
 bool scan_gather_take_scan(struct scan_gather *gather, bool all, struct gathered_scan *scan)
 {
-    size_t first = find_first_scan(gather);
+    size_t first = find_next_scan_out(gather);
 
-    if (gather->count == 0 || (!all && (!is_scan_complete(gather, &gather->scans[first]) ||
-                                        may_be_preceded(gather, &gather->scans[first])))) {
+    if (gather->count == 0 ||
+        (!all && (!is_scan_complete(gather, &gather->scans[first]) ||
+                  may_be_preceded_by_new_scan(gather, &gather->scans[first])))) {
         return false;
     }
     *scan = gather->scans[first];

@@ -9,51 +9,51 @@
 #include "base/common.h"
 #include "rhotrack/message.h"
 
-#define SOON_US 1000000 /* an antenna that looks all round takes longer for it */
-#define LONE_LEAST 10   /* fewer say nothing */
-#define LIVE_LEAST 20   /* scans of a live sensor */
-#define IRREGULAR 3     /* the longest interval, in shortest ones */
+#define SOON_US 1000000 /* shorter than a turn of any antenna */
+#define LONE_LEAST 10   /* fewest lone scans that are reported of a file */
+#define LIVE_LEAST 20   /* fewest scans of a live sensor before it is reported */
+#define IRREGULAR 3     /* least ratio of the longest to the shortest interval */
 
 struct lone_sensor {
     int16_t sensor_id;
-    int64_t last_us; /* of its last scan */
+    int64_t last_us; /* time of the sensor's newest scan */
     uint64_t scans, lone;
-    int64_t shortest_us, longest_us; /* between lone ones */
+    int64_t shortest_us, longest_us; /* intervals before lone scans */
     bool is_said;
 };
 
-/* The members of a message that show whether it is a scan of its own. */
-struct look {
+/* Summary of a scan message, by which a scan counts as lone. */
+struct scan_summary {
     int16_t sensor_id, num_parts, num_plots;
     bool has_sector;
     int64_t time_us;
 };
 
-static bool read_scan_of_message(const struct message_event *event, struct look *look)
+static bool summarise_first_part(const struct message_event *event, struct scan_summary *summary)
 {
     static struct rho_message_plot_scan plots;
     static struct rho_message_polar_scan polar;
 
     if (text_begins_with(event->channel, RHO_MESSAGE_POLAR_SCAN_CHANNEL) &&
         rho_message_polar_scan_decode(event->data, event->size, &polar) == RHO_OK) {
-        *look = (struct look){polar.sensor_id, polar.num_parts, polar.num_polar_plots,
-                              polar.sector_from_rad != 0.0f || polar.sector_to_rad != 0.0f,
-                              polar.utime};
+        *summary = (struct scan_summary){
+            polar.sensor_id, polar.num_parts, polar.num_polar_plots,
+            polar.sector_from_rad != 0.0f || polar.sector_to_rad != 0.0f, polar.utime};
         return polar.part == 0;
     }
     if (text_begins_with(event->channel, RHO_MESSAGE_PLOT_SCAN_CHANNEL) &&
         rho_message_plot_scan_decode(event->data, event->size, &plots) == RHO_OK) {
-        *look = (struct look){plots.sensor_id, plots.num_parts, plots.num_plots,
-                              plots.sector_from_rad != 0.0f || plots.sector_to_rad != 0.0f,
-                              plots.utime};
+        *summary = (struct scan_summary){
+            plots.sensor_id, plots.num_parts, plots.num_plots,
+            plots.sector_from_rad != 0.0f || plots.sector_to_rad != 0.0f, plots.utime};
         return plots.part == 0;
     }
     return false;
 }
 
-/* NULL: the sensor's first scan. */
-static struct lone_sensor *find_lone_sensor(const struct scan_interval_hint *plots,
-                                            int16_t sensor_id)
+/* The sensor's counts, or NULL where it has no scan yet. */
+static struct lone_sensor *find_sensor_counts(const struct scan_interval_hint *plots,
+                                              int16_t sensor_id)
 {
     for (size_t i = 0; i < plots->count; i++) {
         if (plots->sensors[i].sensor_id == sensor_id) {
@@ -67,17 +67,18 @@ void scan_interval_hint_add_message(struct scan_interval_hint *plots,
                                     const struct message_event *event)
 {
     struct lone_sensor *sensor;
-    struct look look;
+    struct scan_summary summary;
 
-    if (!read_scan_of_message(event, &look)) {
+    if (!summarise_first_part(event, &summary)) {
         return;
     }
     plots->scans++;
-    sensor = find_lone_sensor(plots, look.sensor_id);
+    sensor = find_sensor_counts(plots, summary.sensor_id);
     if (sensor) {
-        const int64_t since_us = look.time_us - sensor->last_us;
+        const int64_t since_us = summary.time_us - sensor->last_us;
 
-        if (look.num_parts == 1 && look.num_plots == 1 && !look.has_sector && since_us < SOON_US) {
+        if (summary.num_parts == 1 && summary.num_plots == 1 && !summary.has_sector &&
+            since_us < SOON_US) {
             plots->lone++;
             sensor->lone++;
             sensor->shortest_us = since_us < sensor->shortest_us ? since_us : sensor->shortest_us;
@@ -87,10 +88,10 @@ void scan_interval_hint_add_message(struct scan_interval_hint *plots,
         plots->sensors =
             must_grow(plots->sensors, plots->count, &plots->capacity, sizeof *plots->sensors);
         sensor = &plots->sensors[plots->count++];
-        *sensor = (struct lone_sensor){.sensor_id = look.sensor_id, .shortest_us = SOON_US};
+        *sensor = (struct lone_sensor){.sensor_id = summary.sensor_id, .shortest_us = SOON_US};
     }
     sensor->scans++;
-    sensor->last_us = look.time_us;
+    sensor->last_us = summary.time_us;
 }
 
 void scan_interval_hint_report(const struct scan_interval_hint *plots, const char *path)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scan_interval_hint: whether a file's plots, each with a time of its own, have become scans of one
- * plot each: then a turn was meant as the scan, and scan_interval_s makes it.
+ * scan_interval_hint: detects plots with a time each that have become scans of one plot: then the
+ * user probably forgot scan_interval_s, which gathers the plots of a turn into one scan.
  */
 #ifndef RHOTRACK_TOOL_SCAN_INTERVAL_HINT_H
 #define RHOTRACK_TOOL_SCAN_INTERVAL_HINT_H
@@ -11,24 +11,24 @@
 
 #include "io/log/message_source.h"
 
-/* All zero at the start. */
+/* Counts of scans and of lone ones, with a single plot. Initialised with zeros. */
 struct scan_interval_hint {
-    uint64_t scans,
-        lone; /* lone: of one plot, without a sector, soon after its sensor's last scan */
+    /* lone: one plot, without a sector, less than a second after the sensor's scan before */
+    uint64_t scans, lone;
     struct lone_sensor *sensors;
     size_t count, capacity;
 };
 
-/* A message of the file; others than scans of plots are left out. */
+/* Counts a message; others than scans of plots are ignored. */
 void scan_interval_hint_add_message(struct scan_interval_hint *plots,
                                     const struct message_event *event);
 
-/* One line on standard error where most scans are such. */
+/* Reports on standard error, in one line, if most scans have a single plot. */
 void scan_interval_hint_report(const struct scan_interval_hint *plots, const char *path);
 
 /*
- * The same of sensors that are heard live: a line each, once, where their scans come irregularly
- * as well, as plots of a turn do.
+ * Reports once for each live sensor whose scans mostly have a single plot and come irregularly, as
+ * the plots of a turning antenna do.
  */
 void scan_interval_hint_report_live(struct scan_interval_hint *plots);
 

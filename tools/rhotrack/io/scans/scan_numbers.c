@@ -8,13 +8,13 @@
 
 struct scan_numbers_slot {
     int32_t sensor_id;
-    struct row_number number; /* not given: the slot is free */
+    struct row_number number; /* is_given false: the slot is free */
     size_t scan;
 };
 
 /*
- * Of the key's bits each one counts in the lower ones of the result (the multiplier is 2^64 by the
- * golden ratio).
+ * Hash of a sensor and number: multiplicative, by 2^64 over the golden ratio, so that every bit of
+ * the key affects the lower bits of the result.
  */
 static size_t hash_number(int32_t sensor_id, const struct row_number *number)
 {
@@ -26,9 +26,9 @@ static size_t hash_number(int32_t sensor_id, const struct row_number *number)
     return (size_t)(mixed ^ mixed >> 32);
 }
 
-/* The key's slot, or the free one where it would go; there is always a free one. */
-static struct scan_numbers_slot *number_slot(const struct scan_numbers *numbers, int32_t sensor_id,
-                                             const struct row_number *number)
+/* The slot of a sensor and number, or the free slot for it; there is always a free one. */
+static struct scan_numbers_slot *find_slot(const struct scan_numbers *numbers, int32_t sensor_id,
+                                           const struct row_number *number)
 {
     size_t at = hash_number(sensor_id, number);
 
@@ -59,10 +59,10 @@ static size_t count_wanted_slots(const struct scan_numbers *numbers)
 }
 
 /*
- * At most half of the slots are taken; after a new table for those that are wanted, at most a
- * quarter.
+ * Ensures that at most half of the slots are used: makes a new table of the wanted slots, at most a
+ * quarter full, where needed.
  */
-static void grow_slots(struct scan_numbers *numbers)
+static void ensure_free_slots(struct scan_numbers *numbers)
 {
     const struct scan_numbers old = *numbers;
 
@@ -76,7 +76,7 @@ static void grow_slots(struct scan_numbers *numbers)
     numbers->slots = must_calloc(numbers->capacity, sizeof *numbers->slots);
     for (size_t i = 0; i < old.capacity; i++) {
         if (is_slot_wanted(&old, &old.slots[i])) {
-            *number_slot(numbers, old.slots[i].sensor_id, &old.slots[i].number) = old.slots[i];
+            *find_slot(numbers, old.slots[i].sensor_id, &old.slots[i].number) = old.slots[i];
         }
     }
     free(old.slots);
@@ -90,7 +90,7 @@ size_t scan_numbers_find_scan(const struct scan_numbers *numbers, int32_t sensor
     if (!number->is_given || numbers->count == 0) {
         return SCAN_NUMBERS_NONE;
     }
-    slot = number_slot(numbers, sensor_id, number);
+    slot = find_slot(numbers, sensor_id, number);
     return slot->number.is_given ? slot->scan : SCAN_NUMBERS_NONE;
 }
 
@@ -102,8 +102,8 @@ void scan_numbers_set_scan(struct scan_numbers *numbers, int32_t sensor_id,
     if (!number->is_given) {
         return;
     }
-    grow_slots(numbers);
-    slot = number_slot(numbers, sensor_id, number);
+    ensure_free_slots(numbers);
+    slot = find_slot(numbers, sensor_id, number);
     numbers->count += !slot->number.is_given;
     *slot = (struct scan_numbers_slot){sensor_id, *number, scan};
 }

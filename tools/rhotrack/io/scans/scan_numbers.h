@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scan_numbers: which scan of a file has a number. Rows of successive scans may come mixed: a radar
- * that turns begins a scan before the last plots of the one before have their time.
+ * scan_numbers: finds a file's scan by its sensor and number (scan and epoch), in a hash table.
+ * Rows of successive scans may be mixed: an antenna may begin a turn before the last plots of the
+ * turn before are reported.
  */
 #ifndef RHOTRACK_TOOL_SCAN_NUMBERS_H
 #define RHOTRACK_TOOL_SCAN_NUMBERS_H
@@ -13,28 +14,32 @@
 
 #define SCAN_NUMBERS_NONE SIZE_MAX
 
-/* Starts as zeros. */
+/* Hash table from sensors and scan numbers to scans. Initialised with zeros. */
 struct scan_numbers {
     struct scan_numbers_slot *slots;
     size_t count, capacity; /* capacity: a power of two */
-    size_t dropped;         /* scans before this one are not wanted any more */
+    size_t dropped;         /* scans with smaller indices are no longer wanted */
 };
 
 /*
- * The newest scan of a sensor with that number, or SCAN_NUMBERS_NONE, also for a number that is not
- * given. Constant cost.
+ * Index of the newest scan of a sensor with a number, or SCAN_NUMBERS_NONE, also where the number
+ * is not given. Constant cost.
  */
 size_t scan_numbers_find_scan(const struct scan_numbers *numbers, int32_t sensor_id,
                               const struct row_number *number);
 
-/* From now on that scan; a number that is not given leaves all as it is. */
+/*
+ * Assigns the index of a scan to a sensor and number; does nothing where the number is not given.
+ */
 void scan_numbers_set_scan(struct scan_numbers *numbers, int32_t sensor_id,
                            const struct row_number *number, size_t scan);
 
-/* Scans before that one may be forgotten: memory is that for those from it on. */
+/*
+ * Allows scans with smaller indices to be forgotten, so that memory is needed only for the others.
+ */
 void scan_numbers_drop_before(struct scan_numbers *numbers, size_t before);
 
-/* Forgets all, as before another file. */
+/* Forgets all scans, for another file. */
 void scan_numbers_clear(struct scan_numbers *numbers);
 
 #endif

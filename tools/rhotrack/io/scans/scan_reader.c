@@ -8,13 +8,13 @@
 
 struct scan_reader {
     struct scan_files files;
-    struct sensor_scan now; /* handed out */
+    struct sensor_scan now; /* the scan handed out */
     uint64_t scans, plots;
 };
 
-static struct scan_reader *open_files(char *const *paths, int num_paths,
-                                      const struct parameters *parameters,
-                                      struct scan_source_options options)
+static struct scan_reader *open_reader(char *const *paths, int num_paths,
+                                       const struct parameters *parameters,
+                                       struct scan_source_options options)
 {
     struct scan_reader *reader = must_calloc(1, sizeof *reader);
 
@@ -26,22 +26,22 @@ static struct scan_reader *open_files(char *const *paths, int num_paths,
 struct scan_reader *scan_reader_open(char *const *paths, int num_paths,
                                      const struct parameters *parameters, bool keep_going)
 {
-    return open_files(paths, num_paths, parameters,
-                      (struct scan_source_options){.keep_going = keep_going});
+    return open_reader(paths, num_paths, parameters,
+                       (struct scan_source_options){.keep_going = keep_going});
 }
 
 struct scan_reader *scan_reader_follow(char *path, const struct parameters *parameters,
                                        bool keep_going)
 {
-    return open_files(&path, 1, parameters,
-                      (struct scan_source_options){.keep_going = keep_going, .follow = true});
+    return open_reader(&path, 1, parameters,
+                       (struct scan_source_options){.keep_going = keep_going, .follow = true});
 }
 
 struct scan_reader *scan_reader_open_without_sensors(char *const *paths, int num_paths,
                                                      const struct parameters *parameters)
 {
-    return open_files(paths, num_paths, parameters,
-                      (struct scan_source_options){.may_lack_sensor = true});
+    return open_reader(paths, num_paths, parameters,
+                       (struct scan_source_options){.may_lack_sensor = true});
 }
 
 const struct rho_scan *scan_reader_next(struct scan_reader *reader)
@@ -55,7 +55,7 @@ const struct rho_scan *scan_reader_next(struct scan_reader *reader)
     return &reader->now.scan;
 }
 
-/* Of a file that is followed, which is the only one. */
+/* The source of a followed file, which is the only file. */
 static struct scan_source *followed_source(const struct scan_reader *reader)
 {
     return reader->files.list[0].source;

@@ -14,31 +14,32 @@
 #include "io/scans/scan_gather.h"
 #include "io/turns/antenna_turns.h"
 
-#define FOLLOW_BEGUN_MAX 2 /* a numbered scan's last plots may come a minute later */
+/* newer scans of its sensor after which a followed, numbered scan is complete */
+#define FOLLOW_BEGUN_MAX 2
 
 struct scan_source {
     const char *path;
     const struct parameters *parameters;
     struct scan_source_options options;
-    struct log_scans *log;       /* or NULL, and */
-    struct table_stream *stream; /* or NULL */
+    struct log_scans *log;       /* NULL: the file is not a log */
+    struct table_stream *stream; /* NULL: the file is a log */
     bool has_columns, has_good, is_over, waits, is_complete;
     struct record_columns columns;
     struct antenna_turns *turns; /* NULL: rows are gathered by their times and numbers */
     struct scan_gather gather;
-    struct reorder_buffer reorder; /* of a file with times of reception, or of a log */
-    uint32_t item;                 /* of a log: the newest scan of bearings, 1-based */
-    uint64_t rows_skipped;         /* but those of the stream */
+    struct reorder_buffer reorder; /* for a file with reception times, or a log */
+    uint32_t item;                 /* of a log: number of the newest scan of bearings, from 1 */
+    uint64_t rows_skipped;         /* bad rows found here; the stream counts its own */
 };
 
 /* ---- Rows to scans ---- */
 
-/* Checks the values that a row must have in common with the scan that it would join. */
+/* Checks that a row has the values that all rows of its scan must share. */
 static bool check_row_fits_scan(const struct scan_source *source, const struct gathered_scan *scan,
                                 const struct record *row, const struct row_check *check)
 {
     if (!scan || source->turns) {
-        return true; /* what all rows of a turn have counts */
+        return true; /* a turn measures what all its rows measure */
     }
     if (row->sector_from_rad != scan->sector_from_rad ||
         row->sector_to_rad != scan->sector_to_rad) {
@@ -54,9 +55,9 @@ static bool check_row_fits_scan(const struct scan_source *source, const struct g
                              "or in none");
 }
 
-/* Sensors of bearings are one list over all files. */
-static bool check_known_sensor(const struct scan_source *source, const struct record *row,
-                               const struct row_check *check)
+/* Checks a row's sensor against the sensors of bearings of all files. */
+static bool check_bearing_sensor(const struct scan_source *source, const struct record *row,
+                                 const struct row_check *check)
 {
     return source->options.kind == RECORD_PLOTS ||
            known_sensors_check_row(source->options.known, source->path, row, check);
@@ -72,7 +73,8 @@ static bool check_received_fits_scan(const struct scan_gather *gather,
                                        gather->interval_us);
 }
 
-static struct gathered_scan *begin_scan(struct scan_source *source, const struct record *row)
+static struct gathered_scan *begin_scan_with_row(struct scan_source *source,
+                                                 const struct record *row)
 {
     const struct gathered_scan scan = {.sensor_id = row->sensor_id,
                                        .number = row->number,
@@ -86,15 +88,15 @@ static struct gathered_scan *begin_scan(struct scan_source *source, const struct
     return scan_gather_begin_scan(&source->gather, &scan, row->time_us);
 }
 
-static void add_row(struct scan_source *source, struct gathered_scan *scan,
-                    const struct record *row)
+static void add_row_to_scan(struct scan_source *source, struct gathered_scan *scan,
+                            const struct record *row)
 {
     bool is_bearing = source->options.kind == RECORD_BEARINGS;
 
     if (is_bearing) {
         known_sensors_add_row(source->options.known, source->path, row);
     }
-    scan = scan ? scan : begin_scan(source, row);
+    scan = scan ? scan : begin_scan_with_row(source, row);
     if (!row->has_measurement) {
         scan_gather_add_empty_row(&source->gather, scan, row->time_us);
         return;
@@ -122,8 +124,8 @@ static void find_columns(struct scan_source *source, const struct table *table)
     }
 }
 
-/* Rows without numbers get those of the antenna's turns. */
-static void number_by_turn(const struct scan_source *source, struct record *row)
+/* Numbers a row by the turn of its antenna, where the file's turns were found. */
+static void number_row_by_turn(const struct scan_source *source, struct record *row)
 {
     const double place_m[2] = {(double)row->plot.x_m - (double)row->sensor.x_m,
                                (double)row->plot.y_m - (double)row->sensor.y_m};
@@ -137,8 +139,8 @@ static void number_by_turn(const struct scan_source *source, struct record *row)
     }
 }
 
-/* The row that the table has. */
-static void take_table_row(struct scan_source *source, const struct table *table)
+/* Checks the table's row and adds it to a scan; a bad row is an error, or skipped and counted. */
+static void process_table_row(struct scan_source *source, const struct table *table)
 {
     char reason[ROW_REASON_BYTES];
     const struct row_check check = {.table = table, .row = 0, .reason = reason};
@@ -152,17 +154,17 @@ static void take_table_row(struct scan_source *source, const struct table *table
         scan_gather_set_reception(&source->gather, row.received_us);
     }
     if (is_good) {
-        number_by_turn(source, &row);
+        number_row_by_turn(source, &row);
         scan = scan_gather_find_scan(&source->gather, row.sensor_id, &row.number, row.time_us);
         is_good = scan_gather_check_time(&source->gather, source->turns ? NULL : scan, row.time_us,
                                          &check) &&
                   check_received_fits_scan(&source->gather, scan, &row, &check) &&
                   check_row_fits_scan(source, scan, &row, &check) &&
-                  check_known_sensor(source, &row, &check);
+                  check_bearing_sensor(source, &row, &check);
     }
     if (is_good) {
         source->has_good = true;
-        add_row(source, scan, &row);
+        add_row_to_scan(source, scan, &row);
         return;
     }
     if (!source->options.keep_going) {
@@ -172,9 +174,10 @@ static void take_table_row(struct scan_source *source, const struct table *table
 }
 
 /*
- * A file that ends without a good row; of one that is followed there may have been no time for any.
+ * Exit 2 where a file ends without a good row, unless it is followed, when rows may not have come
+ * yet.
  */
-static void check_any_good_row(const struct scan_source *source, const struct table *table)
+static void need_any_good_row(const struct scan_source *source, const struct table *table)
 {
     if (source->has_good || source->options.follow) {
         return;
@@ -185,8 +188,8 @@ static void check_any_good_row(const struct scan_source *source, const struct ta
     table_fail_at_row(table, TABLE_HEADER, "not one good row after the header");
 }
 
-/* One row more, or the end, or nothing. */
-static void read_next_row(struct scan_source *source)
+/* Reads one more row and processes it, or notes the end, or that none is there yet. */
+static void process_next_row(struct scan_source *source)
 {
     enum table_stream_found found = table_stream_next(source->stream);
     const struct table *table = table_stream_table(source->stream);
@@ -194,10 +197,10 @@ static void read_next_row(struct scan_source *source)
     source->waits = found == TABLE_STREAM_WAITS;
     if (found == TABLE_STREAM_ROW) {
         source->is_complete = false;
-        take_table_row(source, table);
+        process_table_row(source, table);
     } else if (found == TABLE_STREAM_END) {
         source->is_over = true;
-        check_any_good_row(source, table);
+        need_any_good_row(source, table);
     }
 }
 
@@ -253,7 +256,7 @@ static void fill_sensor_scan(const struct scan_source *source, struct sensor_sca
     gathered_scan_free(scan);
 }
 
-/* The next scan in the order of its rows. *heard_us: when its last row was received. */
+/* Takes the next complete scan of a table. *heard_us: reception time of its last row. */
 static bool next_gathered_scan(struct scan_source *source, struct sensor_scan *scan,
                                int64_t *heard_us)
 {
@@ -264,7 +267,7 @@ static bool next_gathered_scan(struct scan_source *source, struct sensor_scan *s
         if (source->is_over) {
             return false;
         }
-        read_next_row(source);
+        process_next_row(source);
         if (source->waits) {
             return false;
         }
@@ -274,7 +277,7 @@ static bool next_gathered_scan(struct scan_source *source, struct sensor_scan *s
     return true;
 }
 
-/* Where rows say when they were received, scans wait hold_ms for earlier ones. */
+/* Next scan of a table; where rows have reception times, scans wait hold_ms for earlier ones. */
 static bool next_table_scan(struct scan_source *source, struct sensor_scan *scan)
 {
     int64_t heard_us;
@@ -296,10 +299,11 @@ static bool next_table_scan(struct scan_source *source, struct sensor_scan *scan
 }
 
 /*
- * The sensor of a log's scan of bearings becomes known, or is refused; the scan's number stands for
- * a line.
+ * Adds the sensor of a log's scan of bearings, or refuses the scan where the sensor is bad; the
+ * scan's number stands for a line.
  */
-static bool add_bearing_sensor(struct scan_source *source, const struct rho_bearing_scan *item)
+static bool add_or_refuse_bearing_sensor(struct scan_source *source,
+                                         const struct rho_bearing_scan *item)
 {
     const struct record row = {.sensor_id = item->sensor_id,
                                .line = ++source->item,
@@ -319,22 +323,22 @@ static bool add_bearing_sensor(struct scan_source *source, const struct rho_bear
     return false;
 }
 
-/* Items of the other kind are left out. */
-static bool is_item_wanted(struct scan_source *source, const struct rho_scan_assembler_item *item)
+/* Whether the item is of the wanted kind, and of a sensor that is accepted. */
+static bool accept_item(struct scan_source *source, const struct rho_scan_assembler_item *item)
 {
     bool is_bearings = item->kind == RHO_SCAN_ASSEMBLER_BEARINGS;
 
     return is_bearings == (source->options.kind == RECORD_BEARINGS) &&
-           (!is_bearings || add_bearing_sensor(source, &item->bearings));
+           (!is_bearings || add_or_refuse_bearing_sensor(source, &item->bearings));
 }
 
-/* In new memory; NULL where there is nothing. */
-static void *copy_list(const void *list, size_t count, size_t bytes)
+/* Copies a list to new memory; NULL where it is empty. */
+static void *copy_array(const void *list, size_t count, size_t bytes)
 {
     return count > 0 ? memcpy(must_calloc(count, bytes), list, count * bytes) : NULL;
 }
 
-static bool take_log_scan(struct scan_source *source, struct sensor_scan *scan)
+static bool read_log_scan(struct scan_source *source, struct sensor_scan *scan)
 {
     struct rho_scan_assembler_item item;
 
@@ -342,17 +346,18 @@ static bool take_log_scan(struct scan_source *source, struct sensor_scan *scan)
         if (!log_scans_next(source->log, &item)) {
             return false;
         }
-    } while (!is_item_wanted(source, &item));
+    } while (!accept_item(source, &item));
     *scan = (struct sensor_scan){.is_bearings = item.kind == RHO_SCAN_ASSEMBLER_BEARINGS,
                                  .path = source->path,
                                  .line = source->item};
     if (scan->is_bearings) {
         scan->bearings = item.bearings;
-        scan->bearings.bearings = copy_list(item.bearings.bearings, item.bearings.num_bearings,
-                                            sizeof(struct rho_bearing));
+        scan->bearings.bearings = copy_array(item.bearings.bearings, item.bearings.num_bearings,
+                                             sizeof(struct rho_bearing));
     } else {
         scan->scan = item.scan;
-        scan->scan.plots = copy_list(item.scan.plots, item.scan.num_plots, sizeof(struct rho_plot));
+        scan->scan.plots =
+            copy_array(item.scan.plots, item.scan.num_plots, sizeof(struct rho_plot));
         scan->has_sensor = item.has_sensor;
         scan->sensor = item.sensor;
     }
@@ -360,15 +365,15 @@ static bool take_log_scan(struct scan_source *source, struct sensor_scan *scan)
 }
 
 /*
- * An assembler has room for RHO_MAX_OPEN_SCANS, and does not wait for a sensor of which it has not
- * heard: scans that leave it too early are put in order here.
+ * Next scan of a log in the order of time: an assembler has room for RHO_MAX_OPEN_SCANS, and does
+ * not wait for a sensor that it has not heard, so that the reorder buffer has to sort its scans.
  */
-static bool next_log_scan(struct scan_source *source, struct sensor_scan *scan)
+static bool next_log_scan_in_order(struct scan_source *source, struct sensor_scan *scan)
 {
     struct sensor_scan next;
 
     while (!reorder_buffer_take(&source->reorder, false, scan)) {
-        if (!take_log_scan(source, &next)) {
+        if (!read_log_scan(source, &next)) {
             return reorder_buffer_take(&source->reorder, true, scan);
         }
         if (source->reorder.hold_us == 0) {
@@ -383,12 +388,15 @@ static bool next_log_scan(struct scan_source *source, struct sensor_scan *scan)
 
 bool scan_source_next(struct scan_source *source, struct sensor_scan *scan)
 {
-    return source->log ? next_log_scan(source, scan) : next_table_scan(source, scan);
+    return source->log ? next_log_scan_in_order(source, scan) : next_table_scan(source, scan);
 }
 
 /* ---- Opening ---- */
 
-/* The file can be read twice, and says neither numbers nor sectors of scans. */
+/*
+ * Whether turns may be searched for: the file can be read twice, and states neither numbers nor
+ * sectors of scans.
+ */
 static bool may_have_turns(const struct scan_source *source)
 {
     const struct record_columns *columns = &source->columns;
@@ -415,8 +423,10 @@ static void close_stream(struct scan_source *source)
     source->has_columns = false;
 }
 
-/* Looks at the first rows for turns of antennas. The source's own stream is not open. */
-static void find_turns(struct scan_source *source)
+/*
+ * Searches the first rows for turns of antennas, in a second stream; the source's own is not open.
+ */
+static void find_antenna_turns(struct scan_source *source)
 {
     struct table_stream *stream =
         table_stream_open(source->path, source->parameters, true, source->options.follow);
@@ -460,15 +470,15 @@ static void open_table(struct scan_source *source)
     open_stream(source);
     if (may_have_turns(source)) {
         close_stream(source);
-        find_turns(source);
+        find_antenna_turns(source);
         open_stream(source);
         source->gather.begun_max = source->turns ? 1 : source->gather.begun_max;
     }
 }
 
 /*
- * Plots are put in order here, with all the room there is; bearings by the scan assembly. Of a log
- * of both kinds the reader of plots says what is wrong.
+ * Plots are reordered here, with unlimited room; bearings by the scan assembler. For a log of both
+ * kinds only the reader of plots reports faults.
  */
 static void open_log(struct scan_source *source)
 {

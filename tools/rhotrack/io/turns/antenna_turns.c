@@ -8,22 +8,24 @@
 #include "base/common.h"
 #include "io/turns/turn_search.h"
 
-#define LOOKED_MAX 6000       /* rows */
-#define SENSOR_MAX 3000       /* of one sensor */
-#define GAIN 0.2              /* by which a plot corrects where the antenna is */
-#define ASTRAY_RAD (M_PI / 3) /* a plot so far from where the antenna looks tells nothing */
-#define LOST_TURNS 2.0        /* without a plot: the antenna is wherever the next one says */
-#define SAID_MAX 64           /* files */
+#define ROWS_MAX 6000        /* largest number of rows collected for the search */
+#define SENSOR_ROWS_MAX 3000 /* largest number of rows collected of one sensor */
+/* share of a plot's azimuth residual that corrects the antenna's angle */
+#define GAIN 0.2
+#define ASTRAY_RAD (M_PI / 3) /* a plot farther from the antenna's angle does not correct it */
+#define LOST_TURNS 2.0        /* after so many turns without a plot the next plot sets the angle */
+#define FILES_REMEMBERED 64   /* largest number of files remembered as reported */
 #define TURN_RAD (2 * M_PI)
 
 struct antenna {
     int32_t sensor_id;
     struct turn_rule rule;
-    struct turn_plot *plots; /* looked at */
+    struct turn_plot *plots; /* rows collected for the search */
     size_t count, capacity;
-    bool is_running;   /* it has had a row */
-    int64_t last_us;   /* of its newest row */
-    double turned_rad; /* since the first cut, at last_us, in the direction of turning */
+    bool is_running; /* a first row has been numbered */
+    int64_t last_us; /* time of the newest row */
+    /* angle turned since the first cut, at last_us, in the direction of turning */
+    double turned_rad;
     int32_t number;
 };
 
@@ -62,18 +64,21 @@ bool antenna_turns_look_at_row(struct antenna_turns *turns, int32_t sensor_id, i
         antenna = &turns->list[turns->count++];
         *antenna = (struct antenna){.sensor_id = sensor_id};
     }
-    if (antenna->count < SENSOR_MAX) {
+    if (antenna->count < SENSOR_ROWS_MAX) {
         antenna->plots =
             must_grow(antenna->plots, antenna->count, &antenna->capacity, sizeof *antenna->plots);
         antenna->plots[antenna->count++] = (struct turn_plot){time_us, x_m, y_m};
     }
-    return ++turns->looked < LOOKED_MAX;
+    return ++turns->looked < ROWS_MAX;
 }
 
-/* A file that is played again and again is named once, known by a sum over its path. */
-static bool was_file_reported(const char *path)
+/*
+ * Whether the file's rules were reported before, remembered by a hash of its path from now on: a
+ * file that is played in a loop is reported once.
+ */
+static bool test_and_set_file_reported(const char *path)
 {
-    static uint64_t said[SAID_MAX];
+    static uint64_t said[FILES_REMEMBERED];
     static size_t num_said;
     uint64_t sum = 14695981039346656037u;
 
@@ -85,7 +90,7 @@ static bool was_file_reported(const char *path)
             return true;
         }
     }
-    if (num_said < SAID_MAX) {
+    if (num_said < FILES_REMEMBERED) {
         said[num_said++] = sum;
     }
     return false;
@@ -117,7 +122,7 @@ static void report_rule(const struct antenna *antenna, const char *path)
 
 bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, double v_max_mps)
 {
-    const bool was_said = was_file_reported(path);
+    const bool was_said = test_and_set_file_reported(path);
     bool has_any = false;
 
     for (size_t i = 0; i < turns->count; i++) {
@@ -133,10 +138,11 @@ bool antenna_turns_find_rules(struct antenna_turns *turns, const char *path, dou
 }
 
 /*
- * How far the antenna has turned since its cut, if it looks there, within half a turn of a guess.
+ * Angle that the antenna has turned since its cut when it points at the place, within half a turn
+ * of a guess.
  */
-static double turned_angle_near(const struct turn_rule *rule, const double place_m[2],
-                                double guess_rad)
+static double turned_angle_at_place(const struct turn_rule *rule, const double place_m[2],
+                                    double guess_rad)
 {
     double since_cut = atan2(place_m[1], place_m[0]) - rule->cut_rad;
 
@@ -144,8 +150,8 @@ static double turned_angle_near(const struct turn_rule *rule, const double place
     return guess_rad + remainder(since_cut - guess_rad, TURN_RAD);
 }
 
-/* The turn of a row; a gap of some turns counts as one. */
-static void advance_antenna(struct antenna *antenna, int64_t time_us, const double *place_m)
+/* Advances the antenna's angle and turn number to a row; a gap of several turns counts as one. */
+static void advance_antenna_to_row(struct antenna *antenna, int64_t time_us, const double *place_m)
 {
     const struct turn_rule *rule = &antenna->rule;
     const double rest_s = (double)(time_us - antenna->last_us) * 1e-6;
@@ -153,14 +159,14 @@ static void advance_antenna(struct antenna *antenna, int64_t time_us, const doub
 
     if (!antenna->is_running || rest_s > LOST_TURNS * rule->turn_s) {
         antenna->turned_rad = TURN_RAD * (antenna->number + 0.5);
-        antenna->turned_rad =
-            place_m ? turned_angle_near(rule, place_m, antenna->turned_rad) : antenna->turned_rad;
+        antenna->turned_rad = place_m ? turned_angle_at_place(rule, place_m, antenna->turned_rad)
+                                      : antenna->turned_rad;
         here_rad = antenna->turned_rad;
         antenna->number++;
     } else {
         antenna->turned_rad += fabs(rule->rate_rad_s) * rest_s;
-        here_rad =
-            place_m ? turned_angle_near(rule, place_m, antenna->turned_rad) : antenna->turned_rad;
+        here_rad = place_m ? turned_angle_at_place(rule, place_m, antenna->turned_rad)
+                           : antenna->turned_rad;
         here_rad =
             fabs(here_rad - antenna->turned_rad) > ASTRAY_RAD ? antenna->turned_rad : here_rad;
         antenna->turned_rad += GAIN * (here_rad - antenna->turned_rad);
@@ -177,7 +183,7 @@ int32_t antenna_turns_number_row(struct antenna_turns *turns, int32_t sensor_id,
         return 0;
     }
     if (antenna->rule.kind == TURN_AZIMUTHS) {
-        advance_antenna(antenna, time_us, place_m);
+        advance_antenna_to_row(antenna, time_us, place_m);
     } else {
         antenna->number +=
             !antenna->is_running || time_us - antenna->last_us > antenna->rule.gap_us;

@@ -10,37 +10,38 @@
 #include "io/scans/scan_reader.h"
 #include "rhotrack/detail/window.h"
 
-/* A sensor, and where its turn under way stands in the list. */
-struct looker {
+/* A sensor, and the place of its current turn in the list. */
+struct turning_sensor {
     int32_t sensor_id;
-    int64_t last_us;           /* of its newest scan */
-    struct rho_window *window; /* NULL as long as it looks all round */
-    bool is_open;              /* the turn is in the list, at */
+    int64_t last_us;           /* time of the sensor's newest scan */
+    struct rho_window *window; /* NULL until the sensor gives a sector */
+    bool is_open;              /* the current turn is in the list of turns, at index `at` */
     size_t at;
 };
 
 struct reading {
     struct revolutions revolutions;
-    struct looker *lookers;
-    size_t num_lookers, capacity;
+    struct turning_sensor *sensors;
+    size_t num_sensors, capacity;
 };
 
 /* ---- Sensors ---- */
 
-static struct looker *find_looker(struct reading *reading, const struct rho_scan *scan)
+static struct turning_sensor *find_or_add_sensor(struct reading *reading,
+                                                 const struct rho_scan *scan)
 {
-    struct looker *looker;
+    struct turning_sensor *turning;
 
-    for (size_t i = 0; i < reading->num_lookers; i++) {
-        if (reading->lookers[i].sensor_id == scan->sensor_id) {
-            return &reading->lookers[i];
+    for (size_t i = 0; i < reading->num_sensors; i++) {
+        if (reading->sensors[i].sensor_id == scan->sensor_id) {
+            return &reading->sensors[i];
         }
     }
-    reading->lookers = must_grow(reading->lookers, reading->num_lookers, &reading->capacity,
-                                 sizeof *reading->lookers);
-    looker = &reading->lookers[reading->num_lookers++];
-    *looker = (struct looker){.sensor_id = scan->sensor_id, .last_us = INT64_MIN};
-    return looker;
+    reading->sensors = must_grow(reading->sensors, reading->num_sensors, &reading->capacity,
+                                 sizeof *reading->sensors);
+    turning = &reading->sensors[reading->num_sensors++];
+    *turning = (struct turning_sensor){.sensor_id = scan->sensor_id, .last_us = INT64_MIN};
+    return turning;
 }
 
 static bool is_whole_circle(const struct rho_scan *scan)
@@ -50,28 +51,28 @@ static bool is_whole_circle(const struct rho_scan *scan)
 }
 
 /*
- * Whether the scan is a further sector of the sensor's turn. The window sees the sectors, not their
- * plots.
+ * Pushes the scan, without its plots, to the sensor's window. Returns whether it is a further
+ * sector of the sensor's current turn.
  */
-static bool continues_turn(struct looker *looker, const struct rho_scan *scan,
-                           const struct rho_sensor *sensor)
+static bool push_scan_continues_turn(struct turning_sensor *turning, const struct rho_scan *scan,
+                                     const struct rho_sensor *sensor)
 {
     struct rho_scan bare = *scan;
     uint32_t left_unused = 0;
     bool is_further;
 
-    if (!looker->window) {
+    if (!turning->window) {
         if (is_whole_circle(scan)) {
             return false;
         }
-        looker->window = must_alloc(sizeof *looker->window);
-        if (rho_window_init(looker->window, sizeof *looker->window, 1, NULL, 0) != RHO_OK) {
+        turning->window = must_alloc(sizeof *turning->window);
+        if (rho_window_init(turning->window, sizeof *turning->window, 1, NULL, 0) != RHO_OK) {
             fail(EXIT_RUNTIME, "turns: the library refuses a window");
         }
     }
     bare.num_plots = 0;
-    is_further = rho_window_continues(looker->window, &bare, sensor) != 0;
-    if (rho_window_push(looker->window, &bare, sensor, NULL, &left_unused) != RHO_OK) {
+    is_further = rho_window_continues(turning->window, &bare, sensor) != 0;
+    if (rho_window_push(turning->window, &bare, sensor, NULL, &left_unused) != RHO_OK) {
         fail(EXIT_USAGE, "sensor %" PRId32 ": the sector %g .. %g rad is none", scan->sensor_id,
              (double)scan->sector_from_rad, (double)scan->sector_to_rad);
     }
@@ -83,7 +84,8 @@ static bool continues_turn(struct looker *looker, const struct rho_scan *scan,
 static void add_plots_to_turn(struct revolution *turn, const struct rho_scan *scan)
 {
     size_t count = (size_t)turn->scan.num_plots + scan->num_plots;
-    int32_t after_us = (int32_t)(scan->time_us - turn->scan.time_us); /* the window has its limit */
+    /* fits int32: the window limits the duration of a turn */
+    int32_t after_us = (int32_t)(scan->time_us - turn->scan.time_us);
 
     if (scan->num_plots == 0) {
         return;
@@ -99,17 +101,16 @@ static void add_plots_to_turn(struct revolution *turn, const struct rho_scan *sc
     turn->scan.num_plots = (uint32_t)count;
 }
 
-static void add_sector_to_turn(struct revolution *turn, struct looker *looker,
+static void add_sector_to_turn(struct revolution *turn, struct turning_sensor *turning,
                                const struct rho_scan *scan)
 {
-    const struct rho_window_scan *whole = rho_window_scan_at(looker->window, 0);
+    const struct rho_window_scan *whole = rho_window_scan_at(turning->window, 0);
 
     add_plots_to_turn(turn, scan);
     turn->scan.sector_from_rad = whole->sector_from_rad;
     turn->scan.sector_to_rad = whole->sector_to_rad;
 }
 
-/* The oldest one goes. */
 static void drop_oldest_turn(struct reading *reading)
 {
     struct revolutions *revolutions = &reading->revolutions;
@@ -117,24 +118,24 @@ static void drop_oldest_turn(struct reading *reading)
     free(revolutions->list[0].plots);
     memmove(revolutions->list, revolutions->list + 1,
             --revolutions->count * sizeof *revolutions->list);
-    for (size_t i = 0; i < reading->num_lookers; i++) {
-        reading->lookers[i].is_open &= reading->lookers[i].at > 0;
-        reading->lookers[i].at -= reading->lookers[i].is_open;
+    for (size_t i = 0; i < reading->num_sensors; i++) {
+        reading->sensors[i].is_open &= reading->sensors[i].at > 0;
+        reading->sensors[i].at -= reading->sensors[i].is_open;
     }
 }
 
-static void begin_turn(struct reading *reading, struct looker *looker, const struct rho_scan *scan,
-                       const struct rho_sensor *sensor)
+static void begin_turn_if_recent(struct reading *reading, struct turning_sensor *turning,
+                                 const struct rho_scan *scan, const struct rho_sensor *sensor)
 {
     struct revolutions *revolutions = &reading->revolutions;
     struct revolution turn = {.scan = *scan, .has_sensor = sensor};
     size_t at;
 
     revolutions->total++;
-    looker->is_open =
+    turning->is_open =
         revolutions->count < revolutions->max || revolutions->list[0].scan.time_us <= scan->time_us;
-    if (!looker->is_open) {
-        return; /* it is not among the last ones */
+    if (!turning->is_open) {
+        return; /* older than all turns kept, of which there are enough */
     }
     if (revolutions->count == revolutions->max) {
         drop_oldest_turn(reading);
@@ -148,27 +149,27 @@ static void begin_turn(struct reading *reading, struct looker *looker, const str
         revolutions->list[at] = revolutions->list[at - 1];
     }
     revolutions->list[at] = turn;
-    for (size_t i = 0; i < reading->num_lookers; i++) {
-        reading->lookers[i].at += reading->lookers[i].at >= at;
+    for (size_t i = 0; i < reading->num_sensors; i++) {
+        reading->sensors[i].at += reading->sensors[i].at >= at;
     }
-    looker->at = at;
-    looker->is_open = true; /* not the one that was dropped */
+    turning->at = at;
+    turning->is_open = true; /* set again: drop_oldest_turn may have cleared it */
 }
 
-static void take_scan(struct reading *reading, const struct rho_scan *scan,
-                      const struct rho_sensor *sensor)
+static void add_scan_to_turns(struct reading *reading, const struct rho_scan *scan,
+                              const struct rho_sensor *sensor)
 {
-    struct looker *looker = find_looker(reading, scan);
+    struct turning_sensor *turning = find_or_add_sensor(reading, scan);
 
-    if (scan->time_us < looker->last_us) {
+    if (scan->time_us < turning->last_us) {
         reading->revolutions.late++;
         return;
     }
-    looker->last_us = scan->time_us;
-    if (!continues_turn(looker, scan, sensor)) {
-        begin_turn(reading, looker, scan, sensor);
-    } else if (looker->is_open) { /* else its turn is not among the last ones */
-        add_sector_to_turn(&reading->revolutions.list[looker->at], looker, scan);
+    turning->last_us = scan->time_us;
+    if (!push_scan_continues_turn(turning, scan, sensor)) {
+        begin_turn_if_recent(reading, turning, scan, sensor);
+    } else if (turning->is_open) { /* else the turn was dropped, or never kept */
+        add_sector_to_turn(&reading->revolutions.list[turning->at], turning, scan);
     }
 }
 
@@ -179,12 +180,12 @@ struct revolutions revolutions_read_last(struct scan_reader *reader, size_t max)
 
     reading.revolutions.list = must_calloc(max, sizeof *reading.revolutions.list);
     while ((scan = scan_reader_next(reader))) {
-        take_scan(&reading, scan, scan_reader_sensor(reader));
+        add_scan_to_turns(&reading, scan, scan_reader_sensor(reader));
     }
-    for (size_t i = 0; i < reading.num_lookers; i++) {
-        free(reading.lookers[i].window);
+    for (size_t i = 0; i < reading.num_sensors; i++) {
+        free(reading.sensors[i].window);
     }
-    free(reading.lookers);
+    free(reading.sensors);
     say_only_last_taken(max, reading.revolutions.total, "scans");
     if (reading.revolutions.late > 0) {
         fprintf(stderr, "rhotrack: %" PRIu64 " scans that came late are left out\n",

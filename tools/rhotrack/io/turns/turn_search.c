@@ -7,25 +7,29 @@
 
 #include "base/common.h"
 
-#define PLOTS_MIN 20 /* fewer tell nothing */
+#define PLOTS_MIN 20 /* fewest plots from which a rule is found */
 #define TURN_MIN_S 0.5
-#define TURN_MAX_S 50.0     /* with its jitter it is below RHO_LIMIT_OFFSET_US */
-#define SPAN_S 120.0        /* looked at: an antenna's rate wanders, */
-#define SPAN_SPARSE_S 300.0 /* with fewer than SPARSE plots in it */
-#define SPARSE 60           /* plots */
-#define FITTED_MAX 300      /* plots */
-#define STEPS_A_LOBE 6      /* rates tried over one cycle of the span */
-#define CONCENTRATION 0.8   /* of azimuths that turn with a rate; 1: exactly */
-#define BETTER 0.05         /* by less none is better than a slower rate */
-#define PLOTS_A_TURN 1.5    /* with fewer each is a scan as well */
-#define TARGET_SHARE 0.5    /* of steps from time to time that a target can make */
-#define BINS 72             /* of azimuth */
-#define GAP_RATIO 3.0       /* shortest gap between looks over the longest within one */
-#define LOOKS_MIN 5         /* of bursts */
-#define EVEN_SHARE 0.8      /* of looks that come as regularly as */
-#define EVEN 0.15           /* so much of their interval */
-#define SOON_S 1.0          /* no antenna turns once from row to row */
-#define IRREGULAR 3.0       /* longest step over the median one */
+#define TURN_MAX_S 50.0     /* longest turn; with its jitter it stays below RHO_LIMIT_OFFSET_US */
+#define SPAN_S 120.0        /* longest time of the plots fitted: an antenna's rate drifts */
+#define SPAN_SPARSE_S 300.0 /* longest time of the plots fitted where SPAN_S has too few */
+#define SPARSE 60           /* fewest plots in SPAN_S for which SPAN_S is long enough */
+#define FITTED_MAX 300      /* largest number of plots that a rate is fitted to */
+#define STEPS_A_LOBE 6      /* rotation rates tried for each turn more or less within the span */
+#define CONCENTRATION 0.8   /* least concentration of azimuths about a turning antenna; 1: exact */
+#define BETTER 0.05         /* a faster rate must raise the concentration by more than this */
+#define PLOTS_A_TURN 1.5    /* fewest plots a turn: with fewer, each plot is a scan */
+/* share of steps reachable for one target above which there are no turns */
+#define TARGET_SHARE 0.5
+#define BINS 72 /* bins of azimuth */
+/* least ratio of the shortest gap between bursts to the longest within one */
+#define GAP_RATIO 3.0
+#define LOOKS_MIN 5    /* fewest bursts */
+#define EVEN_SHARE 0.8 /* least share of bursts that come at regular intervals */
+#define EVEN 0.15      /* tolerance of a regular interval, relative to the median interval */
+/* antennas take longer for a turn: rows this close are parts of a scan */
+#define SOON_S 1.0
+/* ratio of the longest step in time to the median above which rows form scans */
+#define IRREGULAR 3.0
 
 #define TURN_RAD (2 * M_PI)
 
@@ -41,13 +45,13 @@ static double plot_azimuth(const struct turn_plot *plot)
 
 /* ---- Azimuths that turn ---- */
 
-/* Times and azimuths of the plots that a rate is fitted to. */
+/* Times and azimuths of the plots to which a rotation rate is fitted. */
 struct fitted {
     size_t count;
     double after_s[FITTED_MAX], azimuth_rad[FITTED_MAX];
 };
 
-/* Length of the mean of unit vectors at the azimuths, turned back at the rate. */
+/* Length of the mean of the unit vectors at the azimuths, each turned back by rate times time. */
 static double azimuth_concentration(const struct fitted *fitted, double rate_rad_s)
 {
     double x = 0, y = 0;
@@ -61,7 +65,7 @@ static double azimuth_concentration(const struct fitted *fitted, double rate_rad
     return hypot(x, y) / (double)fitted->count;
 }
 
-/* The plots within the span, or some of them, evenly. Returns how many there are. */
+/* Collects evenly spaced plots of the first SPAN_S seconds. Returns how many plots the span has. */
 static size_t choose_fitted_plots(const struct turn_plot *plots, size_t count,
                                   struct fitted *fitted)
 {
@@ -80,8 +84,8 @@ static size_t choose_fitted_plots(const struct turn_plot *plots, size_t count,
     return num;
 }
 
-/* The finest of rates within one step to either side. */
-static double refine_rate(const struct fitted *fitted, double rate_rad_s, double step)
+/* The rate of highest concentration within one step to either side, in tenths of a step. */
+static double refine_turn_rate(const struct fitted *fitted, double rate_rad_s, double step)
 {
     double best = rate_rad_s, highest = azimuth_concentration(fitted, rate_rad_s);
 
@@ -97,12 +101,13 @@ static double refine_rate(const struct fitted *fitted, double rate_rad_s, double
     return best;
 }
 
-/* The slowest rate at which the azimuths go round together; 0: none. */
+/* Slowest rotation rate at which the azimuths agree with a turning antenna; 0: none. */
 static double find_turn_rate(const struct fitted *fitted)
 {
     const double span_s = fitted->after_s[fitted->count - 1];
     const double step = TURN_RAD / (STEPS_A_LOBE * span_s);
-    const size_t num = (size_t)(TURN_RAD / TURN_MIN_S / step) + 2; /* both sides of the fastest */
+    /* one step more on both sides of the fastest rate */
+    const size_t num = (size_t)(TURN_RAD / TURN_MIN_S / step) + 2;
     double *found = must_calloc(2 * num + 1, sizeof *found), highest = 0, rate = 0;
 
     for (size_t i = 0; i <= 2 * num; i++) {
@@ -120,11 +125,11 @@ static double find_turn_rate(const struct fitted *fitted)
             }
         }
         if (k <= STEPS_A_LOBE / 2 && (found[num + k] >= highest - BETTER)) {
-            break; /* they stay in one direction */
+            break; /* the azimuths concentrate without turning: the radar looks in one direction */
         }
     }
     free(found);
-    return rate > 0 || rate < 0 ? refine_rate(fitted, rate, step) : 0;
+    return rate > 0 || rate < 0 ? refine_turn_rate(fitted, rate, step) : 0;
 }
 
 static size_t end_of_plots_at_time(const struct turn_plot *plots, size_t count, size_t first)
@@ -137,9 +142,9 @@ static size_t end_of_plots_at_time(const struct turn_plot *plots, size_t count, 
     return end;
 }
 
-/* From plots of one time to the nearest of the next, so far at most. */
-static bool is_step_within(const struct turn_plot *plots, size_t first, size_t next, size_t end,
-                           double way_m)
+/* Whether any plot of one time is within way_m of any plot of the next time. */
+static bool is_any_step_within(const struct turn_plot *plots, size_t first, size_t next, size_t end,
+                               double way_m)
 {
     for (size_t i = first; i < next; i++) {
         for (size_t j = next; j < end; j++) {
@@ -151,16 +156,16 @@ static bool is_step_within(const struct turn_plot *plots, size_t first, size_t n
     return false;
 }
 
-/* One target alone may have been at places of most times, one after another. */
-static bool may_be_target(const struct turn_plot *plots, size_t count, double v_max_mps)
+/* Whether one target alone may have caused the plots: most steps in time are within its speed. */
+static bool may_be_one_target(const struct turn_plot *plots, size_t count, double v_max_mps)
 {
     size_t slow = 0, steps = 0, first = 0, next = end_of_plots_at_time(plots, count, 0);
 
     while (next < count) {
         const size_t end = end_of_plots_at_time(plots, count, next);
 
-        slow += is_step_within(plots, first, next, end,
-                               v_max_mps * seconds_between(plots, first, next));
+        slow += is_any_step_within(plots, first, next, end,
+                                   v_max_mps * seconds_between(plots, first, next));
         steps++;
         first = next;
         next = end;
@@ -168,8 +173,8 @@ static bool may_be_target(const struct turn_plot *plots, size_t count, double v_
     return (double)slow > TARGET_SHARE * (double)steps;
 }
 
-/* The middle of the longest run of directions with the fewest plots. */
-static double find_cut_azimuth(const struct turn_plot *plots, size_t count)
+/* Middle of the longest run of azimuth bins that have the fewest plots. */
+static double find_emptiest_azimuth(const struct turn_plot *plots, size_t count)
 {
     size_t hits[BINS] = {0}, least = count, best = 0, longest = 0, run = 0;
 
@@ -208,39 +213,42 @@ static bool find_rule_by_azimuths(const struct turn_plot *plots, size_t count, d
     }
     turn_s = TURN_RAD / fabs(rule->rate_rad_s);
     if (span_s < 2 * turn_s || (double)num * turn_s < PLOTS_A_TURN * span_s ||
-        may_be_target(plots, num, v_max_mps)) {
+        may_be_one_target(plots, num, v_max_mps)) {
         return false;
     }
     rule->kind = TURN_AZIMUTHS;
     rule->turn_s = turn_s;
-    rule->cut_rad = find_cut_azimuth(plots, count);
+    rule->cut_rad = find_emptiest_azimuth(plots, count);
     return true;
 }
 
 /* ---- Gaps ---- */
 
-static int by_size(const void *a, const void *b)
+static int compare_int64(const void *a, const void *b)
 {
     const int64_t one = *(const int64_t *)a, other = *(const int64_t *)b;
 
     return (one > other) - (one < other);
 }
 
-/* The steps from row to row, the shortest first. */
-static int64_t *sort_steps(const struct turn_plot *plots, size_t count)
+/* The times between successive rows, sorted, the shortest first. */
+static int64_t *list_sorted_time_steps(const struct turn_plot *plots, size_t count)
 {
     int64_t *steps = must_calloc(count, sizeof *steps);
 
     for (size_t i = 1; i < count; i++) {
         steps[i - 1] = plots[i].time_us - plots[i - 1].time_us;
     }
-    qsort(steps, count - 1, sizeof *steps, by_size);
+    qsort(steps, count - 1, sizeof *steps, compare_int64);
     return steps;
 }
 
-/* Whether looks that such a gap ends begin at even times. */
-static bool are_looks_even(const struct turn_plot *plots, size_t count, int64_t gap_us,
-                           double *turn_s)
+/*
+ * Whether the bursts that gaps longer than gap_us separate begin at regular intervals; sets *turn_s
+ * to their median interval.
+ */
+static bool find_regular_burst_interval(const struct turn_plot *plots, size_t count, int64_t gap_us,
+                                        double *turn_s)
 {
     int64_t *starts = must_calloc(count, sizeof *starts);
     size_t num = 0, even = 0, last = 0;
@@ -253,7 +261,7 @@ static bool are_looks_even(const struct turn_plot *plots, size_t count, int64_t 
     }
     *turn_s = 0;
     if (num >= LOOKS_MIN) {
-        qsort(starts, num, sizeof *starts, by_size);
+        qsort(starts, num, sizeof *starts, compare_int64);
         const size_t middle = num / 2;
 
         *turn_s = (double)starts[middle] * 1e-6;
@@ -270,7 +278,7 @@ static bool find_rule_by_gaps(const struct turn_plot *plots, size_t count, const
 {
     double widest = GAP_RATIO, turn_s;
 
-    /* gaps are fewer than the steps within looks: two plots a look or more */
+    /* two plots a burst or more: steps within bursts are at least half of all */
     for (size_t i = count / 2; i + LOOKS_MIN < count; i++) {
         const double within = fmax((double)steps[i - 1], 1.0), between = (double)steps[i];
 
@@ -279,7 +287,7 @@ static bool find_rule_by_gaps(const struct turn_plot *plots, size_t count, const
             rule->gap_us = (int64_t)sqrt(within * between);
         }
     }
-    if (rule->gap_us == 0 || !are_looks_even(plots, count, rule->gap_us, &turn_s) ||
+    if (rule->gap_us == 0 || !find_regular_burst_interval(plots, count, rule->gap_us, &turn_s) ||
         turn_s > TURN_MAX_S) {
         return false;
     }
@@ -290,15 +298,16 @@ static bool find_rule_by_gaps(const struct turn_plot *plots, size_t count, const
 
 /* ---- The rule ---- */
 
-/* Plots that have their time in common with others; and how much these look in one direction. */
-struct together {
+/* Number of plots that share their time with others, and how much such plots share a direction. */
+struct simultaneous {
     size_t count;
-    double concentration; /* mean length of the mean of unit vectors */
+    /* weighted mean, over these times, of the length of the mean unit vector */
+    double concentration;
 };
 
-static struct together find_simultaneous_plots(const struct turn_plot *plots, size_t count)
+static struct simultaneous measure_simultaneous_plots(const struct turn_plot *plots, size_t count)
 {
-    struct together together = {.count = 0};
+    struct simultaneous simultaneous = {.count = 0};
 
     for (size_t first = 0, end; first < count; first = end) {
         double x = 0, y = 0;
@@ -308,26 +317,26 @@ static struct together find_simultaneous_plots(const struct turn_plot *plots, si
             x += cos(plot_azimuth(&plots[i]));
             y += sin(plot_azimuth(&plots[i]));
         }
-        together.count += end - first > 1 ? end - first : 0;
-        together.concentration += hypot(x, y);
+        simultaneous.count += end - first > 1 ? end - first : 0;
+        simultaneous.concentration += hypot(x, y);
     }
-    together.concentration /= (double)(together.count > 0 ? together.count : 1);
-    return together;
+    simultaneous.concentration /= (double)(simultaneous.count > 0 ? simultaneous.count : 1);
+    return simultaneous;
 }
 
 struct turn_rule turn_search_find_rule(const struct turn_plot *plots, size_t count,
                                        double v_max_mps)
 {
-    const struct together together = find_simultaneous_plots(plots, count);
-    const bool are_scans = together.count > count / 2;
+    const struct simultaneous simultaneous = measure_simultaneous_plots(plots, count);
+    const bool are_scans = simultaneous.count > count / 2;
     struct turn_rule rule = {.kind = TURN_NONE};
     int64_t *steps;
 
-    if (count < PLOTS_MIN || (are_scans && together.concentration < CONCENTRATION) ||
+    if (count < PLOTS_MIN || (are_scans && simultaneous.concentration < CONCENTRATION) ||
         find_rule_by_azimuths(plots, count, v_max_mps, &rule) || are_scans) {
         return rule;
     }
-    steps = sort_steps(plots, count);
+    steps = list_sorted_time_steps(plots, count);
     if (!find_rule_by_gaps(plots, count, steps, &rule)) {
         const size_t middle = count / 2;
 
