@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* calibrate: what radars are like, from a recording: noise, pd, clutter, turn time, speeds. */
+/*
+ * calibrate: estimates noise, pd, clutter, turn time and target speeds of radars from a recording.
+ */
 
 #include "base/common.h"
 #include "command_line.h"
@@ -9,7 +11,8 @@
 #include "registration/calibrate_output.h"
 #include "registration/register_data.h"
 
-static uint64_t read_scans(const struct command_line *line, struct register_data *data)
+static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
+                                             struct register_data *data)
 {
     struct inputs *inputs =
         inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
@@ -37,8 +40,8 @@ static uint64_t read_scans(const struct command_line *line, struct register_data
     return skipped;
 }
 
-static void print_result(const struct command_line *line, const struct calibrate_result *result,
-                         uint64_t rows_skipped)
+static void print_calibration(const struct command_line *line,
+                              const struct calibrate_result *result, uint64_t rows_skipped)
 {
     struct output output;
 
@@ -63,12 +66,12 @@ int command_calibrate(struct command_line *line)
 
     command_line_check_ini_output(line, "calibrate");
     pipeline_set_options(&line->parameters, &(struct pipeline_options){.gate = line->gate});
-    rows_skipped = read_scans(line, data);
+    rows_skipped = read_scans_counting_bad_rows(line, data);
     if (register_num_radars(data) == 0) {
         fail(EXIT_USAGE, "calibrate: the input has no plots");
     }
     result = calibrate(data, &pipeline);
-    print_result(line, &result, rows_skipped);
+    print_calibration(line, &result, rows_skipped);
     if (!calibrate_knows_any_figure(&result)) {
         fail(EXIT_RUNTIME, "calibrate: too little was tracked to tell noise or pd of any radar");
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* command: an operator's word to a live tracker, and its answer. */
+/* command: sends an operator's command or setting to a live node, and prints the node's answer. */
 #include <errno.h>
 #include <inttypes.h>
 #include <poll.h>
@@ -13,7 +13,8 @@
 #include "rhotrack/message.h"
 #include "transport/transport.h"
 
-#define SIGMA_M 100.0f /* of a place that a person points at */
+/* default position noise of a track that an operator starts at a place on a map */
+#define SIGMA_M 100.0f
 #define WAIT_S 15.0
 
 /* ---- What is said ---- */
@@ -21,8 +22,8 @@
 static const struct action {
     const char *name;
     int8_t action;
-    int num_numbers;  /* that follow it: tracks */
-    const char *keys; /* that it needs, and others that it takes */
+    int num_numbers;  /* track identities that follow the action's name */
+    const char *keys; /* keys that the action requires; `more`: keys that it also accepts */
     const char *more;
 } actions[] = {
     {"start", RHO_MESSAGE_COMMAND_START, 0, "x_m y_m", "sigma_m vx_mps vy_mps sigma_mps"},
@@ -36,12 +37,12 @@ static const struct action {
 
 enum { NUM_ACTIONS = sizeof actions / sizeof *actions };
 
-static const char *action_name(size_t index)
+static const char *action_name_at(size_t index)
 {
     return index < NUM_ACTIONS ? actions[index].name : index == NUM_ACTIONS ? "set" : NULL;
 }
 
-static const struct action *find_action(const char *name)
+static const struct action *must_find_action(const char *name)
 {
     const char *hint;
 
@@ -50,14 +51,14 @@ static const struct action *find_action(const char *name)
             return &actions[i];
         }
     }
-    hint = name_hint_nearest(name, action_name);
+    hint = name_hint_nearest(name, action_name_at);
     if (hint) {
         fail(EXIT_USAGE, "command: unknown action '%s', did you mean '%s'?", name, hint);
     }
     fail(EXIT_USAGE, "command: unknown action '%s'; see rhotrack command --help", name);
 }
 
-static int32_t read_track_id(const char *text)
+static int32_t parse_track_id(const char *text)
 {
     char *end;
     const long number = strtol(text, &end, 10);
@@ -68,8 +69,8 @@ static int32_t read_track_id(const char *text)
     return (int32_t)number;
 }
 
-/* Whether the words of a list hold this one of so many letters. */
-static bool has_word(const char *list, const char *word, size_t length)
+/* True where a blank-separated list contains the first `length` characters of `word` as a word. */
+static bool list_has_word(const char *list, const char *word, size_t length)
 {
     for (; *list; list += strcspn(list, " "), list += strspn(list, " ")) {
         if (strcspn(list, " ") == length && strncmp(list, word, length) == 0) {
@@ -79,7 +80,8 @@ static bool has_word(const char *list, const char *word, size_t length)
     return false;
 }
 
-static float *command_field(struct rho_message_command *command, const char *key, size_t length)
+static float *find_command_field(struct rho_message_command *command, const char *key,
+                                 size_t length)
 {
     const struct {
         const char *name;
@@ -107,15 +109,16 @@ static bool is_key_given(char **arguments, int num_arguments, const char *key, s
     return false;
 }
 
-static void read_key_value(const struct action *action, const char *text,
-                           struct rho_message_command *command)
+static void parse_key_value(const struct action *action, const char *text,
+                            struct rho_message_command *command)
 {
     const size_t length = strcspn(text, "=");
-    float *field = command_field(command, text, length);
+    float *field = find_command_field(command, text, length);
     char *end;
 
     if (text[length] != '=' || !field ||
-        (!has_word(action->keys, text, length) && !has_word(action->more, text, length))) {
+        (!list_has_word(action->keys, text, length) &&
+         !list_has_word(action->more, text, length))) {
         fail(EXIT_USAGE, "command: %s takes no '%s'; see rhotrack command --help", action->name,
              text);
     }
@@ -125,8 +128,8 @@ static void read_key_value(const struct action *action, const char *text,
     }
 }
 
-/* An area has its lower left corner first. */
-static void check_corners(const struct rho_message_command *command)
+/* Exit 2 unless the lower left corner of an area to exclude lies below its upper right corner. */
+static void check_area_corners(const struct rho_message_command *command)
 {
     const float low_m[2] = {command->x_m, command->y_m};
     const float high_m[2] = {command->x_max_m, command->y_max_m};
@@ -139,9 +142,9 @@ static void check_corners(const struct rho_message_command *command)
     }
 }
 
-static struct rho_message_command read_command(char **arguments, int num_arguments)
+static struct rho_message_command parse_command(char **arguments, int num_arguments)
 {
-    const struct action *action = find_action(arguments[0]);
+    const struct action *action = must_find_action(arguments[0]);
     struct rho_message_command command = {.action = action->action};
     struct rho_message_place place = {0};
 
@@ -152,12 +155,12 @@ static struct rho_message_command read_command(char **arguments, int num_argumen
         fail(EXIT_USAGE, "command: %s needs %s", action->name,
              action->num_numbers > 1 ? "a track's number and a new one" : "a track's number");
     }
-    command.track_id = action->num_numbers > 0 ? read_track_id(arguments[1]) : 0;
-    command.new_id = action->num_numbers > 1 ? read_track_id(arguments[2]) : 0;
+    command.track_id = action->num_numbers > 0 ? parse_track_id(arguments[1]) : 0;
+    command.new_id = action->num_numbers > 1 ? parse_track_id(arguments[2]) : 0;
     arguments += 1 + action->num_numbers;
     num_arguments -= 1 + action->num_numbers;
     for (int i = 0; i < num_arguments; i++) {
-        read_key_value(action, arguments[i], &command);
+        parse_key_value(action, arguments[i], &command);
         if (is_key_given(arguments, i, arguments[i], strcspn(arguments[i], "="))) {
             fail(EXIT_USAGE, "command: %.*s is given twice", (int)strcspn(arguments[i], "="),
                  arguments[i]);
@@ -173,19 +176,19 @@ static struct rho_message_command read_command(char **arguments, int num_argumen
         fail(EXIT_USAGE, "command: %s is outside its range", rho_message_command_field(&place));
     }
     if (action->action == RHO_MESSAGE_COMMAND_EXCLUDE) {
-        check_corners(&command);
+        check_area_corners(&command);
     }
     return command;
 }
 
 /* ---- Settings ---- */
 
-static const char *setting_name(size_t index)
+static const char *setting_name_at(size_t index)
 {
     return rho_command_setting_name((int)index + 1);
 }
 
-static struct rho_message_setting read_setting(char **arguments, int num_arguments)
+static struct rho_message_setting parse_setting(char **arguments, int num_arguments)
 {
     struct rho_message_setting setting = {0};
     const char *name, *hint;
@@ -198,7 +201,7 @@ static struct rho_message_setting read_setting(char **arguments, int num_argumen
         setting.field = strcmp(name, arguments[1]) == 0 ? i : 0;
     }
     if (setting.field == 0) {
-        hint = name_hint_nearest(arguments[1], setting_name);
+        hint = name_hint_nearest(arguments[1], setting_name_at);
         if (hint) {
             fail(EXIT_USAGE, "command: no setting '%s', did you mean '%s'?", arguments[1], hint);
         }
@@ -212,7 +215,7 @@ static struct rho_message_setting read_setting(char **arguments, int num_argumen
     return setting;
 }
 
-static void print_setting_answer(const struct rho_message_setting_answer *answer)
+static void print_setting_answer_or_fail(const struct rho_message_setting_answer *answer)
 {
     static const char *const when[] = {"", "from the next step on",
                                        "from the next step on; the initiation window begins anew",
@@ -243,15 +246,15 @@ static void print_setting_answer(const struct rho_message_setting_answer *answer
 
 /* ---- The answer ---- */
 
-/* One of both answers. */
+/* The answer to a setting where is_setting, else the answer to a command. */
 struct answer {
     bool is_setting;
     struct rho_message_command_answer command;
     struct rho_message_setting_answer setting;
 };
 
-static bool is_answer_to(const struct transport_message *message, int32_t number,
-                         struct answer *answer)
+static bool decode_matching_answer(const struct transport_message *message, int32_t number,
+                                   struct answer *answer)
 {
     if (answer->is_setting) {
         return strcmp(message->channel, RHO_MESSAGE_SETTING_ANSWER_CHANNEL) == 0 &&
@@ -276,7 +279,7 @@ static bool await_answer(struct transport *transport, int32_t number, int64_t en
     for (int64_t left_us; (left_us = end_us - clock_us()) > 0;) {
         switch (transport_receive(transport, &message)) {
         case TRANSPORT_MESSAGE:
-            if (is_answer_to(&message, number, answer)) {
+            if (decode_matching_answer(&message, number, answer)) {
                 return true;
             }
             break;
@@ -290,7 +293,7 @@ static bool await_answer(struct transport *transport, int32_t number, int64_t en
     return false;
 }
 
-static const char *refusal_reason(int8_t status)
+static const char *command_refusal_reason(int8_t status)
 {
     switch (status) {
     case RHO_ERROR_VALUE:
@@ -304,7 +307,7 @@ static const char *refusal_reason(int8_t status)
     }
 }
 
-/* Sends a message, and waits for its answer. */
+/* Sends a command or setting and waits for the node's answer; exit 1 where none comes in wait_s. */
 static void send_and_await_answer(struct transport *transport, const char *channel,
                                   const uint8_t *data, size_t size, int32_t number, double wait_s,
                                   struct answer *answer)
@@ -318,10 +321,10 @@ static void send_and_await_answer(struct transport *transport, const char *chann
     }
 }
 
-static void print_command_answer(const struct rho_message_command_answer *answer)
+static void print_command_answer_or_fail(const struct rho_message_command_answer *answer)
 {
     if (answer->status != RHO_OK) {
-        fail(EXIT_RUNTIME, "refused: %s", refusal_reason(answer->status));
+        fail(EXIT_RUNTIME, "refused: %s", command_refusal_reason(answer->status));
     }
     if (answer->track_id > 0) {
         printf("done: track %" PRId32 "\n", answer->track_id);
@@ -341,9 +344,9 @@ int command_command(struct command_line *line)
     size_t size;
 
     if (answer.is_setting) {
-        setting = read_setting(line->arguments, line->num_arguments);
+        setting = parse_setting(line->arguments, line->num_arguments);
     } else {
-        command = read_command(line->arguments, line->num_arguments);
+        command = parse_command(line->arguments, line->num_arguments);
     }
     transport = transport_open(line->lcm, TRANSPORT_SEND_AND_RECEIVE);
     command.utime = setting.utime = transport_now_us(transport);
@@ -356,9 +359,9 @@ int command_command(struct command_line *line)
         transport, answer.is_setting ? RHO_MESSAGE_SETTING_CHANNEL : RHO_MESSAGE_COMMAND_CHANNEL,
         buffer, size, command.number, wait_s, &answer);
     if (answer.is_setting) {
-        print_setting_answer(&answer.setting);
+        print_setting_answer_or_fail(&answer.setting);
     } else {
-        print_command_answer(&answer.command);
+        print_command_answer_or_fail(&answer.command);
     }
     transport_close(transport);
     return 0;

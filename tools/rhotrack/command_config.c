@@ -7,7 +7,7 @@
 #include "commands.h"
 #include "settings/method.h"
 
-/* A number, or a word where the parameter is one. */
+/* Adds a parameter's value to JSON: a string where the parameter has choices, else a number. */
 static void add_parameter_value(cJSON *object, const char *name, const struct parameter_text *text,
                                 double value)
 {

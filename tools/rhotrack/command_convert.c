@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * convert: a CSV file as an LCM log, the messages of one kind of a log as a CSV file, tracks of
- * either as GeoJSON, or a recording in ASTERIX as either.
+ * convert: CSV file to LCM log, log messages of one kind to CSV, tracks to GeoJSON or ASTERIX
+ * CAT062, and ASTERIX recordings to CSV, LCM log or GeoJSON.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -26,36 +26,37 @@
 
 /* ---- Which way ---- */
 
-static bool is_regular_file(const char *path)
+static bool may_be_regular_file(const char *path)
 {
     struct stat status;
 
     return stat(path, &status) ||
-           S_ISREG(status.st_mode); /* of what is not there the reader says so */
+           S_ISREG(status.st_mode); /* a missing file counts as regular: the reader reports it */
 }
 
-/* Of a pipe the output's name decides: what becomes NAME.csv is taken for a log. */
+/* An input that cannot be looked into (a pipe) is taken for a log where the output is NAME.csv. */
 static bool input_is_log(const char *input, const char *output)
 {
-    return lcm_log_is_log(input) || (!is_regular_file(input) && !path_ends_with(input, ".csv") &&
-                                     path_ends_with(output, ".csv"));
+    return lcm_log_is_log(input) ||
+           (!may_be_regular_file(input) && !path_ends_with(input, ".csv") &&
+            path_ends_with(output, ".csv"));
 }
 
-/* Exit 2 where the input, which is no log, is no table either. */
-static void check_is_table(const char *input)
+/* Exit 2 where the input is not a CSV table. */
+static void check_input_is_table(const char *input)
 {
     table_free(table_read_header(input));
 }
 
 /*
- * Exit 2 where the output's name says the format that the input has. Under any other name, as on
- * standard output, it gets the other format.
+ * Exit 2 where the ending of the output's name says that it gets the input's own format. Any other
+ * name, and standard output, get the other format.
  */
-static void check_output_differs(const char *input, const char *output, bool from_log)
+static void check_output_format_differs(const char *input, const char *output, bool from_log)
 {
     if (path_ends_with(output, from_log ? ".lcm" : ".csv")) {
         if (!from_log) {
-            check_is_table(input);
+            check_input_is_table(input);
         }
         fail(EXIT_USAGE,
              "convert: %s would be %s, and so is the input; CSV files end with .csv, LCM logs with "
@@ -136,7 +137,7 @@ static void convert_asterix_tracks_to_csv(const struct command_line *line)
 
 /* ---- Tracks to ASTERIX ---- */
 
-/* Lists of tracks as records; other messages of a log are counted. */
+/* Writes a log's track lists as ASTERIX CAT062 records; other messages are counted and reported. */
 static void convert_tracks_to_asterix(const struct command_line *line)
 {
     const char *input = line->arguments[0];
@@ -174,13 +175,14 @@ static void convert_tracks_to_asterix(const struct command_line *line)
 struct reading {
     const struct command_line *line;
     const char *path;
-    const struct rows_kind *kind; /* wanted, or the first that was found; NULL before */
+    /* kind of rows that are written: of --kind, or of the first message; NULL: none yet */
+    const struct rows_kind *kind;
     struct rows_collection collection;
-    uint64_t num_messages[NUM_ROWS_KINDS]; /* on channels of each kind */
+    uint64_t num_messages[NUM_ROWS_KINDS]; /* messages on the channels of each kind of rows */
     uint64_t others;
 };
 
-static const struct rows_kind *find_row_kind(const char *name)
+static const struct rows_kind *must_find_rows_kind(const char *name)
 {
     for (int i = 0; i < NUM_ROWS_KINDS; i++) {
         if (strcmp(name, rows_kinds[i]->name) == 0) {
@@ -190,14 +192,14 @@ static const struct rows_kind *find_row_kind(const char *name)
     fail(EXIT_USAGE, "convert: --kind '%s' is none of plots, polar, bearings, truth, tracks", name);
 }
 
-static void choose_row_kind(struct reading *reading, const struct rows_kind *kind)
+static void start_rows_of_kind(struct reading *reading, const struct rows_kind *kind)
 {
     reading->kind = kind;
     rows_from_messages_start(&reading->collection, kind);
     reading->collection.with_received = true;
 }
 
-static void take_log_event(struct reading *reading, const struct lcm_log_event *event)
+static void add_rows_of_log_event(struct reading *reading, const struct lcm_log_event *event)
 {
     const struct rows_kind *kind = rows_kind_of_channel(event->channel);
 
@@ -209,13 +211,13 @@ static void take_log_event(struct reading *reading, const struct lcm_log_event *
         reading->num_messages[i] += rows_kinds[i] == kind;
     }
     if (!reading->kind) {
-        choose_row_kind(reading, kind);
+        start_rows_of_kind(reading, kind);
     }
     rows_from_messages_add_event(&reading->collection, reading->path, event,
                                  reading->line->keep_going);
 }
 
-/* "12 plots, 3 truth" */
+/* Messages by kind as a text: "12 plots, 3 truth". */
 static const char *list_kinds_found(const struct reading *reading, char *text, size_t bytes)
 {
     size_t length = 0;
@@ -231,8 +233,11 @@ static const char *list_kinds_found(const struct reading *reading, char *text, s
     return text;
 }
 
-/* Exit 2 where the log has no messages of the kind, or several kinds and none is chosen. */
-static void check_one_kind(struct reading *reading)
+/*
+ * Exit 2 where the log lacks messages of the wanted kind, or has several kinds without --kind. Adds
+ * the messages of other kinds to the count of messages left out.
+ */
+static void check_one_kind_and_count_others(struct reading *reading)
 {
     char text[200];
     int kinds = 0;
@@ -262,22 +267,24 @@ static void check_one_kind(struct reading *reading)
     }
 }
 
-static void say_count(const struct reading *reading, uint64_t count, const char *what)
+static void print_count_unless_zero(const struct reading *reading, uint64_t count, const char *what)
 {
     if (count > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", reading->path, count, what);
     }
 }
 
-static void report_left_out(const struct reading *reading, const struct lcm_log_reader *log)
+static void print_left_out_counts(const struct reading *reading, const struct lcm_log_reader *log)
 {
     lcm_log_report_skipped(log);
-    say_count(reading, reading->collection.messages_bad, "bad messages skipped");
-    say_count(reading, reading->others, "messages on other channels left out");
-    say_count(reading, reading->collection.messages_again,
-              "messages that were there before left out");
-    say_count(reading, reading->collection.scans_incomplete, "scans or lists lack parts");
-    say_count(reading, reading->collection.lists_empty, "lists without elements have no row");
+    print_count_unless_zero(reading, reading->collection.messages_bad, "bad messages skipped");
+    print_count_unless_zero(reading, reading->others, "messages on other channels left out");
+    print_count_unless_zero(reading, reading->collection.messages_again,
+                            "messages that were there before left out");
+    print_count_unless_zero(reading, reading->collection.scans_incomplete,
+                            "scans or lists lack parts");
+    print_count_unless_zero(reading, reading->collection.lists_empty,
+                            "lists without elements have no row");
 }
 
 static void convert_log_to_csv(const struct command_line *line)
@@ -288,16 +295,16 @@ static void convert_log_to_csv(const struct command_line *line)
     struct output output;
 
     if (line->kind) {
-        choose_row_kind(&reading, find_row_kind(line->kind));
+        start_rows_of_kind(&reading, must_find_rows_kind(line->kind));
     }
     log = lcm_log_open(reading.path);
     while (lcm_log_next(log, &event)) {
-        take_log_event(&reading, &event);
+        add_rows_of_log_event(&reading, &event);
     }
     if (lcm_log_counts(log).events == 0) {
         fail(EXIT_USAGE, "%s: not one event of an LCM log in it", reading.path);
     }
-    check_one_kind(&reading);
+    check_one_kind_and_count_others(&reading);
     rows_from_messages_finish(&reading.collection);
     if (reading.collection.rows.count == 0) {
         fail(EXIT_USAGE, "%s: the messages of %s in it have not one row", reading.path,
@@ -310,7 +317,7 @@ static void convert_log_to_csv(const struct command_line *line)
         rows_write_csv(output.file, &reading.collection.rows, line->covariance);
     }
     output_close(&output);
-    report_left_out(&reading, log);
+    print_left_out_counts(&reading, log);
     rows_from_messages_free(&reading.collection);
     lcm_log_close(log);
 }
@@ -334,8 +341,8 @@ static void convert_tracks_to_geojson(const struct command_line *line)
     rows_read_end(&file);
 }
 
-/* Tracks alone become a map. */
-static void check_geojson_options(struct command_line *line)
+/* Only tracks can be written as GeoJSON: other kinds and --covariance exit 2; selects the kind. */
+static void select_tracks_for_geojson(struct command_line *line)
 {
     if (line->covariance) {
         fail(EXIT_USAGE, "convert: --covariance has no place in GeoJSON");
@@ -353,7 +360,7 @@ void command_convert_refuse_radars(const struct command_line *line)
 
     if ((to_map || asterix_tracks_path_is_asterix(output)) && asterix_file_is_asterix(input) &&
         !asterix_file_has_only_tracks(input)) {
-        check_is_table(input);
+        check_input_is_table(input);
         fail(EXIT_USAGE, "%s: a recording of radars, and no list of tracks; %s is made of tracks",
              input, to_map ? "GeoJSON" : "CAT062");
     }
@@ -385,9 +392,9 @@ int command_convert(struct command_line *line)
             return 0;
         }
     }
-    check_output_differs(line->arguments[0], line->arguments[1], from_log);
+    check_output_format_differs(line->arguments[0], line->arguments[1], from_log);
     if (to_map) {
-        check_geojson_options(line);
+        select_tracks_for_geojson(line);
     }
     if (to_map && !from_log) {
         convert_tracks_to_geojson(line);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* evaluate: tracks against truth. */
+/* evaluate: compares tracks with the truth, and reports GOSPA, OSPA, completeness and errors. */
 #include <stdlib.h>
 
 #include "base/common.h"
@@ -34,7 +34,7 @@ static struct evaluation *evaluate_files(const struct command_line *line)
     return e;
 }
 
-/* A page of the truth, the tracks, and the plots where they stand beside the truth. */
+/* Suggests an HTML page of the truth, the tracks, and the plots.csv beside the truth, if any. */
 static void suggest_next_command(const struct command_line *line)
 {
     char *files[2] = {line->arguments[0],

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* initiate: initiation alone, on the last scans of a file as one batch. */
+/* initiate: track initiation alone, on the last scans of a file as one batch. */
 #include <cjson/cJSON.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@
 
 struct batch {
     struct rho_initiator *initiator;
-    int64_t time_us; /* of the last scan */
+    int64_t time_us; /* time of the batch's last scan */
     uint64_t scans, plots, plots_no_room;
     int64_t wall_us;
 };
@@ -53,7 +53,9 @@ static void push_scan(struct batch *batch, const struct rho_scan *scan,
     batch->plots_no_room += scan->num_plots - held.num_plots;
 }
 
-/* Pushes the last scans of the reader that fit the window, turns of radars that look by sectors. */
+/*
+ * Pushes the last scans that fit the initiation window; sectors of a turn are joined to one scan.
+ */
 static void push_last_scans(struct batch *batch, struct scan_reader *reader)
 {
     struct revolutions revolutions = revolutions_read_last(reader, batch->initiator->config.scans);
@@ -66,7 +68,7 @@ static void push_last_scans(struct batch *batch, struct scan_reader *reader)
     revolutions_free(&revolutions);
 }
 
-static void fill_and_search(struct batch *batch, const struct command_line *line)
+static void read_and_search_batch(struct batch *batch, const struct command_line *line)
 {
     struct rho_initiator_config config;
     struct scan_reader *reader;
@@ -108,7 +110,7 @@ static void write_found_tracks(const struct batch *batch, const char *path)
     initiated_output_close(found);
 }
 
-/* Votes of each track found, descending; *sum gets them all. */
+/* Hits of each track found, in descending order, as JSON; *sum gets the sum of all hits. */
 static cJSON *track_hits_json(const struct rho_initiator *initiator, double *sum)
 {
     int hits[RHO_MAX_CANDIDATES];
@@ -156,7 +158,7 @@ static void initiate_kernel(const struct command_line *line)
 {
     struct batch batch = {.wall_us = 0};
 
-    fill_and_search(&batch, line);
+    read_and_search_batch(&batch, line);
     if (line->output || !line->json) {
         write_found_tracks(&batch, line->output);
     }
@@ -166,7 +168,7 @@ static void initiate_kernel(const struct command_line *line)
     free(batch.initiator);
 }
 
-/* The method asked for, or the default for the file's kind. */
+/* The method of --method; by default passive for files of bearings, and kernel for plots. */
 static enum method choose_method(const struct command_line *line)
 {
     bool has_bearings = bearing_frame_reader_file_has_bearings(line->arguments[0]);

@@ -34,7 +34,7 @@ bool command_lab_has(const char *name)
     return false;
 }
 
-/* The program's folder: the build folder, where it lies in its sources. */
+/* Finds the folder of this program's executable; in a source tree that is the build folder. */
 static void find_program_folder(char folder[PATH_MAX])
 {
     ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
@@ -43,7 +43,7 @@ static void find_program_folder(char folder[PATH_MAX])
     *(strrchr(folder, '/') ? strrchr(folder, '/') : folder) = '\0';
 }
 
-static bool is_experiment(const char *name)
+static bool is_experiment_name(const char *name)
 {
     for (int i = 0; i < NUM_EXPERIMENTS; i++) {
         if (strcmp(name, experiments[i]) == 0) {
@@ -53,7 +53,7 @@ static bool is_experiment(const char *name)
     return false;
 }
 
-static _Noreturn void refuse_name(const char *name)
+static _Noreturn void refuse_experiment_name(const char *name)
 {
     char list[512] = "";
     size_t length = 0;
@@ -66,13 +66,13 @@ static _Noreturn void refuse_name(const char *name)
          name ? name : "", list);
 }
 
-/* The script tools/lab/NAME.py, with underscores for hyphens, beside the build folder. */
+/* Runs the script tools/lab/NAME.py of the source tree, NAME having underscores for hyphens. */
 static _Noreturn void run_experiment(char **argv)
 {
     char folder[PATH_MAX], path[2 * PATH_MAX], script[64];
 
-    if (!argv[2] || !is_experiment(argv[2])) {
-        refuse_name(argv[2]);
+    if (!argv[2] || !is_experiment_name(argv[2])) {
+        refuse_experiment_name(argv[2]);
     }
     snprintf(script, sizeof script, "tools/lab/%s.py", argv[2]);
     for (char *hyphen; (hyphen = strchr(script, '-'));) {
@@ -88,7 +88,7 @@ static _Noreturn void run_experiment(char **argv)
          strerror(errno));
 }
 
-/* The benches are a program of their own beside this one. */
+/* Replaces this process by the benchmark program rhotrack-lab in this program's folder. */
 static _Noreturn void run_bench(char **argv)
 {
     char folder[PATH_MAX], path[2 * PATH_MAX];

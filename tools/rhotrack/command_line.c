@@ -16,10 +16,11 @@
 
 enum { NUM_OPTIONS = 29, RUNS_MAX = 1000000 };
 
-/* Letters are the program's own names of the options; only -o and -h may be typed as such. */
+/* All options. Letters identify options inside the program; users can type -o and -h alone. */
 static const struct {
     char letter;
-    const char *name, *argument, *text; /* no text: not in this version */
+    /* text NULL: the option is accepted, and not listed by --help */
+    const char *name, *argument, *text;
 } options[NUM_OPTIONS] = {
     {'o', "output", "OUTPUT",
      "where to write; it appears there only when it is complete (--follow: in place)"},
@@ -60,12 +61,12 @@ static const struct {
     {'h', "help", NULL, "this text"},
 };
 
-static bool takes_option(const struct command *command, char letter)
+static bool command_takes_option(const struct command *command, char letter)
 {
     return letter == 'h' || strchr(command->options, letter);
 }
 
-static const char *option_name(size_t index)
+static const char *option_name_at(size_t index)
 {
     return index < NUM_OPTIONS ? options[index].name : NULL;
 }
@@ -79,7 +80,7 @@ void command_line_help(const struct command *command, FILE *file)
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
         char left[48];
 
-        if (!takes_option(command, options[i].letter) || !options[i].text) {
+        if (!command_takes_option(command, options[i].letter) || !options[i].text) {
             continue;
         }
         snprintf(left, sizeof left, "%s--%s%s%s",
@@ -92,7 +93,7 @@ void command_line_help(const struct command *command, FILE *file)
     }
 }
 
-static _Noreturn void show_help(const struct command *command)
+static _Noreturn void print_help_and_exit(const struct command *command)
 {
     struct output output = output_open(NULL);
 
@@ -103,7 +104,7 @@ static _Noreturn void show_help(const struct command *command)
 
 /* ---- Values of options ---- */
 
-static uint64_t read_count(const char *option, const char *text, uint64_t min, uint64_t max)
+static uint64_t parse_whole_number(const char *option, const char *text, uint64_t min, uint64_t max)
 {
     char *end;
     unsigned long long number;
@@ -120,7 +121,7 @@ static uint64_t read_count(const char *option, const char *text, uint64_t min, u
     return number;
 }
 
-static double read_decimal(const char *option, const char *text, double min, double max)
+static double parse_decimal(const char *option, const char *text, double min, double max)
 {
     char *end;
     double number = strtod(text, &end);
@@ -134,7 +135,7 @@ static double read_decimal(const char *option, const char *text, double min, dou
     return number;
 }
 
-static bool take_live_option(struct command_line *line, char letter, char *argument)
+static bool store_live_option(struct command_line *line, char letter, char *argument)
 {
     switch (letter) {
     case 'l':
@@ -153,7 +154,7 @@ static bool take_live_option(struct command_line *line, char letter, char *argum
         line->show = argument;
         return true;
     case 'x':
-        line->speed = read_decimal("speed", argument, 0, 1e6);
+        line->speed = parse_decimal("speed", argument, 0, 1e6);
         return true;
     case 'O':
         line->loop = true;
@@ -162,17 +163,17 @@ static bool take_live_option(struct command_line *line, char letter, char *argum
         line->commands = true;
         return true;
     case 'E':
-        line->metrics = (uint16_t)read_count("metrics", argument, 1, UINT16_MAX);
+        line->metrics = (uint16_t)parse_whole_number("metrics", argument, 1, UINT16_MAX);
         return true;
     case 'T':
-        line->seconds = read_decimal("for", argument, 1e-3, 1e9);
+        line->seconds = parse_decimal("for", argument, 1e-3, 1e9);
         return true;
     default:
         return false;
     }
 }
 
-/* Kept for the command that is suggested next. */
+/* Keeps a setting as the user typed it: the suggested next command repeats it. */
 static void keep_setting_as_typed(struct command_line *line, const char *option, const char *value)
 {
     line->settings =
@@ -181,7 +182,7 @@ static void keep_setting_as_typed(struct command_line *line, const char *option,
     line->settings[line->num_settings++] = value;
 }
 
-static bool take_setting(struct command_line *line, char letter, char *argument)
+static bool apply_setting_option(struct command_line *line, char letter, char *argument)
 {
     switch (letter) {
     case 's':
@@ -201,7 +202,7 @@ static bool take_setting(struct command_line *line, char letter, char *argument)
     }
 }
 
-static void take_option(struct command_line *line, char letter, char *argument)
+static void store_option(struct command_line *line, char letter, char *argument)
 {
     switch (letter) {
     case 'o':
@@ -238,10 +239,10 @@ static void take_option(struct command_line *line, char letter, char *argument)
         line->by_target = true;
         break;
     case 'r':
-        line->runs = (long)read_count("runs", argument, 1, RUNS_MAX);
+        line->runs = (long)parse_whole_number("runs", argument, 1, RUNS_MAX);
         break;
     case 'S':
-        line->seed = read_count("seed", argument, 0, UINT64_MAX);
+        line->seed = parse_whole_number("seed", argument, 0, UINT64_MAX);
         break;
     case 'j':
         line->json = true;
@@ -250,7 +251,8 @@ static void take_option(struct command_line *line, char letter, char *argument)
         line->keep_going = true;
         break;
     default:
-        if (!take_live_option(line, letter, argument) && !take_setting(line, letter, argument)) {
+        if (!store_live_option(line, letter, argument) &&
+            !apply_setting_option(line, letter, argument)) {
             fail(EXIT_RUNTIME, "an option without a use");
         }
     }
@@ -259,10 +261,10 @@ static void take_option(struct command_line *line, char letter, char *argument)
 /* ---- The whole line ---- */
 
 /*
- * getopt's table of all options: those of other commands are refused with a better message than its
- * own.
+ * Fills getopt_long's table with the options of all commands: an option of another command then
+ * gets a clearer message than getopt's own.
  */
-static void fill_option_table(struct option table[NUM_OPTIONS + 1])
+static void fill_getopt_table(struct option table[NUM_OPTIONS + 1])
 {
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
         table[i] =
@@ -272,7 +274,7 @@ static void fill_option_table(struct option table[NUM_OPTIONS + 1])
     table[NUM_OPTIONS] = (struct option){NULL, 0, NULL, 0};
 }
 
-static const char *long_option_name(int letter)
+static const char *option_name_of_letter(int letter)
 {
     for (size_t i = 0; i < NUM_OPTIONS; i++) {
         if (options[i].letter == letter) {
@@ -287,15 +289,15 @@ static _Noreturn void refuse_option(const struct command *command, char **argv)
     const char *typed = argv[optind - 1], *hint;
     char name[64];
 
-    if (optopt && strncmp(typed, "--", 2) == 0 && long_option_name(optopt)) {
-        fail(EXIT_USAGE, "%s: --%s takes no value", command->name, long_option_name(optopt));
+    if (optopt && strncmp(typed, "--", 2) == 0 && option_name_of_letter(optopt)) {
+        fail(EXIT_USAGE, "%s: --%s takes no value", command->name, option_name_of_letter(optopt));
     }
     if (optopt) {
         fail(EXIT_USAGE, "%s: unknown option '-%c'; see rhotrack %s --help", command->name, optopt,
              command->name);
     }
     snprintf(name, sizeof name, "%.*s", (int)strcspn(typed + 2, "="), typed + 2);
-    hint = name_hint_nearest(name, option_name);
+    hint = name_hint_nearest(name, option_name_at);
     if (hint) {
         fail(EXIT_USAGE, "%s: unknown option '%s', did you mean '--%s'?", command->name, typed,
              hint);
@@ -311,28 +313,30 @@ static void read_options(struct command_line *line, const struct command *comman
     size_t room = 0;
     int letter;
 
-    fill_option_table(table);
+    fill_getopt_table(table);
     opterr = 0;
     while ((letter = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
         if (letter == '?') {
             refuse_option(command, argv);
         }
         if (letter == ':') {
-            fail(EXIT_USAGE, "%s: --%s needs a value", command->name, long_option_name(optopt));
+            fail(EXIT_USAGE, "%s: --%s needs a value", command->name,
+                 option_name_of_letter(optopt));
         }
         if (letter == 'h') {
-            show_help(command);
+            print_help_and_exit(command);
         }
-        if (!takes_option(command, (char)letter)) {
+        if (!command_takes_option(command, (char)letter)) {
             fail(EXIT_USAGE, "%s takes no --%s; see rhotrack %s --help", command->name,
-                 long_option_name(letter), command->name);
+                 option_name_of_letter(letter), command->name);
         }
-        if (letter == 's' && strcmp(command->name, "simulate") == 0) { /* changes the scene */
+        /* --set of simulate changes the scene */
+        if (letter == 's' && strcmp(command->name, "simulate") == 0) {
             line->scene_sets =
                 must_grow(line->scene_sets, line->num_scene_sets, &room, sizeof *line->scene_sets);
             line->scene_sets[line->num_scene_sets++] = optarg;
         } else {
-            take_option(line, (char)letter, optarg);
+            store_option(line, (char)letter, optarg);
         }
     }
 }
@@ -344,8 +348,8 @@ static bool lacks_origin(const struct parameters *parameters)
 }
 
 /*
- * Where nobody set the origin of the local frame it is where the first radar of a recording says
- * that it stands, or the first place of a CSV file.
+ * Suggests the origin of the local frame where none is set: the place of a recording's first radar,
+ * or the first place of a CSV file.
  */
 static void suggest_origin(struct command_line *line, const char *path, struct asterix_place place)
 {
@@ -354,7 +358,7 @@ static void suggest_origin(struct command_line *line, const char *path, struct a
     }
 }
 
-static void look_at_first_plots(struct command_line *line, const char *path)
+static void suggest_origin_and_check_azimuths(struct command_line *line, const char *path)
 {
     const struct origin_and_turn look = origin_and_turn_of(path);
 
@@ -369,16 +373,20 @@ static void look_at_first_plots(struct command_line *line, const char *path)
     }
 }
 
-/* A truth or tracks without plots beside them have no place for an origin. */
-static void find_plot_files(struct command_line *line, const struct command *command)
+/*
+ * Selects the arguments that may hold plots, from which an origin can be taken: none of evaluate.
+ */
+static void select_plot_files(struct command_line *line, const struct command *command)
 {
-    const int skipped = strcmp(command->name, "plot") == 0; /* the kind of picture */
+    /* the first argument of plot is the kind of picture */
+    const int skipped = strcmp(command->name, "plot") == 0;
 
     line->plot_files = line->arguments + skipped;
-    line->num_plot_files = strcmp(command->name, "convert") == 0 ? 1
-                           : takes_option(command, 'N') && strcmp(command->name, "evaluate") != 0
-                               ? line->num_arguments - skipped
-                               : 0;
+    line->num_plot_files =
+        strcmp(command->name, "convert") == 0 ? 1
+        : command_takes_option(command, 'N') && strcmp(command->name, "evaluate") != 0
+            ? line->num_arguments - skipped
+            : 0;
 }
 
 void command_line_read(struct command_line *line, const struct command *command, int argc,
@@ -397,7 +405,7 @@ void command_line_read(struct command_line *line, const struct command *command,
         fail(EXIT_USAGE, "%s: '%s' is one argument too many; usage: rhotrack %s %s", command->name,
              line->arguments[command->max_arguments], command->name, command->usage);
     }
-    find_plot_files(line, command);
+    select_plot_files(line, command);
 }
 
 void refuse_output_as_input(const struct command_line *line)
@@ -421,7 +429,7 @@ static void refuse_inputs_given_twice(const struct command_line *line, const cha
     }
 }
 
-static void refuse_other_than_ini(const struct command_line *line, const char *command)
+static void refuse_ending_of_other_format(const struct command_line *line, const char *command)
 {
     static const char *const endings[] = {".csv",     ".lcm",  ".ast", ".asterix",
                                           ".geojson", ".json", ".svg"};
@@ -443,14 +451,14 @@ void command_line_check_ini_output(const struct command_line *line, const char *
 {
     refuse_output_as_input(line);
     refuse_inputs_given_twice(line, command);
-    refuse_other_than_ini(line, command);
+    refuse_ending_of_other_format(line, command);
     if (line->json && is_output_to_stdout(line)) {
         fail(EXIT_USAGE, "%s: --json and -o - both write on standard output", command);
     }
 }
 
-/* All plots can be looked at before they are read. */
-static bool has_only_plain_files(const struct command_line *line)
+/* True where all plot files are regular files, whose headers can be read ahead; not pipes. */
+static bool are_plot_files_regular(const struct command_line *line)
 {
     for (int i = 0; i < line->num_plot_files; i++) {
         if (plain_file_size(line->plot_files[i]) == 0) {
@@ -466,9 +474,9 @@ void command_line_find_origin(struct command_line *line)
         suggest_origin(line, line->arguments[i], asterix_file_radar_place(line->arguments[i]));
     }
     for (int i = 0; i < line->num_plot_files; i++) {
-        look_at_first_plots(line, line->plot_files[i]);
+        suggest_origin_and_check_azimuths(line, line->plot_files[i]);
     }
-    if (line->num_plot_files > 0 && has_only_plain_files(line)) {
+    if (line->num_plot_files > 0 && are_plot_files_regular(line)) {
         table_dialect_check_columns_option();
     }
     parameters_locate_sensors(&line->parameters);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* command_line: what the user typed, as one struct; and the help that says what may be typed. */
+/*
+ * command_line: parses a command's options and arguments into one struct; help texts of commands.
+ */
 #ifndef RHOTRACK_TOOL_COMMAND_LINE_H
 #define RHOTRACK_TOOL_COMMAND_LINE_H
 
@@ -7,46 +9,45 @@
 
 #include "commands.h"
 
-/* One command of the program, a row of main's table. */
+/* One command of the program, a row of the table in main.c. */
 struct command {
     const char *name;
     int (*run)(struct command_line *line);
-    const char *usage; /* arguments and the most important options */
+    const char *usage; /* arguments and main options for the usage line */
     int min_arguments, max_arguments;
-    const char *options; /* the options' letters that it takes, as in command_line.c's table */
-    const char *summary; /* one line */
-    const char *text;    /* paragraphs; lines end with a newline */
+    /* letters of the options that the command accepts, as in the table of command_line.c */
+    const char *options;
+    const char *summary; /* one line for the list of commands */
+    const char *text;    /* paragraphs of the command's help; lines end with a newline */
 };
 
 /*
- * Reads argv, argv[0] being the command's name. Errors: one line, exit 2. --help: prints and exits
- * with 0.
+ * Parses argv, where argv[0] is the command's name. On errors prints one line and exits with 2; on
+ * --help prints the help and exits with 0.
  */
 void command_line_read(struct command_line *line, const struct command *command, int argc,
                        char **argv);
 
 /*
- * Then: the origin of a recording or of places on the earth, where none was set; what is placed on
- * the earth; and on standard error what seems wrong with the azimuths.
+ * Call after command_line_read. Takes the origin of the local frame from the inputs where none is
+ * set, converts sensors' latitudes and longitudes to local places, and warns on standard error of
+ * azimuths that look clockwise.
  */
 void command_line_find_origin(struct command_line *line);
 
-/* Help of one command. */
+/* Prints the help text of a command. */
 void command_line_help(const struct command *command, FILE *file);
 
-/*
- * Exit 2 where --output names one of the arguments: of commands that nobody wants to put their
- * output in an input's place.
- */
+/* Exit 2 where --output names one of the inputs, for commands that must not overwrite an input. */
 void refuse_output_as_input(const struct command_line *line);
 
-/* -o -: standard output has the file that is written, and nothing else. */
+/* True for -o -: standard output gets the output file alone, so that no report may go there. */
 bool is_output_to_stdout(const struct command_line *line);
 
 /*
- * Of commands that learn from recordings and write an INI file. Exit 2 where --output names an
- * input, or something else than an INI file; where an input is given twice, whose plots would count
- * twice; where --json writes on standard output, too.
+ * Checks the options of commands that write an INI file. Exit 2 where --output names an input or
+ * ends like another format, where an input is given twice (its plots would count twice), or where
+ * both --json and -o - write to standard output.
  */
 void command_line_check_ini_output(const struct command_line *line, const char *command);
 

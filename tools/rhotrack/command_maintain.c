@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* maintain: one track alone, from the first plot on, never dropped. */
+/* maintain: follows one track alone, started by the first plot and never dropped. */
 #include <cjson/cJSON.h>
 #include <inttypes.h>
 #include <math.h>
@@ -16,16 +16,16 @@
 struct maintaining {
     struct maintainer *maintainer;
     enum maintainer_gate gate;
-    struct random random; /* for the gate none */
+    struct random random; /* draws the plots of the gate none */
     uint64_t fates[RHO_NUM_FATES];
-    uint64_t scans; /* that were stepped */
+    uint64_t scans; /* scans that were stepped */
     int64_t sum_us, max_us;
 };
 
 /* ---- What was asked for ---- */
 
-/* --gate, else the parameter. */
-static enum maintainer_gate chosen_gate(struct command_line *line)
+/* Sets the parameter gate from --gate where it was given, and returns the gate in force. */
+static enum maintainer_gate apply_gate_option(struct command_line *line)
 {
     if (line->gate) {
         parameters_set_gate(&line->parameters, line->gate);
@@ -40,9 +40,12 @@ static void warn_of_unused_option(const struct command_line *line, enum maintain
     }
 }
 
-/* By input_model literal an input changes the velocity alone, which measured places do not show. */
-static void warn_of_unseen_inputs(const struct command_line *line, enum maintainer_gate gate,
-                                  const struct rho_scan *first)
+/*
+ * With input_model literal an input changes the velocity alone, so that it cannot be observed in
+ * position measurements.
+ */
+static void warn_of_unobservable_inputs(const struct command_line *line, enum maintainer_gate gate,
+                                        const struct rho_scan *first)
 {
     if (gate != MAINTAIN_BEST && !line->no_input_estimation &&
         !(first->measures & (RHO_MEASURES_VELOCITY | RHO_MEASURES_RANGE_RATE)) &&
@@ -69,8 +72,8 @@ static void count_plot_fates(struct maintaining *maintaining, const struct rho_s
     }
 }
 
-static void step_scan(struct maintaining *maintaining, const struct rho_scan *scan,
-                      const struct rho_sensor *sensor)
+static void step_and_time_scan(struct maintaining *maintaining, const struct rho_scan *scan,
+                               const struct rho_sensor *sensor)
 {
     int64_t start_us = clock_us(), took_us;
     int row = maintainer_step(maintaining->maintainer, scan, sensor, NAN, &maintaining->random);
@@ -82,8 +85,8 @@ static void step_scan(struct maintaining *maintaining, const struct rho_scan *sc
     count_plot_fates(maintaining, scan, row);
 }
 
-static void step_all_scans(struct maintaining *maintaining, struct scan_reader *reader,
-                           const struct command_line *line, struct tracks_output *tracks)
+static void step_and_write_all_scans(struct maintaining *maintaining, struct scan_reader *reader,
+                                     const struct command_line *line, struct tracks_output *tracks)
 {
     struct progress progress = progress_start("scans", 0);
     uint64_t bytes = plain_file_size(line->arguments[0]);
@@ -92,10 +95,10 @@ static void step_all_scans(struct maintaining *maintaining, struct scan_reader *
     while ((scan = scan_reader_next(reader))) {
         bool was_started = maintainer_is_started(maintaining->maintainer);
 
-        step_scan(maintaining, scan, scan_reader_sensor(reader));
+        step_and_time_scan(maintaining, scan, scan_reader_sensor(reader));
         bool is_started = maintainer_is_started(maintaining->maintainer);
         if (is_started && !was_started) {
-            warn_of_unseen_inputs(line, maintaining->gate, scan);
+            warn_of_unobservable_inputs(line, maintaining->gate, scan);
         }
         if (is_started && tracks) {
             tracks_output_write_track(tracks, scan->time_us,
@@ -177,7 +180,7 @@ static struct scan_reader *open_plot_reader(const struct command_line *line)
 int command_maintain(struct command_line *line)
 {
     bool has_file = line->output || !line->json;
-    struct maintaining maintaining = {.gate = chosen_gate(line),
+    struct maintaining maintaining = {.gate = apply_gate_option(line),
                                       .random = random_start(line->seed, 0, 0)};
     struct scan_reader *reader;
     struct scan_reader_counts counts;
@@ -189,7 +192,7 @@ int command_maintain(struct command_line *line)
     reader = open_plot_reader(line);
     tracks =
         has_file ? tracks_output_open(line->output, &line->parameters, line->covariance) : NULL;
-    step_all_scans(&maintaining, reader, line, tracks);
+    step_and_write_all_scans(&maintaining, reader, line, tracks);
     counts = scan_reader_counts(reader);
     if (counts.plots == 0) {
         fail(EXIT_USAGE, "%s: not one plot to start the track from", line->arguments[0]);

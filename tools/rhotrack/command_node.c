@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* node: the live tracker: LCM messages of sensors in, LCM messages of tracks out. */
+/* node: the live tracker: receives sensors' LCM messages, and publishes tracks as LCM messages. */
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -33,25 +33,25 @@
 
 enum {
     HINT_SCANS = 1000,
-    TURN_MESSAGES = 256,  /* taken before signals and clocks are looked at again */
-    STATUS_US = 1000000,  /* from one RHO_STATUS to the next */
-    CLUTTER_STATUSES = 5, /* statuses from one RHO_CLUTTER to the next */
-    WARNING_US = 1000000, /* from one warning of a cause to the next */
-    RESTARTS_SAID = 8,    /* of sensors, within that time */
-    MISSING_US = 3000000, /* that a scan must be missing for before it is called lost */
+    TURN_MESSAGES = 256,  /* most messages taken in a row before signals and timers are checked */
+    STATUS_US = 1000000,  /* interval of RHO_STATUS messages */
+    CLUTTER_STATUSES = 5, /* one RHO_CLUTTER message for this many RHO_STATUS messages */
+    WARNING_US = 1000000, /* shortest interval between warnings of the same cause */
+    RESTARTS_SAID = 8,    /* most sensor restarts reported within WARNING_US */
+    MISSING_US = 3000000, /* a missing scan counts as lost after this long */
     SNAPSHOT_US = 60000000,
-    END_US = 350000,     /* for the outputs at the end */
-    END_MOST_US = 500000 /* for the whole program, once it is told to end */
+    END_US = 350000,     /* longest wait for outputs (print, log) at the end */
+    END_MOST_US = 500000 /* longest time from the signal to end until the process exits */
 };
 
 struct warning {
     uint64_t said;
     int64_t said_us;
-    bool is_more;   /* the count exceeds the last warning, since more_us */
-    uint64_t least; /* since more_us */
+    bool is_more;   /* since more_us the count exceeds the count of the last warning */
+    uint64_t least; /* smallest count since more_us */
     int64_t more_us;
-    uint64_t counted; /* when the last message was taken */
-    bool has_sensor;  /* the last one that it counts was of this sensor */
+    uint64_t counted; /* count when the last message was taken */
+    bool has_sensor;  /* the event counted last came from the sensor sensor_id */
     int16_t sensor_id;
 };
 
@@ -59,34 +59,38 @@ struct node {
     struct transport *transport;
     struct node_core *core;
     struct node_print print;
-    struct node_log *log;      /* NULL: none */
-    struct page_server *pages; /* of metrics; NULL: none */
+    struct node_log *log;      /* NULL: no log is written */
+    struct page_server *pages; /* serves the metrics page; NULL: no metrics */
     const struct parameters *parameters;
-    const char *snapshot_path; /* NULL: none */
-    int64_t snapshot_us;       /* clock_us: when the next one is due */
-    pid_t snapshot_writer;     /* 0: none is at work */
-    pid_t clutter_writer;      /* likewise */
+    const char *snapshot_path; /* NULL: no snapshot is written */
+    int64_t snapshot_us;       /* monotonic time at which the next snapshot is due */
+    pid_t snapshot_writer;     /* process that writes a snapshot; 0: none is running */
+    pid_t clutter_writer;      /* process that saves the clutter map; 0: none is running */
     struct warning warnings[NODE_TALLIES];
     struct node_sensors sensors;
     struct senders senders;
-    struct scan_interval_hint plots; /* of the first HINT_SCANS scans */
+    struct scan_interval_hint plots; /* scan intervals of the first HINT_SCANS scans */
     struct clutter_file clutter;
-    int signals, hang_ups;     /* descriptors: SIGTERM and SIGINT; SIGHUP */
-    bool has_terminal;         /* and ends with it */
-    int64_t status_us, end_us; /* clock_us: when the next status is due; when it is over */
-    int64_t finish_us;         /* clock_us: until when outputs are waited for at the end */
-    unsigned statuses;         /* that were sent */
+    /* signal descriptors: `signals` of SIGTERM and SIGINT, `hang_ups` of SIGHUP */
+    int signals, hang_ups;
+    bool has_terminal;         /* the node was started from a terminal, and ends with it */
+    int64_t status_us, end_us; /* monotonic times: next status; end of --for */
+    int64_t finish_us;         /* monotonic time until which outputs are waited for at the end */
+    unsigned statuses;         /* status messages sent so far */
     bool knows_wall[RHO_LEARNED_REFLECTORS];
-    int64_t restarts_us;      /* clock_us: of the first of the restarts below */
-    unsigned restarts;        /* of sensors, within WARNING_US */
-    bool is_over, is_waiting; /* waiting: nothing is left to receive */
+    int64_t restarts_us;      /* monotonic time of the first restart counted in `restarts` */
+    unsigned restarts;        /* sensor restarts within WARNING_US from restarts_us on */
+    bool is_over, is_waiting; /* is_waiting: no message is left to receive */
     int exit_code;
-    uint64_t taken; /* messages */
+    uint64_t taken; /* messages taken so far */
 };
 
 /* ---- Log ---- */
 
-/* Stock readers of logs want channels that are text, which a hostile one need not be. */
+/*
+ * True for printable ASCII: common readers of LCM logs fail on other channel names, which a hostile
+ * sender can use.
+ */
 static bool is_printable_channel(const char *channel)
 {
     while (*channel > ' ' && *channel <= '~') {
@@ -105,14 +109,17 @@ static void log_message(struct node *node, int64_t time_us, const char *channel,
 
 /* ---- Files that are saved ---- */
 
-/* A file that cannot be saved does not end the tracking. */
-static void note_save_result(struct node *node, bool is_saved)
+/* Makes the exit code a failure where a file could not be saved; tracking goes on. */
+static void set_exit_code_of_save(struct node *node, bool is_saved)
 {
     node->exit_code = is_saved ? node->exit_code : EXIT_RUNTIME;
 }
 
-/* True where the process that writes has ended, or there was none; *code is its exit code then. */
-static bool has_writer_ended(pid_t *writer, int options, int *code)
+/*
+ * True where the writing process has ended or none was running; *code gets its exit code. waitpid's
+ * `options` say whether to wait for it.
+ */
+static bool reap_writer_process(pid_t *writer, int options, int *code)
 {
     int status = 0;
 
@@ -124,17 +131,17 @@ static bool has_writer_ended(pid_t *writer, int options, int *code)
     return true;
 }
 
-/* One that is not written does not end the tracking; the next one may be. */
+/* Warns of a failed snapshot and makes the exit code a failure; tracking goes on. */
 static void warn_of_unwritten_snapshot(struct node *node, const char *why)
 {
     fprintf(stderr, "rhotrack: %s: %s; the snapshot is not written\n", node->snapshot_path, why);
     node->exit_code = EXIT_RUNTIME;
 }
 
-static bool has_snapshot_writer_ended(struct node *node, int options)
+static bool reap_snapshot_writer(struct node *node, int options)
 {
     int code;
-    const bool is_ended = has_writer_ended(&node->snapshot_writer, options, &code);
+    const bool is_ended = reap_writer_process(&node->snapshot_writer, options, &code);
 
     if (is_ended && code) {
         warn_of_unwritten_snapshot(node, strerror(code));
@@ -142,7 +149,7 @@ static bool has_snapshot_writer_ended(struct node *node, int options)
     return is_ended;
 }
 
-/* In a process of its own, as the copy of what is here now: messages do not wait for the disk. */
+/* Writes the snapshot in a forked process, so that messages do not wait for the disk. */
 static void start_snapshot_writer(struct node *node)
 {
     node->snapshot_writer = fork();
@@ -157,36 +164,38 @@ static void start_snapshot_writer(struct node *node)
 
 static void write_snapshot_when_due(struct node *node, int64_t now_us)
 {
-    if (node->snapshot_path && now_us >= node->snapshot_us &&
-        has_snapshot_writer_ended(node, WNOHANG)) {
+    if (node->snapshot_path && now_us >= node->snapshot_us && reap_snapshot_writer(node, WNOHANG)) {
         node->snapshot_us = now_us + SNAPSHOT_US;
         start_snapshot_writer(node);
     }
 }
 
-static void write_last_snapshot(struct node *node)
+static void write_snapshot_at_end(struct node *node)
 {
     if (node->snapshot_path) {
-        (void)has_snapshot_writer_ended(node, 0);
+        (void)reap_snapshot_writer(node, 0);
         if (!node_core_save_snapshot(node->core, node->snapshot_path)) {
             warn_of_unwritten_snapshot(node, strerror(errno));
         }
     }
 }
 
-static bool has_clutter_writer_ended(struct node *node, int options)
+static bool reap_clutter_writer(struct node *node, int options)
 {
     int code;
-    const bool is_ended = has_writer_ended(&node->clutter_writer, options, &code);
+    const bool is_ended = reap_writer_process(&node->clutter_writer, options, &code);
 
-    note_save_result(node, !is_ended || code == 0);
+    set_exit_code_of_save(node, !is_ended || code == 0);
     return is_ended;
 }
 
-/* In a process of its own, too, which says itself what goes wrong. */
-static void save_clutter_when_due(struct node *node)
+/*
+ * Saves the clutter map in a forked process, which prints its own errors, so that messages do not
+ * wait for the disk.
+ */
+static void save_clutter_map_when_due(struct node *node)
 {
-    if (clutter_file_is_due(&node->clutter) && has_clutter_writer_ended(node, WNOHANG)) {
+    if (clutter_file_is_due(&node->clutter) && reap_clutter_writer(node, WNOHANG)) {
         node->clutter.saved_us = clock_us();
         node->clutter_writer = fork();
         if (node->clutter_writer == 0) {
@@ -194,40 +203,43 @@ static void save_clutter_when_due(struct node *node)
                       ? 0
                       : EXIT_RUNTIME);
         }
-        note_save_result(node, node->clutter_writer > 0);
+        set_exit_code_of_save(node, node->clutter_writer > 0);
         node->clutter_writer = node->clutter_writer > 0 ? node->clutter_writer : 0;
     }
 }
 
-static void save_last_clutter(struct node *node)
+static void save_clutter_map_at_end(struct node *node)
 {
-    (void)has_clutter_writer_ended(node, 0);
-    note_save_result(node, clutter_file_save(&node->clutter, node_core_clutter_map(node->core)));
+    (void)reap_clutter_writer(node, 0);
+    set_exit_code_of_save(node,
+                          clutter_file_save(&node->clutter, node_core_clutter_map(node->core)));
 }
 
 /* ---- Calls of the core ---- */
 
-static void send_core_message(void *context, const char *channel, const uint8_t *data, size_t size)
+static void send_and_log_message(void *context, const char *channel, const uint8_t *data,
+                                 size_t size)
 {
     struct node *node = context;
 
-    (void)transport_send(node->transport, channel, data, size); /* counted */
+    /* failures are counted by the transport */
+    (void)transport_send(node->transport, channel, data, size);
     if (node->log) {
         log_message(node, transport_now_us(node->transport), channel, data, size);
     }
 }
 
 /*
- * At each step, so that no change is missed however many of them come at once. Nothing is said
- * while the terminal shows a table.
+ * Prints sensors that became suspect, silent or sound again. Called at each step, so that no change
+ * is missed; prints nothing while the terminal shows a table.
  */
-static void tell_of_sensor_changes(struct node *node)
+static void print_sensor_changes(struct node *node)
 {
     node_sensors_print_changes(&node->sensors, node->core, node->print.is_terminal ? NULL : stderr);
 }
 
-/* A wall that is learned, or forgotten, is told of once. */
-static void tell_of_wall_changes(struct node *node)
+/* Prints each wall (reflector) once when it is learned, and once when it is forgotten. */
+static void print_wall_changes(struct node *node)
 {
     struct rho_reflector wall;
 
@@ -245,18 +257,18 @@ static void tell_of_wall_changes(struct node *node)
     }
 }
 
-static void tell_of_step(void *context, const struct rho_report *report)
+static void on_step(void *context, const struct rho_report *report)
 {
     struct node *node = context;
 
     node_print_note_step(&node->print, report);
-    tell_of_sensor_changes(node);
+    print_sensor_changes(node);
     if (!node->print.is_terminal) {
-        tell_of_wall_changes(node);
+        print_wall_changes(node);
     }
 }
 
-/* Names sensors that begin again, but within WARNING_US no more than RESTARTS_SAID of them. */
+/* Reports a sensor's restart; at most RESTARTS_SAID restarts within WARNING_US are printed. */
 static void on_sensor_restart(void *context, int16_t sensor_id)
 {
     struct node *node = context;
@@ -272,7 +284,7 @@ static void on_sensor_restart(void *context, int16_t sensor_id)
     }
 }
 
-static void on_new_clock(void *context)
+static void on_clock_change(void *context)
 {
     const struct node *node = context;
 
@@ -284,11 +296,11 @@ static void on_new_clock(void *context)
 /* ---- Warnings and the summary ---- */
 
 /*
- * The count that is certain by now: of a count that may fall again its least value of the last
- * MISSING_US, as a skipped number is lost only where its scan does not come a moment later.
+ * The count of losses that is certain by now. A count that may fall again gives its least value of
+ * the last MISSING_US: a skipped scan number is lost only if its scan does not arrive later.
  */
-static uint64_t certain_count(struct warning *warning, const struct node_tally *tally,
-                              int64_t now_us)
+static uint64_t certain_loss_count(struct warning *warning, const struct node_tally *tally,
+                                   int64_t now_us)
 {
     bool was_more = warning->is_more;
 
@@ -303,9 +315,10 @@ static uint64_t certain_count(struct warning *warning, const struct node_tally *
     return now_us >= warning->more_us + MISSING_US ? warning->least : warning->said;
 }
 
-static void warn_of_tally(struct warning *warning, const struct node_tally *tally, int64_t now_us)
+static void warn_when_tally_rose(struct warning *warning, const struct node_tally *tally,
+                                 int64_t now_us)
 {
-    uint64_t count = certain_count(warning, tally, now_us);
+    uint64_t count = certain_loss_count(warning, tally, now_us);
 
     if (tally->kind != NODE_TALLY_USUAL && count > warning->said &&
         now_us >= warning->said_us + WARNING_US) {
@@ -320,8 +333,8 @@ static void warn_of_tally(struct warning *warning, const struct node_tally *tall
     }
 }
 
-/* After a message of this channel: the counts that rose with it are of its sensor. */
-static void note_sensor_of_counts(struct node *node, const char *channel)
+/* Attributes the counts that rose with the last message to the sensor of its channel. */
+static void attribute_losses_to_sensor(struct node *node, const char *channel)
 {
     struct node_tally tallies[NODE_TALLIES];
     int16_t sensor_id = 0;
@@ -339,7 +352,7 @@ static void note_sensor_of_counts(struct node *node, const char *channel)
     }
 }
 
-/* Each cause at most once a second, and nothing while the terminal shows a table. */
+/* Warns of each cause at most once a second; prints nothing while the terminal shows a table. */
 static void warn_of_losses(struct node *node)
 {
     struct node_tally tallies[NODE_TALLIES];
@@ -350,7 +363,7 @@ static void warn_of_losses(struct node *node)
     }
     node_tally_all(node->core, node->transport, tallies);
     for (int i = 0; i < NODE_TALLIES; i++) {
-        warn_of_tally(&node->warnings[i], &tallies[i], now_us);
+        warn_when_tally_rose(&node->warnings[i], &tallies[i], now_us);
     }
 }
 
@@ -393,8 +406,8 @@ static void print_summary(const struct node *node)
 
 /* ---- The loop ---- */
 
-/* Whether the process still has the terminal that it was started from. */
-static bool has_terminal(void)
+/* True where the process still has its controlling terminal. */
+static bool has_controlling_terminal(void)
 {
     const int descriptor = open("/dev/tty", O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
 
@@ -404,7 +417,7 @@ static bool has_terminal(void)
     return descriptor >= 0;
 }
 
-static int open_signal_descriptor(const sigset_t *set)
+static int block_signals_to_descriptor(const sigset_t *set)
 {
     const int descriptor = signalfd(-1, set, SFD_CLOEXEC | SFD_NONBLOCK);
 
@@ -416,9 +429,9 @@ static int open_signal_descriptor(const sigset_t *set)
 }
 
 /*
- * Signals become readable before liblcm starts threads, which inherit that. They stay blocked: what
- * an unfinished output would do about them (common.c) is not needed, for the log is written under
- * its own name.
+ * Makes signals readable as descriptors, before liblcm starts threads, which inherit the mask. The
+ * signals stay blocked: the handler that removes unfinished outputs (common.c) is not needed, as
+ * the log is written under its own name.
  */
 static void set_up_signals(struct node *node)
 {
@@ -429,21 +442,23 @@ static void set_up_signals(struct node *node)
     sigaddset(&ends, SIGTERM);
     sigemptyset(&hang_ups);
     sigaddset(&hang_ups, SIGHUP);
-    node->has_terminal = !is_signal_ignored(SIGHUP) && has_terminal();
-    node->signals = open_signal_descriptor(&ends);
-    node->hang_ups = open_signal_descriptor(&hang_ups);
-    signal(SIGPIPE, SIG_IGN); /* standard output that ends shows as a write error */
-    signal(SIGXFSZ, SIG_IGN); /* and so does a log that is as long as the system allows */
+    node->has_terminal = !is_signal_ignored(SIGHUP) && has_controlling_terminal();
+    node->signals = block_signals_to_descriptor(&ends);
+    node->hang_ups = block_signals_to_descriptor(&hang_ups);
+    signal(SIGPIPE, SIG_IGN); /* a closed standard output shows as a write error */
+    signal(SIGXFSZ, SIG_IGN); /* a log at the file size limit shows as a write error */
 }
 
-/* SIGHUP: of an operator who has put the log away, or of the terminal that is gone. */
+/*
+ * SIGHUP: a log rotation asks to reopen the log, or the terminal was closed, which ends the node.
+ */
 static void handle_hang_up(struct node *node)
 {
     struct signalfd_siginfo info;
 
     while (read(node->hang_ups, &info, sizeof info) == (ssize_t)sizeof info) {
     }
-    if (node->has_terminal && !has_terminal()) {
+    if (node->has_terminal && !has_controlling_terminal()) {
         kill(getpid(), SIGTERM);
     } else {
         node_log_reopen(node->log);
@@ -451,10 +466,10 @@ static void handle_hang_up(struct node *node)
 }
 
 /*
- * Whatever the program waits for, a disk or a network: once it is told to end it has END_MOST_US
- * left.
+ * Thread that exits the process END_MOST_US after the signal to end, even where the main thread is
+ * blocked by a disk or a network.
  */
-static void *enforce_end_in_time(void *signals)
+static void *exit_when_end_takes_too_long(void *signals)
 {
     const struct timespec left = {0, END_MOST_US * 1000L};
     struct pollfd here = {.fd = *(const int *)signals, .events = POLLIN};
@@ -470,29 +485,31 @@ static void start_end_watchdog(int *signals)
 {
     pthread_t thread;
 
-    if (pthread_create(&thread, NULL, enforce_end_in_time, signals) == 0) {
+    if (pthread_create(&thread, NULL, exit_when_end_takes_too_long, signals) == 0) {
         pthread_detach(thread);
     }
 }
 
-static int64_t least_of(int64_t a, int64_t b)
+static int64_t earlier_us(int64_t a, int64_t b)
 {
     return a < b ? a : b;
 }
 
-/* Until a message, a signal, or whatever is due first. */
-static void wait_for_work(struct node *node)
+/*
+ * Waits for a message, a signal, a metrics client, or the next timer; serves signals and clients.
+ */
+static void wait_and_serve_descriptors(struct node *node)
 {
     struct pollfd here[4] = {{.fd = node->signals, .events = POLLIN},
                              {.fd = node->hang_ups, .events = POLLIN},
                              {.fd = page_server_descriptor(node->pages), .events = POLLIN},
                              {.fd = transport_descriptor(node->transport), .events = POLLIN}};
     int64_t due_us =
-        least_of(least_of(node->status_us, node->end_us), node_print_due_us(&node->print));
+        earlier_us(earlier_us(node->status_us, node->end_us), node_print_due_us(&node->print));
     int64_t core_due_us = node_core_due_us(node->core), wait_us = due_us - clock_us();
 
     if (core_due_us != INT64_MAX) {
-        wait_us = least_of(wait_us, core_due_us - transport_now_us(node->transport));
+        wait_us = earlier_us(wait_us, core_due_us - transport_now_us(node->transport));
     }
     if (!node->is_waiting || wait_us < 0) {
         wait_us = 0;
@@ -509,7 +526,7 @@ static void wait_for_work(struct node *node)
     }
 }
 
-static void end_after_last_message(struct node *node)
+static void end_at_end_of_input(struct node *node)
 {
     if (transport_url_is_live(transport_url(node->transport))) {
         fprintf(stderr, "rhotrack: %s: the connection is gone\n", transport_url(node->transport));
@@ -518,7 +535,7 @@ static void end_after_last_message(struct node *node)
     node->is_over = true;
 }
 
-/* Messages that this node, or another one, has published come back over multicast. */
+/* True for channels that nodes publish on: multicast delivers a node's own messages back to it. */
 static bool is_output_channel(const char *channel)
 {
     return strcmp(channel, RHO_MESSAGE_TRACK_LIST_CHANNEL) == 0 ||
@@ -539,7 +556,7 @@ static bool is_output_channel(const char *channel)
            strcmp(channel, RHO_MESSAGE_COMMAND_ANSWER_CHANNEL) == 0;
 }
 
-static void watch_scan_intervals(struct node *node, const struct transport_message *message)
+static void update_scan_interval_hint(struct node *node, const struct transport_message *message)
 {
     if (node->plots.scans < HINT_SCANS && !node->print.is_terminal) {
         scan_interval_hint_add_message(
@@ -550,9 +567,10 @@ static void watch_scan_intervals(struct node *node, const struct transport_messa
 }
 
 /*
- * Other programs' channels are left out of the log, and what was published is there as it was sent.
+ * Passes a received message to the core. The log gets channels that begin with RHO_; messages that
+ * the node published are already logged where they were sent.
  */
-static void take_message(struct node *node, const struct transport_message *message)
+static void process_message(struct node *node, const struct transport_message *message)
 {
     senders_note_message(&node->senders, message, clock_us(),
                          node->print.is_terminal ? NULL : stderr);
@@ -561,16 +579,16 @@ static void take_message(struct node *node, const struct transport_message *mess
     }
     error_lines_set_time(message->received_us);
     node->taken++;
-    watch_scan_intervals(node, message);
+    update_scan_interval_hint(node, message);
     if (strncmp(message->channel, "RHO_", 4) == 0) {
         log_message(node, message->received_us, message->channel, message->data, message->size);
     }
     node_core_take_message(node->core, message->channel, message->data, message->size,
                            message->received_us);
-    note_sensor_of_counts(node, message->channel);
+    attribute_losses_to_sensor(node, message->channel);
 }
 
-static void take_messages(struct node *node)
+static void receive_messages(struct node *node)
 {
     struct transport_message message;
     enum transport_found found = TRANSPORT_MESSAGE;
@@ -581,18 +599,18 @@ static void take_messages(struct node *node)
         }
         found = transport_receive(node->transport, &message);
         if (found == TRANSPORT_MESSAGE) {
-            take_message(node, &message);
+            process_message(node, &message);
         }
     }
     node->is_waiting = found == TRANSPORT_NOTHING;
     if (found == TRANSPORT_NOTHING) {
         node_core_tick(node->core, transport_now_us(node->transport));
     } else if (found == TRANSPORT_END) {
-        end_after_last_message(node);
+        end_at_end_of_input(node);
     }
 }
 
-static struct node_core_losses node_losses(const struct node *node)
+static struct node_core_losses collect_losses(const struct node *node)
 {
     const struct transport_counters network = transport_counters(node->transport);
 
@@ -609,7 +627,7 @@ static void write_metrics(FILE *out, void *context)
         .transport = node->transport,
         .parameters = node->parameters,
         .messages_in = node->taken,
-        .losses = node_losses(node),
+        .losses = collect_losses(node),
         .pages_sent = page_server_num_sent(node->pages),
         .clients_refused = page_server_num_refused(node->pages),
     };
@@ -617,9 +635,9 @@ static void write_metrics(FILE *out, void *context)
     metrics_write(out, &source);
 }
 
-static void send_status(struct node *node)
+static void send_status_and_clutter(struct node *node)
 {
-    const struct node_core_losses losses = node_losses(node);
+    const struct node_core_losses losses = collect_losses(node);
 
     node_core_send_status(node->core, &losses);
     if (node->statuses++ % CLUTTER_STATUSES == 0) {
@@ -627,7 +645,7 @@ static void send_status(struct node *node)
     }
 }
 
-static void show_tracks(struct node *node, bool is_end)
+static void refresh_track_table(struct node *node, bool is_end)
 {
     if (!node_print_show(&node->print, node->core, transport_url(node->transport), is_end)) {
         if (errno != EPIPE) {
@@ -635,54 +653,54 @@ static void show_tracks(struct node *node, bool is_end)
             node->exit_code = EXIT_RUNTIME;
         }
         node->print.is_on = node->print.is_changed = false;
-        node->is_over = true; /* whoever read it has gone */
+        node->is_over = true; /* the reader of standard output has closed it */
     }
 }
 
-static void do_what_is_due(struct node *node)
+static void do_periodic_work(struct node *node)
 {
     int64_t now_us = clock_us();
 
     if (now_us >= node->status_us) {
         node->status_us += STATUS_US;
-        if (node->status_us <= now_us) { /* the program was stopped for a while */
+        if (node->status_us <= now_us) { /* the program was suspended for a while */
             node->status_us = now_us + STATUS_US;
         }
-        send_status(node);
-        page_server_serve(node->pages); /* who was too slow goes */
+        send_status_and_clutter(node);
+        page_server_serve(node->pages); /* drops clients that are too slow */
     }
     write_snapshot_when_due(node, now_us);
     node->is_over = node->is_over || now_us >= node->end_us;
-    show_tracks(node, false);
+    refresh_track_table(node, false);
     warn_of_losses(node);
-    tell_of_sensor_changes(node);
-    note_save_result(node, node_log_report_errors(node->log));
-    save_clutter_when_due(node);
+    print_sensor_changes(node);
+    set_exit_code_of_save(node, node_log_report_errors(node->log));
+    save_clutter_map_when_due(node);
 }
 
 static void run_node(struct node *node)
 {
     while (!node->is_over) {
-        do_what_is_due(node);
-        wait_for_work(node);
-        take_messages(node);
+        do_periodic_work(node);
+        wait_and_serve_descriptors(node);
+        receive_messages(node);
     }
     node->finish_us = clock_us() + END_US;
     node_core_flush(node->core);
     node->statuses = 0;
-    send_status(node);
-    show_tracks(node, true);
+    send_status_and_clutter(node);
+    refresh_track_table(node, true);
 }
 
-/* Outputs that take nothing are waited for END_US at most, all together. */
-static void finish_outputs(struct node *node)
+/* Waits at most END_US for print and log together, then prints the summary and saves the files. */
+static void finish_and_save_outputs(struct node *node)
 {
     node_print_finish(&node->print, node->finish_us);
     node_log_finish_queue(node->log, node->finish_us);
-    note_save_result(node, node_log_report_errors(node->log));
+    set_exit_code_of_save(node, node_log_report_errors(node->log));
     print_summary(node);
-    write_last_snapshot(node);
-    save_last_clutter(node);
+    write_snapshot_at_end(node);
+    save_clutter_map_at_end(node);
 }
 
 static struct node_log_limits log_limits(const struct parameters *parameters)
@@ -699,11 +717,11 @@ int command_node(struct command_line *line)
 {
     struct node node = {
         .status_us = clock_us(), .end_us = INT64_MAX, .parameters = &line->parameters};
-    const struct node_core_events events = {&node, send_core_message, tell_of_step,
-                                            on_sensor_restart, on_new_clock};
+    const struct node_core_events events = {&node, send_and_log_message, on_step, on_sensor_restart,
+                                            on_clock_change};
     const bool is_live = transport_url_is_live(line->lcm);
     const struct node_log_limits limits = log_limits(&line->parameters);
-    bool is_restored = false; /* the map of clutter, too */
+    bool is_restored = false; /* from the snapshot, which has the clutter map */
     int exit_code;
 
     if (line->log && transport_url_is_file(line->lcm, line->log)) {
@@ -742,7 +760,7 @@ int command_node(struct command_line *line)
         node.end_us = node.status_us + llround(line->seconds * 1e6);
     }
     run_node(&node);
-    finish_outputs(&node);
+    finish_and_save_outputs(&node);
     exit_code = node.exit_code;
     page_server_close(node.pages);
     transport_close(node.transport);

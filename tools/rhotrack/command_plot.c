@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* plot: pictures of plots, tracks, errors and of the parameter space. */
+/* plot: pictures of plots, tracks, errors, the parameter space of lines, and clutter maps. */
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,15 +18,17 @@
 #include "picture/plot_tracks.h"
 #include "picture/plot_votes.h"
 
-static void need_points(const struct plot_points *points, const char *kind, const char *what)
+static void require_points(const struct plot_points *points, const char *kind, const char *what)
 {
     if (points->count == 0) {
         fail(EXIT_USAGE, "plot %s: no file with %s is given", kind, what);
     }
 }
 
-/* The slider of a page stops at times of these. */
-static void need_times_for_page(const struct plot_data *data)
+/*
+ * Exit 2 where the data have no times but the truth's, at which the slider of an HTML page stops.
+ */
+static void require_times_for_page(const struct plot_data *data)
 {
     if (data->plots.count + data->tracks.count + data->bearings.count == 0) {
         fail(EXIT_USAGE, "plot: a page needs plots, tracks or bearings beside the truth; "
@@ -47,9 +49,9 @@ static void check_data_for_kind(const char *kind, const struct plot_data *data)
         return;
     }
     if (strcmp(kind, "scans") == 0 || strcmp(kind, "parameter-space") == 0) {
-        need_points(&data->plots, kind, "plots (t_s, x_m, y_m)");
+        require_points(&data->plots, kind, "plots (t_s, x_m, y_m)");
     } else if (strcmp(kind, "errors") == 0) {
-        need_points(&data->truth, kind, "truth (target_id)");
+        require_points(&data->truth, kind, "truth (target_id)");
     } else if (strcmp(kind, "tracks") != 0) {
         fail(EXIT_USAGE,
              "plot: no picture '%s'; there is: scans, tracks, parameter-space, errors, "
@@ -60,15 +62,17 @@ static void check_data_for_kind(const char *kind, const struct plot_data *data)
     }
 }
 
-/* Read before the picture is begun, so that a refused input leaves no half picture. */
-struct findings {
+/*
+ * Results that are computed before the picture is opened, so that bad input leaves no part of it.
+ */
+struct drawn_results {
     struct revolutions revolutions;
     struct plot_errors errors;
-    struct plot_votes *votes; /* of --method; else NULL */
+    struct plot_votes *votes; /* accumulator of --method; NULL: no method */
 };
 
-static void find_votes_of_method(struct findings *findings, const struct plot_data *data,
-                                 struct command_line *line)
+static void compute_votes_of_method(struct drawn_results *results, const struct plot_data *data,
+                                    struct command_line *line)
 {
     const enum method method = method_find(line->method);
 
@@ -79,28 +83,28 @@ static void find_votes_of_method(struct findings *findings, const struct plot_da
              method_name(method));
     }
     method_suggest_parameters(method, &line->parameters);
-    findings->revolutions = plot_parameter_space_read(
+    results->revolutions = plot_parameter_space_read(
         data, &line->parameters, (size_t)line->parameters.value[PARAMETER_SCANS]);
-    findings->votes = plot_votes_find(method, &findings->revolutions, &line->parameters);
+    results->votes = plot_votes_find(method, &results->revolutions, &line->parameters);
 }
 
-static struct findings find_what_is_drawn(const char *kind, const struct plot_data *data,
-                                          struct command_line *line)
+static struct drawn_results compute_results_to_draw(const char *kind, const struct plot_data *data,
+                                                    struct command_line *line)
 {
     const struct parameters *parameters = &line->parameters;
-    struct findings findings = {.revolutions = {.count = 0}};
+    struct drawn_results results = {.revolutions = {.count = 0}};
     if (strcmp(kind, "errors") == 0) {
-        findings.errors = plot_errors_find(data, parameters);
+        results.errors = plot_errors_find(data, parameters);
     } else if (strcmp(kind, "parameter-space") == 0 && line->method) {
-        find_votes_of_method(&findings, data, line);
+        compute_votes_of_method(&results, data, line);
     } else if (strcmp(kind, "parameter-space") == 0) {
-        findings.revolutions = plot_parameter_space_read(data, parameters, RHO_MAX_SCANS);
+        results.revolutions = plot_parameter_space_read(data, parameters, RHO_MAX_SCANS);
     }
-    return findings;
+    return results;
 }
 
-static void draw_kind(const char *kind, struct picture *picture, const struct plot_data *data,
-                      const struct findings *findings)
+static void draw_picture_of_kind(const char *kind, struct picture *picture,
+                                 const struct plot_data *data, const struct drawn_results *results)
 {
     if (strcmp(kind, "scans") == 0 && data->bearings.num_sensors) {
         plot_bearings(picture, data);
@@ -109,15 +113,15 @@ static void draw_kind(const char *kind, struct picture *picture, const struct pl
     } else if (strcmp(kind, "tracks") == 0) {
         plot_tracks(picture, data);
     } else if (strcmp(kind, "errors") == 0) {
-        plot_errors(picture, data, &findings->errors);
-    } else if (findings->votes) {
-        plot_votes(picture, findings->votes);
+        plot_errors(picture, data, &results->errors);
+    } else if (results->votes) {
+        plot_votes(picture, results->votes);
     } else {
-        plot_parameter_space(picture, data, &findings->revolutions);
+        plot_parameter_space(picture, data, &results->revolutions);
     }
 }
 
-/* The map, and files of plots that are drawn beneath. */
+/* Draws the clutter map, over the plots of further files. */
 static int plot_clutter_map(const struct command_line *line)
 {
     size_t count;
@@ -126,7 +130,7 @@ static int plot_clutter_map(const struct command_line *line)
     struct plot_data data =
         plot_data_read(line->arguments + 2, line->num_arguments - 2, &line->parameters);
     if (line->num_arguments > 2) {
-        need_points(&data.plots, "clutter-map", "plots (t_s, x_m, y_m)");
+        require_points(&data.plots, "clutter-map", "plots (t_s, x_m, y_m)");
     }
     struct picture picture = picture_open(line->output, 1000, 900);
     plot_clutter(&picture, echoes, count, &data, &line->parameters);
@@ -162,18 +166,18 @@ int command_plot(struct command_line *line)
         plot_data_read(line->arguments + 1, line->num_arguments - 1, &line->parameters);
     check_data_for_kind(kind, &data);
     if (page_path_is_html(line->output)) {
-        need_times_for_page(&data);
+        require_times_for_page(&data);
         page_write(line->output, &data, &line->parameters);
         plot_data_free(&data);
         return 0;
     }
-    struct findings findings = find_what_is_drawn(kind, &data, line);
+    struct drawn_results results = compute_results_to_draw(kind, &data, line);
     struct picture picture = picture_open(line->output, 1100, 680);
-    draw_kind(kind, &picture, &data, &findings);
+    draw_picture_of_kind(kind, &picture, &data, &results);
     picture_close(&picture);
-    revolutions_free(&findings.revolutions);
-    plot_errors_free(&findings.errors);
-    plot_votes_free(findings.votes);
+    revolutions_free(&results.revolutions);
+    plot_errors_free(&results.errors);
+    plot_votes_free(results.votes);
     plot_data_free(&data);
     return 0;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* publish: plays files as sensors: their messages in time over LCM. */
+/* publish: plays files as live sensors would: sends their messages over LCM at their times. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -19,10 +19,11 @@
 #include "transport/transport.h"
 
 #define NS_PER_S 1000000000
-#define PIECE_NS 100000000 /* a signal between a look and a sleep is noticed after this long */
-#define LATEST_S 1e9       /* nobody waits as long */
+/* longest sleep: a signal just before a sleep is noticed after this long */
+#define PIECE_NS 100000000
+#define LATEST_S 1e9 /* longest wait for an event, seconds */
 
-/* A channel in the first pass, and the numbers of its scans. */
+/* A channel and its range of scan numbers in the first pass. */
 struct channel {
     char name[RHO_UDPM_MAX_CHANNEL + 1];
     int32_t first_scan, last_scan;
@@ -34,22 +35,22 @@ struct player {
     struct transport *transport;
     struct channel *channels;
     size_t num_channels, capacity;
-    uint8_t *buffer; /* of a message that is changed */
+    uint8_t *buffer; /* copy of a message whose times or epoch are changed */
     size_t buffer_bytes;
-    int32_t epoch; /* for those of CSV; 0: as they are */
+    int32_t epoch; /* epoch of messages made of CSV rows; 0: the messages keep their own */
     int64_t first_us, last_us;
-    uint64_t times;    /* different ones, of the first pass */
-    uint64_t start_ns; /* CLOCK_MONOTONIC: of the first event */
+    uint64_t times;    /* distinct event times of the first pass */
+    uint64_t start_ns; /* CLOCK_MONOTONIC at the first event */
     uint64_t passes, skipped;
-    bool is_over;    /* its time is */
-    double shift_us; /* of this pass */
+    bool is_over;    /* the time of --for has passed */
+    double shift_us; /* offset of this pass's times */
     double lag_max_s;
-    struct scan_interval_hint plots; /* of the first pass */
+    struct scan_interval_hint plots; /* scan intervals of the plots in the first pass */
 };
 
 /* ---- Time ---- */
 
-static bool is_playing_over(const struct player *player)
+static bool is_playback_over(const struct player *player)
 {
     return player->is_over || publish_is_stopped();
 }
@@ -62,7 +63,9 @@ static uint64_t monotonic_ns(void)
     return (uint64_t)now.tv_sec * NS_PER_S + (uint64_t)now.tv_nsec;
 }
 
-/* Deadlines are absolute: what one sleep is late, the next is not. */
+/*
+ * Sleeps until an absolute deadline, so that delays do not add up; ends early on signals and --for.
+ */
 static void sleep_until(struct player *player, uint64_t deadline_ns)
 {
     uint64_t now_ns = monotonic_ns();
@@ -70,7 +73,7 @@ static void sleep_until(struct player *player, uint64_t deadline_ns)
                           ? player->start_ns + (uint64_t)(player->line->seconds * 1e9)
                           : UINT64_MAX;
 
-    while (!is_playing_over(player) && now_ns < deadline_ns) {
+    while (!is_playback_over(player) && now_ns < deadline_ns) {
         uint64_t next_ns = deadline_ns - now_ns > PIECE_NS ? now_ns + PIECE_NS : deadline_ns;
         struct timespec next = {(time_t)(next_ns / NS_PER_S), (long)(next_ns % NS_PER_S)};
 
@@ -81,7 +84,7 @@ static void sleep_until(struct player *player, uint64_t deadline_ns)
     player->is_over = now_ns >= end_ns;
 }
 
-/* Waits for an event's time; times that go back are now. */
+/* Waits for an event's time on the playback clock; a time in the past does not wait. */
 static void wait_for_event_time(struct player *player, int64_t utime)
 {
     double after_s = 0;
@@ -93,7 +96,7 @@ static void wait_for_event_time(struct player *player, int64_t utime)
     uint64_t deadline_ns =
         player->start_ns + (uint64_t)(fmin(fmax(after_s, 0), LATEST_S) * NS_PER_S);
     sleep_until(player, deadline_ns);
-    if (player->line->speed > 0 && !is_playing_over(player)) {
+    if (player->line->speed > 0 && !is_playback_over(player)) {
         player->lag_max_s =
             fmax(player->lag_max_s, (double)(monotonic_ns() - deadline_ns) / NS_PER_S);
     }
@@ -101,7 +104,7 @@ static void wait_for_event_time(struct player *player, int64_t utime)
 
 /* ---- What goes on from pass to pass ---- */
 
-static struct channel *find_channel(struct player *player, const char *name)
+static struct channel *find_or_add_channel(struct player *player, const char *name)
 {
     struct channel *channel;
 
@@ -118,10 +121,10 @@ static struct channel *find_channel(struct player *player, const char *name)
     return channel;
 }
 
-/* Counts an event of the first pass: its time, and the scans of its channel. */
-static void note_first_pass_event(struct player *player, const struct message_event *event)
+/* Records an event of the first pass: its time, and the range of its channel's scan numbers. */
+static void record_first_pass_event(struct player *player, const struct message_event *event)
 {
-    struct channel *channel = find_channel(player, event->channel);
+    struct channel *channel = find_or_add_channel(player, event->channel);
     int32_t scan;
 
     if (player->passes > 0) {
@@ -137,7 +140,7 @@ static void note_first_pass_event(struct player *player, const struct message_ev
     }
 }
 
-/* A pass begins one mean interval after the end of the one before. */
+/* Time from pass to pass: the duration of the first pass plus one mean interval of its events. */
 static double pass_duration_us(const struct player *player)
 {
     double duration_us = (double)player->last_us - (double)player->first_us;
@@ -152,10 +155,13 @@ static uint32_t scans_in_pass(const struct channel *channel)
     return (uint32_t)channel->last_scan - (uint32_t)channel->first_scan + 1;
 }
 
-/* The message as it is to be sent. */
-static const uint8_t *message_for_pass(struct player *player, const struct message_event *event)
+/*
+ * The message for this pass: with the run's epoch, and later passes with shifted times and scans.
+ */
+static const uint8_t *adapt_message_to_pass(struct player *player,
+                                            const struct message_event *event)
 {
-    const struct channel *channel = find_channel(player, event->channel);
+    const struct channel *channel = find_or_add_channel(player, event->channel);
 
     if (player->passes == 0 && !player->epoch) {
         return event->data;
@@ -180,28 +186,28 @@ static const uint8_t *message_for_pass(struct player *player, const struct messa
 static void send_event(struct player *player, const struct message_event *event)
 {
     player->skipped += !publish_send_message(player->transport, event->channel,
-                                             message_for_pass(player, event), event->size);
+                                             adapt_message_to_pass(player, event), event->size);
 }
 
-static struct message_source *open_messages(const struct command_line *line)
+static struct message_source *open_message_source(const struct command_line *line)
 {
     return message_source_open(line->arguments, line->num_arguments, &line->parameters,
                                line->keep_going);
 }
 
-/* One pass; the source is closed. */
+/* Sends all messages of the source once at their times, and closes the source. */
 static void play_pass(struct player *player, struct message_source *source)
 {
     struct message_event event;
 
-    while (!is_playing_over(player) && message_source_next(source, &event)) {
+    while (!is_playback_over(player) && message_source_next(source, &event)) {
         if (!player->start_ns) {
             player->start_ns = monotonic_ns();
             player->first_us = event.utime;
         }
-        note_first_pass_event(player, &event);
+        record_first_pass_event(player, &event);
         wait_for_event_time(player, event.utime);
-        if (!is_playing_over(player)) {
+        if (!is_playback_over(player)) {
             send_event(player, &event);
         }
     }
@@ -214,8 +220,8 @@ static void play_pass(struct player *player, struct message_source *source)
 /* ---- Epochs ---- */
 
 /*
- * Whether a CSV file's header, its first line that is no comment, names the column. A pipe is not
- * looked into.
+ * True where the header of a CSV file (its first line that is not a comment) has a column epoch.
+ * False for pipes, which cannot be read twice.
  */
 static bool has_epoch_column(const char *path)
 {
@@ -239,10 +245,10 @@ static bool has_epoch_column(const char *path)
 }
 
 /*
- * A sensor that begins anew says so by its epoch; logs and files that say one keep it. 0 stands for
- * none.
+ * The epoch by which messages of CSV files show that their sensors restarted. 0 where a log or a
+ * column epoch already gives one.
  */
-static int32_t epoch_for_csv(const struct command_line *line)
+static int32_t epoch_for_csv_inputs(const struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments; i++) {
         if (lcm_log_is_log(line->arguments[i]) || has_epoch_column(line->arguments[i])) {
@@ -270,7 +276,7 @@ static void print_summary(const struct player *player)
 
 int command_publish(struct command_line *line)
 {
-    struct player player = {.line = line, .epoch = epoch_for_csv(line)};
+    struct player player = {.line = line, .epoch = epoch_for_csv_inputs(line)};
     struct message_source *source;
 
     if (asterix_udp_is_url(line->arguments[0])) {
@@ -282,11 +288,12 @@ int command_publish(struct command_line *line)
         }
     }
     publish_watch_signals();
-    source = open_messages(line); /* what is wrong with it is said before a log is emptied */
+    source = open_message_source(
+        line); /* input errors are reported before the output log is truncated */
     player.transport = transport_open(line->lcm, TRANSPORT_SEND);
     play_pass(&player, source);
-    while (line->loop && !is_playing_over(&player)) {
-        play_pass(&player, open_messages(line));
+    while (line->loop && !is_playback_over(&player)) {
+        play_pass(&player, open_message_source(line));
     }
     print_summary(&player);
     transport_close(player.transport);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* register: the biases of radars from the targets that several of them see. */
+/* register: estimates the biases of radars from targets that several of them see. */
 #include <stdlib.h>
 
 #include "base/common.h"
@@ -10,14 +10,14 @@
 #include "registration/register.h"
 #include "registration/register_output.h"
 
-/* A radar without a description stands in the origin; that can be true of one radar alone. */
+/* A radar without a place is assumed at the origin, which is acceptable for one radar only. */
 struct unplaced {
     bool is_any;
     int32_t sensor_id;
 };
 
-static void add_scan(struct register_data *data, const struct input *input,
-                     const struct parameters *parameters, struct unplaced *unplaced)
+static void add_scan_or_fail(struct register_data *data, const struct input *input,
+                             const struct parameters *parameters, struct unplaced *unplaced)
 {
     struct rho_sensor sensor;
     const char *wrong;
@@ -41,7 +41,8 @@ static void add_scan(struct register_data *data, const struct input *input,
     }
 }
 
-static uint64_t read_scans(const struct command_line *line, struct register_data *data)
+static uint64_t read_scans_counting_bad_rows(const struct command_line *line,
+                                             struct register_data *data)
 {
     struct inputs *inputs =
         inputs_open(line->arguments, line->num_arguments, &line->parameters, line->keep_going);
@@ -53,7 +54,7 @@ static uint64_t read_scans(const struct command_line *line, struct register_data
         fail(EXIT_USAGE, "register takes plots in range and azimuth, and no bearings");
     }
     for (struct input input = inputs_next(inputs); input.scan; input = inputs_next(inputs)) {
-        add_scan(data, &input, &line->parameters, &unplaced);
+        add_scan_or_fail(data, &input, &line->parameters, &unplaced);
         progress_show_bytes(&progress, ++done, inputs_bytes_read(inputs),
                             inputs_total_bytes(inputs));
     }
@@ -74,7 +75,7 @@ static void check_enough_radars(const struct register_data *data)
     }
 }
 
-static void print_result(const struct command_line *line, const struct register_result *result,
+static void print_biases(const struct command_line *line, const struct register_result *result,
                          uint64_t rows_skipped)
 {
     struct output output;
@@ -100,14 +101,14 @@ int command_register(struct command_line *line)
 
     command_line_check_ini_output(line, "register");
     pipeline_set_options(&line->parameters, &(struct pipeline_options){.gate = line->gate});
-    rows_skipped = read_scans(line, data);
+    rows_skipped = read_scans_counting_bad_rows(line, data);
     check_enough_radars(data);
     result = register_estimate_biases(data, &pipeline);
     if (result.targets == 0) {
         fail(EXIT_RUNTIME, "register: no target was tracked by two radars at the same time, within "
                            "3 km; nothing can be said of biases");
     }
-    print_result(line, &result, rows_skipped);
+    print_biases(line, &result, rows_skipped);
     if (!register_knows_any_bias(&result)) {
         fail(EXIT_RUNTIME,
              "register: %zu targets in common tell none of the biases to half of a plot's noise",

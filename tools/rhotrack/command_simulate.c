@@ -32,7 +32,7 @@ static _Noreturn void fail_with_scene_list(void)
     exit(EXIT_USAGE);
 }
 
-static _Noreturn void fail_unknown_scene(const char *name)
+static _Noreturn void fail_with_scene_hint(const char *name)
 {
     const char *hint = name_hint_nearest(name, scene_shipped_name);
     char list[2048];
@@ -46,7 +46,7 @@ static _Noreturn void fail_unknown_scene(const char *name)
          hint ? ", did you mean `" : "", hint ? hint : "", hint ? "`?" : "", list);
 }
 
-/* A scene says all that there is to say; --set changes what stands in it. */
+/* Exit 2 for --config: a scene holds all its settings itself, and --set changes them. */
 static void refuse_config_option(const struct command_line *line)
 {
     bool has_any = line->parameters.num_sensors > 0;
@@ -60,7 +60,7 @@ static void refuse_config_option(const struct command_line *line)
     }
 }
 
-/* Its own plots, and what a tracker may know of them. */
+/* Suggests tracking the simulated plots and bearings with the scenario.ini of the scene. */
 static void suggest_next_command(const struct command_line *line)
 {
     char *folder =
@@ -99,7 +99,7 @@ int command_simulate(struct command_line *line)
     }
     scene = scene_find(line->arguments[0], line->scene_sets, line->num_scene_sets);
     if (!scene) {
-        fail_unknown_scene(line->arguments[0]);
+        fail_with_scene_hint(line->arguments[0]);
     }
     refuse_config_option(line);
     if (line->runs > 1) {

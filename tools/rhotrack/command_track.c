@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* track: the whole pipeline, scans in, tracks out. */
+/* track: runs the whole pipeline on files: scans in, tracks out. */
 #include <cjson/cJSON.h>
 #include <inttypes.h>
 #include <math.h>
@@ -28,7 +28,7 @@
 
 struct tracking {
     struct pipeline pipeline;
-    struct pipeline_show *show; /* NULL: nothing is shown */
+    struct pipeline_show *show; /* messages of --show; NULL: none */
     struct clutter_file clutter;
     struct zones_output zones;
     struct no_tracks seen;
@@ -37,8 +37,8 @@ struct tracking {
 
 /* ---- Steps ---- */
 
-/* The sensor's description goes before its scan; it may have moved. */
-static void describe_sensor(struct tracking *tracking, const struct rho_sensor *sensor)
+/* Gives a sensor's description to the tracker; called before each of its scans, as it may move. */
+static void set_sensor_of_tracker(struct tracking *tracking, const struct rho_sensor *sensor)
 {
     enum rho_status status = rho_tracker_set_sensor(tracking->pipeline.tracker, sensor);
 
@@ -49,9 +49,12 @@ static void describe_sensor(struct tracking *tracking, const struct rho_sensor *
     must_succeed(status, "sensor");
 }
 
-/* Passive sensors stand still and are known from the start. */
-static void describe_passive_sensors(struct tracking *tracking, const struct inputs *inputs,
-                                     const struct parameters *parameters)
+/*
+ * Describes all passive sensors at the start, as they do not move; exit 2 where bearings of sensors
+ * so many or so far apart cannot be searched.
+ */
+static void check_and_set_passive_sensors(struct tracking *tracking, const struct inputs *inputs,
+                                          const struct parameters *parameters)
 {
     size_t count;
     const struct frame_sensor *sensors = inputs_passive_sensors(inputs, &count);
@@ -69,17 +72,17 @@ static void describe_passive_sensors(struct tracking *tracking, const struct inp
             sensor.x_m = sensors[i].x_m;
             sensor.y_m = sensors[i].y_m;
             sensor.range_max_m = (float)parameters_range_max_m(parameters, sensors[i].sensor_id);
-            describe_sensor(tracking, &sensor);
+            set_sensor_of_tracker(tracking, &sensor);
         }
     }
 }
 
-static void step_input(struct tracking *tracking, const struct input *input)
+static void step_and_time_input(struct tracking *tracking, const struct input *input)
 {
     int64_t start_us, took_us;
 
     if (input->sensor) {
-        describe_sensor(tracking, input->sensor);
+        set_sensor_of_tracker(tracking, input->sensor);
     }
     start_us = clock_us();
     if (input->scan) {
@@ -95,24 +98,23 @@ static void step_input(struct tracking *tracking, const struct input *input)
     }
 }
 
-/* Where messages of --show go: the log of the tracks, at the step's time. */
+/* Destination of --show messages: the log of the tracks, at the time of the step. */
 struct shown {
     struct tracks_output *tracks;
     int64_t time_us;
 };
 
-static void write_shown_message(void *context, const char *channel, const uint8_t *data,
-                                size_t size)
+static void write_show_message(void *context, const char *channel, const uint8_t *data, size_t size)
 {
     const struct shown *shown = context;
 
     tracks_output_write_message(shown->tracks, shown->time_us, channel, data, size);
 }
 
-static void step_and_report(struct tracking *tracking, const struct input *input,
-                            struct tracks_output *tracks)
+static void step_and_write_input(struct tracking *tracking, const struct input *input,
+                                 struct tracks_output *tracks)
 {
-    step_input(tracking, input);
+    step_and_time_input(tracking, input);
     if (tracking->pipeline.zones) {
         zones_output_write_events(&tracking->zones, tracking->pipeline.zones);
     }
@@ -121,7 +123,7 @@ static void step_and_report(struct tracking *tracking, const struct input *input
     }
     if (tracking->show) {
         struct shown shown = {tracks, tracking->pipeline.report->time_us};
-        const struct pipeline_show_output output = {&shown, write_shown_message};
+        const struct pipeline_show_output output = {&shown, write_show_message};
 
         pipeline_show_step(tracking->show, &tracking->pipeline, input->frame != NULL,
                            tracks_output_step_number(tracks), tracks_output_epoch(), shown.time_us,
@@ -129,15 +131,15 @@ static void step_and_report(struct tracking *tracking, const struct input *input
     }
 }
 
-static void step_all_inputs(struct tracking *tracking, struct inputs *inputs,
-                            struct tracks_output *tracks, bool is_on_terminal)
+static void step_and_write_all_inputs(struct tracking *tracking, struct inputs *inputs,
+                                      struct tracks_output *tracks, bool is_on_terminal)
 {
     struct progress progress = progress_start("scans", 0);
     uint64_t done = 0;
 
     for (struct input input = inputs_next(inputs); input.scan || input.frame;
          input = inputs_next(inputs)) {
-        step_and_report(tracking, &input, tracks);
+        step_and_write_input(tracking, &input, tracks);
         done++;
         if (!is_on_terminal) {
             progress_show_bytes(&progress, done, inputs_bytes_read(inputs),
@@ -157,7 +159,7 @@ static void on_stop_signal(int number)
     is_stopped = 1;
 }
 
-static void stop_on_signal(int number)
+static void install_stop_signal(int number)
 {
     struct sigaction action = {.sa_handler = on_stop_signal};
 
@@ -166,15 +168,15 @@ static void stop_on_signal(int number)
     }
 }
 
-/* All scans that are complete by now. Returns whether there were any. */
-static bool follow_scans(struct tracking *tracking, struct inputs *inputs,
-                         struct tracks_output *tracks)
+/* Steps all scans that are complete by now; returns whether there were any. */
+static bool step_complete_scans(struct tracking *tracking, struct inputs *inputs,
+                                struct tracks_output *tracks)
 {
     struct input input = {.scan = NULL};
     bool has_any = false;
 
     while (!is_stopped && (input = inputs_next(inputs)).scan) {
-        step_and_report(tracking, &input, tracks);
+        step_and_write_input(tracking, &input, tracks);
         if (tracks) {
             tracks_output_flush(tracks);
         }
@@ -183,10 +185,12 @@ static bool follow_scans(struct tracking *tracking, struct inputs *inputs,
     return has_any;
 }
 
-/* Until a signal, a pipe's end, or the end of such a file. Returns why ("has become shorter"), or
- * NULL. */
-static const char *follow_until_over(struct tracking *tracking, struct inputs *inputs,
-                                     struct tracks_output *tracks, int64_t quiet_us)
+/*
+ * Steps scans as the file grows, until a signal, the end of a pipe, or the end of the file. Returns
+ * why the file ended ("has become shorter"), or NULL.
+ */
+static const char *follow_growing_file(struct tracking *tracking, struct inputs *inputs,
+                                       struct tracks_output *tracks, int64_t quiet_us)
 {
     const struct timespec pause = {.tv_nsec = 100000000};
     struct scan_reader *reader = inputs_scan_reader(inputs);
@@ -197,9 +201,9 @@ static const char *follow_until_over(struct tracking *tracking, struct inputs *i
     while (!is_stopped) {
         (void)clutter_file_save_if_due(&tracking->clutter,
                                        &tracking->pipeline.tracker->clutter_map);
-        why = scan_reader_why_ended(reader); /* what was added before that is still read */
-        if (follow_scans(tracking, inputs, tracks) || position != inputs_bytes_read(inputs) ||
-            scan_reader_is_mid_row(reader)) {
+        why = scan_reader_why_ended(reader); /* rows added before the file ended are still read */
+        if (step_complete_scans(tracking, inputs, tracks) ||
+            position != inputs_bytes_read(inputs) || scan_reader_is_mid_row(reader)) {
             since_us = clock_us();
             position = inputs_bytes_read(inputs);
         }
@@ -214,7 +218,10 @@ static const char *follow_until_over(struct tracking *tracking, struct inputs *i
     return why;
 }
 
-/* Scans wait for clocks that are behind: time_bias_s. Rows of these may come so much later. */
+/*
+ * Quiet time after which the last scan is complete: follow_quiet_s plus the spread of the sensors'
+ * time biases, as scans wait for sensors whose clocks are behind.
+ */
 static int64_t follow_quiet_us(const struct parameters *parameters)
 {
     int32_t least_us, largest_us;
@@ -224,22 +231,23 @@ static int64_t follow_quiet_us(const struct parameters *parameters)
            ((int64_t)largest_us - least_us);
 }
 
-/* Scans that are there when the input ends are tracked. */
-static const char *follow_input(struct tracking *tracking, struct inputs *inputs,
-                                struct tracks_output *tracks, const struct parameters *parameters)
+/* Tracks a growing input to its end; scans still incomplete at the end are stepped as they are. */
+static const char *follow_input_to_end(struct tracking *tracking, struct inputs *inputs,
+                                       struct tracks_output *tracks,
+                                       const struct parameters *parameters)
 {
     struct input input;
     const char *why;
 
-    stop_on_signal(SIGINT);
-    stop_on_signal(SIGTERM);
+    install_stop_signal(SIGINT);
+    install_stop_signal(SIGTERM);
     if (tracks) {
         tracks_output_flush(tracks);
     }
-    why = follow_until_over(tracking, inputs, tracks, follow_quiet_us(parameters));
+    why = follow_growing_file(tracking, inputs, tracks, follow_quiet_us(parameters));
     scan_reader_end_reading(inputs_scan_reader(inputs));
     while ((input = inputs_next(inputs)).scan) {
-        step_and_report(tracking, &input, tracks);
+        step_and_write_input(tracking, &input, tracks);
     }
     return why;
 }
@@ -251,7 +259,7 @@ static double mean_step_us(const struct tracking *tracking, const struct inputs_
     return counts->steps ? (double)tracking->sum_us / (double)counts->steps : 0;
 }
 
-/* The setting by which late scans would be used, where it can be larger. */
+/* Names the parameter that, if increased, would let late scans be used; "" where none can be. */
 static const char *advice_on_late_scans(const struct parameters *parameters, uint32_t num_too_late)
 {
     if (parameters->value[PARAMETER_HOLD_MS] < parameters_text(PARAMETER_HOLD_MS).max) {
@@ -341,7 +349,7 @@ static cJSON *counters_json(const struct rho_tracker *tracker)
     return object;
 }
 
-static cJSON *sensors_json(const struct rho_tracker *tracker)
+static cJSON *sensor_health_json(const struct rho_tracker *tracker)
 {
     cJSON *list = cJSON_CreateArray();
 
@@ -358,7 +366,7 @@ static cJSON *sensors_json(const struct rho_tracker *tracker)
     return list;
 }
 
-/* null where the local frame is anywhere. */
+/* The origin of the local frame as JSON; null where it has none on the earth. */
 static cJSON *origin_json(const struct parameters *parameters)
 {
     cJSON *object;
@@ -373,7 +381,7 @@ static cJSON *origin_json(const struct parameters *parameters)
     return object;
 }
 
-static size_t tracker_memory_bytes(const struct tracking *tracking, const struct inputs *inputs)
+static size_t state_memory_bytes(const struct tracking *tracking, const struct inputs *inputs)
 {
     return sizeof *tracking->pipeline.tracker +
            (inputs_have_plots(inputs)
@@ -382,7 +390,7 @@ static size_t tracker_memory_bytes(const struct tracking *tracking, const struct
            (inputs_have_bearings(inputs) ? sizeof *tracking->pipeline.passive : 0);
 }
 
-/* Echoes of the clutter map that are known. */
+/* Number of known echoes in the clutter map. */
 static double count_known_echoes(const struct rho_clutter_map *map)
 {
     uint32_t place = 0;
@@ -409,12 +417,12 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     cJSON_AddItemToObject(object, "fates", plot_fates_json(counters));
     cJSON_AddNumberToObject(object, "mean_us", mean_step_us(tracking, counts));
     cJSON_AddNumberToObject(object, "max_us", (double)tracking->max_us);
-    cJSON_AddNumberToObject(object, "state_bytes", (double)tracker_memory_bytes(tracking, inputs));
+    cJSON_AddNumberToObject(object, "state_bytes", (double)state_memory_bytes(tracking, inputs));
     json_add_work(object, &tracking->pipeline.tracker->work);
     cJSON_AddItemToObject(object, "counters", counters_json(tracking->pipeline.tracker));
     cJSON_AddNumberToObject(object, "echoes_known",
                             count_known_echoes(&tracking->pipeline.tracker->clutter_map));
-    cJSON_AddItemToObject(object, "sensors", sensors_json(tracking->pipeline.tracker));
+    cJSON_AddItemToObject(object, "sensors", sensor_health_json(tracking->pipeline.tracker));
     cJSON_AddItemToObject(object, "learned",
                           learned_report_sensors_json(tracking->pipeline.tracker));
     if (learned_report_num_walls(tracking->pipeline.learning) > 0) {
@@ -428,7 +436,9 @@ static void print_json(const struct tracking *tracking, const struct inputs *inp
     json_print(object);
 }
 
-/* Where there are bearings alone, what is customary with them holds for the tracks as well. */
+/*
+ * Opens the pipeline. Without plots, the customary parameters for bearings hold for tracks as well.
+ */
 static void open_pipeline(struct tracking *tracking, const struct inputs *inputs,
                           struct parameters *parameters)
 {
@@ -443,12 +453,12 @@ static void open_pipeline(struct tracking *tracking, const struct inputs *inputs
         parameters->passive_apart_m = bearing_sensors_apart_m(sensors, count);
         pipeline_open_passive(&tracking->pipeline, parameters);
     }
-    describe_passive_sensors(tracking, inputs, parameters);
+    check_and_set_passive_sensors(tracking, inputs, parameters);
 }
 
 /* ---- The command ---- */
 
-static void check_clutter_map(const struct command_line *line)
+static void check_clutter_map_is_separate(const struct command_line *line)
 {
     for (int i = 0; i < line->num_arguments; i++) {
         clutter_file_refuse_same_file(line->clutter_map, line->arguments[i], "input");
@@ -465,7 +475,7 @@ static struct inputs *open_inputs(const struct command_line *line)
     if (line->num_arguments > 1) {
         fail(EXIT_USAGE, "--follow takes one input");
     }
-    refuse_output_as_input(line); /* the output is written in place */
+    refuse_output_as_input(line); /* --follow writes the output in place */
     return inputs_follow(line->arguments[0], &line->parameters, line->keep_going);
 }
 
@@ -479,7 +489,7 @@ static struct tracks_output *open_tracks_output(const struct command_line *line)
                : tracks_output_open(line->output, &line->parameters, line->covariance);
 }
 
-static struct zones_output open_zone_events(const struct command_line *line)
+static struct zones_output open_zone_events_output(const struct command_line *line)
 {
     if (line->zone_events && line->parameters.num_zones == 0) {
         fail(EXIT_USAGE, "--zone-events: no zone is set; a --config file has them as [zone N] with "
@@ -507,8 +517,8 @@ static void print_results(const struct tracking *tracking, const struct inputs *
 }
 
 /*
- * With a truth of targets beside the plots its figures, else a picture; and a scene's own settings,
- * unused.
+ * Suggests evaluate where a truth.csv stands beside the plots, else a page of the tracks. Notes a
+ * scenario.ini beside the plots that was not used.
  */
 static void suggest_next_command(const struct command_line *line)
 {
@@ -540,7 +550,7 @@ int command_track(struct command_line *line)
 
     pipeline_set_options(&line->parameters,
                          &(struct pipeline_options){line->gate, line->method, line->pipeline});
-    check_clutter_map(line);
+    check_clutter_map_is_separate(line);
     if (line->show && !tracks_output_path_is_log(line->output)) {
         fail(EXIT_USAGE, "--show writes messages: it needs -o NAME.lcm");
     }
@@ -553,11 +563,12 @@ int command_track(struct command_line *line)
     if (tracks && line->parameters.value[PARAMETER_BODY_MAX_M] > 0.0) {
         tracks_output_add_bodies(tracks, tracking.pipeline.tracker);
     }
-    tracking.zones = open_zone_events(line);
+    tracking.zones = open_zone_events_output(line);
     if (line->follow) {
-        why = follow_input(&tracking, inputs, tracks, &line->parameters);
+        why = follow_input_to_end(&tracking, inputs, tracks, &line->parameters);
     } else {
-        step_all_inputs(&tracking, inputs, tracks, !line->output && isatty(STDOUT_FILENO));
+        step_and_write_all_inputs(&tracking, inputs, tracks,
+                                  !line->output && isatty(STDOUT_FILENO));
     }
     tracks_output_close(tracks);
     zones_output_close(&tracking.zones);

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * commands: one function a command of the program, called by main with what the command line said.
- */
+/* commands: the commands of the program, one function each, and the parsed command line. */
 #ifndef RHOTRACK_TOOL_COMMANDS_H
 #define RHOTRACK_TOOL_COMMANDS_H
 
@@ -12,14 +10,14 @@
 #include "settings/parameters.h"
 
 struct command_line {
-    char **arguments; /* beside the options, without the command's own name */
+    char **arguments; /* arguments without options and the command's name */
     int num_arguments;
-    char **plot_files; /* those of them that may hold plots */
+    char **plot_files; /* the arguments that may hold plots */
     int num_plot_files;
     const char *output;       /* -o; NULL where not given */
     const char *method;       /* --method; NULL where not given */
-    const char *gate;         /* --gate */
-    const char *pipeline;     /* --pipeline */
+    const char *gate;         /* --gate; NULL where not given */
+    const char *pipeline;     /* --pipeline; NULL where not given */
     const char *show;         /* --show; NULL where not given */
     const char *kind;         /* --kind; NULL where not given */
     const char *lcm, *log;    /* --lcm, --log; NULL where not given */
@@ -46,7 +44,7 @@ struct command_line {
     size_t num_scene_sets;
 };
 
-/* Each returns the program's exit code. */
+/* Each command runs with the parsed command line, and returns the program's exit code. */
 int command_track(struct command_line *line);
 int command_initiate(struct command_line *line);
 int command_maintain(struct command_line *line);
@@ -55,7 +53,10 @@ int command_evaluate(struct command_line *line);
 int command_plot(struct command_line *line);
 int command_convert(struct command_line *line);
 
-/* Refuses input that no origin helps, before one is looked for. Exit 2. */
+/*
+ * Exit 2 where a recording of radar plots is to become tracks (GeoJSON, CAT062). Called before the
+ * origin is looked for, which would not help.
+ */
 void command_convert_refuse_radars(const struct command_line *line);
 
 int command_node(struct command_line *line);
@@ -66,9 +67,10 @@ int command_calibrate(struct command_line *line);
 int command_config(struct command_line *line);
 
 /*
- * experiment and bench are a program of their own, rhotrack-lab, beside this one: what ships needs
- * nothing of what measures. command_lab_name: NULL past the last one. command_lab runs it with the
- * same arguments and does not return; exit 1 where it is not there.
+ * The commands experiment and bench. bench is the separate program rhotrack-lab in the same folder,
+ * and experiments are scripts of the source tree: the shipped program needs nothing of them.
+ * command_lab_name returns NULL past the last name. command_lab executes the script or program with
+ * the same arguments and does not return; exit 1 where it is missing.
  */
 const char *command_lab_name(size_t index);
 bool command_lab_has(const char *name);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* rhotrack: the command-line program. main finds the command and runs it. */
+/* main: the table of commands of the command-line program, and their dispatch. */
 #include <cjson/cJSON.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -208,7 +208,7 @@ static const struct command commands[] = {
 
 enum { NUM_COMMANDS = sizeof commands / sizeof *commands };
 
-static const char *command_name(size_t index)
+static const char *command_name_at(size_t index)
 {
     return index < NUM_COMMANDS ? commands[index].name : command_lab_name(index - NUM_COMMANDS);
 }
@@ -240,7 +240,7 @@ static void print_version(void)
     output_close(&output);
 }
 
-static const struct command *find_command(const char *name)
+static const struct command *must_find_command(const char *name)
 {
     const char *hint;
 
@@ -252,7 +252,7 @@ static const struct command *find_command(const char *name)
             return &commands[i];
         }
     }
-    hint = name_hint_nearest(name, command_name);
+    hint = name_hint_nearest(name, command_name_at);
     if (hint) {
         fail(EXIT_USAGE, "unknown command '%s', did you mean '%s'?", name, hint);
     }
@@ -280,7 +280,7 @@ int main(int argc, char **argv)
     if (command_lab_has(argv[1])) {
         command_lab(argv);
     }
-    command = find_command(argv[1]);
+    command = must_find_command(argv[1]);
     command_line_read(&line, command, argc - 1, argv + 1);
     if (command->run == command_convert) {
         command_convert_refuse_radars(&line);

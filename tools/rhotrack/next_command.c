@@ -10,8 +10,8 @@
 
 #include "base/common.h"
 
-/* A word as a shell takes it. */
-static void print_shell_word(const char *word, bool is_first)
+/* Prints a word on standard error, quoted for the shell where needed. */
+static void print_quoted_shell_word(const char *word, bool is_first)
 {
     const bool is_plain =
         *word && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -35,12 +35,12 @@ void next_command_say(const struct command_line *line, const char *const *words)
         return;
     }
     fputs("rhotrack: next: ", stderr);
-    print_shell_word(program_invocation_name, true);
+    print_quoted_shell_word(program_invocation_name, true);
     for (; *words; words++) {
-        print_shell_word(*words, false);
+        print_quoted_shell_word(*words, false);
     }
     for (size_t i = 0; i < line->num_settings; i++) {
-        print_shell_word(line->settings[i], false);
+        print_quoted_shell_word(line->settings[i], false);
     }
     fputc('\n', stderr);
 }
@@ -84,8 +84,8 @@ char *next_command_find_beside(const char *path, const char *name)
     return NULL;
 }
 
-/* The columns that --columns names. */
-static bool header_has_columns(const char *header, const char *columns)
+/* True where the header has all columns that the option value "NAME=COLUMN,..." maps. */
+static bool header_has_mapped_columns(const char *header, const char *columns)
 {
     while ((columns = strchr(columns, '='))) {
         const size_t length = strcspn(++columns, ",");
@@ -106,7 +106,7 @@ bool next_command_can_read_file(const struct command_line *line, const char *pat
 
     for (size_t i = 0; can && i < line->num_settings; i += 2) {
         can = strcmp(line->settings[i], "--columns") != 0 ||
-              header_has_columns(header, line->settings[i + 1]);
+              header_has_mapped_columns(header, line->settings[i + 1]);
     }
     free(header);
     free(row);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* next_command: the command that most users want after this one. */
+/* next_command: suggests on a terminal the command that most users run after this one. */
 #ifndef RHOTRACK_TOOL_NEXT_COMMAND_H
 #define RHOTRACK_TOOL_NEXT_COMMAND_H
 
@@ -8,19 +8,19 @@
 #include "commands.h"
 
 /*
- * On a terminal: the command that most users want next, as it may be typed; words after the
- * program's name, NULL at the end, and then the settings that this one was given.
+ * Prints a suggested command line on standard error, if that is a terminal: the program's name, the
+ * words (up to NULL), and the settings that this run was given, quoted for the shell.
  */
 void next_command_say(const struct command_line *line, const char *const *words);
 
-/* The same for a page of files and tracks (NAME.csv), which is written beside these. */
+/* Suggests `plot tracks FILES TRACKS -o PAGE`: an HTML page beside the tracks file NAME.csv. */
 void next_command_say_page(const struct command_line *line, char *const *files, int num_files,
                            const char *tracks);
 
-/* A file of that name in the path's folder, in new memory; NULL where there is none. */
+/* Path of a regular file of that name in the same folder as `path`, in new memory; NULL: none. */
 char *next_command_find_beside(const char *path, const char *name);
 
-/* A CSV file has rows, and the columns of this command's --columns. */
+/* True where a CSV file has a header and a row, and the columns that --columns of this run maps. */
 bool next_command_can_read_file(const struct command_line *line, const char *path);
 
 #endif

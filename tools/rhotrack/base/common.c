@@ -16,7 +16,10 @@
 
 #include "rhotrack/tracker.h"
 
-/* Unfinished outputs, for fail() and the signal handler. Children of a fork own none of them. */
+/*
+ * Temporary files of outputs that are not finished, which fail() and the signal handler remove.
+ * Forked children do not remove their parent's.
+ */
 static char *volatile unfinished[OUTPUTS_MAX];
 static volatile pid_t unfinished_owner;
 static volatile sig_atomic_t progress_visible;
@@ -35,7 +38,7 @@ static void remove_unfinished_outputs(void)
     }
 }
 
-static void end_by_signal(int number)
+static void clean_up_and_end_by_signal(int number)
 {
     remove_unfinished_outputs();
     signal(number, SIG_DFL);
@@ -82,7 +85,7 @@ void fail(int exit_code, const char *format, ...)
 
 /* ---- Memory ---- */
 
-static void *check_memory(void *memory, size_t bytes)
+static void *memory_or_fail(void *memory, size_t bytes)
 {
     if (!memory) {
         fail(EXIT_RUNTIME, "out of memory: %zu bytes more are not there", bytes);
@@ -92,17 +95,17 @@ static void *check_memory(void *memory, size_t bytes)
 
 void *must_alloc(size_t bytes)
 {
-    return check_memory(malloc(bytes ? bytes : 1), bytes);
+    return memory_or_fail(malloc(bytes ? bytes : 1), bytes);
 }
 
 void *must_calloc(size_t count, size_t size)
 {
-    return check_memory(calloc(count ? count : 1, size ? size : 1), count * size);
+    return memory_or_fail(calloc(count ? count : 1, size ? size : 1), count * size);
 }
 
 void *must_realloc(void *memory, size_t bytes)
 {
-    return check_memory(realloc(memory, bytes ? bytes : 1), bytes);
+    return memory_or_fail(realloc(memory, bytes ? bytes : 1), bytes);
 }
 
 void *must_grow(void *array, size_t count, size_t *capacity, size_t size)
@@ -126,8 +129,8 @@ char *must_copy_text(const char *text)
 static void remember_unfinished_output(char *path)
 {
     if (!unfinished_owner) {
-        signal(SIGINT, end_by_signal);
-        signal(SIGTERM, end_by_signal);
+        signal(SIGINT, clean_up_and_end_by_signal);
+        signal(SIGTERM, clean_up_and_end_by_signal);
         unfinished_owner = getpid();
     }
     for (int i = 0; i < OUTPUTS_MAX; i++) {
@@ -159,7 +162,7 @@ static FILE *open_output_directly(const char *path)
     return file;
 }
 
-/* A file beside output->path with the mode that the finished one is to have. */
+/* Opens a temporary file beside output->path, with the permissions that the finished file gets. */
 static void open_temporary_beside(struct output *output, mode_t mode)
 {
     size_t bytes = strlen(output->path) + sizeof ".XXXXXX";
@@ -203,7 +206,8 @@ struct output output_open(const char *path)
     if (S_ISDIR(status.st_mode)) {
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(EISDIR));
     }
-    real_path = realpath(path, NULL); /* a link stays one: the file that it names is replaced */
+    /* a symbolic link is kept: the file that it points to is replaced */
+    real_path = realpath(path, NULL);
     output.path = must_copy_text(real_path ? real_path : path);
     free(real_path);
     if (S_ISREG(status.st_mode)) {
@@ -331,7 +335,7 @@ char *path_join(const char *folder, const char *name)
 const char *float_text(float value, char text[FLOAT_TEXT_BYTES])
 {
     if (value == 0.0f) {
-        value = 0.0f; /* not -0 */
+        value = 0.0f; /* -0 becomes 0 */
     }
     for (int digits = 6; digits <= 9; digits++) {
         snprintf(text, FLOAT_TEXT_BYTES, "%.*g", digits, (double)value);
@@ -427,7 +431,7 @@ struct progress progress_start(const char *what, uint64_t total)
     struct progress progress = {what, clock_us(), 0, total};
 
     if (!isatty(STDERR_FILENO)) {
-        progress.shown_us = INT64_MAX; /* never due */
+        progress.shown_us = INT64_MAX; /* not a terminal: progress is never due */
     }
     return progress;
 }
@@ -455,8 +459,8 @@ static void print_time_left(double seconds)
     }
 }
 
-/* Time for another line? */
-static bool is_progress_due(struct progress *progress)
+/* True at most once per PERIOD_US, after QUIET_US of work; then notes the time as shown. */
+static bool mark_progress_if_due(struct progress *progress)
 {
     enum { QUIET_US = 2000000, PERIOD_US = 200000 };
     int64_t now_us;
@@ -472,7 +476,7 @@ static bool is_progress_due(struct progress *progress)
     return true;
 }
 
-/* fraction: of the work, 0 where that is not known. */
+/* Prints the progress line; fraction: share of the work that is done, 0 where it is not known. */
 static void print_progress(const struct progress *progress, uint64_t done, double fraction)
 {
     double seconds = (double)(progress->shown_us - progress->start_us) * 1e-6;
@@ -500,7 +504,7 @@ static double fraction_done(uint64_t done, uint64_t total)
 
 void progress_show(struct progress *progress, uint64_t done)
 {
-    if (is_progress_due(progress)) {
+    if (mark_progress_if_due(progress)) {
         print_progress(progress, done, fraction_done(done, progress->total));
     }
 }
@@ -508,7 +512,7 @@ void progress_show(struct progress *progress, uint64_t done)
 void progress_show_bytes(struct progress *progress, uint64_t done, uint64_t bytes,
                          uint64_t total_bytes)
 {
-    if (is_progress_due(progress)) {
+    if (mark_progress_if_due(progress)) {
         print_progress(progress, done, fraction_done(bytes, total_bytes));
     }
 }

@@ -5,10 +5,10 @@
 
 #include "base/common.h"
 
-/* The slot that has the identity, or the free one where it belongs. */
-static size_t *identity_slot(const struct identity_numbers *identities, int32_t id)
+/* Finds the hash slot of an identity, or the free slot where it is to be stored. */
+static size_t *find_identity_slot(const struct identity_numbers *identities, int32_t id)
 {
-    /* Knuth's multiplicative hash; the upper bits are the mixed ones */
+    /* Knuth's multiplicative hash; its upper bits are mixed best */
     uint32_t hash = (uint32_t)id * 2654435769u;
     size_t at = (hash ^ hash >> 16) & (identities->num_slots - 1);
     while (identities->slots[at] != 0 && identities->ids[identities->slots[at] - 1] != id) {
@@ -23,7 +23,7 @@ static void grow_slots(struct identity_numbers *identities)
     identities->num_slots = identities->num_slots == 0 ? 64 : 2 * identities->num_slots;
     identities->slots = must_calloc(identities->num_slots, sizeof *identities->slots);
     for (size_t i = 0; i < identities->count; i++) {
-        *identity_slot(identities, identities->ids[i]) = i + 1;
+        *find_identity_slot(identities, identities->ids[i]) = i + 1;
     }
 }
 
@@ -32,7 +32,7 @@ size_t identity_numbers_find_or_add(struct identity_numbers *identities, int32_t
     if (2 * identities->count >= identities->num_slots) {
         grow_slots(identities);
     }
-    size_t *slot = identity_slot(identities, id);
+    size_t *slot = find_identity_slot(identities, id);
     if (*slot == 0) {
         identities->ids = must_grow(identities->ids, identities->count, &identities->capacity,
                                     sizeof *identities->ids);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * identity_numbers: any int32 identities numbered from 0 in the order in which they come; a hash
- * that grows.
+ * identity_numbers: numbers int32 identities from 0 in their order of appearance, by a growing hash
+ * table.
  */
 #ifndef RHOTRACK_TOOL_IDENTITY_NUMBERS_H
 #define RHOTRACK_TOOL_IDENTITY_NUMBERS_H
@@ -9,15 +9,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Begins as {0}. */
+/* Map from identities to numbers; initialised with {0}. */
 struct identity_numbers {
-    int32_t *ids; /* count, by number */
+    int32_t *ids; /* the identities in order of their numbers; `count` of them */
     size_t count, capacity;
-    size_t *slots; /* number + 1, 0: free; num_slots is a power of two */
+    /* open-addressing table of number + 1, 0: free slot; num_slots is a power of two */
+    size_t *slots;
     size_t num_slots;
 };
 
-/* The identity's number. A new one gets the next, which is `count` as it was before. */
+/* Returns the number of an identity. A new identity is added with the next number. */
 size_t identity_numbers_find_or_add(struct identity_numbers *identities, int32_t id);
 
 void identity_numbers_free(struct identity_numbers *identities);

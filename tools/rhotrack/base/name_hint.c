@@ -5,12 +5,12 @@
 
 enum { LENGTH_MAX = 40 };
 
-static size_t least_of(size_t a, size_t b)
+static size_t smaller_size(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
 
-/* Levenshtein's distance: insertions, deletions and replacements that turn a into b. */
+/* Levenshtein distance: the fewest insertions, deletions and replacements that turn a into b. */
 static size_t edit_distance(const char *a, const char *b)
 {
     size_t length = strlen(b), row[LENGTH_MAX + 1];
@@ -26,7 +26,7 @@ static size_t edit_distance(const char *a, const char *b)
             size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
 
             diagonal = row[j];
-            row[j] = least_of(replaced, least_of(row[j], row[j - 1]) + 1);
+            row[j] = smaller_size(replaced, smaller_size(row[j], row[j - 1]) + 1);
         }
     }
     return row[length];

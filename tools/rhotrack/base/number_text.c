@@ -81,8 +81,11 @@ const char *text_to_next_number(const char **list, double *value)
     return reason;
 }
 
-/* Seconds without exponent, digit by digit; the caller has checked form and range. */
-static int64_t exact_time_us(const char *cell)
+/*
+ * Converts decimal seconds without exponent to microseconds digit by digit, rounding to nearest.
+ * The caller has checked form and range.
+ */
+static int64_t decimal_seconds_to_us(const char *cell)
 {
     const char *c = cell + (*cell == '+' || *cell == '-');
     int64_t time_us = 0;
@@ -113,7 +116,7 @@ const char *text_to_time_us(const char *cell, int64_t *time_us)
     if (!(fabs(seconds) <= 4e12)) {
         return "is beyond 4e12 s";
     }
-    *time_us = strpbrk(cell, "eE") ? (int64_t)llround(seconds * 1e6) : exact_time_us(cell);
+    *time_us = strpbrk(cell, "eE") ? (int64_t)llround(seconds * 1e6) : decimal_seconds_to_us(cell);
     return NULL;
 }
 
@@ -139,7 +142,7 @@ const char *text_to_int32(const char *cell, int32_t *value)
 
 /* ---- ISO 8601 ---- */
 
-/* Days since 1970-01-01 of the Gregorian calendar. */
+/* Days from 1970-01-01 to a date of the Gregorian calendar. */
 static int64_t days_since_1970(int year, int month, int day)
 {
     int64_t from_march = month > 2 ? month - 3 : month + 9;
@@ -149,8 +152,8 @@ static int64_t days_since_1970(int year, int month, int day)
            1 - 719468;
 }
 
-/* Numbers where the pattern has 9s of as many digits; its other characters stand for themselves. */
-static bool read_by_pattern(const char *text, const char *pattern, int *numbers)
+/* Reads numbers at the 9s of a pattern such as "9999-99-99"; its other characters must match. */
+static bool read_digits_by_pattern(const char *text, const char *pattern, int *numbers)
 {
     for (; *pattern; pattern++, text++) {
         if (*pattern != '9') {
@@ -167,8 +170,8 @@ static bool read_by_pattern(const char *text, const char *pattern, int *numbers)
     return true;
 }
 
-/* The zone's offset in minutes. */
-static bool read_time_zone(const char *text, int *minutes)
+/* Reads a time zone, "", "Z" or "+hh:mm", as its offset from UTC in minutes. */
+static bool parse_time_zone(const char *text, int *minutes)
 {
     int parts[2] = {0};
 
@@ -177,7 +180,7 @@ static bool read_time_zone(const char *text, int *minutes)
         return true;
     }
     if ((*text != '+' && *text != '-') || strlen(text) != 6 ||
-        !read_by_pattern(text + 1, "99:99", parts) || parts[0] > 23 || parts[1] > 59) {
+        !read_digits_by_pattern(text + 1, "99:99", parts) || parts[0] > 23 || parts[1] > 59) {
         return false;
     }
     *minutes = (*text == '-' ? -1 : 1) * (60 * parts[0] + parts[1]);
@@ -189,8 +192,8 @@ bool iso_time_to_us(const char *text, int64_t *time_us)
     int at[6] = {0}, zone;
     int64_t part_us = 0;
 
-    if ((!read_by_pattern(text, "9999-99-99T99:99:99", at) &&
-         (memset(at, 0, sizeof at), !read_by_pattern(text, "9999-99-99 99:99:99", at))) ||
+    if ((!read_digits_by_pattern(text, "9999-99-99T99:99:99", at) &&
+         (memset(at, 0, sizeof at), !read_digits_by_pattern(text, "9999-99-99 99:99:99", at))) ||
         at[1] < 1 || at[1] > 12 || at[2] < 1 || at[2] > 31 || at[3] > 23 || at[4] > 59 ||
         at[5] > 60) {
         return false;
@@ -203,7 +206,7 @@ bool iso_time_to_us(const char *text, int64_t *time_us)
             part_us += weight_us * (*text - '0');
         }
     }
-    if (!read_time_zone(text, &zone)) {
+    if (!parse_time_zone(text, &zone)) {
         return false;
     }
     *time_us =

@@ -1,35 +1,37 @@
 /* SPDX-License-Identifier: MIT */
-/* number_text: numbers as files and parameters write them. */
+/* number_text: parses numbers and times of files and parameters. */
 #ifndef RHOTRACK_TOOL_NUMBER_TEXT_H
 #define RHOTRACK_TOOL_NUMBER_TEXT_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* All return NULL and set the value, or return the reason as a constant text. */
+/* Functions that return a text return NULL and set the value, or the reason of the failure. */
 
-/* Plain decimal, within float range; NaN, Inf, hexadecimal and trailing text are refused. */
+/*
+ * Parses a plain decimal number within float range; NaN, Inf, hexadecimal and trailing text fail.
+ */
 const char *text_to_number(const char *cell, double *value);
 
 /*
- * The number at the head of a list, up to a blank or a comma; *list is behind it then, else it
- * stays.
+ * Parses the number at the head of a list, up to a blank or comma, and advances *list behind it; on
+ * failure *list stays.
  */
 const char *text_to_next_number(const char **list, double *value);
 
 /*
- * A decimal number of seconds in microseconds, rounded to nearest, without a detour over floating
- * point where it has no exponent; |t| <= 4e12 s.
+ * Parses decimal seconds as microseconds, rounded to nearest; exact, without floating point, where
+ * the number has no exponent. |t| <= 4e12 s.
  */
 const char *text_to_time_us(const char *cell, int64_t *time_us);
 
 /*
- * YYYY-MM-DDThh:mm:ss[.f][Z|+hh:mm], or a blank for the T, in microseconds since 1970, UTC where no
- * zone is said. false: it is none.
+ * Parses YYYY-MM-DDThh:mm:ss[.f][Z|+hh:mm] (or with a blank for the T) as microseconds since 1970;
+ * UTC without a zone. Returns false for other texts.
  */
 bool iso_time_to_us(const char *text, int64_t *time_us);
 
-/* A whole number within int32_t. */
+/* Parses a whole number within the range of int32_t. */
 const char *text_to_int32(const char *cell, int32_t *value);
 
 #endif

@@ -4,13 +4,13 @@
 #include <math.h>
 
 /*
- * Half of pi in two parts: the first has 33 bits, so that its product with a small whole number is
- * exact.
+ * pi/2 as the sum of two constants: the first has 33 significant bits, so that its products with
+ * small whole numbers are exact.
  */
 #define HALF_PI_HIGH 1.57079632673412561417e+00
 #define HALF_PI_LOW 6.07710050650619224932e-11
 
-/* Taylor series within a quarter of pi either way: the first term left out is below 1e-17. */
+/* Taylor series of the sine for |x| <= pi/4; the first omitted term is below 1e-17. */
 static double sin_series(double x)
 {
     double x2 = x * x, sum = 0.0;
@@ -55,7 +55,10 @@ double portable_cos(double angle_rad)
     return quarters == 1.0 || quarters == 2.0 ? -value : value;
 }
 
-/* atan of 0 .. 1: halved three times, atan t = 2 atan(t / (1 + sqrt(1 + t^2))), then its series. */
+/*
+ * atan(t) for t in 0 .. 1: halves the angle three times by atan t = 2 atan(t / (1 + sqrt(1 +
+ * t^2))), then sums the Taylor series.
+ */
 static double atan_series(double t)
 {
     double t2, sum = 0.0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * portable_math: sine, cosine and arc tangent from additions and multiplications alone, so that
- * every machine has the same bits. Errors: below 2e-15 for angles within 1e5 rad. Square roots and
- * remainders are exact by IEEE 754 anyway.
+ * portable_math: sine, cosine and arc tangent from basic arithmetic alone, so that all machines
+ * compute identical bits. Errors are below 2e-15 for angles within 1e5 rad. IEEE 754 requires
+ * square roots and remainders to be exactly rounded, so these come from libm.
  */
 #ifndef RHOTRACK_TOOL_PORTABLE_MATH_H
 #define RHOTRACK_TOOL_PORTABLE_MATH_H
@@ -12,10 +12,11 @@
 
 double portable_sin(double angle_rad);
 double portable_cos(double angle_rad);
-double portable_atan2(double y, double x); /* -pi .. pi; 0 where both are 0 */
-double portable_hypot(double x, double y); /* of lengths whose squares are numbers */
+double portable_atan2(double y, double x); /* -pi .. pi; 0 where x and y are 0 */
+/* sqrt(x^2 + y^2), for lengths whose squares do not overflow */
+double portable_hypot(double x, double y);
 
-/* Within -pi .. pi. */
+/* Wraps an angle into -pi .. pi. */
 double portable_wrap(double angle_rad);
 
 #endif

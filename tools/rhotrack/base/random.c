@@ -8,7 +8,7 @@ static uint64_t rotate_left(uint64_t v, int bits)
     return (v << bits) | (v >> (64 - bits));
 }
 
-/* splitmix64: one step of a counter, scrambled. */
+/* splitmix64 generator: advances the counter and returns its scrambled value. */
 static uint64_t splitmix64(uint64_t *counter)
 {
     uint64_t v = (*counter += 0x9e3779b97f4a7c15u);
@@ -55,7 +55,7 @@ double random_between(struct random *random, double lo, double hi)
 
 uint64_t random_below(struct random *random, uint64_t n)
 {
-    /* the last, incomplete block would favour small numbers */
+    /* reject bits beyond the largest multiple of n, which would favour small results */
     uint64_t limit = UINT64_MAX - UINT64_MAX % n;
     uint64_t bits = random_bits(random);
     while (bits >= limit) {
@@ -65,8 +65,8 @@ uint64_t random_below(struct random *random, uint64_t n)
 }
 
 /*
- * Leva, "A fast normal random number generator", ACM TOMS 18, 1992: two quadratic bounds spare 99 %
- * of the logarithms.
+ * Normal deviate by Leva's ratio of uniforms ("A fast normal random number generator", ACM TOMS 18,
+ * 1992): two quadratic bounds save 99 % of the logarithms.
  */
 double random_normal(struct random *random)
 {
@@ -82,7 +82,9 @@ double random_normal(struct random *random)
     }
 }
 
-/* Knuth's product of uniforms, in parts whose exponential does not underflow. */
+/*
+ * Poisson deviate by Knuth's product of uniforms; large means in parts, as exp(-mean) underflows.
+ */
 uint64_t random_poisson(struct random *random, double mean)
 {
     uint64_t count = 0;

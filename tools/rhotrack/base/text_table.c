@@ -57,7 +57,7 @@ const char *text_table_cell(const struct text_table *table, size_t row, size_t c
     return table->cells[row * table->num_columns + column];
 }
 
-/* Characters of UTF-8 text. */
+/* Number of characters of a UTF-8 text. */
 static size_t text_width(const char *text)
 {
     size_t width = 0;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* text_table: a small table of texts, for the terminal and for pages. */
+/*
+ * text_table: formats rows of texts as a table with aligned columns, for the terminal and for
+ * pages.
+ */
 #ifndef RHOTRACK_TOOL_TEXT_TABLE_H
 #define RHOTRACK_TOOL_TEXT_TABLE_H
 
@@ -7,24 +10,25 @@
 #include <stdio.h>
 
 struct text_table {
-    size_t num_columns, num_rows; /* row 0 is the head */
-    size_t left_columns;          /* so many are set flush left, the others flush right */
-    char **cells;                 /* num_rows x num_columns */
+    size_t num_columns, num_rows; /* row 0 is the table's head */
+    /* the first left_columns columns are flush left, the others flush right */
+    size_t left_columns;
+    char **cells; /* texts of the cells, num_rows x num_columns */
 };
 
-/* Head "name|name|..."; cells hold no bar. */
+/* Starts a table with the head "name|name|..."; cells cannot contain a bar. */
 struct text_table text_table_start(size_t left_columns, const char *head);
 
-/* One more row, printf of "cell|cell|..."; missing cells are empty, too many are dropped. */
+/* Adds a row, printf of "cell|cell|..."; missing cells are empty, surplus cells are dropped. */
 void text_table_add_row(struct text_table *table, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 const char *text_table_cell(const struct text_table *table, size_t row, size_t column);
 
-/* In columns, with a rule under the head. */
+/* Prints the table in aligned columns, with a rule under the head. */
 void text_table_print(const struct text_table *table, FILE *out);
 
-/* A number for a cell, "-" where it is NAN. */
+/* Formats a number for a cell; "-" for NAN. */
 #define TEXT_TABLE_NUMBER 48
 const char *text_table_number(char text[TEXT_TABLE_NUMBER], int digits, double value);
 

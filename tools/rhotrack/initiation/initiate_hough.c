@@ -15,7 +15,7 @@
 
 #define CELLS_MAX (UINT32_C(1) << 20)
 #define PAIRS_MANY 1e7
-struct search {
+struct hough_search {
     struct hough_batch batch;
     struct rho_hough *hough;
     struct rho_accumulator_peak *peaks;
@@ -41,7 +41,7 @@ static void read_batch(struct hough_batch *batch, const struct command_line *lin
 
 /* ---- The search ---- */
 
-static void warn_of_dropped(const struct rho_hough_result *result)
+static void warn_of_dropped_votes(const struct rho_hough_result *result)
 {
     if (result->cells_dropped) {
         fprintf(stderr,
@@ -56,7 +56,10 @@ static void warn_of_dropped(const struct rho_hough_result *result)
     }
 }
 
-/* Where every pair votes, so many passes are needed that seconds become minutes. */
+/*
+ * Warns where every pair of plots votes (mht) and the accumulator takes so many passes that the
+ * search lasts minutes.
+ */
 static void warn_of_long_search(const struct rho_hough *hough,
                                 const struct rho_hough_points *points)
 {
@@ -76,7 +79,8 @@ static void warn_of_long_search(const struct rho_hough *hough,
     }
 }
 
-static void find_peaks(struct search *search, const struct command_line *line, enum method method)
+static void find_peaks(struct hough_search *search, const struct command_line *line,
+                       enum method method)
 {
     struct parameters fitted = line->parameters;
     struct rho_hough_points points = hough_batch_points(&search->batch);
@@ -94,7 +98,7 @@ static void find_peaks(struct search *search, const struct command_line *line, e
         rho_hough_count_pairs(search->hough, &points, &search->result.pairs,
                               &search->result.candidates);
     }
-    warn_of_dropped(&search->result);
+    warn_of_dropped_votes(&search->result);
 }
 
 /* ---- What it found ---- */
@@ -104,7 +108,7 @@ static double peak_votes(const struct rho_accumulator_peak *peak)
     return round(1e6 * peak->votes / RHO_HOUGH_VOTE) / 1e6;
 }
 
-static struct initiated initiated_of_peak(const struct search *search, uint32_t number)
+static struct initiated fit_track_of_peak(const struct hough_search *search, uint32_t number)
 {
     const struct rho_accumulator_peak *peak = &search->peaks[number];
     struct rho_hough_points points = hough_batch_points(&search->batch);
@@ -126,13 +130,13 @@ static struct initiated initiated_of_peak(const struct search *search, uint32_t 
                               .score = peak_votes(peak)};
 }
 
-static void write_found_tracks(const struct search *search, const char *path)
+static void write_found_tracks(const struct hough_search *search, const char *path)
 {
     struct initiated_output *found = initiated_output_open(path);
     struct progress progress = progress_start("tracks", search->result.num_peaks);
 
     for (uint32_t i = 0; i < search->result.num_peaks; i++) {
-        struct initiated row = initiated_of_peak(search, i);
+        struct initiated row = fit_track_of_peak(search, i);
 
         initiated_output_add_row(found, &row);
         progress_show(&progress, i + 1);
@@ -141,7 +145,7 @@ static void write_found_tracks(const struct search *search, const char *path)
     initiated_output_close(found);
 }
 
-static void add_peaks_json(cJSON *object, const struct search *search)
+static void add_peaks_json(cJSON *object, const struct hough_search *search)
 {
     cJSON *list = cJSON_AddArrayToObject(object, "peak_votes");
 
@@ -150,7 +154,7 @@ static void add_peaks_json(cJSON *object, const struct search *search)
     }
 }
 
-static void print_json(const struct search *search, enum method method)
+static void print_search_json(const struct hough_search *search, enum method method)
 {
     const struct rho_hough_result *result = &search->result;
     cJSON *object = cJSON_CreateObject();
@@ -180,8 +184,8 @@ static void print_json(const struct search *search, enum method method)
 
 void initiate_hough(const struct command_line *line, enum method method)
 {
-    struct search search = {.hough = must_alloc(sizeof *search.hough),
-                            .peaks = must_calloc(CELLS_MAX, sizeof *search.peaks)};
+    struct hough_search search = {.hough = must_alloc(sizeof *search.hough),
+                                  .peaks = must_calloc(CELLS_MAX, sizeof *search.peaks)};
 
     read_batch(&search.batch, line);
     find_peaks(&search, line, method);
@@ -189,7 +193,7 @@ void initiate_hough(const struct command_line *line, enum method method)
         write_found_tracks(&search, line->output);
     }
     if (line->json) {
-        print_json(&search, method);
+        print_search_json(&search, method);
     }
     hough_batch_free(&search.batch);
     free(search.peaks);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* initiate_hough: command initiate by one of the papers' methods. */
+/* initiate_hough: the command initiate by the papers' Hough methods ht, mht, iht and nht. */
 #ifndef RHOTRACK_TOOL_INITIATE_HOUGH_H
 #define RHOTRACK_TOOL_INITIATE_HOUGH_H
 

@@ -11,12 +11,13 @@
 #include "rhotrack/detail/angle.h"
 #include "settings/method.h"
 
-static enum rho_status push_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
+static enum rho_status push_passive_frame(void *object, const struct rho_frame *frame,
+                                          uint8_t *fates)
 {
     return rho_passive_push(object, frame, fates);
 }
 
-static enum rho_status search_batch(void *object)
+static enum rho_status search_passive_batch(void *object)
 {
     return rho_passive_search(object);
 }
@@ -48,7 +49,7 @@ static void write_found_tracks(const struct rho_passive *passive, int64_t time_u
     initiated_output_close(found);
 }
 
-/* Bearings of each track, descending, and their number. */
+/* Adds the number of bearings of each track, in descending order, and their sum. */
 static void add_votes_json(cJSON *object, const struct rho_passive *passive)
 {
     int hits[RHO_MAX_PASSIVE_TRACKS], sum = 0;
@@ -70,7 +71,7 @@ static void add_margins_json(cJSON *object, const struct rho_passive *passive)
     }
 }
 
-static void print_json(const struct rho_passive *passive, const struct last_bearings *batch)
+static void print_search_json(const struct rho_passive *passive, const struct last_bearings *batch)
 {
     const struct rho_passive_work *work = &passive->work;
     cJSON *object = cJSON_CreateObject();
@@ -102,7 +103,8 @@ void initiate_passive(const struct command_line *line)
     struct parameters parameters = line->parameters;
     struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_config config = method_passive_config(&parameters);
-    struct bearings_search with = {passive, &passive->batch, push_frame, search_batch};
+    struct bearings_search with = {passive, &passive->batch, push_passive_frame,
+                                   search_passive_batch};
 
     must_succeed(rho_passive_init(passive, sizeof *passive, &config), "passive");
     struct last_bearings batch = last_bearings_search(&with, reader, &parameters);
@@ -110,7 +112,7 @@ void initiate_passive(const struct command_line *line)
         write_found_tracks(passive, batch.time_us, line->output);
     }
     if (line->json) {
-        print_json(passive, &batch);
+        print_search_json(passive, &batch);
     }
     free(passive);
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* initiate_passive: command initiate on bearings. */
+/*
+ * initiate_passive: the command initiate on bearings of passive sensors, by the library's method.
+ */
 #ifndef RHOTRACK_TOOL_INITIATE_PASSIVE_H
 #define RHOTRACK_TOOL_INITIATE_PASSIVE_H
 

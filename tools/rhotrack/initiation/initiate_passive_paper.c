@@ -10,12 +10,12 @@
 #include "pipeline/pipeline.h"
 #include "settings/method.h"
 
-static enum rho_status push_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
+static enum rho_status push_paper_frame(void *object, const struct rho_frame *frame, uint8_t *fates)
 {
     return rho_passive_paper_push(object, frame, fates);
 }
 
-static enum rho_status search_batch(void *object)
+static enum rho_status search_paper_batch(void *object)
 {
     return rho_passive_paper_search(object);
 }
@@ -59,7 +59,8 @@ static void add_votes_json(cJSON *object, const struct rho_passive_paper *paper)
     cJSON_AddItemToObject(object, "peak_votes", json_list_descending(votes, paper->num_lines));
 }
 
-static void print_json(const struct rho_passive_paper *paper, const struct last_bearings *batch)
+static void print_search_json(const struct rho_passive_paper *paper,
+                              const struct last_bearings *batch)
 {
     const struct rho_passive_paper_work *work = &paper->work;
     cJSON *object = cJSON_CreateObject();
@@ -84,7 +85,7 @@ static void print_json(const struct rho_passive_paper *paper, const struct last_
     json_print(object);
 }
 
-static void warn_of_dropped(const struct rho_passive_paper_work *work)
+static void warn_of_dropped_lines(const struct rho_passive_paper_work *work)
 {
     if (work->points_dropped > 0) {
         fprintf(stderr, "rhotrack: %u crossings beyond %d a pair of sensors are left out\n",
@@ -102,16 +103,16 @@ void initiate_passive_paper(const struct command_line *line)
     struct parameters parameters = line->parameters;
     struct bearing_frame_reader *reader = last_bearings_open(line, &parameters);
     struct rho_passive_paper_config config = method_passive_paper_config(&parameters);
-    struct bearings_search with = {paper, &paper->batch, push_frame, search_batch};
+    struct bearings_search with = {paper, &paper->batch, push_paper_frame, search_paper_batch};
 
     must_succeed(rho_passive_paper_init(paper, sizeof *paper, &config), "passive-paper");
     struct last_bearings batch = last_bearings_search(&with, reader, &parameters);
-    warn_of_dropped(&paper->work);
+    warn_of_dropped_lines(&paper->work);
     if (line->output || !line->json) {
         write_found_tracks(paper, batch.time_us, line->output);
     }
     if (line->json) {
-        print_json(paper, &batch);
+        print_search_json(paper, &batch);
     }
     free(paper);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* initiate_passive_paper: command initiate on bearings, by the paper's method. */
+/* initiate_passive_paper: the command initiate on bearings, by the method of the paper. */
 #ifndef RHOTRACK_TOOL_INITIATE_PASSIVE_PAPER_H
 #define RHOTRACK_TOOL_INITIATE_PASSIVE_PAPER_H
 

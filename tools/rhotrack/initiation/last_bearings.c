@@ -55,8 +55,8 @@ void bearing_sensors_check(const struct frame_sensor *sensors, size_t count,
     }
 }
 
-static void push_frame(struct last_bearings *batch, const struct bearings_search *search,
-                       const struct rho_frame *frame)
+static void push_and_count_frame(struct last_bearings *batch, const struct bearings_search *search,
+                                 const struct rho_frame *frame)
 {
     size_t count = 0;
     uint8_t *fates;
@@ -105,7 +105,7 @@ struct last_bearings last_bearings_search(const struct bearings_search *search,
     bearing_sensors_check(sensors, num_sensors, search->batch, parameters);
     bearing_frame_reader_keep_last(reader, search->batch->scans_max);
     while ((frame = bearing_frame_reader_next(reader))) {
-        push_frame(&batch, search, frame);
+        push_and_count_frame(&batch, search, frame);
     }
     int64_t start_us = clock_us();
     must_succeed(search->search(search->object), "passive");

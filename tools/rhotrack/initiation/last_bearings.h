@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * last_bearings: the last frames of a file of bearings, searched as one batch by any method that
- * takes them.
+ * last_bearings: searches the last bearing frames of files as one batch, by either method for
+ * bearings.
  */
 #ifndef RHOTRACK_TOOL_LAST_BEARINGS_H
 #define RHOTRACK_TOOL_LAST_BEARINGS_H
@@ -10,36 +10,37 @@
 #include "io/scans/bearing_frame_reader.h"
 #include "rhotrack/detail/batch.h"
 
-/* An initiator, ready for a first frame. */
+/* A method's initiator for bearings, initialised, and the calls to feed and search it. */
 struct bearings_search {
     void *object;
-    const struct rho_batch *batch; /* its own */
+    const struct rho_batch *batch; /* the batch inside the initiator */
     enum rho_status (*push)(void *object, const struct rho_frame *frame, uint8_t *fates);
     enum rho_status (*search)(void *object);
 };
 
 struct last_bearings {
-    uint64_t frames, bearings, num_lost; /* lost: the library had no room for them */
-    int64_t time_us;                     /* of the last frame */
+    /* num_lost: bearings that exceeded a capacity of the library */
+    uint64_t frames, bearings, num_lost;
+    int64_t time_us; /* time of the last frame */
     int64_t wall_us;
 };
 
 /*
- * Opens the files; the parameters then know how far their sensors are apart. Fewer than two
- * sensors, and bad input: exit 2.
+ * Opens files of bearings, and sets passive_apart_m of the parameters from their sensors. Exit 2
+ * for fewer than two sensors and for bad input.
  */
 struct bearing_frame_reader *last_bearings_open(const struct command_line *line,
                                                 struct parameters *parameters);
 
 /*
- * Searches, and closes the reader. Sensors that are too many, or too far apart for the cells:
- * exit 2.
+ * Pushes the last frames, searches them, and closes the reader. Exit 2 for too many sensors, or
+ * sensors too far apart for the batch's cells.
  */
 struct last_bearings last_bearings_search(const struct bearings_search *search,
                                           struct bearing_frame_reader *reader,
                                           const struct parameters *parameters);
 
-/* The distance of the farthest two. */
+/* Largest distance between two of the sensors, m. */
 double bearing_sensors_apart_m(const struct frame_sensor *sensors, size_t count);
 
 /* Exit 2 where the sensors are too many, or too far apart for the batch's cells. */

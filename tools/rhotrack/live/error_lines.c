@@ -16,18 +16,19 @@
 #include "base/common.h"
 
 #define TIME_BYTES 32
-#define LINE_BYTES 8192 /* longer ones come in pieces */
+/* longest piece that is formatted at once; longer lines come in several pieces */
+#define LINE_BYTES 8192
 
 static struct {
     const struct parameters *parameters;
     bool is_live, has_time, is_journal, is_lossy;
-    bool is_within; /* a line whose end has not come */
+    bool is_within; /* the last piece written did not end its line */
     int64_t time_us;
 } lines;
 
 /* ---- Text ---- */
 
-static int64_t now_us(void)
+static int64_t system_time_us(void)
 {
     struct timespec now;
 
@@ -35,10 +36,10 @@ static int64_t now_us(void)
     return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
 }
 
-/* "": there is none. */
-static void write_time_stamp(char text[TIME_BYTES])
+/* Formats the time stamp of a line; "" for the journal, and while no time is known. */
+static void format_time_stamp(char text[TIME_BYTES])
 {
-    const int64_t time_us = lines.is_live ? now_us() : lines.time_us;
+    const int64_t time_us = lines.is_live ? system_time_us() : lines.time_us;
     const int64_t within_us = (time_us % 1000000 + 1000000) % 1000000;
     const time_t seconds = (time_t)((time_us - within_us) / 1000000);
     struct tm date;
@@ -51,8 +52,10 @@ static void write_time_stamp(char text[TIME_BYTES])
     }
 }
 
-/* The sensor's name where the text goes on with "sensor N", whose end *end is then; else NULL. */
-static const char *find_sensor_name(const char *text, const char *begin, const char **end)
+/*
+ * Name of the sensor where the text continues with "sensor N", and *end behind N; NULL elsewhere.
+ */
+static const char *match_sensor_name(const char *text, const char *begin, const char **end)
 {
     static const char word[] = "sensor ";
     char *behind;
@@ -72,18 +75,18 @@ static const char *find_sensor_name(const char *text, const char *begin, const c
                : NULL;
 }
 
-/* One line, or a piece of one, with time and names. */
-static void write_line(FILE *out, const char *text)
+/* Writes a line, or a piece of one, with its time stamp and with names behind sensors' numbers. */
+static void write_line_with_time_and_names(FILE *out, const char *text)
 {
     char time[TIME_BYTES] = "";
 
     if (!lines.is_within) {
-        write_time_stamp(time);
+        format_time_stamp(time);
     }
     fputs(time, out);
     for (const char *at = text; *at;) {
         const char *end;
-        const char *name = find_sensor_name(at, text, &end);
+        const char *name = match_sensor_name(at, text, &end);
 
         if (name) {
             fprintf(out, "%.*s (%s)", (int)(end - at), at, name);
@@ -101,7 +104,7 @@ static void write_to_stderr(const char *text, size_t bytes)
     lines.is_lossy |= write(STDERR_FILENO, text, bytes) != (ssize_t)bytes;
 }
 
-static ssize_t write_stream_text(void *cookie, const char *text, size_t size)
+static ssize_t write_text_as_lines(void *cookie, const char *text, size_t size)
 {
     (void)cookie;
     for (size_t at = 0, bytes; at < size; at += bytes) {
@@ -116,7 +119,7 @@ static ssize_t write_stream_text(void *cookie, const char *text, size_t size)
         piece[bytes] = '\0';
         out = open_memstream(&whole, &length);
         if (out) {
-            write_line(out, piece);
+            write_line_with_time_and_names(out, piece);
             fclose(out);
             write_to_stderr(whole, length);
             free(whole);
@@ -125,14 +128,15 @@ static ssize_t write_stream_text(void *cookie, const char *text, size_t size)
         }
         lines.is_within = piece[bytes - 1] != '\n';
     }
-    return (ssize_t)size; /* what did not fit is missing, and not tried again */
+    /* text that did not fit is lost; claiming success avoids a second attempt */
+    return (ssize_t)size;
 }
 
 /*
- * Standard error is opened anew without waiting; other programs that have the same pipe still wait
- * for it.
+ * Makes writes to standard error non-blocking by opening it anew: setting the flag on the shared
+ * descriptor would affect other programs on the same pipe.
  */
-static void open_stderr_nonblocking(const struct stat *status)
+static void make_stderr_nonblocking(const struct stat *status)
 {
     const struct timeval little = {.tv_usec = 1000};
 
@@ -143,12 +147,12 @@ static void open_stderr_nonblocking(const struct stat *status)
             dup2(descriptor, STDERR_FILENO);
             close(descriptor);
         }
-    } else if (S_ISSOCK(status->st_mode)) { /* of a service: it cannot be opened anew */
+    } else if (S_ISSOCK(status->st_mode)) { /* a service's socket cannot be opened anew */
         (void)setsockopt(STDERR_FILENO, SOL_SOCKET, SO_SNDTIMEO, &little, sizeof little);
     }
 }
 
-/* systemd says which file its journal is. */
+/* True where standard error is the systemd journal: JOURNAL_STREAM has its device and inode. */
 static bool is_systemd_journal(const struct stat *status)
 {
     const char *journal = getenv("JOURNAL_STREAM");
@@ -160,7 +164,7 @@ static bool is_systemd_journal(const struct stat *status)
 
 void error_lines_open(const struct parameters *parameters, bool is_live)
 {
-    const cookie_io_functions_t functions = {.write = write_stream_text};
+    const cookie_io_functions_t functions = {.write = write_text_as_lines};
     struct stat status;
     FILE *stream = fopencookie(NULL, "w", functions);
 
@@ -171,7 +175,7 @@ void error_lines_open(const struct parameters *parameters, bool is_live)
     lines.parameters = parameters;
     lines.is_live = is_live;
     if (fstat(STDERR_FILENO, &status) == 0) {
-        open_stderr_nonblocking(&status);
+        make_stderr_nonblocking(&status);
         lines.is_journal = is_systemd_journal(&status);
     }
     fflush(stderr);
@@ -188,7 +192,7 @@ void error_lines_write(const char *text)
 {
     char time[TIME_BYTES], line[LINE_BYTES];
 
-    write_time_stamp(time);
+    format_time_stamp(time);
     write_to_stderr(line, (size_t)snprintf(line, sizeof line, "%s%.1000s", time, text));
 }
 

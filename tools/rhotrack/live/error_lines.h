@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * error_lines: standard error of a program that runs for months. From error_lines_open on each
- * line, whichever part of the program writes it, begins with its time, and sensors that have a name
- * ([sensor N] name) are called by it:
+ * error_lines: standard error of a long-running program. After error_lines_open every line written
+ * to stderr begins with a time stamp, and sensors that have a name ([sensor N] name) are printed
+ * with it:
  *
  *     2026-11-22T09:14:03.250Z rhotrack: sensor 1 (north) is silent: ...
  *
- * The journal of systemd has times of its own, so its lines get none. Nobody waits for a full pipe
- * or terminal: lines that do not fit are missing.
+ * The systemd journal has its own time stamps, so its lines get none. Writes do not wait for a full
+ * pipe or terminal: lines that do not fit are lost.
  */
 #ifndef RHOTRACK_TOOL_ERROR_LINES_H
 #define RHOTRACK_TOOL_ERROR_LINES_H
@@ -18,18 +18,23 @@
 #include "settings/parameters.h"
 
 /*
- * The parameters' address is kept.
- *   is_live  the time is that of the day; else that of error_lines_set_time, none before
+ * Replaces the stream stderr by one that adds time stamps and sensor names. The parameters must
+ * stay at their address.
+ *   is_live  time stamps are the time of day; else the time of error_lines_set_time, and none
+ *            before its first call
  */
 void error_lines_open(const struct parameters *parameters, bool is_live);
 
-/* Of a record: the time of what was read last, us since 1970. */
+/* Sets the time stamp of later lines in a replay: the time of the last message, us since 1970. */
 void error_lines_set_time(int64_t time_us);
 
-/* A line past the stream, whose lock another thread may hold for good. */
+/*
+ * Writes a line directly to the descriptor of standard error, without the lock of stderr, which a
+ * blocked thread may hold for ever.
+ */
 void error_lines_write(const char *text);
 
-/* Lines are missing. */
+/* True where lines of standard error were lost. */
 bool error_lines_is_lossy(void);
 
 #endif

@@ -8,7 +8,7 @@
 #include "base/common.h"
 #include "live/node_tally.h"
 
-static void begin_family(FILE *out, const char *name, const char *type, const char *help)
+static void write_family_head(FILE *out, const char *name, const char *type, const char *help)
 {
     fprintf(out, "# HELP rhotrack_%s %s\n# TYPE rhotrack_%s %s\n", name, help, name, type);
 }
@@ -16,19 +16,22 @@ static void begin_family(FILE *out, const char *name, const char *type, const ch
 static void write_single_value(FILE *out, const char *name, const char *type, const char *help,
                                double value)
 {
-    begin_family(out, name, type, help);
+    write_family_head(out, name, type, help);
     fprintf(out, "rhotrack_%s %.15g\n", name, value);
 }
 
 static void write_counter(FILE *out, const char *name, const char *help, uint64_t count)
 {
-    begin_family(out, name, "counter", help);
+    write_family_head(out, name, "counter", help);
     fprintf(out, "rhotrack_%s %" PRIu64 "\n", name, count);
 }
 
 /* ---- Refusals, and all else that the last words of a node tell ---- */
 
-/* "scans late, dropped" is scans_late_dropped; what is in brackets explains. */
+/*
+ * Writes a tally's name as a label: "scans late, dropped" becomes scans_late_dropped; stops at
+ * brackets and colons, as the rest is an explanation.
+ */
 static void write_cause_label(FILE *out, const char *name)
 {
     for (bool is_between = false; *name && *name != '(' && *name != ':'; name++) {
@@ -39,8 +42,8 @@ static void write_cause_label(FILE *out, const char *name)
     }
 }
 
-static void write_causes(FILE *out, const char *family, const struct node_tally *tallies,
-                         enum node_tally_kind kind)
+static void write_tallies_of_kind(FILE *out, const char *family, const struct node_tally *tallies,
+                                  enum node_tally_kind kind)
 {
     for (int i = 0; i < NODE_TALLIES; i++) {
         if (tallies[i].kind == kind) {
@@ -56,13 +59,13 @@ static void write_tallies(FILE *out, const struct metrics_source *source)
     struct node_tally tallies[NODE_TALLIES];
 
     node_tally_all(source->core, source->transport, tallies);
-    begin_family(out, "refused_total", "counter", "Refused or lost, by cause: faults.");
-    write_causes(out, "refused_total", tallies, NODE_TALLY_FAULT);
-    begin_family(out, "missing", "gauge",
-                 "Missing or refused by now, by cause; falls where a scan comes after all.");
-    write_causes(out, "missing", tallies, NODE_TALLY_MAY_FALL);
-    begin_family(out, "noted_total", "counter", "Of the usual work, by cause.");
-    write_causes(out, "noted_total", tallies, NODE_TALLY_USUAL);
+    write_family_head(out, "refused_total", "counter", "Refused or lost, by cause: faults.");
+    write_tallies_of_kind(out, "refused_total", tallies, NODE_TALLY_FAULT);
+    write_family_head(out, "missing", "gauge",
+                      "Missing or refused by now, by cause; falls where a scan comes after all.");
+    write_tallies_of_kind(out, "missing", tallies, NODE_TALLY_MAY_FALL);
+    write_family_head(out, "noted_total", "counter", "Of the usual work, by cause.");
+    write_tallies_of_kind(out, "noted_total", tallies, NODE_TALLY_USUAL);
 }
 
 /* ---- Counters of the library that have no row there ---- */
@@ -147,7 +150,7 @@ static void write_tracker_counters(FILE *out, const struct metrics_source *sourc
     };
 
     write_counter_rows(out, rows, sizeof rows / sizeof *rows);
-    begin_family(out, "plots_by_fate_total", "counter", "What became of plots and bearings.");
+    write_family_head(out, "plots_by_fate_total", "counter", "What became of plots and bearings.");
     for (int fate = 0; fate < RHO_NUM_FATES; fate++) {
         fprintf(out, "rhotrack_plots_by_fate_total{fate=\"");
         write_cause_label(out, rho_fate_name((enum rho_fate)fate));
@@ -157,7 +160,7 @@ static void write_tracker_counters(FILE *out, const struct metrics_source *sourc
 
 /* ---- Now ---- */
 
-static void write_track_numbers(FILE *out, const struct metrics_source *source)
+static void write_track_counts(FILE *out, const struct metrics_source *source)
 {
     static const char *const names[RHO_NUM_TRACK_STATUS] = {NULL, "tentative", "confirmed",
                                                             "coasting"};
@@ -167,7 +170,7 @@ static void write_track_numbers(FILE *out, const struct metrics_source *source)
     for (unsigned i = 0; i < report->num_tracks; i++) {
         counts[report->tracks[i].status]++;
     }
-    begin_family(out, "tracks", "gauge", "Tracks of the last step, by status.");
+    write_family_head(out, "tracks", "gauge", "Tracks of the last step, by status.");
     for (int status = RHO_TRACK_TENTATIVE; status < RHO_NUM_TRACK_STATUS; status++) {
         fprintf(out, "rhotrack_tracks{status=\"%s\"} %u\n", names[status], counts[status]);
     }
@@ -178,7 +181,7 @@ static void write_time_histogram(FILE *out, const char *name, const char *help,
 {
     uint64_t within = 0;
 
-    begin_family(out, name, "histogram", help);
+    write_family_head(out, name, "histogram", help);
     for (int i = 0; i < NODE_CORE_BOUNDS; i++) {
         within += times->within[i];
         fprintf(out, "rhotrack_%s_bucket{le=\"%g\"} %" PRIu64 "\n", name,
@@ -190,7 +193,7 @@ static void write_time_histogram(FILE *out, const char *name, const char *help,
             name, times->count, name, (double)times->sum_us * 1e-6, name, times->count);
 }
 
-static void write_work(FILE *out, const struct metrics_source *source)
+static void write_times_and_work(FILE *out, const struct metrics_source *source)
 {
     const struct rho_tracker *tracker = node_core_tracker_state(source->core);
     const struct node_core_times *steps = node_core_step_times(source->core);
@@ -217,7 +220,7 @@ static void write_work(FILE *out, const struct metrics_source *source)
 
 /* ---- Sensors ---- */
 
-/* sensor="1",name="north" */
+/* Writes a sensor's labels: sensor="1",name="north". */
 static void write_sensor_labels(FILE *out, const struct metrics_source *source, int32_t sensor_id)
 {
     const char *name = parameters_sensor_name(source->parameters, sensor_id);
@@ -229,7 +232,7 @@ struct column {
     const char *name, *type, *help;
 };
 
-static void write_sensors(FILE *out, const struct metrics_source *source)
+static void write_sensor_states(FILE *out, const struct metrics_source *source)
 {
     static const struct column columns[] = {
         {"sensor_scans_total", "counter", "Scans of the sensor; stays at 65535."},
@@ -247,7 +250,7 @@ static void write_sensors(FILE *out, const struct metrics_source *source)
     const unsigned count = node_core_list_sensors(source->core, sensors);
 
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
-        begin_family(out, columns[i].name, columns[i].type, columns[i].help);
+        write_family_head(out, columns[i].name, columns[i].type, columns[i].help);
         for (unsigned k = 0; k < count; k++) {
             const struct rho_message_sensor *sensor = &sensors[k];
             const double values[sizeof columns / sizeof *columns] = {
@@ -276,8 +279,8 @@ struct learned {
 static void write_learned_noise(FILE *out, const struct metrics_source *source,
                                 const struct learned *learned, unsigned count)
 {
-    begin_family(out, "sensor_noise_factor", "gauge",
-                 "Learned noise over the stated one, along the line of sight and across.");
+    write_family_head(out, "sensor_noise_factor", "gauge",
+                      "Learned noise over the stated one, along the line of sight and across.");
     for (unsigned i = 0; i < count; i++) {
         for (int is_cross = 0; is_cross < 2; is_cross++) {
             const float factor =
@@ -293,8 +296,8 @@ static void write_learned_noise(FILE *out, const struct metrics_source *source,
 static void write_learned_pd(FILE *out, const struct metrics_source *source,
                              const struct learned *learned, unsigned count)
 {
-    begin_family(out, "sensor_pd", "gauge",
-                 "Learned probability of detection, by ring of range from the inside.");
+    write_family_head(out, "sensor_pd", "gauge",
+                      "Learned probability of detection, by ring of range from the inside.");
     for (unsigned i = 0; i < count; i++) {
         for (int ring = 0; ring < RHO_LEARN_RINGS; ring++) {
             fputs("rhotrack_sensor_pd{", out);
@@ -304,12 +307,12 @@ static void write_learned_pd(FILE *out, const struct metrics_source *source,
     }
 }
 
-/* looks: else innovations. */
+/* Writes each sensor's sample size: of its looks where is_looks, else of its innovations. */
 static void write_learned_sample_size(FILE *out, const struct metrics_source *source,
                                       const char *name, const char *help,
                                       const struct learned *learned, unsigned count, bool is_looks)
 {
-    begin_family(out, name, "gauge", help);
+    write_family_head(out, name, "gauge", help);
     for (unsigned i = 0; i < count; i++) {
         fprintf(out, "rhotrack_%s{", name);
         write_sensor_labels(out, source, learned[i].sensor_id);
@@ -353,7 +356,7 @@ static void write_zones(FILE *out, const struct rho_zones *zones)
     };
 
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
-        begin_family(out, columns[i].name, columns[i].type, columns[i].help);
+        write_family_head(out, columns[i].name, columns[i].type, columns[i].help);
         for (unsigned k = 0; k < zones->num_zones; k++) {
             const struct rho_zone_counts *counts = &zones->counts[k];
             const uint32_t values[sizeof columns / sizeof *columns] = {
@@ -373,9 +376,9 @@ void metrics_write(FILE *out, const struct metrics_source *source)
     write_input_counters(out, source);
     write_tallies(out, source);
     write_tracker_counters(out, source);
-    write_track_numbers(out, source);
-    write_work(out, source);
-    write_sensors(out, source);
+    write_track_counts(out, source);
+    write_times_and_work(out, source);
+    write_sensor_states(out, source);
     write_learned(out, source);
     if (node_core_zones(source->core)) {
         write_zones(out, node_core_zones(source->core));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * metrics: all that a node counts and measures, in the text form of Prometheus, version 0.0.4.
- * Names begin with rhotrack_, units are in the names, and each has its HELP and TYPE.
+ * metrics: all counters and measured values of a live node, in the Prometheus text format, version
+ * 0.0.4. Names begin with rhotrack_ and end with a unit; each has HELP and TYPE lines.
  */
 #ifndef RHOTRACK_TOOL_METRICS_H
 #define RHOTRACK_TOOL_METRICS_H
@@ -12,14 +12,15 @@
 #include "settings/parameters.h"
 #include "transport/transport.h"
 
-/* What the parts of a node know. */
+/* Objects and counts of a node from which the metrics are written. */
 struct metrics_source {
     const struct node_core *core;
     const struct transport *transport;
-    const struct parameters *parameters;  /* as it was started: names of sensors */
-    uint64_t messages_in;                 /* of other programs */
-    struct node_core_losses losses;       /* of inputs and outputs */
-    uint64_t pages_sent, clients_refused; /* of this text */
+    const struct parameters *parameters; /* parameters at the start: names of sensors */
+    uint64_t messages_in;                /* messages received, without those that nodes publish */
+    struct node_core_losses losses;      /* losses of the node's inputs and outputs */
+    /* answers with this page; refused requests and slow clients */
+    uint64_t pages_sent, clients_refused;
 };
 
 void metrics_write(FILE *out, const struct metrics_source *source);

@@ -16,41 +16,46 @@
 #include "rhotrack/publish.h"
 #include "rhotrack/udpm.h"
 
-/* Scans of plots that wait for the open frame; one more closes it. */
+/*
+ * Capacity of the queue of plot scans that wait for an open frame of bearings; one more closes the
+ * frame.
+ */
 #define WAITING_MAX 4
 
-/* Commands that wait for the end of a step. */
+/* Capacity of the queue of operators' commands, which are run after a step. */
 #define COMMANDS_MAX 16
-#define COMMAND_WAIT_US 60000000 /* for a step, at most: longer than a turn of any radar */
+/* longest wait of a command for a step: longer than a turn of any radar */
+#define COMMAND_WAIT_US 60000000
 #define COMMAND_IS_LATE RHO_ERROR_STATE
 
 const int64_t node_core_bounds_us[NODE_CORE_BOUNDS] = {100,   300,    1000,   3000,    10000,
                                                        30000, 100000, 300000, 1000000, 3000000};
 
-/* The sensors' newest scans. */
-struct places {
+/* Position of each sensor's newest scan (number, time, epoch), by place in the assembler. */
+struct newest_scan_positions {
     struct rho_scan_assembler_place of[RHO_MAX_SENSORS];
 };
 
-/* An operator's message, until the end of a step. */
+/* An operator's command or setting that waits for the end of a step. */
 struct waiting_command {
-    int64_t came_us; /* of the node's clock */
+    int64_t came_us; /* reception time of the command */
     bool is_setting;
     struct rho_message_command command;
     struct rho_message_setting setting;
 };
 
 struct node_core {
-    struct parameters *parameters; /* its own copy: an operator may change settings */
+    struct parameters *parameters; /* the node's own copy, which an operator's settings change */
     struct node_core_events events;
     struct pipeline pipeline;
-    struct pipeline_show *show; /* NULL: nothing is */
+    struct pipeline_show *show; /* messages of --show; NULL: none are sent */
     struct rho_node node;
     struct out_of_sequence_counts order;
     struct node_core_times step_times, latencies;
     struct rho_scan_assembler assembler;
     struct refused_messages refused;
-    struct rho_scan_assembler_counters taken, shown; /* taken: of refused scans, after all */
+    /* taken: counts of refused scans that were taken later; shown: counters less `taken` */
+    struct rho_scan_assembler_counters taken, shown;
     struct rho_frames frames;
     struct rho_node_waiting waiting[WAITING_MAX];
     bool takes_commands;
@@ -137,7 +142,7 @@ enum pipeline_restored node_core_restore_snapshot(struct node_core *core, const 
         pipeline_restore_snapshot(&core->pipeline, core->parameters, path);
 
     parameters_describe_sensors_again(core->parameters, &core->assembler);
-    open_node(core, core->node.epoch); /* the pipeline has other objects */
+    open_node(core, core->node.epoch); /* the restored pipeline has new objects */
     core->node.is_restored = restored == PIPELINE_RESTORED;
     return restored;
 }
@@ -147,7 +152,7 @@ bool node_core_save_snapshot(struct node_core *core, const char *path)
     return pipeline_save_snapshot(&core->pipeline, path);
 }
 
-/* Areas that an operator has excluded stay so. */
+/* Excludes the areas again that an operator had excluded before the tracker was reset. */
 static void restore_excluded_areas(struct rho_tracker *tracker, const struct rho_extent *areas,
                                    unsigned num_areas)
 {
@@ -156,8 +161,11 @@ static void restore_excluded_areas(struct rho_tracker *tracker, const struct rho
     }
 }
 
-/* Counters and the clutter map go on across a clock that was set. */
-static void start_tracking_anew(struct node_core *core)
+/*
+ * Resets the tracker after a change of the common clock. Counters, the clutter map and excluded
+ * areas are kept.
+ */
+static void reset_tracking(struct node_core *core)
 {
     const unsigned num_excluded = core->pipeline.tracker->num_excluded;
     struct rho_extent excluded[RHO_MAX_EXCLUDED_AREAS];
@@ -179,7 +187,7 @@ static void start_tracking_anew(struct node_core *core)
 
 /* ---- Steps ---- */
 
-/* Who has entered and left zones, if anybody has. */
+/* Publishes events of tracks that entered or left zones in this step, if any. */
 static void send_zone_events(const struct node_core *core)
 {
     struct rho_message_zone_event_list list;
@@ -211,7 +219,7 @@ static void send_step_messages(const struct node_core *core)
     }
 }
 
-static void show_step(struct node_core *core, enum rho_node_due due)
+static void send_show_messages(struct node_core *core, enum rho_node_due due)
 {
     const struct pipeline_show_output output = {core->events.context, core->events.send};
 
@@ -232,17 +240,17 @@ static void start_paper_tracks(struct node_core *core, enum rho_node_due due)
 
 /* ---- Commands ---- */
 
-static void count_answer(struct node_core *core, int8_t status)
+static void count_command_answer(struct node_core *core, int8_t status)
 {
     *(status == RHO_OK ? &core->counters.done : &core->counters.refused) += 1;
 }
 
-static void answer_command(struct node_core *core, struct rho_message_command_answer *answer)
+static void send_command_answer(struct node_core *core, struct rho_message_command_answer *answer)
 {
     uint8_t buffer[RHO_MESSAGE_COMMAND_ANSWER_MAX_SIZE];
     size_t size;
 
-    count_answer(core, answer->status);
+    count_command_answer(core, answer->status);
     answer->scan = core->node.step;
     answer->epoch = core->node.epoch;
     if (rho_message_command_answer_encode(answer, buffer, sizeof buffer, &size) == RHO_OK) {
@@ -250,12 +258,12 @@ static void answer_command(struct node_core *core, struct rho_message_command_an
     }
 }
 
-static void answer_setting(struct node_core *core, struct rho_message_setting_answer *answer)
+static void send_setting_answer(struct node_core *core, struct rho_message_setting_answer *answer)
 {
     uint8_t buffer[RHO_MESSAGE_SETTING_ANSWER_MAX_SIZE];
     size_t size;
 
-    count_answer(core, answer->status);
+    count_command_answer(core, answer->status);
     answer->utime = core->pipeline.report->time_us;
     answer->scan = core->node.step;
     answer->epoch = core->node.epoch;
@@ -264,8 +272,12 @@ static void answer_setting(struct node_core *core, struct rho_message_setting_an
     }
 }
 
-/* The parameters are those of a node that was started with the setting; what runs follows them. */
-static void change_setting(struct node_core *core, const struct rho_message_setting *setting)
+/*
+ * Changes one setting as if the node had been started with it, reconfigures the running objects,
+ * and answers the operator.
+ */
+static void apply_setting_and_answer(struct node_core *core,
+                                     const struct rho_message_setting *setting)
 {
     struct rho_settings settings = parameters_settings(core->parameters);
     struct rho_message_setting_answer answer;
@@ -275,24 +287,26 @@ static void change_setting(struct node_core *core, const struct rho_message_sett
             pipeline_reconfigure(&core->pipeline, core->parameters);
             parameters_describe_sensors_again(core->parameters, &core->assembler);
         } else {
-            answer.status = RHO_ERROR_CONFIG; /* a sensor's own ranges do not go with it */
+            /* the range limits of a single sensor conflict with the setting */
+            answer.status = RHO_ERROR_CONFIG;
         }
     }
-    answer_setting(core, &answer);
+    send_setting_answer(core, &answer);
 }
 
-/* After a step, whose report then shows what they have changed. */
-static void run_commands(struct node_core *core)
+/* Runs the queued commands after a step, and updates the step's report by their changes. */
+static void run_queued_commands(struct node_core *core)
 {
     struct rho_message_command_answer answer;
 
     for (unsigned i = 0; i < core->num_commands; i++) {
         if (core->commands[i].is_setting) {
-            change_setting(core, &core->commands[i].setting);
+            apply_setting_and_answer(core, &core->commands[i].setting);
         } else {
             (void)!rho_command_run(&core->commands[i].command, core->pipeline.tracker,
-                                   core->pipeline.report, &answer); /* the answer says it */
-            answer_command(core, &answer);
+                                   /* the status is sent in the answer */
+                                   core->pipeline.report, &answer);
+            send_command_answer(core, &answer);
         }
     }
     core->num_commands = 0;
@@ -302,20 +316,21 @@ static void refuse_command(struct node_core *core, const struct waiting_command 
                            enum rho_status status)
 {
     if (waiting->is_setting) {
-        answer_setting(core, &(struct rho_message_setting_answer){.number = waiting->setting.number,
-                                                                  .field = waiting->setting.field,
-                                                                  .status = (int8_t)status});
+        send_setting_answer(core,
+                            &(struct rho_message_setting_answer){.number = waiting->setting.number,
+                                                                 .field = waiting->setting.field,
+                                                                 .status = (int8_t)status});
         return;
     }
-    answer_command(core,
-                   &(struct rho_message_command_answer){.utime = core->pipeline.report->time_us,
-                                                        .number = waiting->command.number,
-                                                        .action = waiting->command.action,
-                                                        .status = (int8_t)status});
+    send_command_answer(
+        core, &(struct rho_message_command_answer){.utime = core->pipeline.report->time_us,
+                                                   .number = waiting->command.number,
+                                                   .action = waiting->command.action,
+                                                   .status = (int8_t)status});
 }
 
-/* Refuses those that came before that time: what an operator saw then is no longer so. */
-static void refuse_commands(struct node_core *core, int64_t before_us)
+/* Refuses queued commands received before that time, as what the operator saw has changed. */
+static void refuse_commands_before(struct node_core *core, int64_t before_us)
 {
     unsigned kept = 0;
 
@@ -329,7 +344,7 @@ static void refuse_commands(struct node_core *core, int64_t before_us)
     core->num_commands = kept;
 }
 
-static bool read_command(struct waiting_command *waiting, const uint8_t *data, size_t size)
+static bool decode_command(struct waiting_command *waiting, const uint8_t *data, size_t size)
 {
     return waiting->is_setting
                ? rho_message_setting_decode(data, size, &waiting->setting) == RHO_OK &&
@@ -338,9 +353,9 @@ static bool read_command(struct waiting_command *waiting, const uint8_t *data, s
                      rho_message_command_validate(&waiting->command, NULL) == RHO_OK;
 }
 
-/* False: the channel is not an operator's. */
-static bool take_command(struct node_core *core, const char *channel, const uint8_t *data,
-                         size_t size, int64_t now_us)
+/* Queues or counts an operator's command or setting; false where the channel is another one. */
+static bool queue_command_message(struct node_core *core, const char *channel, const uint8_t *data,
+                                  size_t size, int64_t now_us)
 {
     struct waiting_command waiting = {
         .came_us = now_us, .is_setting = strcmp(channel, RHO_MESSAGE_SETTING_CHANNEL) == 0};
@@ -350,7 +365,7 @@ static bool take_command(struct node_core *core, const char *channel, const uint
     }
     if (!core->takes_commands) {
         core->counters.not_allowed++;
-    } else if (!read_command(&waiting, data, size)) {
+    } else if (!decode_command(&waiting, data, size)) {
         core->counters.bad++;
     } else if (core->num_commands < COMMANDS_MAX) {
         core->commands[core->num_commands++] = waiting;
@@ -362,7 +377,7 @@ static bool take_command(struct node_core *core, const char *channel, const uint
 
 /* ---- The loop ---- */
 
-static void count_time(struct node_core_times *times, int64_t took_us)
+static void add_time_sample(struct node_core_times *times, int64_t took_us)
 {
     unsigned bound = 0;
 
@@ -377,8 +392,8 @@ static void count_time(struct node_core_times *times, int64_t took_us)
     times->max_us = took_us > times->max_us ? took_us : times->max_us;
 }
 
-/* The step's scan waited for so long: of a frame of bearings, the scan that came last. */
-static int64_t scan_waited_us(const struct node_core *core, enum rho_node_due due)
+/* Time from the reception of the step's scan to now; of a frame, from its last bearing scan. */
+static int64_t scan_waiting_time_us(const struct node_core *core, enum rho_node_due due)
 {
     int64_t heard_us = INT64_MIN;
 
@@ -396,7 +411,7 @@ static int64_t scan_waited_us(const struct node_core *core, enum rho_node_due du
     return heard_us == INT64_MIN || heard_us > core->node.now_us ? 0 : core->node.now_us - heard_us;
 }
 
-static void step_when_due(struct node_core *core, enum rho_node_due due)
+static void step_due_input(struct node_core *core, enum rho_node_due due)
 {
     const int64_t start_us = clock_us();
     struct rho_initiator *initiator =
@@ -412,43 +427,44 @@ static void step_when_due(struct node_core *core, enum rho_node_due due)
     if (due == RHO_NODE_SCAN) {
         pipeline_learn_walls(&core->pipeline, &core->node.scan);
     }
-    run_commands(core);
+    run_queued_commands(core);
     pipeline_count_zones(&core->pipeline);
     took_us = clock_us() - start_us;
     rho_node_count_time(&core->node, took_us);
-    count_time(&core->step_times, took_us);
-    count_time(&core->latencies, took_us + scan_waited_us(core, due));
+    add_time_sample(&core->step_times, took_us);
+    add_time_sample(&core->latencies, took_us + scan_waiting_time_us(core, due));
     if (core->events.stepped) {
         core->events.stepped(core->events.context, core->pipeline.report);
     }
     send_step_messages(core);
     send_zone_events(core);
-    show_step(core, due);
+    send_show_messages(core, due);
 }
 
 static void step_all_due(struct node_core *core, int64_t now_us)
 {
     enum rho_node_due due;
 
-    refuse_commands(core, now_us - COMMAND_WAIT_US);
+    refuse_commands_before(core, now_us - COMMAND_WAIT_US);
     while ((due = rho_node_next(&core->node, now_us)) != RHO_NODE_NOTHING) {
         if (due == RHO_NODE_RESTART) {
-            refuse_commands(core, INT64_MAX);
-            start_tracking_anew(core);
+            refuse_commands_before(core, INT64_MAX);
+            reset_tracking(core);
             if (core->events.began_anew) {
                 core->events.began_anew(core->events.context);
             }
         } else {
-            step_when_due(core, due);
+            step_due_input(core, due);
         }
     }
 }
 
 /*
- * Tells of sensors whose time went back or whose epoch changed; one that is followed for another
- * interval has not begun again.
+ * Reports sensors whose scan time went back or whose epoch changed. A sensor that is followed after
+ * a gap has not restarted.
  */
-static void tell_of_sensor_restarts(const struct node_core *core, const struct places *before)
+static void report_sensor_restarts(const struct node_core *core,
+                                   const struct newest_scan_positions *before)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS && core->events.restarted; i++) {
         const struct rho_scan_assembler_source *source = &core->assembler.sources[i];
@@ -460,10 +476,13 @@ static void tell_of_sensor_restarts(const struct node_core *core, const struct p
     }
 }
 
-/* The assembler has taken the message. */
-static void note_message_taken(struct node_core *core, const char *channel, const uint8_t *data,
-                               size_t size, const struct rho_scan_assembler_counters *before,
-                               const struct places *places, int64_t now_us)
+/*
+ * Updates counts after the assembler took a message: keeps it if it was refused, and where it
+ * completes a sensor's restart feeds the refused messages again.
+ */
+static void handle_taken_message(struct node_core *core, const char *channel, const uint8_t *data,
+                                 size_t size, const struct rho_scan_assembler_counters *before,
+                                 const struct newest_scan_positions *places, int64_t now_us)
 {
     const struct rho_scan_assembler_counters *after = &core->assembler.counters;
 
@@ -471,8 +490,8 @@ static void note_message_taken(struct node_core *core, const char *channel, cons
     if (after->sensor_restarts == before->sensor_restarts) {
         refused_messages_note(&core->refused, channel, data, size, before, after);
     } else {
-        tell_of_sensor_restarts(core, places);
-        if (core->assembler.is_restart) { /* nothing of that time has been stepped */
+        report_sensor_restarts(core, places);
+        if (core->assembler.is_restart) { /* no scan since the restart has been stepped yet */
             refused_messages_take_again(&core->refused, channel, &core->assembler, now_us,
                                         &core->taken);
         }
@@ -484,8 +503,8 @@ void node_core_take_message(struct node_core *core, const char *channel, const u
                             size_t size, int64_t now_us)
 {
     struct rho_scan_assembler_counters before;
-    bool has_room = take_command(core, channel, data, size, now_us);
-    struct places places;
+    bool has_room = queue_command_message(core, channel, data, size, now_us);
+    struct newest_scan_positions places;
 
     while (!has_room) {
         before = core->assembler.counters;
@@ -494,7 +513,7 @@ void node_core_take_message(struct node_core *core, const char *channel, const u
         }
         has_room = rho_node_take(&core->node, channel, data, size, now_us) != RHO_ERROR_CAPACITY;
         if (has_room) {
-            note_message_taken(core, channel, data, size, &before, &places, now_us);
+            handle_taken_message(core, channel, data, size, &before, &places, now_us);
         }
         step_all_due(core, now_us);
     }
@@ -517,12 +536,13 @@ void node_core_flush(struct node_core *core)
 
 /* ---- State ---- */
 
-static int32_t round_origin(const struct parameters *parameters, enum parameter_id id, double scale)
+static int32_t scaled_origin_coordinate(const struct parameters *parameters, enum parameter_id id,
+                                        double scale)
 {
     return parameters_is_set(parameters, id) ? (int32_t)lround(parameters->value[id] * scale) : 0;
 }
 
-static void send_sensors(const struct node_core *core)
+static void send_sensor_states(const struct node_core *core)
 {
     struct rho_message_sensor_list list;
     uint8_t buffer[RHO_MESSAGE_SENSOR_LIST_MAX_SIZE];
@@ -546,7 +566,7 @@ static int64_t clamp_to_int64(uint64_t count)
     return count < INT64_MAX ? (int64_t)count : INT64_MAX;
 }
 
-static void send_work(const struct node_core *core, const struct node_core_losses *losses)
+static void send_work_message(const struct node_core *core, const struct node_core_losses *losses)
 {
     struct rho_message_work work;
     uint8_t buffer[RHO_MESSAGE_WORK_MAX_SIZE];
@@ -560,8 +580,8 @@ static void send_work(const struct node_core *core, const struct node_core_losse
     }
 }
 
-/* One sensor's at each call. */
-static void send_learned(struct node_core *core)
+/* Publishes the learned values of one sensor, in turn at each call. */
+static void send_learned_of_next_sensor(struct node_core *core)
 {
     struct rho_message_learned learned;
     uint8_t buffer[RHO_MESSAGE_LEARNED_MAX_SIZE];
@@ -573,7 +593,7 @@ static void send_learned(struct node_core *core)
     }
 }
 
-static void send_zones(const struct node_core *core)
+static void send_zone_counts(const struct node_core *core)
 {
     struct rho_message_zone_list list;
     uint8_t buffer[RHO_MESSAGE_ZONE_LIST_MAX_SIZE];
@@ -599,16 +619,18 @@ void node_core_send_status(struct node_core *core, const struct node_core_losses
 
     rho_node_status(&core->node, core->pipeline.initiator, &status);
     status.fragments_refused = refused < INT32_MAX ? (int32_t)refused : INT32_MAX;
-    status.origin_lat_1e7deg = round_origin(core->parameters, PARAMETER_ORIGIN_LAT_DEG, 1e7);
-    status.origin_lon_1e7deg = round_origin(core->parameters, PARAMETER_ORIGIN_LON_DEG, 1e7);
-    status.origin_alt_mm = round_origin(core->parameters, PARAMETER_ORIGIN_ALT_M, 1e3);
+    status.origin_lat_1e7deg =
+        scaled_origin_coordinate(core->parameters, PARAMETER_ORIGIN_LAT_DEG, 1e7);
+    status.origin_lon_1e7deg =
+        scaled_origin_coordinate(core->parameters, PARAMETER_ORIGIN_LON_DEG, 1e7);
+    status.origin_alt_mm = scaled_origin_coordinate(core->parameters, PARAMETER_ORIGIN_ALT_M, 1e3);
     if (rho_message_status_encode(&status, buffer, sizeof buffer, &size) == RHO_OK) {
         core->events.send(core->events.context, RHO_MESSAGE_STATUS_CHANNEL, buffer, size);
     }
-    send_work(core, losses);
-    send_sensors(core);
-    send_learned(core);
-    send_zones(core);
+    send_work_message(core, losses);
+    send_sensor_states(core);
+    send_learned_of_next_sensor(core);
+    send_zone_counts(core);
 }
 
 void node_core_send_clutter(const struct node_core *core)

@@ -15,43 +15,56 @@
 #include "base/common.h"
 #include "io/log/lcm_log.h"
 
-/* The queue is some 40 s of a radar with 1000 plots a second. */
+/*
+ * QUEUE_BYTES hold some 40 s of a radar with 1000 plots a second; PIECE_BYTES go to the disk at a
+ * time; OPEN_US: longest wait for the file to open; LOOK_US: interval of checks for a signal to
+ * end.
+ */
 enum { QUEUE_BYTES = 4 << 20, PIECE_BYTES = 64 << 10, OPEN_US = 500000, LOOK_US = 100000 };
-enum { AGAIN_US = 60000000 }; /* until a disk that refused something is tried again */
+enum { AGAIN_US = 60000000 }; /* interval of attempts to write to a disk that refused events */
 
 #define NO_CUT UINT64_MAX
 
 struct node_log {
     const char *path;
     struct node_log_limits limits;
-    /* the tracking's alone */
+    /* used by the tracking thread alone */
     bool is_live, is_full_said;
-    int error_said;      /* errno; 0: none, or it is over */
-    uint64_t whole_then; /* events_whole when the file was opened again; more: it takes them */
-    int refusal_said;    /* as `refusal` */
-    int64_t again_us;    /* clock_us: when to try again */
-    int64_t begin_us;    /* of the first event of the file that is put into */
-    uint64_t begin;      /* its byte 0, in bytes since the start; wraps below 0 (thread, too) */
-    pthread_t thread;
-    pthread_mutex_t mutex;  /* for all below */
-    pthread_cond_t changed; /* any of it */
-    uint8_t *queue;         /* QUEUE_BYTES, round and round */
+    int error_said; /* errno that was printed; 0: none, or its end was printed */
+    /* events_whole at the last reopening; a larger count shows that the disk takes events again */
+    uint64_t whole_then;
+    int refusal_said; /* value of `refusal` that was printed */
+    int64_t again_us; /* monotonic time of the next attempt to write */
+    int64_t begin_us; /* time of the first event of the file that events are now queued for */
     /*
-     * bytes since the start: put into the queue, written, and up to the end of the last event that
-     * is written
+     * byte 0 of the file that events are now queued for, as an offset in the stream of all queued
+     * bytes; wraps below 0 where the file had contents (also set by the writer thread)
+     */
+    uint64_t begin;
+    pthread_t thread;
+    pthread_mutex_t mutex;  /* protects all fields below */
+    pthread_cond_t changed; /* signalled when a field below changes */
+    uint8_t *queue;         /* ring buffer of QUEUE_BYTES */
+    /*
+     * stream offsets: end of the queued bytes, end of the written bytes, and end of the last event
+     * that is completely written
      */
     uint64_t put, written, whole;
     uint64_t events_put, events_whole, events_left_out;
-    /* where the file is closed and opened again, an end of an event; NO_CUT: nowhere */
+    /*
+     * stream offset, between two events, at which the writer thread closes the file and opens the
+     * next one; NO_CUT: none
+     */
     uint64_t cut;
-    bool is_put_away;     /* under a name of its own before that */
-    int64_t cut_begin_us; /* of its first event */
-    bool is_open;         /* the file */
-    bool is_removed;      /* the file was, by somebody: what is written there is lost */
-    bool is_ended;        /* nothing is put any more */
-    bool is_done;         /* the thread has ended */
-    int error;            /* errno of what the disk refused; 0: nothing */
-    int refusal;          /* the same of an earlier file's new name, or its end */
+    bool is_put_away;     /* at the cut the file is renamed by its time (log rotation) */
+    int64_t cut_begin_us; /* time of the first event of the file that ends at the cut */
+    bool is_open;         /* the writer thread has a file open */
+    /* the open file was unlinked by another program, so what is written to it is lost */
+    bool is_removed;
+    bool is_ended; /* no more events will be queued */
+    bool is_done;  /* the writer thread has ended */
+    int error;     /* errno of the last write or open that failed; 0: none */
+    int refusal;   /* errno of a rename or removal of earlier files that failed; 0: none */
 };
 
 /* ---- The thread ---- */
@@ -61,7 +74,7 @@ static unsigned queue_byte_at(const struct node_log *log, uint64_t at)
     return log->queue[at % QUEUE_BYTES];
 }
 
-static uint64_t queue_number_at(const struct node_log *log, uint64_t at)
+static uint64_t queue_u32_at(const struct node_log *log, uint64_t at)
 {
     uint64_t number = 0;
 
@@ -71,13 +84,13 @@ static uint64_t queue_number_at(const struct node_log *log, uint64_t at)
     return number;
 }
 
-/* Events that are written to their end make room. */
-static void count_whole_events(struct node_log *log)
+/* Frees the queue space of events that are written to their end. */
+static void free_written_events(struct node_log *log)
 {
     while (log->written - log->whole >= LCM_LOG_HEADER_BYTES) {
         const uint64_t bytes =
-            lcm_log_event_bytes(queue_number_at(log, log->whole + LCM_LOG_CHANNEL_AT),
-                                queue_number_at(log, log->whole + LCM_LOG_DATA_AT));
+            lcm_log_event_bytes(queue_u32_at(log, log->whole + LCM_LOG_CHANNEL_AT),
+                                queue_u32_at(log, log->whole + LCM_LOG_DATA_AT));
 
         if (log->written - log->whole < bytes) {
             return;
@@ -87,7 +100,9 @@ static void count_whole_events(struct node_log *log)
     }
 }
 
-/* Bytes from `written` on that lie in one piece of the queue, and in one file. */
+/*
+ * Size of the next write: contiguous in the ring buffer, within one file, and PIECE_BYTES at most.
+ */
 static size_t next_piece_bytes(const struct node_log *log)
 {
     const uint64_t end = log->cut < log->put ? log->cut : log->put;
@@ -99,7 +114,7 @@ static size_t next_piece_bytes(const struct node_log *log)
     return (size_t)(bytes < PIECE_BYTES ? bytes : PIECE_BYTES);
 }
 
-/* Drops what is in the queue: there is no file for it. */
+/* Counts all queued events as left out and empties the queue, as no file can take them. */
 static void drop_queue(struct node_log *log, int reason)
 {
     log->error = reason;
@@ -108,10 +123,11 @@ static void drop_queue(struct node_log *log, int reason)
     log->written = log->whole = log->put;
 }
 
-/* The file that is written, the thread's alone. */
+/* The log file that is open for writing; used by the writer thread alone. */
 struct file {
     int descriptor;
-    uint64_t begin; /* its byte 0, in bytes since the start; wraps below 0 where there was more */
+    /* stream offset of the file's byte 0; wraps below 0 where the file had contents before */
+    uint64_t begin;
 };
 
 static void write_piece(struct node_log *log, const struct file *file, size_t bytes)
@@ -131,14 +147,17 @@ static void write_piece(struct node_log *log, const struct file *file, size_t by
     log->is_removed = is_removed;
     if (done >= 0) {
         log->written += (uint64_t)done;
-        count_whole_events(log);
+        free_written_events(log);
     } else if (reason != EINTR) {
         log->error = reason;
     }
     pthread_cond_broadcast(&log->changed);
 }
 
-/* Half an event at the end of a file goes; where it does not, readers skip it. */
+/*
+ * Closes the file, and first truncates an incomplete event at its end; in a pipe it stays, and
+ * readers skip it.
+ */
 static void close_file(struct node_log *log, struct file *file)
 {
     const bool is_torn = log->written > log->whole;
@@ -161,7 +180,7 @@ static void close_file(struct node_log *log, struct file *file)
     }
 }
 
-/* flags: O_TRUNC, or O_APPEND. */
+/* Opens the log's file with O_TRUNC or O_APPEND in flags; drops the queue where that fails. */
 static void open_file(struct node_log *log, struct file *file, int flags)
 {
     struct stat status;
@@ -183,12 +202,16 @@ static void open_file(struct node_log *log, struct file *file, int flags)
     }
     file->begin = log->written - bytes;
     if (!log->refusal) {
-        log->begin -= bytes; /* they count for its limit; not to be refused again at each event */
+        /*
+         * old contents count for the size limit, unless rotation fails: it would be retried at each
+         * event
+         */
+        log->begin -= bytes;
     }
     pthread_cond_broadcast(&log->changed);
 }
 
-static void put_file_away(struct node_log *log, int64_t begin_us)
+static void rotate_file(struct node_log *log, int64_t begin_us)
 {
     int refused;
 
@@ -198,32 +221,32 @@ static void put_file_away(struct node_log *log, int64_t begin_us)
     log->refusal = refused;
 }
 
-/* The cut is reached: another file. */
-static void change_to_next_file(struct node_log *log, struct file *file)
+/* Closes the file at the cut, renames it if it is rotated, and opens the next one. */
+static void switch_to_next_file(struct node_log *log, struct file *file)
 {
     close_file(log, file);
     if (log->is_put_away) {
-        put_file_away(log, log->cut_begin_us);
+        rotate_file(log, log->cut_begin_us);
     }
     log->cut = NO_CUT;
     open_file(log, file, O_APPEND);
 }
 
-static void *write_queue(void *object)
+static void *run_writer_thread(void *object)
 {
     struct node_log *log = object;
     struct file file;
 
     pthread_mutex_lock(&log->mutex);
-    if (node_log_limits_are_set(&log->limits)) { /* an earlier run's stays */
-        put_file_away(log, node_log_files_last_write_us(log->path));
+    if (node_log_limits_are_set(&log->limits)) { /* keeps the log of an earlier run */
+        rotate_file(log, node_log_files_last_write_us(log->path));
     }
     open_file(log, &file, log->refusal ? O_APPEND : O_TRUNC);
     while (!log->is_ended || log->written < log->put) {
         const size_t bytes = file.descriptor >= 0 ? next_piece_bytes(log) : 0;
 
         if (log->cut <= log->written) {
-            change_to_next_file(log, &file);
+            switch_to_next_file(log, &file);
         } else if (bytes > 0) {
             write_piece(log, &file, bytes);
         } else {
@@ -242,7 +265,7 @@ static void *write_queue(void *object)
 
 /* ---- The tracking ---- */
 
-static void wait_until(struct node_log *log, int64_t until_us)
+static void wait_for_change_until(struct node_log *log, int64_t until_us)
 {
     const struct timespec until = {until_us / 1000000, until_us % 1000000 * 1000};
 
@@ -269,12 +292,12 @@ struct node_log *node_log_open(const char *path, bool is_live, const struct node
     pthread_cond_init(&log->changed, &attributes);
     pthread_condattr_destroy(&attributes);
     pthread_mutex_init(&log->mutex, NULL);
-    if (pthread_create(&log->thread, NULL, write_queue, log) != 0) {
+    if (pthread_create(&log->thread, NULL, run_writer_thread, log) != 0) {
         fail(EXIT_RUNTIME, "%s: no thread to write it", path);
     }
     pthread_mutex_lock(&log->mutex);
     while (!log->is_open && !log->error && clock_us() < until_us) {
-        wait_until(log, until_us);
+        wait_for_change_until(log, until_us);
     }
     if (log->error) {
         fail(EXIT_RUNTIME, "%s: %s", path, strerror(log->error));
@@ -287,7 +310,7 @@ struct node_log *node_log_open(const char *path, bool is_live, const struct node
     return log;
 }
 
-static void put_bytes(struct node_log *log, const void *bytes, size_t size)
+static void queue_bytes(struct node_log *log, const void *bytes, size_t size)
 {
     const uint8_t *from = bytes;
     const size_t at = (size_t)(log->put % QUEUE_BYTES);
@@ -300,13 +323,13 @@ static void put_bytes(struct node_log *log, const void *bytes, size_t size)
     }
 }
 
-static bool has_room(const struct node_log *log, uint64_t bytes)
+static bool queue_has_room(const struct node_log *log, uint64_t bytes)
 {
     return QUEUE_BYTES - (log->put - log->whole) >= bytes;
 }
 
-/* The file ends behind the event that was put last. A cut that is there already will do. */
-static void cut_file_here(struct node_log *log, bool is_put_away)
+/* Ends the file behind the event that was queued last, unless a cut is already pending. */
+static void end_file_at_queue_end(struct node_log *log, bool is_put_away)
 {
     if (log->cut == NO_CUT) {
         log->cut = log->put;
@@ -317,11 +340,11 @@ static void cut_file_here(struct node_log *log, bool is_put_away)
     }
 }
 
-static void cut_before_event(struct node_log *log, uint64_t bytes, int64_t time_us)
+static void end_file_at_limits(struct node_log *log, uint64_t bytes, int64_t time_us)
 {
     if (node_log_limits_reached(&log->limits, log->put - log->begin, log->begin_us, bytes,
                                 time_us)) {
-        cut_file_here(log, true);
+        end_file_at_queue_end(log, true);
     }
     if (log->put == log->begin) {
         log->begin_us = time_us;
@@ -339,18 +362,18 @@ void node_log_put_event(struct node_log *log, int64_t time_us, const char *chann
         return;
     }
     pthread_mutex_lock(&log->mutex);
-    while (!log->is_live && !log->error && bytes <= QUEUE_BYTES && !has_room(log, bytes) &&
+    while (!log->is_live && !log->error && bytes <= QUEUE_BYTES && !queue_has_room(log, bytes) &&
            !is_end_signal_pending()) {
-        wait_until(log, clock_us() + LOOK_US);
+        wait_for_change_until(log, clock_us() + LOOK_US);
     }
-    if (log->error || !has_room(log, bytes)) {
+    if (log->error || !queue_has_room(log, bytes)) {
         log->events_left_out++;
     } else {
-        cut_before_event(log, bytes, time_us);
+        end_file_at_limits(log, bytes, time_us);
         lcm_log_put_header(header, (int64_t)log->events_put++, time_us, length, size);
-        put_bytes(log, header, sizeof header);
-        put_bytes(log, channel, length);
-        put_bytes(log, data, size);
+        queue_bytes(log, header, sizeof header);
+        queue_bytes(log, channel, length);
+        queue_bytes(log, data, size);
         pthread_cond_broadcast(&log->changed);
     }
     pthread_mutex_unlock(&log->mutex);
@@ -381,12 +404,12 @@ void node_log_reopen(struct node_log *log)
     }
     pthread_mutex_lock(&log->mutex);
     log->whole_then = log->events_whole;
-    cut_file_here(log, false);
+    end_file_at_queue_end(log, false);
     pthread_mutex_unlock(&log->mutex);
 }
 
-/* An error is said once, and its end once the disk has taken an event again. */
-static void say_error(struct node_log *log, int error, uint64_t whole)
+/* Prints an error of the disk once, and its end once the disk has taken an event again. */
+static void print_disk_error_change(struct node_log *log, int error, uint64_t whole)
 {
     if (error && error != log->error_said) {
         log->error_said = error;
@@ -399,7 +422,7 @@ static void say_error(struct node_log *log, int error, uint64_t whole)
     }
 }
 
-static void say_refusal(struct node_log *log, int refusal)
+static void print_rotation_error(struct node_log *log, int refusal)
 {
     if (refusal && refusal != log->refusal_said) {
         fprintf(stderr, "rhotrack: %s: cannot be put away, or an earlier file removed: %s\n",
@@ -408,7 +431,7 @@ static void say_refusal(struct node_log *log, int refusal)
     log->refusal_said = refusal;
 }
 
-static void say_full(struct node_log *log)
+static void print_queue_full_once(struct node_log *log)
 {
     if (!log->is_full_said) {
         log->is_full_said = true;
@@ -417,7 +440,7 @@ static void say_full(struct node_log *log)
     }
 }
 
-static void reopen_if_gone(struct node_log *log, bool is_removed, int error)
+static void reopen_if_removed_or_due(struct node_log *log, bool is_removed, int error)
 {
     const int64_t now_us = clock_us();
 
@@ -448,12 +471,12 @@ bool node_log_report_errors(struct node_log *log)
     whole = log->events_whole;
     is_removed = log->is_removed && log->cut == NO_CUT;
     pthread_mutex_unlock(&log->mutex);
-    say_error(log, error, whole);
-    say_refusal(log, refusal);
+    print_disk_error_change(log, error, whole);
+    print_rotation_error(log, refusal);
     if (!error && left_out > 0) {
-        say_full(log);
+        print_queue_full_once(log);
     }
-    reopen_if_gone(log, is_removed, error);
+    reopen_if_removed_or_due(log, is_removed, error);
     return !error;
 }
 
@@ -466,7 +489,7 @@ void node_log_finish_queue(struct node_log *log, int64_t until_us)
     log->is_ended = true;
     pthread_cond_broadcast(&log->changed);
     while (!log->is_done && clock_us() < until_us) {
-        wait_until(log, until_us);
+        wait_for_change_until(log, until_us);
     }
     pthread_mutex_unlock(&log->mutex);
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_log: a node's LCM log. A thread writes it, from a queue: no disk stops the tracking, full or
- * stalled. Where the queue is full, events are left out whole, and counted; where the disk refuses
- * them the file ends behind the last whole event, and once a minute it is tried whether it takes
- * more. Of a record, which waits, none are left out that the queue could hold (4 MiB).
+ * node_log: the LCM log of a live node. A thread writes it from a queue, so that a full or stalled
+ * disk does not stop the tracking. Where the queue is full, whole events are left out and counted.
+ * Where the disk refuses events, the file ends behind its last whole event, and writing is tried
+ * again once a minute. Replays, which can wait, lose no event that fits the queue (4 MiB).
  *
- * Where the log is cut into several files (node_log_files.h), each holds whole events, and whoever
- * reads one to its end once it is put away, and goes on with the next name, misses none.
+ * Where the log is rotated (node_log_files.h), each file holds whole events, and a reader that
+ * reads each file to its end and continues with the next name misses none.
  */
 #ifndef RHOTRACK_TOOL_NODE_LOG_H
 #define RHOTRACK_TOOL_NODE_LOG_H
@@ -17,42 +17,45 @@
 
 #include "live/node_log_files.h"
 
-/* All of the functions below take NULL for: there is no log. */
+/* All functions below accept NULL, a node without a log. */
 struct node_log;
 
 /*
- * A file of that name is written over, or put away where the log has limits. A file that cannot be
- * opened: exit 1. One that does not open by now (a FIFO that nobody reads) is
- * waited for beside the tracking.
+ * Opens the log; an existing file is overwritten, or renamed first where the log has limits. Exit 1
+ * where the file cannot be opened. A file that takes long to open (a FIFO without a reader) is
+ * opened in the background.
  *   path     NULL: no log
- *   is_live  what comes in does not wait for what goes out
+ *   is_live  full queues drop events; else node_log_put_event waits for room
  */
 struct node_log *node_log_open(const char *path, bool is_live,
                                const struct node_log_limits *limits);
 
 /*
- * Closes the file and opens its name again, where somebody has put it away, or has made room. A
- * file that is there still is added to.
+ * Closes the file and opens its name anew, after a log rotation or when the disk has room again. A
+ * file that still has its name is appended to.
  */
 void node_log_reopen(struct node_log *log);
 
-/* channel: 1 to LCM_LOG_MAX_CHANNEL characters. */
+/* Queues an event; channels have 1 to LCM_LOG_MAX_CHANNEL characters. */
 void node_log_put_event(struct node_log *log, int64_t time_us, const char *channel,
                         const uint8_t *data, size_t size);
 
-/* Events so far that are not in the log, and will not be. */
+/* Number of events so far that were not logged. */
 uint64_t node_log_events_left_out(struct node_log *log);
 
-/* Says once on standard error what is wrong, and tries again. False: the disk refuses events. */
+/*
+ * Prints new errors once on standard error, and reopens the file where it was removed or the disk
+ * refused events. Returns false while the disk refuses events.
+ */
 bool node_log_report_errors(struct node_log *log);
 
 /*
- * Writes the rest of the queue until until_us of clock_us; events that are left then count as left
+ * Writes the rest of the queue until the monotonic time until_us; remaining events count as left
  * out.
  */
 void node_log_finish_queue(struct node_log *log, int64_t until_us);
 
-/* A log whose disk does not answer stays as it is, until the program ends. */
+/* Frees the log. Where a write still blocks, its memory is left to the writer thread. */
 void node_log_close(struct node_log *log);
 
 #endif

@@ -13,7 +13,7 @@
 
 #include "base/common.h"
 
-#define STAMP "-00000000T000000.000Z" /* 0: any digit */
+#define STAMP "-00000000T000000.000Z" /* pattern of a stamp; 0 stands for any digit */
 #define STAMP_BYTES (sizeof STAMP - 1)
 #define US_PER_MS 1000
 
@@ -38,7 +38,7 @@ bool node_log_limits_reached(const struct node_log_limits *limits, uint64_t file
 
 /* ---- Names ---- */
 
-/* Where the stamp stands in the path: before the ending of its last part. */
+/* Index in the path at which the time stamp is inserted: before the ending of the file's name. */
 static size_t stamp_position(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -48,7 +48,7 @@ static size_t stamp_position(const char *path)
     return dot && dot > name ? (size_t)(dot - path) : strlen(path);
 }
 
-/* In new memory. */
+/* The path with a time stamp before its ending, in new memory. */
 static char *path_with_stamp(const char *path, int64_t time_us)
 {
     const int64_t within_us = (time_us % 1000000 + 1000000) % 1000000;
@@ -67,7 +67,7 @@ static char *path_with_stamp(const char *path, int64_t time_us)
 
 /* ---- Files that are too many ---- */
 
-static bool is_stamp(const char *text)
+static bool begins_with_stamp(const char *text)
 {
     for (size_t i = 0; i < STAMP_BYTES; i++) {
         if (STAMP[i] == '0' ? !isdigit((unsigned char)text[i]) : text[i] != STAMP[i]) {
@@ -77,16 +77,16 @@ static bool is_stamp(const char *text)
     return true;
 }
 
-/* An earlier file of the log with this name. */
+/* True where `file` is the name of an earlier file of the log `name`: the name with a stamp. */
 static bool is_earlier_log_file(const char *file, const char *name)
 {
     const size_t at = stamp_position(name), length = strlen(name);
 
     return strlen(file) == length + STAMP_BYTES && strncmp(file, name, at) == 0 &&
-           is_stamp(file + at) && strcmp(file + at + STAMP_BYTES, name + at) == 0;
+           begins_with_stamp(file + at) && strcmp(file + at + STAMP_BYTES, name + at) == 0;
 }
 
-static int remove_oldest(const char *path, unsigned files_max)
+static int remove_oldest_files(const char *path, unsigned files_max)
 {
     const char *slash = strrchr(path, '/');
     const size_t length = slash ? (size_t)(slash - path) + 1 : 0;
@@ -98,7 +98,7 @@ static int remove_oldest(const char *path, unsigned files_max)
     memcpy(folder, length ? path : "./", length ? length : 2);
     count = scandir(folder, &files, NULL, alphasort);
     refused = count < 0 ? errno : 0;
-    for (int i = count - 1; i >= 0; i--) { /* the newest first */
+    for (int i = count - 1; i >= 0; i--) { /* names sort by time: newest first */
         if (is_earlier_log_file(files[i]->d_name, path + length) && ++earlier > files_max) {
             char *file = path_join(folder, files[i]->d_name);
 
@@ -131,7 +131,7 @@ int node_log_files_put_away(const char *path, int64_t begin_us, unsigned files_m
     }
     refused = rename(path, name) ? errno : 0;
     free(name);
-    return refused == 0 && files_max > 0 ? remove_oldest(path, files_max) : refused;
+    return refused == 0 && files_max > 0 ? remove_oldest_files(path, files_max) : refused;
 }
 
 int64_t node_log_files_last_write_us(const char *path)

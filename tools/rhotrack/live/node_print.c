@@ -20,11 +20,11 @@ enum { PERIOD_US = 100000, HEAD_LINES = 4, ROWS_DEFAULT = 24 };
 
 /* ---- Standard output that may be full ---- */
 
-/* Bytes that can be written without waiting: a pipe that is ready takes as many. */
+/* Largest write to standard output: a pipe that polls as ready takes this much without blocking. */
 enum { PIECE_BYTES = 4096, LOOK_MS = 100 };
 
-/* A text to fill; finish_text hands it on. */
-static FILE *begin_text(struct node_print *print)
+/* Opens a memory stream for the next output text, which close_and_write_text then writes. */
+static FILE *open_output_text(struct node_print *print)
 {
     FILE *text = open_memstream(&print->text, &print->size);
 
@@ -39,8 +39,11 @@ static bool is_text_pending(const struct node_print *print)
     return print->at < print->size;
 }
 
-/* Room on standard output within wait_ms; a record waits for it until the node is told to end. */
-static bool is_output_ready(const struct node_print *print, int wait_ms)
+/*
+ * True where standard output can take text within wait_ms. A replay waits until it can, or until
+ * the node is told to end.
+ */
+static bool wait_for_output_room(const struct node_print *print, int wait_ms)
 {
     struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
     int ready = poll(&out, 1, wait_ms);
@@ -51,10 +54,10 @@ static bool is_output_ready(const struct node_print *print, int wait_ms)
     return ready > 0;
 }
 
-/* Writes until all is written, or standard output takes no more within wait_ms. */
-static void push_pending_text(struct node_print *print, int wait_ms)
+/* Writes the pending text until all is written, or standard output blocks for wait_ms. */
+static void write_pending_text(struct node_print *print, int wait_ms)
 {
-    while (is_text_pending(print) && !print->error && is_output_ready(print, wait_ms)) {
+    while (is_text_pending(print) && !print->error && wait_for_output_room(print, wait_ms)) {
         const size_t left = print->size - print->at;
         const ssize_t written =
             write(STDOUT_FILENO, print->text + print->at, left < PIECE_BYTES ? left : PIECE_BYTES);
@@ -64,17 +67,20 @@ static void push_pending_text(struct node_print *print, int wait_ms)
     }
 }
 
-static void finish_text(struct node_print *print, FILE *text)
+static void close_and_write_text(struct node_print *print, FILE *text)
 {
     fclose(text);
     print->at = 0;
-    push_pending_text(print, 0);
+    write_pending_text(print, 0);
 }
 
-/* True where the last text is out; else this one is left out, and said so once. */
-static bool has_room_for_text(struct node_print *print)
+/*
+ * True where the previous text is completely written. Else counts the new report as left out, and
+ * prints so at the first one.
+ */
+static bool make_room_or_count_left_out(struct node_print *print)
 {
-    push_pending_text(print, 0);
+    write_pending_text(print, 0);
     if (is_text_pending(print)) {
         if (print->left_out++ == 0 && !print->is_terminal) {
             fputs("rhotrack: standard output is full; reports are left out, tracks go on\n",
@@ -97,14 +103,14 @@ struct node_print node_print_start(bool is_on, bool is_live)
     FILE *text;
 
     if (is_on) {
-        text = begin_text(&print);
+        text = open_output_text(&print);
         if (print.is_terminal) {
-            print.is_changed = true; /* the header shows at once that it listens */
+            print.is_changed = true; /* shows the table's head before the first step */
             fputs("\033[2J", text);
         } else {
             tracks_write_header(text, (struct tracks_columns){.covariance = false});
         }
-        finish_text(&print, text);
+        close_and_write_text(&print, text);
     }
     return print;
 }
@@ -112,11 +118,11 @@ struct node_print node_print_start(bool is_on, bool is_live)
 void node_print_note_step(struct node_print *print, const struct rho_report *report)
 {
     print->is_changed = print->is_on;
-    if (print->is_on && !print->is_terminal && has_room_for_text(print)) {
-        FILE *text = begin_text(print);
+    if (print->is_on && !print->is_terminal && make_room_or_count_left_out(print)) {
+        FILE *text = open_output_text(print);
 
         tracks_write_report(text, report, (struct tracks_columns){.covariance = false});
-        finish_text(print, text);
+        close_and_write_text(print, text);
     }
 }
 
@@ -129,7 +135,7 @@ void node_print_finish(struct node_print *print, int64_t until_us)
 {
     const int64_t left_us = until_us - clock_us();
 
-    push_pending_text(print, left_us > 0 ? (int)(left_us / 1000) : 0);
+    write_pending_text(print, left_us > 0 ? (int)(left_us / 1000) : 0);
     print->left_out += is_text_pending(print);
     free(print->text);
     print->text = NULL;
@@ -147,7 +153,7 @@ static int terminal_rows(void)
                : ROWS_DEFAULT;
 }
 
-static int count_status(const struct rho_report *report, enum rho_track_status status)
+static int count_tracks_with_status(const struct rho_report *report, enum rho_track_status status)
 {
     int count = 0;
 
@@ -157,8 +163,8 @@ static int count_status(const struct rho_report *report, enum rho_track_status s
     return count;
 }
 
-/* Lines on standard error where there is no table. */
-static void print_sensor_states(const struct node_core *core, FILE *out)
+/* Prints suspect and silent sensors in the table; without a table they go to standard error. */
+static void print_bad_sensors(const struct node_core *core, FILE *out)
 {
     struct rho_message_sensor sensors[RHO_MAX_SENSORS];
     const unsigned count = node_sensors_established(core, sensors);
@@ -172,7 +178,7 @@ static void print_sensor_states(const struct node_core *core, FILE *out)
     }
 }
 
-static void print_table_head(const struct node_core *core, const char *url, FILE *out)
+static void print_node_and_table_head(const struct node_core *core, const char *url, FILE *out)
 {
     const struct rho_report *report = node_core_last_report(core);
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
@@ -185,16 +191,17 @@ static void print_table_head(const struct node_core *core, const char *url, FILE
             "%" PRIu32 " lost, %" PRIu32 " out of order, %" PRIu32 " dropped, %" PRIu32
             " bad; %" PRIu32 " bad messages\033[K\n",
             node_core_node_counters(core)->steps, node_core_mean_step_us(core),
-            count_status(report, RHO_TRACK_CONFIRMED), count_status(report, RHO_TRACK_COASTING),
-            count_status(report, RHO_TRACK_TENTATIVE), losses.lost, losses.out_of_order,
+            count_tracks_with_status(report, RHO_TRACK_CONFIRMED),
+            count_tracks_with_status(report, RHO_TRACK_COASTING),
+            count_tracks_with_status(report, RHO_TRACK_TENTATIVE), losses.lost, losses.out_of_order,
             losses.dropped, assembler->scans_bad, assembler->messages_bad);
-    print_sensor_states(core, out);
+    print_bad_sensors(core, out);
     fprintf(out, "\033[K\n%6s  %-9s %10s %10s %8s %8s %8s %8s %5s %6s\033[K\n", "track", "status",
             "x km", "y km", "z m", "m/s", "heading", "sigma m", "hits", "misses");
 }
 
-/* Headings are clockwise from north, as people say them. */
-static void print_track(const struct rho_track_report *track, FILE *out)
+/* Prints a track's row of the table, with its heading clockwise from north. */
+static void print_track_row(const struct rho_track_report *track, FILE *out)
 {
     double vx_mps = (double)track->state[3], vy_mps = (double)track->state[4];
     double heading_deg = atan2(vx_mps, vy_mps) * DEG_PER_RAD;
@@ -206,15 +213,15 @@ static void print_track(const struct rho_track_report *track, FILE *out)
             (unsigned)track->hits, (unsigned)track->misses);
 }
 
-/* As many as there is room for, tentative ones last. Returns how many these are. */
-static int print_tracks(const struct rho_report *report, int room, FILE *out)
+/* Prints at most `room` tracks, tentative ones last. Returns the number of printed tracks. */
+static int print_track_rows(const struct rho_report *report, int room, FILE *out)
 {
     int shown = 0;
 
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < report->num_tracks && shown < room; i++) {
             if ((report->tracks[i].status == RHO_TRACK_TENTATIVE) == (pass == 1)) {
-                print_track(&report->tracks[i], out);
+                print_track_row(&report->tracks[i], out);
                 shown++;
             }
         }
@@ -222,17 +229,17 @@ static int print_tracks(const struct rho_report *report, int room, FILE *out)
     return shown;
 }
 
-static void print_table(const struct node_core *core, const char *url, FILE *out)
+static void print_track_table(const struct node_core *core, const char *url, FILE *out)
 {
     const struct rho_report *report = node_core_last_report(core);
     int room = terminal_rows() - HEAD_LINES - 2, shown;
 
-    print_table_head(core, url, out);
-    shown = print_tracks(report, room, out);
+    print_node_and_table_head(core, url, out);
+    shown = print_track_rows(report, room, out);
     if (shown < report->num_tracks) {
         fprintf(out, "%6s  and %d more\033[K\n", "", report->num_tracks - shown);
     }
-    fputs("\033[J\033[?7h", out); /* long lines were cut, not wrapped */
+    fputs("\033[J\033[?7h", out); /* erase the rest of the screen, and wrap long lines again */
 }
 
 bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
@@ -242,17 +249,17 @@ bool node_print_show(struct node_print *print, const struct node_core *core, con
 
     if (print->is_on &&
         (is_end || (print->is_changed && (!print->is_terminal || now_us >= print->due_us)))) {
-        if (print->is_terminal && has_room_for_text(print)) {
-            FILE *text = begin_text(print);
+        if (print->is_terminal && make_room_or_count_left_out(print)) {
+            FILE *text = open_output_text(print);
 
-            print_table(core, url, text);
-            fputs(is_end ? "\r\033[K" : "", text); /* a ^C */
-            finish_text(print, text);
+            print_track_table(core, url, text);
+            fputs(is_end ? "\r\033[K" : "", text); /* overwrites the terminal's ^C */
+            close_and_write_text(print, text);
         }
         print->is_changed = false;
     }
     if (print->is_on && now_us >= print->due_us) {
-        push_pending_text(print, 0);
+        write_pending_text(print, 0);
         print->due_us = now_us + PERIOD_US;
     }
     errno = print->error;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_print: tracks on standard output as they come. On a terminal a table in one place, renewed
- * at most 10 times a second; else rows as `track` writes them. A slow reader does not stop the
- * tracking: while standard output takes no more, reports are left out whole, and counted. Of a
- * record, which waits, none are.
+ * node_print: prints a live node's tracks on standard output: on a terminal as a table in place,
+ * refreshed at most 10 times a second; else as rows, as the command track writes them. A slow
+ * reader does not stop the tracking: while standard output is full, whole reports are left out and
+ * counted. Replays, which can wait, lose none.
  */
 #ifndef RHOTRACK_TOOL_NODE_PRINT_H
 #define RHOTRACK_TOOL_NODE_PRINT_H
@@ -15,33 +15,36 @@
 
 struct node_print {
     bool is_on, is_terminal, is_live, is_changed;
-    int error;      /* errno of standard output that takes no more; 0: it does */
-    int64_t due_us; /* clock_us: when the table may be renewed */
-    /* what standard output has not taken yet: of one text, from `at` on */
+    int error;      /* errno of a failed write to standard output; 0: none */
+    int64_t due_us; /* monotonic time at which the table may be refreshed */
+    /* text that standard output has not taken yet, from offset `at` on */
     char *text;
     size_t size, at;
-    uint64_t left_out; /* reports */
+    uint64_t left_out; /* reports that were not printed */
 };
 
-/* is_on false: all others do nothing. is_live: what comes in does not wait for what goes out. */
+/*
+ * Starts printing. is_on false: the other functions do nothing. is_live false: printing waits for a
+ * slow reader, as a replay can wait.
+ */
 struct node_print node_print_start(bool is_on, bool is_live);
 
-/* A step was made. */
+/* Takes the report of a step: prints its rows, or marks the table as changed. */
 void node_print_note_step(struct node_print *print, const struct rho_report *report);
 
 /*
- * Renews the table where it is time, or at the end, and hands all on.
- * False: standard output takes no more; errno says why.
+ * Refreshes the table where it is due or at the end, and writes pending text. Returns false with
+ * errno where standard output failed.
  */
 bool node_print_show(struct node_print *print, const struct node_core *core, const char *url,
                      bool is_end);
 
 /*
- * Writes the rest until until_us of clock_us; reports that are left then count as left out.
+ * Writes pending text until the monotonic time until_us; a report that remains counts as left out.
  */
 void node_print_finish(struct node_print *print, int64_t until_us);
 
-/* When node_print_show is wanted, on clock_us; INT64_MAX: not before a step. */
+/* Monotonic time at which node_print_show has work; INT64_MAX: not before the next step. */
 int64_t node_print_due_us(const struct node_print *print);
 
 #endif

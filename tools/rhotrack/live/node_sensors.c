@@ -5,12 +5,15 @@
 
 #include "rhotrack/message.h"
 
-/* Its share of the others' tracks is so low only of a sensor that is suspect for it. */
+/*
+ * Share of the other sensors' tracks below which a suspect sensor is suspect for what it misses;
+ * above, for its innovations.
+ */
 #define SHARE_LOW 0.3f
 #define US_PER_S 1e6
 
-/* The channel's name is what tells two sensors of one number apart. */
-static const char *sensor_channel(const struct rho_message_sensor *sensor)
+/* Channel prefix of a sensor's kind, which tells sensors of one number apart. */
+static const char *sensor_channel_prefix(const struct rho_message_sensor *sensor)
 {
     return sensor->kind == RHO_MESSAGE_SENSOR_PLOTS   ? RHO_MESSAGE_PLOT_SCAN_CHANNEL
            : sensor->kind == RHO_MESSAGE_SENSOR_POLAR ? RHO_MESSAGE_POLAR_SCAN_CHANNEL
@@ -33,7 +36,7 @@ unsigned node_sensors_established(const struct node_core *core,
 
 /* ---- Lines on standard error ---- */
 
-static void print_suspect(const struct rho_message_sensor *sensor, FILE *to)
+static void print_suspect_sensor(const struct rho_message_sensor *sensor, FILE *to)
 {
     if (sensor->seen_share < SHARE_LOW) {
         fprintf(to,
@@ -47,22 +50,22 @@ static void print_suspect(const struct rho_message_sensor *sensor, FILE *to)
     }
 }
 
-static void print_silent(const struct rho_message_sensor *sensor, FILE *to)
+static void print_silent_sensor(const struct rho_message_sensor *sensor, FILE *to)
 {
     fprintf(to, "rhotrack: sensor %d is silent: nothing on %s%d for %.0f s\n", sensor->sensor_id,
-            sensor_channel(sensor), sensor->sensor_id, sensor->heard_age_us / US_PER_S);
+            sensor_channel_prefix(sensor), sensor->sensor_id, sensor->heard_age_us / US_PER_S);
 }
 
-static void print_changes(const struct node_sensor *before, const struct rho_message_sensor *sensor,
-                          FILE *to)
+static void print_sensor_changes(const struct node_sensor *before,
+                                 const struct rho_message_sensor *sensor, FILE *to)
 {
     if (sensor->is_doubted && !before->is_doubted) {
-        print_suspect(sensor, to);
+        print_suspect_sensor(sensor, to);
     } else if (!sensor->is_doubted && before->is_doubted) {
         fprintf(to, "rhotrack: sensor %d is trusted again\n", sensor->sensor_id);
     }
     if (sensor->is_silent && !before->is_silent) {
-        print_silent(sensor, to);
+        print_silent_sensor(sensor, to);
     } else if (!sensor->is_silent && before->is_silent) {
         fprintf(to, "rhotrack: sensor %d is heard again\n", sensor->sensor_id);
     }
@@ -70,8 +73,8 @@ static void print_changes(const struct node_sensor *before, const struct rho_mes
 
 /* ---- Changes since the last step ---- */
 
-static struct node_sensor find_sensor_before(const struct node_sensors *sensors,
-                                             const struct rho_message_sensor *sensor)
+static struct node_sensor previous_sensor_state(const struct node_sensors *sensors,
+                                                const struct rho_message_sensor *sensor)
 {
     for (unsigned i = 0; i < sensors->count; i++) {
         if (sensors->of[i].sensor_id == sensor->sensor_id && sensors->of[i].kind == sensor->kind) {
@@ -92,9 +95,9 @@ void node_sensors_print_changes(struct node_sensors *sensors, const struct node_
         const bool has_two_senders = node_core_has_two_senders(core, now[i].sensor_id);
 
         if (to) {
-            struct node_sensor before = find_sensor_before(sensors, &now[i]);
+            struct node_sensor before = previous_sensor_state(sensors, &now[i]);
 
-            print_changes(&before, &now[i], to);
+            print_sensor_changes(&before, &now[i], to);
             if (has_two_senders && !before.has_two_senders) {
                 fprintf(to,
                         "rhotrack: sensor %d: a scan came twice with different contents: two "
@@ -118,7 +121,7 @@ void node_sensors_print_bad(const struct node_core *core, FILE *to)
             fprintf(to, "rhotrack: sensor %d contradicts the others\n", now[i].sensor_id);
         }
         if (now[i].is_silent) {
-            print_silent(&now[i], to);
+            print_silent_sensor(&now[i], to);
         }
     }
 }

@@ -6,9 +6,9 @@
 #define MESSAGE_TALLIES 13
 #define STEP_TALLIES (NODE_TALLIES - MESSAGE_TALLIES)
 
-/* The network, messages and commands. */
-static void tally_messages(const struct node_core *core, const struct transport *transport,
-                           struct node_tally tallies[MESSAGE_TALLIES])
+/* Collects losses by the network, of messages, and of operators' commands. */
+static void collect_message_tallies(const struct node_core *core, const struct transport *transport,
+                                    struct node_tally tallies[MESSAGE_TALLIES])
 {
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
     const struct node_core_commands *commands = node_core_command_counts(core);
@@ -38,8 +38,9 @@ static void tally_messages(const struct node_core *core, const struct transport 
     memcpy(tallies, all, sizeof all);
 }
 
-/* Scans, and what became of their plots. */
-static void tally_steps(const struct node_core *core, struct node_tally tallies[STEP_TALLIES])
+/* Collects counts of scans and steps: late, lost and refused scans, and fates of plots. */
+static void collect_step_tallies(const struct node_core *core,
+                                 struct node_tally tallies[STEP_TALLIES])
 {
     const struct rho_scan_assembler_counters *assembler = node_core_assembler_counters(core);
     const struct rho_frames_counters *frames = node_core_frame_counters(core);
@@ -89,6 +90,6 @@ static void tally_steps(const struct node_core *core, struct node_tally tallies[
 void node_tally_all(const struct node_core *core, const struct transport *transport,
                     struct node_tally tallies[NODE_TALLIES])
 {
-    tally_messages(core, transport, tallies);
-    tally_steps(core, tallies + MESSAGE_TALLIES);
+    collect_message_tallies(core, transport, tallies);
+    collect_step_tallies(core, tallies + MESSAGE_TALLIES);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * node_tally: everything that a node counts and that says of a loss, by name: for its complaints
- * and its last words.
+ * node_tally: the counts of all losses of a live node with their names, for warnings, the summary
+ * and the metrics.
  */
 #ifndef RHOTRACK_TOOL_NODE_TALLY_H
 #define RHOTRACK_TOOL_NODE_TALLY_H
@@ -15,19 +15,20 @@
 #define NODE_TALLIES 41
 
 enum node_tally_kind {
-    NODE_TALLY_USUAL = 0, /* of the tracker's usual work, or told otherwise */
-    NODE_TALLY_FAULT,     /* of messages or the network */
-    NODE_TALLY_MAY_FALL   /* the same, but what it counts may come after all */
+    NODE_TALLY_USUAL = 0, /* counts events of normal operation; no warning */
+    NODE_TALLY_FAULT,     /* counts faults of messages or of the network: a rise is a warning */
+    /* counts faults that may be undone: a scan counted as lost may still arrive */
+    NODE_TALLY_MAY_FALL
 };
 
 struct node_tally {
     const char *name;
     uint64_t count;
     enum node_tally_kind kind;
-    bool is_of_message; /* it rises where a sensor's message is taken, and nowhere else */
+    bool is_of_message; /* the count rises only while a sensor's message is taken */
 };
 
-/* All of them, always in the same order. */
+/* Collects all tallies, always in the same order. */
 void node_tally_all(const struct node_core *core, const struct transport *transport,
                     struct node_tally tallies[NODE_TALLIES]);
 

@@ -16,23 +16,23 @@
 enum {
     PLACES = 16,
     REQUEST_BYTES = 4096,
-    ACCEPTED_MAX = 16, /* in one call */
+    ACCEPTED_MAX = 16, /* most connections accepted in one call */
     LIFE_US = 2000000,
-    FRESH_US = 100000 /* for so long a page is sent again as it is */
+    FRESH_US = 100000 /* a page younger than this is sent again without being made anew */
 };
 
 enum client_state {
     CLIENT_NONE = 0,
     CLIENT_ASKS,
     CLIENT_READS,
-    CLIENT_ENDS /* its answer is sent: what it still says is not looked at */
+    CLIENT_ENDS /* the answer is sent; further data from the client are ignored */
 };
 
 struct client {
     enum client_state state;
     int descriptor;
     int64_t since_us;
-    size_t num_asked; /* bytes of the request */
+    size_t num_asked; /* bytes received of the request */
     char asked[REQUEST_BYTES];
     char *answer;
     size_t num_answer, sent;
@@ -40,13 +40,14 @@ struct client {
 
 struct page_server {
     int listener, poll;
-    bool is_deaf; /* no descriptor is left: who connects waits, and wakes nobody */
+    /* accepting is paused, as no descriptor is free: new connections wait in the kernel's queue */
+    bool is_deaf;
     const char *path, *type;
     page_server_write *write;
     void *context;
-    char *page; /* the last one */
+    char *page; /* the page that was made last */
     size_t num_page;
-    int64_t page_us; /* when it was made */
+    int64_t page_us; /* monotonic time at which the page was made */
     uint64_t sent, refused;
     struct client clients[PLACES];
 };
@@ -54,10 +55,10 @@ struct page_server {
 /* ---- Clients ---- */
 
 /*
- * A process that saves a file beside the tracking has copies of all descriptors, which keep what is
- * only closed here both open and polled.
+ * Closes a client's connection. Removes it from epoll and shuts it down explicitly: forked
+ * processes that save files hold copies of the descriptor, so that close alone does neither.
  */
-static void drop_client(const struct page_server *server, struct client *client)
+static void close_client(const struct page_server *server, struct client *client)
 {
     (void)epoll_ctl(server->poll, EPOLL_CTL_DEL, client->descriptor, NULL);
     shutdown(client->descriptor, SHUT_RDWR);
@@ -68,8 +69,8 @@ static void drop_client(const struct page_server *server, struct client *client)
     client->state = CLIENT_NONE;
 }
 
-/* A free place, or that of the client that has been there longest. */
-static struct client *find_client_place(struct page_server *server)
+/* Returns a free client place; if there is none, drops the client that connected first. */
+static struct client *claim_client_place(struct page_server *server)
 {
     struct client *found = &server->clients[0];
 
@@ -82,13 +83,13 @@ static struct client *find_client_place(struct page_server *server)
         found = client->since_us < found->since_us ? client : found;
     }
     server->refused += found->state != CLIENT_ENDS;
-    drop_client(server, found);
+    close_client(server, found);
     return found;
 }
 
 /* ---- Answers ---- */
 
-static bool make_page(struct page_server *server)
+static bool refresh_page(struct page_server *server)
 {
     const int64_t now_us = clock_us();
     FILE *out;
@@ -111,15 +112,18 @@ static bool make_page(struct page_server *server)
     return server->page != NULL;
 }
 
-/* extra: lines of the head, each with its end. */
-static void fill_answer(const struct page_server *server, struct client *client, const char *status,
-                        const char *extra, const char *type, const char *text, size_t size,
-                        bool has_text)
+/*
+ * Prepares an HTTP answer. extra: further header lines, each with its line end; has_text false:
+ * headers only (HEAD).
+ */
+static void prepare_answer(const struct page_server *server, struct client *client,
+                           const char *status, const char *extra, const char *type,
+                           const char *text, size_t size, bool has_text)
 {
     FILE *out = open_memstream(&client->answer, &client->num_answer);
 
     if (!out) {
-        drop_client(server, client);
+        close_client(server, client);
         return;
     }
     fprintf(out,
@@ -129,23 +133,23 @@ static void fill_answer(const struct page_server *server, struct client *client,
         fwrite(text, 1, size, out);
     }
     if (fclose(out)) {
-        drop_client(server, client);
+        close_client(server, client);
         return;
     }
     client->state = CLIENT_READS;
 }
 
-static void refuse_client(struct page_server *server, struct client *client, const char *status,
-                          const char *extra)
+static void prepare_refusal(struct page_server *server, struct client *client, const char *status,
+                            const char *extra)
 {
     char text[128];
     const int size = snprintf(text, sizeof text, "%s; the page is %s\n", status, server->path);
 
     server->refused++;
-    fill_answer(server, client, status, extra, "text/plain", text, (size_t)size, true);
+    prepare_answer(server, client, status, extra, "text/plain", text, (size_t)size, true);
 }
 
-/* "GET /metrics HTTP/1.1": its three words, in place. */
+/* Splits "GET /metrics HTTP/1.1" into its three words, in place; false for other lines. */
 static bool split_request_line(char *line, char *words[3])
 {
     line[strcspn(line, "\r\n")] = '\0';
@@ -159,7 +163,7 @@ static bool split_request_line(char *line, char *words[3])
     return *line == '\0' && strncmp(words[2], "HTTP/1.", 7) == 0;
 }
 
-static void answer_request(struct page_server *server, struct client *client)
+static void prepare_answer_to_request(struct page_server *server, struct client *client)
 {
     char *words[3];
     bool is_head;
@@ -167,21 +171,21 @@ static void answer_request(struct page_server *server, struct client *client)
     client->asked[client->num_asked] = '\0';
     if (memchr(client->asked, '\0', client->num_asked) ||
         !split_request_line(client->asked, words)) {
-        refuse_client(server, client, "400 Bad Request", "");
+        prepare_refusal(server, client, "400 Bad Request", "");
         return;
     }
     words[1][strcspn(words[1], "?")] = '\0';
     is_head = strcmp(words[0], "HEAD") == 0;
     if (!is_head && strcmp(words[0], "GET") != 0) {
-        refuse_client(server, client, "405 Method Not Allowed", "Allow: GET, HEAD\r\n");
+        prepare_refusal(server, client, "405 Method Not Allowed", "Allow: GET, HEAD\r\n");
     } else if (strcmp(words[1], server->path) != 0) {
-        refuse_client(server, client, "404 Not Found", "");
-    } else if (!make_page(server)) {
-        refuse_client(server, client, "503 Service Unavailable", "");
+        prepare_refusal(server, client, "404 Not Found", "");
+    } else if (!refresh_page(server)) {
+        prepare_refusal(server, client, "503 Service Unavailable", "");
     } else {
         server->sent++;
-        fill_answer(server, client, "200 OK", "", server->type, server->page, server->num_page,
-                    !is_head);
+        prepare_answer(server, client, "200 OK", "", server->type, server->page, server->num_page,
+                       !is_head);
     }
 }
 
@@ -192,12 +196,12 @@ static bool would_block(ssize_t done)
     return done < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR);
 }
 
-static bool ends_request_head(const char *text, size_t size)
+static bool has_end_of_request_head(const char *text, size_t size)
 {
     return memmem(text, size, "\r\n\r\n", 4) || memmem(text, size, "\n\n", 2);
 }
 
-/* One piece at a call. */
+/* Receives one piece of a request, and answers the request once its head is complete. */
 static void receive_request(struct page_server *server, struct client *client)
 {
     const size_t room = sizeof client->asked - 1 - client->num_asked;
@@ -207,14 +211,14 @@ static void receive_request(struct page_server *server, struct client *client)
         return;
     }
     if (got <= 0) {
-        drop_client(server, client);
+        close_client(server, client);
         return;
     }
     client->num_asked += (size_t)got;
-    if (ends_request_head(client->asked, client->num_asked)) {
-        answer_request(server, client);
+    if (has_end_of_request_head(client->asked, client->num_asked)) {
+        prepare_answer_to_request(server, client);
     } else if (client->num_asked == sizeof client->asked - 1) {
-        refuse_client(server, client, "431 Request Header Fields Too Large", "");
+        prepare_refusal(server, client, "431 Request Header Fields Too Large", "");
     }
 }
 
@@ -227,7 +231,7 @@ static void send_answer(const struct page_server *server, struct client *client)
         return;
     }
     if (done < 0) {
-        drop_client(server, client);
+        close_client(server, client);
         return;
     }
     client->sent += (size_t)done;
@@ -237,14 +241,17 @@ static void send_answer(const struct page_server *server, struct client *client)
     }
 }
 
-/* The client closes first, so that its kernel does not throw away the answer. */
-static void await_client_close(const struct page_server *server, struct client *client)
+/*
+ * Drops the client once it has closed its side. The server does not close first: data that arrive
+ * late would make the kernel reset the connection, and the client could lose the answer.
+ */
+static void close_client_if_it_closed(const struct page_server *server, struct client *client)
 {
     char text[1024];
     const ssize_t got = recv(client->descriptor, text, sizeof text, 0);
 
     if (got == 0 || (got < 0 && !would_block(got))) {
-        drop_client(server, client);
+        close_client(server, client);
     }
 }
 
@@ -257,7 +264,7 @@ static void serve_client(struct page_server *server, struct client *client)
         send_answer(server, client);
     }
     if (client->state == CLIENT_ENDS) {
-        await_client_close(server, client);
+        close_client_if_it_closed(server, client);
     }
     if (client->state != CLIENT_NONE) {
         struct epoll_event event = {.events = client->state == CLIENT_READS ? EPOLLOUT : EPOLLIN,
@@ -268,9 +275,9 @@ static void serve_client(struct page_server *server, struct client *client)
 }
 
 /*
- * Stops or resumes accepting: a connection that cannot be accepted would wake the poll without end.
+ * Stops or resumes accepting: a connection that cannot be accepted would wake the poll endlessly.
  */
-static void pause_accepting(struct page_server *server, bool is_deaf)
+static void set_accepting_paused(struct page_server *server, bool is_deaf)
 {
     struct epoll_event event = {.events = is_deaf ? 0 : EPOLLIN};
 
@@ -280,7 +287,7 @@ static void pause_accepting(struct page_server *server, bool is_deaf)
     }
 }
 
-static void accept_clients(struct page_server *server)
+static void accept_and_serve_clients(struct page_server *server)
 {
     for (int i = 0; i < ACCEPTED_MAX; i++) {
         const int descriptor = accept4(server->listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
@@ -288,11 +295,11 @@ static void accept_clients(struct page_server *server)
         struct epoll_event event = {.events = EPOLLIN};
 
         if (descriptor < 0) {
-            pause_accepting(server, errno == EMFILE || errno == ENFILE || errno == ENOBUFS ||
-                                        errno == ENOMEM);
+            set_accepting_paused(server, errno == EMFILE || errno == ENFILE || errno == ENOBUFS ||
+                                             errno == ENOMEM);
             return;
         }
-        client = find_client_place(server);
+        client = claim_client_place(server);
         event.data.ptr = client;
         if (epoll_ctl(server->poll, EPOLL_CTL_ADD, descriptor, &event)) {
             close(descriptor);
@@ -301,11 +308,11 @@ static void accept_clients(struct page_server *server)
         client->state = CLIENT_ASKS;
         client->descriptor = descriptor;
         client->since_us = clock_us();
-        serve_client(server, client); /* most have asked by now */
+        serve_client(server, client); /* most requests have arrived with the connection */
     }
 }
 
-static void drop_old_clients(struct page_server *server)
+static void close_slow_clients(struct page_server *server)
 {
     const int64_t now_us = clock_us();
 
@@ -314,7 +321,7 @@ static void drop_old_clients(struct page_server *server)
 
         if (client->state != CLIENT_NONE && now_us > client->since_us + LIFE_US) {
             server->refused += client->state != CLIENT_ENDS;
-            drop_client(server, client);
+            close_client(server, client);
         }
     }
 }
@@ -327,7 +334,7 @@ void page_server_serve(struct page_server *server)
     if (!server) {
         return;
     }
-    drop_old_clients(server);
+    close_slow_clients(server);
     count = epoll_wait(server->poll, events, PLACES + 1, 0);
     for (int i = 0; i < count; i++) {
         struct client *client = events[i].data.ptr;
@@ -336,12 +343,13 @@ void page_server_serve(struct page_server *server)
             serve_client(server, client);
         }
     }
-    accept_clients(server); /* last: a place that it takes is of none of the events */
+    accept_and_serve_clients(
+        server); /* accepted last: a reused client place has no event left in `events` */
 }
 
 /* ---- Start and end ---- */
 
-static int listen_at(uint16_t port)
+static int listen_at_local_port(uint16_t port)
 {
     const struct sockaddr_in address = {
         .sin_family = AF_INET, .sin_port = htons(port), .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
@@ -365,7 +373,7 @@ struct page_server *page_server_open(uint16_t port, const char *path, const char
         return NULL;
     }
     server = must_calloc(1, sizeof *server);
-    server->listener = listen_at(port);
+    server->listener = listen_at_local_port(port);
     server->poll = epoll_create1(EPOLL_CLOEXEC);
     if (server->poll < 0 || epoll_ctl(server->poll, EPOLL_CTL_ADD, server->listener, &event)) {
         fail(EXIT_RUNTIME, "epoll: %s", strerror(errno));
@@ -399,7 +407,7 @@ void page_server_close(struct page_server *server)
     }
     for (unsigned i = 0; i < PLACES; i++) {
         if (server->clients[i].state != CLIENT_NONE) {
-            drop_client(server, &server->clients[i]);
+            close_client(server, &server->clients[i]);
         }
     }
     close(server->poll);

@@ -8,7 +8,7 @@
 
 #include "base/common.h"
 
-#define TRIES 100 /* 1 ms apart, where the network has no room for a moment */
+#define TRIES 100 /* attempts at intervals of 1 ms to send while the network is busy */
 
 static volatile sig_atomic_t is_stopped;
 
@@ -21,7 +21,7 @@ static void on_stop_signal(int number)
 void publish_watch_signals(void)
 {
     struct sigaction action = {.sa_handler =
-                                   on_stop_signal}; /* sleeps end, they are not restarted */
+                                   on_stop_signal}; /* no SA_RESTART: signals end sleeps */
 
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * publish udp://...: what radars send in ASTERIX goes on as messages, scan by scan, as it comes in.
+ * publish_asterix: receives radars' ASTERIX datagrams live, and publishes their scans as LCM
+ * messages.
  */
 #include <errno.h>
 #include <inttypes.h>
@@ -21,13 +22,13 @@
 #include "io/rows/rows_scans.h"
 #include "live/publish.h"
 
-#define WAIT_S 30.0 /* for a radar's place, and for its antenna's messages */
+#define WAIT_S 30.0 /* wait for a radar's place, and for its antenna messages */
 #define POLL_MS 100
 #define DATAGRAM_MAX 65536
 
 struct forwarding {
     const struct command_line *line;
-    struct parameters parameters; /* with the origin, once a radar told its place */
+    struct parameters parameters; /* parameters, with the origin once a radar has told its place */
     const char *url;
     struct transport *transport;
     struct asterix_scans *scans;
@@ -36,22 +37,22 @@ struct forwarding {
     struct first {
         int32_t sensor_id;
         int64_t time_128;
-    } firsts[ASTERIX_MAX_SENSORS]; /* each radar's first scan */
+    } firsts[ASTERIX_MAX_SENSORS]; /* sensor and time of each radar's first scan */
     size_t num_firsts;
     uint64_t scans_sent, scans_early, scans_free, rows_skipped;
 };
 
 /* ---- Places ---- */
 
-/* The radar's first scan was not long ago. */
-static bool is_radar_new(struct forwarding *forwarding, const struct asterix_scan *scan)
+/* True within WAIT_S of a radar's first scan, whose time is recorded. */
+static bool is_radar_newly_heard(struct forwarding *forwarding, const struct asterix_scan *scan)
 {
     size_t i = 0;
 
     while (i < forwarding->num_firsts && forwarding->firsts[i].sensor_id != scan->sensor_id) {
         i++;
     }
-    if (i == forwarding->num_firsts) { /* there are no more radars than that */
+    if (i == forwarding->num_firsts) { /* asterix_scans gives at most ASTERIX_MAX_SENSORS radars */
         forwarding->firsts[forwarding->num_firsts++] =
             (struct first){scan->sensor_id, scan->time_128};
     }
@@ -59,12 +60,12 @@ static bool is_radar_new(struct forwarding *forwarding, const struct asterix_sca
 }
 
 /*
- * It may yet tell where it stands, and no other source did: a radar that moves later on would move
- * its tracks.
+ * True where the radar's place is unknown and may still arrive: a scan published at a wrong place
+ * would make its tracks jump later.
  */
-static bool is_place_awaited(struct forwarding *forwarding, const struct asterix_scan *scan)
+static bool is_radar_place_awaited(struct forwarding *forwarding, const struct asterix_scan *scan)
 {
-    return is_radar_new(forwarding, scan) && !scan->place.is_given &&
+    return is_radar_newly_heard(forwarding, scan) && !scan->place.is_given &&
            isnan(parameters_value_of_sensor(&forwarding->parameters, scan->sensor_id, SENSOR_X_M,
                                             NAN));
 }
@@ -90,7 +91,7 @@ static struct table *table_of_scan(const struct forwarding *forwarding,
     return table;
 }
 
-static void send_rows(struct forwarding *forwarding, struct rows_file *file)
+static void send_rows_as_messages(struct forwarding *forwarding, struct rows_file *file)
 {
     struct rows_scans scans;
     struct rows_at at = {.scan = 0};
@@ -105,7 +106,7 @@ static void send_rows(struct forwarding *forwarding, struct rows_file *file)
     forwarding->scans_sent++;
 }
 
-static void send_scan(struct forwarding *forwarding, const struct asterix_scan *scan)
+static void send_scan_unless_early(struct forwarding *forwarding, const struct asterix_scan *scan)
 {
     struct rows_file file;
     struct table *table;
@@ -115,31 +116,31 @@ static void send_scan(struct forwarding *forwarding, const struct asterix_scan *
         forwarding->scans_free++;
         return;
     }
-    if (is_place_awaited(forwarding, scan)) {
+    if (is_radar_place_awaited(forwarding, scan)) {
         forwarding->scans_early++;
         return;
     }
     table = table_of_scan(forwarding, scan);
     if (rows_read_table(&file, forwarding->url, table, &forwarding->parameters, true)) {
-        send_rows(forwarding, &file);
+        send_rows_as_messages(forwarding, &file);
     }
     forwarding->rows_skipped += file.rows_skipped;
     rows_read_end(&file);
     table_free(table);
 }
 
-static void send_scans(struct forwarding *forwarding)
+static void send_complete_scans(struct forwarding *forwarding)
 {
     struct asterix_scan scan;
 
     while (asterix_scans_next(forwarding->scans, &scan)) {
-        send_scan(forwarding, &scan);
+        send_scan_unless_early(forwarding, &scan);
     }
 }
 
 /* ---- Listening ---- */
 
-static void listen_until_over(struct forwarding *forwarding, int receiver)
+static void receive_and_publish_until_end(struct forwarding *forwarding, int receiver)
 {
     uint8_t *datagram = must_alloc(DATAGRAM_MAX);
     struct pollfd ready = {.fd = receiver, .events = POLLIN};
@@ -157,35 +158,39 @@ static void listen_until_over(struct forwarding *forwarding, int receiver)
         if (got >= 0) {
             asterix_datagram_take_records(forwarding->scans, datagram, (size_t)got,
                                           &forwarding->heard);
-            send_scans(forwarding);
+            send_complete_scans(forwarding);
         } else if (errno != EAGAIN && errno != EINTR && errno != ECONNREFUSED) {
             fail(EXIT_RUNTIME, "%s: %s", forwarding->url, strerror(errno));
         }
     }
     asterix_scans_finish(forwarding->scans);
-    send_scans(forwarding);
+    send_complete_scans(forwarding);
     free(datagram);
 }
 
-static void say_count(const struct forwarding *forwarding, uint64_t count, const char *what)
+static void print_count_unless_zero(const struct forwarding *forwarding, uint64_t count,
+                                    const char *what)
 {
     if (count > 0) {
         fprintf(stderr, "rhotrack: %s: %" PRIu64 " %s\n", forwarding->url, count, what);
     }
 }
 
-static void report_counts(const struct forwarding *forwarding)
+static void print_counts(const struct forwarding *forwarding)
 {
     const struct asterix_counts *counts = asterix_scans_counts(forwarding->scans);
 
     asterix_records_report_left_out(forwarding->url, counts);
-    say_count(forwarding, forwarding->heard.bad, "datagrams bad, from a place in them on");
-    say_count(forwarding, forwarding->heard.others, "data blocks of other categories left out");
-    say_count(forwarding, forwarding->scans_early,
-              "scans left out before the radar's place was known");
-    say_count(forwarding, forwarding->scans_free,
-              "plots left out, of radars without antenna messages: set scan_interval_s");
-    say_count(forwarding, forwarding->rows_skipped, "bad rows skipped");
+    print_count_unless_zero(forwarding, forwarding->heard.bad,
+                            "datagrams bad, from a place in them on");
+    print_count_unless_zero(forwarding, forwarding->heard.others,
+                            "data blocks of other categories left out");
+    print_count_unless_zero(forwarding, forwarding->scans_early,
+                            "scans left out before the radar's place was known");
+    print_count_unless_zero(
+        forwarding, forwarding->scans_free,
+        "plots left out, of radars without antenna messages: set scan_interval_s");
+    print_count_unless_zero(forwarding, forwarding->rows_skipped, "bad rows skipped");
     fprintf(stderr,
             "rhotrack: %" PRIu64 " datagrams, %" PRIu64 " plots of %zu radars, %" PRIu64
             " scans sent\n",
@@ -193,8 +198,8 @@ static void report_counts(const struct forwarding *forwarding)
             forwarding->scans_sent);
 }
 
-/* Times are those of the day that it is now. */
-static void start_on_this_day(struct asterix_scans *scans)
+/* Dates the times of ASTERIX, which count from midnight, by the current day. */
+static void date_scans_by_today(struct asterix_scans *scans)
 {
     struct timespec now;
 
@@ -222,12 +227,13 @@ int publish_asterix(const struct command_line *line)
     rules = asterix_records_scan_rules(&line->parameters,
                                        line->parameters.value[PARAMETER_ASTERIX_HOLD_S], WAIT_S);
     forwarding->scans = asterix_scans_open(&rules);
-    start_on_this_day(forwarding->scans);
+    date_scans_by_today(forwarding->scans);
     publish_watch_signals();
-    receiver = asterix_udp_open(forwarding->url); /* may fail: before a log is emptied */
+    /* opened first: an error here leaves an output log untouched */
+    receiver = asterix_udp_open(forwarding->url);
     forwarding->transport = transport_open(line->lcm, TRANSPORT_SEND);
-    listen_until_over(forwarding, receiver);
-    report_counts(forwarding);
+    receive_and_publish_until_end(forwarding, receiver);
+    print_counts(forwarding);
     close(receiver);
     transport_close(forwarding->transport);
     asterix_scans_close(forwarding->scans);

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What the first scans of a sensor that begins again are refused for, each with its counter. */
+/* Counters by which the assembler refuses the first scans of a sensor that restarted. */
 enum cause { WRONG_NUMBER = 0, WRONG_TIME, DUPLICATE, TOO_LATE, NUM_CAUSES };
 
-static uint32_t *cause_counter(struct rho_scan_assembler_counters *counters, unsigned cause)
+static uint32_t *counter_of_cause(struct rho_scan_assembler_counters *counters, unsigned cause)
 {
     uint32_t *const all[NUM_CAUSES] = {&counters->scans_bad, &counters->clock_jumps,
                                        &counters->scans_duplicate, &counters->scans_late};
@@ -15,26 +15,26 @@ static uint32_t *cause_counter(struct rho_scan_assembler_counters *counters, uns
     return all[cause];
 }
 
-static uint32_t cause_count(const struct rho_scan_assembler_counters *counters, unsigned cause)
+static uint32_t count_of_cause(const struct rho_scan_assembler_counters *counters, unsigned cause)
 {
     struct rho_scan_assembler_counters copy = *counters;
 
-    return *cause_counter(&copy, cause);
+    return *counter_of_cause(&copy, cause);
 }
 
-/* NUM_CAUSES: none. */
+/* The counter that rose between the two states; NUM_CAUSES: none of them did. */
 static unsigned find_refusal_cause(const struct rho_scan_assembler_counters *before,
                                    const struct rho_scan_assembler_counters *after)
 {
     unsigned cause = WRONG_NUMBER;
 
-    while (cause < NUM_CAUSES && cause_count(before, cause) == cause_count(after, cause)) {
+    while (cause < NUM_CAUSES && count_of_cause(before, cause) == count_of_cause(after, cause)) {
         cause++;
     }
     return cause;
 }
 
-static void forget_channel(struct refused_messages *refused, const char *channel)
+static void drop_messages_of_channel(struct refused_messages *refused, const char *channel)
 {
     for (unsigned i = 0; i < REFUSED_MESSAGES_MAX; i++) {
         if (strcmp(refused->of[i].channel, channel) == 0) {
@@ -54,7 +54,7 @@ void refused_messages_note(struct refused_messages *refused, const char *channel
 
     if (after->scans_accepted != before->scans_accepted) {
         if (refused->count > 0) {
-            forget_channel(refused, channel);
+            drop_messages_of_channel(refused, channel);
         }
     } else if (cause < NUM_CAUSES && size <= sizeof message->data &&
                strlen(channel) < sizeof message->channel) {
@@ -68,10 +68,10 @@ void refused_messages_note(struct refused_messages *refused, const char *channel
 }
 
 /*
- * Gives a message to the assembler once more. Where it then counts as late that is taken back: it
- * was there in time.
+ * Feeds a refused message to the assembler again. If the assembler now counts it as late, `taken`
+ * compensates that count, as the message was in time when it first came.
  */
-static void take_message_again(const struct refused_message *message,
+static void feed_message_again(const struct refused_message *message,
                                struct rho_scan_assembler *assembler, int64_t now_us,
                                struct rho_scan_assembler_counters *taken)
 {
@@ -83,9 +83,9 @@ static void take_message_again(const struct refused_message *message,
     }
     taken->scans_late += assembler->counters.scans_late - before.scans_late;
     if (find_refusal_cause(&before, &assembler->counters) >= TOO_LATE) {
-        ++*cause_counter(taken, message->cause);
+        ++*counter_of_cause(taken, message->cause);
     } else {
-        ++*cause_counter(taken, find_refusal_cause(&before, &assembler->counters));
+        ++*counter_of_cause(taken, find_refusal_cause(&before, &assembler->counters));
     }
 }
 
@@ -98,13 +98,13 @@ void refused_messages_take_again(struct refused_messages *refused, const char *c
             &refused->of[(refused->next + i) % REFUSED_MESSAGES_MAX];
 
         if (strcmp(message->channel, channel) == 0) {
-            take_message_again(message, assembler, now_us, taken);
+            feed_message_again(message, assembler, now_us, taken);
         }
     }
-    forget_channel(refused, channel);
+    drop_messages_of_channel(refused, channel);
 }
 
-static uint32_t count_less(uint32_t count, uint32_t part)
+static uint32_t subtract_saturating(uint32_t count, uint32_t part)
 {
     return count > part ? count - part : 0;
 }
@@ -116,8 +116,8 @@ refused_messages_remaining_counters(const struct rho_scan_assembler_counters *co
     struct rho_scan_assembler_counters shown = *counters;
 
     for (unsigned cause = WRONG_NUMBER; cause < NUM_CAUSES; cause++) {
-        *cause_counter(&shown, cause) =
-            count_less(cause_count(counters, cause), cause_count(taken, cause));
+        *counter_of_cause(&shown, cause) =
+            subtract_saturating(count_of_cause(counters, cause), count_of_cause(taken, cause));
     }
     return shown;
 }

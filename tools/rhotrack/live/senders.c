@@ -8,8 +8,8 @@
 #include "rhotrack/message.h"
 
 #define SECOND_US 1000000
-#define TOLD_US (60 * SECOND_US) /* from one doubt about a sensor's sender to the next */
-#define TURN_US (12 * SECOND_US) /* of the antenna of a slow radar */
+#define TOLD_US (60 * SECOND_US) /* interval of warnings that a sensor may have another sender */
+#define TURN_US (12 * SECOND_US) /* revolution of a slow radar's antenna */
 
 static bool is_same_sender(const struct transport_sender *one, const struct transport_sender *other)
 {
@@ -24,8 +24,11 @@ static void print_sender(const struct transport_sender *sender, FILE *to)
 
 /* ---- Sensors ---- */
 
-/* An int16_t, and nothing else: anyone on the network names channels, and the name is printed. */
-static bool read_sensor_id(const char *text, int16_t *sensor_id)
+/*
+ * Parses the number in a channel's name, strictly: anyone on the network names channels, and the
+ * name is printed.
+ */
+static bool parse_sensor_id(const char *text, int16_t *sensor_id)
 {
     const char *digits = text + (*text == '-');
     const size_t count = strspn(digits, "0123456789");
@@ -47,15 +50,15 @@ bool senders_read_sensor_id(const char *channel, int16_t *sensor_id)
 
     for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
         if (text_begins_with(channel, beginnings[i])) {
-            return read_sensor_id(channel + strlen(beginnings[i]), sensor_id);
+            return parse_sensor_id(channel + strlen(beginnings[i]), sensor_id);
         }
     }
     return false;
 }
 
-/* NULL: there is no room for one more. */
-static struct sender_channel *find_channel(struct senders *senders,
-                                           const struct transport_message *message)
+/* Finds or adds the entry of the message's channel; NULL where there is no room. */
+static struct sender_channel *find_or_add_channel(struct senders *senders,
+                                                  const struct transport_message *message)
 {
     for (unsigned i = 0; i < senders->num_channels; i++) {
         if (strcmp(senders->channels[i].name, message->channel) == 0) {
@@ -72,10 +75,10 @@ static struct sender_channel *find_channel(struct senders *senders,
     return channel;
 }
 
-static void print_two_senders(struct senders *senders, const struct sender_channel *channel,
-                              const char *what, const struct transport_sender *one,
-                              const char *between, const struct transport_sender *other,
-                              const char *end, FILE *to)
+static void print_sender_warning(struct senders *senders, const struct sender_channel *channel,
+                                 const char *what, const struct transport_sender *one,
+                                 const char *between, const struct transport_sender *other,
+                                 const char *end, FILE *to)
 {
     senders->lines++;
     fprintf(to, "rhotrack: sensor %s has %s", strrchr(channel->name, '_') + 1, what);
@@ -85,20 +88,20 @@ static void print_two_senders(struct senders *senders, const struct sender_chann
     fputs(end, to);
 }
 
-static void note_other_sender(struct senders *senders, struct sender_channel *channel,
-                              const struct transport_sender *sender, int64_t now_us, FILE *to)
+static void note_sender_change(struct senders *senders, struct sender_channel *channel,
+                               const struct transport_sender *sender, int64_t now_us, FILE *to)
 {
     const bool is_back = is_same_sender(&channel->before, sender);
     const bool is_told = channel->told_us > 0 && now_us < channel->told_us + TOLD_US;
     const bool is_live = channel->heard_us > 0 && now_us < channel->heard_us + TURN_US;
 
     if (is_back && !channel->is_named && to) {
-        print_two_senders(senders, channel, "two senders: ", &channel->before, " and ",
-                          &channel->last, "; each needs a number of its own\n", to);
+        print_sender_warning(senders, channel, "two senders: ", &channel->before, " and ",
+                             &channel->last, "; each needs a number of its own\n", to);
     } else if (!is_back && !is_told && is_live && to) {
         channel->told_us = now_us;
-        print_two_senders(senders, channel, "another sender, ", sender, ", until now ",
-                          &channel->last, ": a restart, or two at once\n", to);
+        print_sender_warning(senders, channel, "another sender, ", sender, ", until now ",
+                             &channel->last, ": a restart, or two at once\n", to);
     }
     channel->is_named = is_back;
     channel->before = channel->last;
@@ -108,13 +111,13 @@ static void note_other_sender(struct senders *senders, struct sender_channel *ch
 static void note_sensor_message(struct senders *senders, const struct transport_message *message,
                                 int64_t now_us, FILE *to)
 {
-    struct sender_channel *channel = find_channel(senders, message);
+    struct sender_channel *channel = find_or_add_channel(senders, message);
 
     if (!channel) {
         return;
     }
     if (!is_same_sender(&channel->last, &message->sender)) {
-        note_other_sender(senders, channel, &message->sender, now_us, to);
+        note_sender_change(senders, channel, &message->sender, now_us, to);
     }
     channel->heard_us = now_us;
 }
@@ -144,7 +147,7 @@ void senders_note_message(struct senders *senders, const struct transport_messag
     int16_t sensor_id;
 
     if (message->sender.port == 0) {
-        return; /* of a file, or of liblcm's providers */
+        return; /* no sender is known: a file, or a transport of liblcm */
     }
     if (now_us >= senders->lines_us + SECOND_US) {
         senders->lines_us = now_us;

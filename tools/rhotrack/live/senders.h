@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * senders: who sends a sensor's messages. A sensor that is sent from two places at once is named:
- * its scans are mixed, and each sender's look like the other's restart. That is certain once the
- * first one is heard again, which may take a turn of the radar; so another sender is told at once
- * where the first one has been silent for no longer than such a turn. A sender that is started anew
- * has another port, and the one before is not heard again: that is none.
+ * senders: warns where two programs send as the same sensor. Their scans are mixed, and each one's
+ * scans look like a restart of the other. Two senders are certain once the first is heard again
+ * after the second, which may take a revolution of the radar; so a new sender is already reported
+ * as possible where the first was heard within one revolution. A restarted sender has a new port,
+ * and its old one stays silent: that is no second sender.
  */
 #ifndef RHOTRACK_TOOL_SENDERS_H
 #define RHOTRACK_TOOL_SENDERS_H
@@ -19,30 +19,36 @@ enum { SENDERS_CHANNELS = 64, SENDERS_NODES = 8, SENDERS_LINES = 8 };
 
 struct sender_channel {
     char name[64];
-    struct transport_sender last, before; /* of its messages: of other addresses or ports */
-    bool is_named;                        /* this pair */
-    int64_t heard_us, longest_us;         /* the last one, and its longest pause; 0: not known */
-    int64_t told_us;                      /* of another sender; 0: never */
+    struct transport_sender last, before; /* the channel's last sender, and the one before */
+    bool is_named;                        /* a warning of this pair of senders was printed */
+    /* heard_us: monotonic time of the last message, 0: none yet; longest_us: not used */
+    int64_t heard_us, longest_us;
+    /* monotonic time of the warning of a possible second sender; 0: never */
+    int64_t told_us;
 };
 
-/* All zero at the start. Channels beyond SENDERS_CHANNELS are not watched. */
+/*
+ * Senders of channels and nodes; all zero at the start. Channels beyond SENDERS_CHANNELS are
+ * ignored.
+ */
 struct senders {
     unsigned num_channels, num_nodes;
-    int64_t lines_us; /* clock_us: from here on they count */
+    /* monotonic time from which `lines` counts the lines printed within a second */
+    int64_t lines_us;
     unsigned lines;
     struct sender_channel channels[SENDERS_CHANNELS];
-    struct transport_sender nodes[SENDERS_NODES]; /* those that were named */
+    struct transport_sender nodes[SENDERS_NODES]; /* ring of nodes that were reported */
 };
 
-/* False: no sensor's channel. Anyone on the network names channels. */
+/* Parses a sensor's number from its channel's name; false where the channel is not a sensor's. */
 bool senders_read_sensor_id(const char *channel, int16_t *sensor_id);
 
 /*
- * A message has come. One line where a second sender of a sensor is certain, as the first one is
- * heard again, or another node publishes: once a pair, once a node, and SENDERS_LINES a second at
- * most. One line a minute of a sensor where it may be.
- *   now_us  clock_us; above 0
- *   to      NULL: nothing is written
+ * Takes note of a message's sender. Prints a line once per pair where a second sender of a sensor
+ * is certain, once a minute where it is possible, and once per other node that publishes; at most
+ * SENDERS_LINES lines a second.
+ *   now_us  monotonic time (clock_us), above 0
+ *   to      NULL: prints nothing
  */
 void senders_note_message(struct senders *senders, const struct transport_message *message,
                           int64_t now_us, FILE *to);

@@ -17,29 +17,34 @@
 
 #define DEG_RAD 0.017453292519943295
 #define AXES 3
-#define FIRST_ELIMINATION 3 /* measurements before the Hough gate's first choice */
+/* Measurements that a track needs before the Hough gate chooses its plots. */
+#define FIRST_ELIMINATION 3
 
 struct maintainer {
     enum maintainer_gate gate;
-    struct maintainer_best *best; /* of its gate, which uses nothing below but the density */
+    /* the hypotheses of the gate best; NULL: another gate, which uses the fields below */
+    struct maintainer_best *best;
     struct scan_clutter_density *density;
     struct rho_input_config config;
-    uint8_t planes; /* RHO_GATE_PLANE_... */
+    /* RHO_GATE_PLANE_... bits: planes of velocity space in which the Hough gate votes */
+    uint8_t planes;
     float theta_cell_rad;
-    struct rho_input input; /* after the last scan */
-    int64_t input_us;       /* its time: of the last plot, its own */
+    struct rho_input input; /* filter after the last scan */
+    /* time of `input`: the last plot's own time, or the last scan's without a plot */
+    int64_t input_us;
     struct rho_input predicted;
     int64_t predicted_us;
-    bool is_predicted; /* the newest is `predicted` */
-    bool is_lost;      /* no prediction to the scan's time: the track is to start again */
-    /* estimated after the last plot and the one before */
+    bool is_predicted; /* `predicted` is newer than `input` */
+    /* the prediction was refused (a gap too long): the next plot restarts the track */
+    bool is_lost;
+    /* velocities estimated after the last plot and after the one before */
     float newest_mps[AXES], before_mps[AXES];
     unsigned measurements;
     unsigned long refused;
-    bool has_sensor; /* that looked last */
+    bool has_sensor; /* `sensor` describes the sensor of the last scan */
     struct rho_sensor sensor;
-    double pd;       /* of sensors that are not described */
-    bool is_started; /* by maintainer_step */
+    double pd;       /* detection probability of sensors without a description */
+    bool is_started; /* set by maintainer_step at the first plot */
     struct rho_track_report track;
 };
 
@@ -121,7 +126,7 @@ size_t maintainer_state_bytes(const struct maintainer *maintainer)
                 : 0);
 }
 
-static void keep_sensor(struct maintainer *maintainer, const struct rho_sensor *sensor)
+static void store_sensor(struct maintainer *maintainer, const struct rho_sensor *sensor)
 {
     maintainer->has_sensor = sensor;
     if (sensor) {
@@ -131,8 +136,8 @@ static void keep_sensor(struct maintainer *maintainer, const struct rho_sensor *
 
 /* ---- Start ---- */
 
-/* Velocities that were measured take the place of those that were not known. */
-static void start_velocity(struct rho_kalman *kalman, const struct rho_plot *plot)
+/* Replaces unknown velocity components by the measured ones. */
+static void set_measured_start_velocity(struct rho_kalman *kalman, const struct rho_plot *plot)
 {
     const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
 
@@ -144,8 +149,8 @@ static void start_velocity(struct rho_kalman *kalman, const struct rho_plot *plo
     }
 }
 
-/* The newest estimate is one that a measurement has made. */
-static void count_measurement(struct maintainer *maintainer)
+/* Records the velocity estimated after a measurement; the Hough gate uses the last two. */
+static void record_estimated_velocity(struct maintainer *maintainer)
 {
     struct rho_kalman kalman;
 
@@ -163,14 +168,14 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
     struct rho_measurement seen;
     struct rho_kalman kalman;
 
-    keep_sensor(maintainer, sensor);
+    store_sensor(maintainer, sensor);
     maintainer->is_predicted = false;
     rho_kalman_init(&kalman);
     rho_measurement_open(plot, measures, sensor, &seen);
     must_succeed(rho_kalman_update_position(&kalman, &seen, maintainer->config.velocity_variance),
                  "start");
     if (measures & RHO_MEASURES_VELOCITY) {
-        start_velocity(&kalman, plot);
+        set_measured_start_velocity(&kalman, plot);
     }
     if (maintainer->best) {
         maintainer_best_start(maintainer->best, time_us + plot->offset_us, time_us, &kalman,
@@ -185,14 +190,14 @@ void maintainer_start(struct maintainer *maintainer, int64_t time_us, const stru
     maintainer->input_us = time_us + plot->offset_us;
     maintainer->predicted = maintainer->input;
     maintainer->predicted_us = time_us;
-    count_measurement(maintainer);
+    record_estimated_velocity(maintainer);
 }
 
 /* ---- Predictions ---- */
 
 /*
- * From the last plot on, or back to a scan that began before its own time; false where that is
- * refused.
+ * Predicts the filter from the last plot's time to time_us, which may be earlier (a plot can be
+ * later than the next scan's time). Returns false where the filter refuses.
  */
 static bool predict_to_time(const struct maintainer *maintainer, int64_t time_us,
                             struct rho_input *predicted)
@@ -231,9 +236,9 @@ void maintainer_predicted_place(const struct maintainer *maintainer, double plac
     }
 }
 
-/* The prediction at a plot's own time; false where that is refused. */
-static bool predict_to_plot(const struct maintainer *maintainer, const struct rho_plot *plot,
-                            struct rho_input *predicted)
+/* Predicts the filter to a plot's own time; returns false where the filter refuses. */
+static bool predict_to_plot_time(const struct maintainer *maintainer, const struct rho_plot *plot,
+                                 struct rho_input *predicted)
 {
     *predicted = maintainer->predicted;
     return plot->offset_us == 0 ||
@@ -241,17 +246,18 @@ static bool predict_to_plot(const struct maintainer *maintainer, const struct rh
 }
 
 /*
- * Squared distance of a plot from the prediction, which allows for an input that has just begun.
- * INFINITY where it cannot be told.
+ * Squared Mahalanobis distance of a plot from the prediction, whose covariance allows for the onset
+ * of an input; INFINITY where it cannot be computed.
  */
-static double distance2_to_plot(const struct maintainer *maintainer, const struct rho_plot *plot,
-                                uint32_t measures, const struct rho_sensor *sensor, int *dimensions)
+static double squared_distance_to_plot(const struct maintainer *maintainer,
+                                       const struct rho_plot *plot, uint32_t measures,
+                                       const struct rho_sensor *sensor, int *dimensions)
 {
     struct rho_input at;
     struct rho_kalman expected;
     double distance2 = NAN;
 
-    if (predict_to_plot(maintainer, plot, &at)) {
+    if (predict_to_plot_time(maintainer, plot, &at)) {
         rho_input_expect(&at, &expected);
         distance2 = plot_distance2(&expected, plot, measures, sensor, dimensions);
     }
@@ -267,8 +273,9 @@ double maintainer_nis(const struct maintainer *maintainer, const struct rho_plot
     if (maintainer->best) {
         return maintainer_best_nis(maintainer->best, plot, measures);
     }
-    distance2 = distance2_to_plot(maintainer, plot, measures,
-                                  maintainer->has_sensor ? &maintainer->sensor : NULL, &dimensions);
+    distance2 =
+        squared_distance_to_plot(maintainer, plot, measures,
+                                 maintainer->has_sensor ? &maintainer->sensor : NULL, &dimensions);
     return distance2 / dimensions;
 }
 
@@ -299,9 +306,10 @@ static int choose_nearest_plot(const struct maintainer *maintainer, const struct
 
     for (uint32_t i = 0; i < scan->num_plots; i++) {
         const struct rho_plot *plot = &scan->plots[i];
-        double distance2 = rho_measurement_is_valid(plot, scan->measures)
-                               ? distance2_to_plot(maintainer, plot, scan->measures, sensor, NULL)
-                               : INFINITY;
+        double distance2 =
+            rho_measurement_is_valid(plot, scan->measures)
+                ? squared_distance_to_plot(maintainer, plot, scan->measures, sensor, NULL)
+                : INFINITY;
 
         if (distance2 < least) {
             least = distance2;
@@ -311,8 +319,8 @@ static int choose_nearest_plot(const struct maintainer *maintainer, const struct
     return chosen;
 }
 
-/* Without heights only the plane xy is left; 0 where that was not asked for either. */
-static uint8_t gate_planes(const struct maintainer *maintainer, uint32_t measures)
+/* Planes that the Hough gate uses: without measured heights only xy; 0 if xy was not chosen. */
+static uint8_t usable_gate_planes(const struct maintainer *maintainer, uint32_t measures)
 {
     return measures & RHO_MEASURES_Z ? maintainer->planes
                                      : (uint8_t)(maintainer->planes & RHO_GATE_PLANE_XY);
@@ -349,7 +357,7 @@ static int choose_plot(const struct maintainer *maintainer, const struct rho_sca
     }
     if (maintainer->gate == MAINTAIN_HOUGH && maintainer->measurements >= FIRST_ELIMINATION &&
         (scan->measures & RHO_MEASURES_VELOCITY) &&
-        rho_gate_hough_open(&hough, gate_planes(maintainer, scan->measures),
+        rho_gate_hough_open(&hough, usable_gate_planes(maintainer, scan->measures),
                             maintainer->theta_cell_rad, maintainer->before_mps,
                             maintainer->newest_mps) == RHO_OK) {
         return choose_straightest_plot(&hough, scan);
@@ -359,8 +367,8 @@ static int choose_plot(const struct maintainer *maintainer, const struct rho_sca
 
 /* ---- Updates ---- */
 
-static bool update_velocity(struct rho_input *input, const struct rho_input_config *config,
-                            const struct rho_plot *plot, int axes)
+static bool update_by_velocity(struct rho_input *input, const struct rho_input_config *config,
+                               const struct rho_plot *plot, int axes)
 {
     const float velocity_mps[AXES] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
     float variance = plot->sigma_mps * plot->sigma_mps;
@@ -375,8 +383,8 @@ static bool update_velocity(struct rho_input *input, const struct rho_input_conf
 }
 
 /*
- * Predicted, updated by everything that the plot measures, decided. False where any of it is
- * refused.
+ * Predicts the filter to the plot's time, updates it by all that the plot measures, and decides
+ * whether an input is present. Returns false where a step is refused.
  */
 static bool update_by_plot(const struct maintainer *maintainer, const struct rho_plot *plot,
                            uint32_t measures, const struct rho_sensor *sensor,
@@ -386,10 +394,10 @@ static bool update_by_plot(const struct maintainer *maintainer, const struct rho
     struct rho_measurement seen;
 
     rho_measurement_open(plot, measures, sensor, &seen);
-    if (!predict_to_plot(maintainer, plot, input) ||
+    if (!predict_to_plot_time(maintainer, plot, input) ||
         rho_input_update_position(input, config, &seen) != RHO_OK ||
         ((measures & RHO_MEASURES_VELOCITY) &&
-         !update_velocity(input, config, plot, seen.has_z ? 3 : 2)) ||
+         !update_by_velocity(input, config, plot, seen.has_z ? 3 : 2)) ||
         ((measures & RHO_MEASURES_RANGE_RATE) &&
          rho_input_update_range_rate(input, config, sensor, plot->range_rate_mps,
                                      plot->sigma_range_rate_mps * plot->sigma_range_rate_mps) !=
@@ -400,9 +408,12 @@ static bool update_by_plot(const struct maintainer *maintainer, const struct rho
     return true;
 }
 
-/* The row that was taken; where none was, or its update was refused, the track coasts. */
-static int take_plot(struct maintainer *maintainer, const struct rho_scan *scan,
-                     const struct rho_sensor *sensor, int row)
+/*
+ * Updates the track with the chosen plot and returns its row. Without a plot, or where its update
+ * is refused, the track coasts, and -1 is returned.
+ */
+static int update_or_coast(struct maintainer *maintainer, const struct rho_scan *scan,
+                           const struct rho_sensor *sensor, int row)
 {
     struct rho_input updated;
     bool is_taken =
@@ -412,15 +423,17 @@ static int take_plot(struct maintainer *maintainer, const struct rho_scan *scan,
     maintainer->input = is_taken ? updated : maintainer->predicted;
     maintainer->input_us = scan->time_us + (is_taken ? scan->plots[row].offset_us : 0);
     if (is_taken) {
-        count_measurement(maintainer);
+        record_estimated_velocity(maintainer);
     }
     maintainer->refused += row >= 0 && !is_taken;
     return is_taken ? row : -1;
 }
 
-/* After a gap so long that any place will do: from the plot nearest to where the track was last. */
-static int start_again(struct maintainer *maintainer, const struct rho_scan *scan,
-                       const struct rho_sensor *sensor)
+/*
+ * Restarts the track at the plot nearest to its last place, after a gap too long for a prediction.
+ */
+static int restart_at_nearest_plot(struct maintainer *maintainer, const struct rho_scan *scan,
+                                   const struct rho_sensor *sensor)
 {
     double last_m[AXES], least_m = INFINITY;
     int chosen = -1;
@@ -450,12 +463,13 @@ int maintainer_update(struct maintainer *maintainer, const struct rho_scan *scan
 {
     double place_m[AXES];
 
-    keep_sensor(maintainer, sensor);
+    store_sensor(maintainer, sensor);
     if (maintainer->is_lost) {
-        return start_again(maintainer, scan, sensor);
+        return restart_at_nearest_plot(maintainer, scan, sensor);
     }
     if (!maintainer->best) {
-        return take_plot(maintainer, scan, sensor, choose_plot(maintainer, scan, sensor, random));
+        return update_or_coast(maintainer, scan, sensor,
+                               choose_plot(maintainer, scan, sensor, random));
     }
     maintainer_predicted_place(maintainer, place_m);
     maintainer->is_predicted = false;
@@ -502,7 +516,7 @@ static void check_scan_fits_gate(const struct maintainer *maintainer, const stru
              "and 'vy_mps' are wanted",
              (double)scan->time_us * 1e-6);
     }
-    if (gate_planes(maintainer, scan->measures) == 0) {
+    if (usable_gate_planes(maintainer, scan->measures) == 0) {
         fail(EXIT_USAGE,
              "gate hough: the scan at %.6f s has no heights, so that planes must hold xy",
              (double)scan->time_us * 1e-6);

@@ -12,13 +12,14 @@
 #define NO_SLOT RHO_HYPOTHESES_SLOTS
 
 struct maintainer_best {
-    uint16_t slot;                      /* in the pool; NO_SLOT: nothing is there */
-    int64_t time_us;                    /* of the last scan, or the start */
-    struct rho_hypotheses_estimate now; /* predicted, or updated */
+    /* the track's slot in the pool; NO_SLOT: no hypotheses are left */
+    uint16_t slot;
+    int64_t time_us;                    /* time of the last scan or prediction, or of the start */
+    struct rho_hypotheses_estimate now; /* estimate after the last prediction or update */
     bool has_sensor;
     struct rho_sensor sensor;
     unsigned long refused;
-    bool is_first; /* whose pool it is */
+    bool is_first; /* this maintainer allocated the pool, and frees it */
     struct rho_hypotheses *pool;
 };
 
@@ -58,7 +59,7 @@ size_t maintainer_best_bytes(void)
     return RHO_HYPOTHESES_OF_TRACK * sizeof(struct rho_hypothesis);
 }
 
-static void estimate_now(struct maintainer_best *best)
+static void refresh_estimate(struct maintainer_best *best)
 {
     must_succeed(rho_hypotheses_estimate(best->pool, best->slot, best->time_us, &best->now),
                  "estimate");
@@ -71,28 +72,28 @@ void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_
     if (sensor) {
         best->sensor = *sensor;
     }
-    rho_hypotheses_close(best->pool, best->slot); /* where it starts again */
+    rho_hypotheses_close(best->pool, best->slot); /* a restarted track has a slot */
     must_succeed(rho_hypotheses_open(best->pool, kalman, time_us, &best->slot), "start");
     best->time_us = scan_us;
-    estimate_now(best);
+    refresh_estimate(best);
 }
 
 bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us)
 {
     if (rho_hypotheses_predict(best->pool, best->slot, time_us) != RHO_OK) {
         rho_hypotheses_close(best->pool, best->slot);
-        best->slot = NO_SLOT; /* the old one may be another track's from now on */
+        best->slot = NO_SLOT; /* the freed slot may be given to another track */
         return false;
     }
     best->time_us = time_us;
-    estimate_now(best);
+    refresh_estimate(best);
     return true;
 }
 
 void maintainer_best_predicted_place(const struct maintainer_best *best, double place_m[3])
 {
     const struct rho_hypothesis *heaviest = rho_hypotheses_at(best->pool, best->slot, 0);
-    struct rho_kalman kalman = best->now.kalman; /* where none is left */
+    struct rho_kalman kalman = best->now.kalman; /* used where no hypothesis is left */
 
     if (heaviest) {
         rho_imm_estimate(&heaviest->imm, &kalman, NULL);
@@ -102,10 +103,12 @@ void maintainer_best_predicted_place(const struct maintainer_best *best, double 
     }
 }
 
-static void score_hypotheses(struct maintainer_best *best, const struct rho_scan *scan,
-                             const struct rho_sensor *sensor, double log_density, double pd)
+static void score_plots_of_scan(struct maintainer_best *best, const struct rho_scan *scan,
+                                const struct rho_sensor *sensor, double log_density, double pd)
 {
-    /* the density is one of all that is measured */
+    /*
+     * the log density covers all measured quantities, so that it stands in for the density per m^2
+     */
     struct rho_hypotheses_clutter clutter = {.log_per_m2 = (float)log_density};
     struct rho_hypotheses_box reach;
     float log_pd = (float)log(pd), gain_nat;
@@ -140,11 +143,11 @@ int maintainer_best_update(struct maintainer_best *best, const struct rho_scan *
     if (sensor) {
         best->sensor = *sensor;
     }
-    score_hypotheses(best, scan, sensor, log_density, pd);
+    score_plots_of_scan(best, scan, sensor, log_density, pd);
     before = best->pool->updates_refused;
     must_succeed(rho_hypotheses_commit(best->pool, best->slot, &seen, &outcome), "commit");
     best->refused += best->pool->updates_refused - before;
-    estimate_now(best);
+    refresh_estimate(best);
     return outcome.row;
 }
 

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * maintainer_best: the library's default as a maintainer steps it: a track's hypotheses over two
- * motions.
- */
+/* maintainer_best: the maintainer's gate best: multiple hypotheses, each with two motion models. */
 #ifndef RHOTRACK_TOOL_MAINTAINER_BEST_H
 #define RHOTRACK_TOOL_MAINTAINER_BEST_H
 
@@ -11,8 +8,8 @@
 struct maintainer_best;
 
 /*
- * Each as the call of maintainer.h that is named alike; it starts from an estimate of time_us,
- * log_density is a number.
+ * Each function does what its namesake of maintainer.h does for the gate best. The start takes an
+ * estimate (kalman) at time_us, and log_density is never NAN.
  */
 struct maintainer_best *maintainer_best_new(const struct parameters *parameters);
 struct maintainer_best *maintainer_best_new_beside(const struct maintainer_best *first);
@@ -21,8 +18,8 @@ size_t maintainer_best_bytes(void);
 void maintainer_best_start(struct maintainer_best *best, int64_t time_us, int64_t scan_us,
                            const struct rho_kalman *kalman, const struct rho_sensor *sensor);
 /*
- * False where nothing sensible could be said any more: nothing is left but the last estimate, until
- * a start.
+ * Returns false where the gap is too long to predict: the hypotheses are dropped, and the last
+ * estimate stays until the next start.
  */
 bool maintainer_best_predict(struct maintainer_best *best, int64_t time_us);
 void maintainer_best_predicted_place(const struct maintainer_best *best, double place_m[3]);

@@ -8,7 +8,8 @@
 #define DIMENSIONS_MAX 7
 
 /*
- * The measurement less its prediction; rows: the derivative by the state; noise: the covariance.
+ * Difference of measurement and prediction (off), its Jacobian by the state (rows), and the
+ * measurement's noise covariance.
  */
 struct innovation {
     int num;
@@ -17,7 +18,8 @@ struct innovation {
     double noise[DIMENSIONS_MAX][DIMENSIONS_MAX];
 };
 
-static void add_element(struct innovation *innovation, int element, double off, double variance)
+static void add_state_element(struct innovation *innovation, int element, double off,
+                              double variance)
 {
     int i = innovation->num++;
 
@@ -26,33 +28,34 @@ static void add_element(struct innovation *innovation, int element, double off, 
     innovation->noise[i][i] = variance;
 }
 
-static void add_place(struct innovation *innovation, const struct rho_kalman *at,
-                      const struct rho_measurement *seen, int axes)
+static void add_place_innovation(struct innovation *innovation, const struct rho_kalman *at,
+                                 const struct rho_measurement *seen, int axes)
 {
     float noise[RHO_TRIANGLE(3)];
 
     rho_measurement_covariance(seen, noise);
     for (int i = 0; i < axes; i++) {
-        add_element(innovation, i, (double)seen->place_m[i] - (double)at->state[i], 0.0);
+        add_state_element(innovation, i, (double)seen->place_m[i] - (double)at->state[i], 0.0);
         for (int j = 0; j <= i; j++) {
             innovation->noise[i][j] = innovation->noise[j][i] = (double)noise[RHO_AT(i, j)];
         }
     }
 }
 
-static void add_velocity(struct innovation *innovation, const struct rho_kalman *at,
-                         const struct rho_plot *plot, int axes)
+static void add_velocity_innovation(struct innovation *innovation, const struct rho_kalman *at,
+                                    const struct rho_plot *plot, int axes)
 {
     const float velocity_mps[3] = {plot->vx_mps, plot->vy_mps, plot->vz_mps};
 
     for (int i = 0; i < axes; i++) {
-        add_element(innovation, i + 3, (double)velocity_mps[i] - (double)at->state[i + 3],
-                    (double)plot->sigma_mps * (double)plot->sigma_mps);
+        add_state_element(innovation, i + 3, (double)velocity_mps[i] - (double)at->state[i + 3],
+                          (double)plot->sigma_mps * (double)plot->sigma_mps);
     }
 }
 
-static void add_range_rate(struct innovation *innovation, const struct rho_kalman *at,
-                           const struct rho_plot *plot, const struct rho_sensor *sensor, int axes)
+static void add_range_rate_innovation(struct innovation *innovation, const struct rho_kalman *at,
+                                      const struct rho_plot *plot, const struct rho_sensor *sensor,
+                                      int axes)
 {
     float row[RHO_KALMAN_STATES], rate_mps;
     int i = innovation->num;
@@ -70,8 +73,8 @@ static void add_range_rate(struct innovation *innovation, const struct rho_kalma
     }
 }
 
-static double covariance_of(const struct innovation *innovation, const struct rho_kalman *at, int i,
-                            int j)
+static double innovation_covariance(const struct innovation *innovation,
+                                    const struct rho_kalman *at, int i, int j)
 {
     double sum = innovation->noise[i][j];
 
@@ -85,7 +88,10 @@ static double covariance_of(const struct innovation *innovation, const struct rh
     return sum;
 }
 
-/* Cholesky and forward substitution in one; NAN where a pivot is not positive. */
+/*
+ * Squared Mahalanobis distance by a Cholesky factorisation with forward substitution; NAN where a
+ * pivot is not positive.
+ */
 static double mahalanobis2(const struct innovation *innovation, const struct rho_kalman *at)
 {
     double factor[DIMENSIONS_MAX][DIMENSIONS_MAX] = {{0.0}};
@@ -95,7 +101,7 @@ static double mahalanobis2(const struct innovation *innovation, const struct rho
         double rest = innovation->off[i];
 
         for (int j = 0; j <= i; j++) {
-            double c = covariance_of(innovation, at, i, j);
+            double c = innovation_covariance(innovation, at, i, j);
 
             for (int k = 0; k < j; k++) {
                 c -= factor[i][k] * factor[j][k];
@@ -118,12 +124,12 @@ double plot_distance2(const struct rho_kalman *predicted, const struct rho_plot 
 
     rho_measurement_open(plot, measures, sensor, &seen);
     axes = seen.has_z && rho_kalman_is_open(predicted, 2) ? 3 : 2;
-    add_place(&innovation, predicted, &seen, axes);
+    add_place_innovation(&innovation, predicted, &seen, axes);
     if (measures & RHO_MEASURES_VELOCITY) {
-        add_velocity(&innovation, predicted, plot, axes);
+        add_velocity_innovation(&innovation, predicted, plot, axes);
     }
     if (measures & RHO_MEASURES_RANGE_RATE) {
-        add_range_rate(&innovation, predicted, plot, sensor, axes);
+        add_range_rate_innovation(&innovation, predicted, plot, sensor, axes);
     }
     if (dimensions) {
         *dimensions = innovation.num;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plot_distance: how far a plot is from a prediction, over everything that both have: place,
- * velocity, range rate.
+ * plot_distance: Mahalanobis distance of a plot from a prediction, over place, velocity and range
+ * rate as far as the plot measures them.
  */
 #ifndef RHOTRACK_TOOL_PLOT_DISTANCE_H
 #define RHOTRACK_TOOL_PLOT_DISTANCE_H
@@ -12,10 +12,10 @@
 #include "rhotrack/types.h"
 
 /*
- * Squared Mahalanobis distance, with the covariances of both; *dimensions (may be NULL) gets their
- * number. Heights and upward velocities count where the prediction has them too. NAN where the
- * covariance is not positive definite. The plot's offset is not looked at: predict to its own time
- * before. sensor NULL: at the origin.
+ * Squared Mahalanobis distance, with the covariances of plot and prediction; *dimensions (may be
+ * NULL) gets the number of compared dimensions. Heights and vertical velocities count where the
+ * prediction knows the height, too. NAN where the covariance is not positive definite. `predicted`
+ * must be at the plot's own time: offset_us is ignored. sensor NULL: at the origin.
  */
 double plot_distance2(const struct rho_kalman *predicted, const struct rho_plot *plot,
                       uint32_t measures, const struct rho_sensor *sensor, int *dimensions);

@@ -13,22 +13,25 @@
 
 enum quantity { PLACE, VELOCITY, RANGE_RATE, NUM_QUANTITIES };
 
-/* Plots about the mean of their scan, in one quantity. */
+/*
+ * Scatter of plots about the mean of their scan, in one quantity (place, velocity or range rate).
+ */
 struct spread {
-    double freedom; /* plots less one, summed */
+    double freedom; /* degrees of freedom: plots less one, summed over scans */
     double squares[AXES][AXES];
-    double noise2[AXES], num_noise; /* variances of the plots, summed */
+    /* sums over plots of their noise variances and of their number */
+    double noise2[AXES], num_noise;
 };
 
-/* Counts from one sensor's scans. */
-struct seen {
+/* Faded sums over one sensor's scans. */
+struct sensor_statistics {
     int32_t sensor_id;
     double scans, plots;
     struct spread spreads[NUM_QUANTITIES];
 };
 
 struct scan_clutter_density {
-    struct seen *sensors;
+    struct sensor_statistics *sensors;
     size_t count, capacity;
 };
 
@@ -45,7 +48,8 @@ void scan_clutter_density_free(struct scan_clutter_density *density)
     }
 }
 
-static struct seen *find_sensor(struct scan_clutter_density *density, int32_t sensor_id)
+static struct sensor_statistics *find_or_add_sensor(struct scan_clutter_density *density,
+                                                    int32_t sensor_id)
 {
     for (size_t i = 0; i < density->count; i++) {
         if (density->sensors[i].sensor_id == sensor_id) {
@@ -54,13 +58,13 @@ static struct seen *find_sensor(struct scan_clutter_density *density, int32_t se
     }
     density->sensors =
         must_grow(density->sensors, density->count, &density->capacity, sizeof *density->sensors);
-    density->sensors[density->count] = (struct seen){.sensor_id = sensor_id};
+    density->sensors[density->count] = (struct sensor_statistics){.sensor_id = sensor_id};
     return &density->sensors[density->count++];
 }
 
 /* ---- Plots ---- */
 
-static int quantity_axes(uint32_t measures, enum quantity quantity)
+static int num_axes_of_quantity(uint32_t measures, enum quantity quantity)
 {
     if (quantity == RANGE_RATE) {
         return measures & RHO_MEASURES_RANGE_RATE ? 1 : 0;
@@ -71,9 +75,12 @@ static int quantity_axes(uint32_t measures, enum quantity quantity)
     return measures & RHO_MEASURES_Z ? 3 : 2;
 }
 
-/* Its values, and the variances of their noise; of a place the larger one counts on all axes. */
-static void plot_values(const struct rho_plot *plot, enum quantity quantity, double value[AXES],
-                        double *noise2)
+/*
+ * Gets a plot's values of a quantity, and their noise variance; of a place the larger sigma counts
+ * on all axes.
+ */
+static void values_and_noise_of_plot(const struct rho_plot *plot, enum quantity quantity,
+                                     double value[AXES], double *noise2)
 {
     const double sigma[NUM_QUANTITIES] = {(double)rho_plot_sigma_m(plot), (double)plot->sigma_mps,
                                           (double)plot->sigma_range_rate_mps};
@@ -92,7 +99,7 @@ static double square(double v)
     return v * v;
 }
 
-static size_t nearest_plot(const struct rho_scan *scan, const double place_m[AXES])
+static size_t find_nearest_plot(const struct rho_scan *scan, const double place_m[AXES])
 {
     double least = INFINITY, value[AXES], noise2;
     size_t nearest = 0;
@@ -100,7 +107,7 @@ static size_t nearest_plot(const struct rho_scan *scan, const double place_m[AXE
     for (size_t i = 0; i < scan->num_plots; i++) {
         double distance2;
 
-        plot_values(&scan->plots[i], PLACE, value, &noise2);
+        values_and_noise_of_plot(&scan->plots[i], PLACE, value, &noise2);
         distance2 = square(value[0] - place_m[0]) + square(value[1] - place_m[1]);
         if (scan->measures & RHO_MEASURES_Z) {
             distance2 += square(value[2] - place_m[2]);
@@ -115,7 +122,7 @@ static size_t nearest_plot(const struct rho_scan *scan, const double place_m[AXE
 
 /* ---- How far they spread ---- */
 
-static void fade_spread(struct spread *spread)
+static void fade_spread_sums(struct spread *spread)
 {
     spread->freedom *= MEMORY;
     spread->num_noise *= MEMORY;
@@ -127,23 +134,23 @@ static void fade_spread(struct spread *spread)
     }
 }
 
-/* The plots but for one, about their mean: mean and squares move on together, plot by plot. */
+/* Adds a scan's plots, except left_out, to the scatter about their mean (Welford's update). */
 static void add_scan_to_spread(struct spread *spread, const struct rho_scan *scan,
                                enum quantity quantity, size_t left_out)
 {
     double mean[AXES] = {0.0}, value[AXES], noise2, count = 0.0;
 
     if (scan->num_plots < 3) {
-        return; /* says nothing: what was known stays */
+        return; /* too few plots: the former scatter stays without fading */
     }
-    fade_spread(spread);
+    fade_spread_sums(spread);
     for (size_t plot = 0; plot < scan->num_plots; plot++) {
         double off[AXES];
 
         if (plot == left_out) {
             continue;
         }
-        plot_values(&scan->plots[plot], quantity, value, &noise2);
+        values_and_noise_of_plot(&scan->plots[plot], quantity, value, &noise2);
         count += 1.0;
         spread->num_noise += 1.0;
         for (int i = 0; i < AXES; i++) {
@@ -160,7 +167,10 @@ static void add_scan_to_spread(struct spread *spread, const struct rho_scan *sca
     spread->freedom += count - 1.0;
 }
 
-/* S: variances no less than the noise's, correlations as far as they are known. */
+/*
+ * Covariance of the scatter: variances at least those of the plots' noise, and correlations shrunk
+ * where they rest on few plots.
+ */
 static void spread_covariance(const struct spread *spread, int axes, double covariance[AXES][AXES])
 {
     double few = fmin(axes / spread->freedom, 1.0), share = 1.0 - few * few;
@@ -194,7 +204,7 @@ static double determinant(double a[AXES][AXES], int axes)
            a[2][0] * (a[0][1] * a[1][2] - a[0][2] * a[1][1]);
 }
 
-static double log_volume(const struct spread *spread, int axes)
+static double log_clutter_volume(const struct spread *spread, int axes)
 {
     double covariance[AXES][AXES] = {{0.0}}, d = axes;
     double log_ball = d / 2.0 * log(M_PI * (d + 2.0)) - lgamma(d / 2.0 + 1.0);
@@ -209,19 +219,19 @@ static double log_volume(const struct spread *spread, int axes)
 double scan_clutter_density_log(struct scan_clutter_density *density, const struct rho_scan *scan,
                                 const double place_m[3], double pd)
 {
-    struct seen *seen = find_sensor(density, scan->sensor_id);
-    size_t left_out = nearest_plot(scan, place_m);
+    struct sensor_statistics *seen = find_or_add_sensor(density, scan->sensor_id);
+    size_t left_out = find_nearest_plot(scan, place_m);
     double log_density;
 
     seen->scans = seen->scans * MEMORY + 1.0;
     seen->plots = seen->plots * MEMORY + (double)scan->num_plots;
     log_density = log(fmax(seen->plots / seen->scans - pd, PLOTS_MIN));
     for (int quantity = 0; quantity < NUM_QUANTITIES; quantity++) {
-        int axes = quantity_axes(scan->measures, (enum quantity)quantity);
+        int axes = num_axes_of_quantity(scan->measures, (enum quantity)quantity);
 
         add_scan_to_spread(&seen->spreads[quantity], scan, (enum quantity)quantity, left_out);
         if (axes > 0) {
-            log_density -= log_volume(&seen->spreads[quantity], axes);
+            log_density -= log_clutter_volume(&seen->spreads[quantity], axes);
         }
     }
     return log_density;

@@ -7,7 +7,7 @@
 
 #include "base/common.h"
 
-static void print_walls(const struct rho_reflector_learning *walls, FILE *to)
+static void print_learned_walls(const struct rho_reflector_learning *walls, FILE *to)
 {
     struct rho_reflector wall;
 
@@ -44,7 +44,7 @@ void learned_report_print(const struct rho_tracker *tracker,
                     sensor->sensor_id, (double)known.notch_mps);
         }
     }
-    print_walls(walls, to);
+    print_learned_walls(walls, to);
 }
 
 struct cJSON *learned_report_sensors_json(const struct rho_tracker *tracker)

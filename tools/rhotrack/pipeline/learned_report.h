@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* learned_report: what a tracker has learned of the sensors that were described to it, and uses. */
+/*
+ * learned_report: reports what the tracker has learned of its sensors (noise, pd, Doppler notch)
+ * and of walls.
+ */
 #ifndef RHOTRACK_TOOL_LEARNED_REPORT_H
 #define RHOTRACK_TOOL_LEARNED_REPORT_H
 
@@ -9,17 +12,17 @@
 #include "rhotrack/tracker.h"
 
 /*
- * Of sensors that are not as stated, and of walls that are learned (NULL: none are), each with a
- * comma before it: part of a summary.
+ * Prints learned values of sensors that differ from the stated ones, and learned walls (walls NULL:
+ * none), each after a comma, as part of a summary line.
  */
 void learned_report_print(const struct rho_tracker *tracker,
                           const struct rho_reflector_learning *walls, FILE *to);
 
-/* A list, the caller's. */
+/* Learned values of each sensor as a JSON list; the caller owns the list. */
 struct cJSON;
 struct cJSON *learned_report_sensors_json(const struct rho_tracker *tracker);
 
-/* How many walls are learned (NULL: none are), and a list of them. */
+/* Number of learned walls, and a JSON list of them; walls NULL: none are learned. */
 unsigned learned_report_num_walls(const struct rho_reflector_learning *walls);
 struct cJSON *learned_report_walls_json(const struct rho_reflector_learning *walls);
 

@@ -3,8 +3,8 @@
 
 #include <inttypes.h>
 
-#define SOON_US 1000000 /* an antenna that looks all round takes longer for it */
-#define LONE_LEAST 10   /* fewer say nothing */
+#define SOON_US 1000000 /* scans of one plot at shorter intervals are parts of a revolution */
+#define LONE_LEAST 10   /* smallest number of single-plot scans that is evidence */
 
 void no_tracks_reason_add_scan(struct no_tracks *seen, const struct rho_scan *scan)
 {
@@ -24,7 +24,7 @@ void no_tracks_reason_add_scan(struct no_tracks *seen, const struct rho_scan *sc
     seen->plots += scan->num_plots;
 }
 
-/* Scans with a plot that a start needs. */
+/* Scans that must hold a plot of the target before a track starts. */
 static double scans_needed_for_start(const struct parameters *parameters)
 {
     const double min_scans = parameters->value[PARAMETER_MIN_SCANS];

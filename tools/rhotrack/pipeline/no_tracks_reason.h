@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* no_tracks_reason: why a run confirmed no track, as far as its scans and settings show it. */
+/*
+ * no_tracks_reason: explains why a run confirmed no track, from its scans, counters and settings.
+ */
 #ifndef RHOTRACK_TOOL_NO_TRACKS_REASON_H
 #define RHOTRACK_TOOL_NO_TRACKS_REASON_H
 
@@ -9,17 +11,18 @@
 #include "rhotrack/tracker.h"
 #include "settings/parameters.h"
 
-/* What was seen of the scans of plots; all zero at the start. */
+/* Statistics of the plot scans of a run; all zero at the start. */
 struct no_tracks {
-    uint64_t scans, plots, lone; /* lone: of one plot and no sector, soon after the last one */
-    uint64_t intervals;          /* between scans of the sensor that came first */
-    int64_t first_us, last_us;   /* of that sensor */
+    /* lone: scans of one plot without a sector, within 1 s of the one before */
+    uint64_t scans, plots, lone;
+    uint64_t intervals;        /* scan intervals of the first sensor */
+    int64_t first_us, last_us; /* times of the first sensor's first and last scan */
     int32_t sensor_id;
 };
 
 void no_tracks_reason_add_scan(struct no_tracks *seen, const struct rho_scan *scan);
 
-/* One line: the reason, with its figure and the setting that goes with it. */
+/* Prints one line with the most likely reason, its figure, and the setting that would help. */
 void no_tracks_reason_say(const struct no_tracks *seen, const struct rho_tracker *tracker,
                           const struct parameters *parameters, FILE *file);
 

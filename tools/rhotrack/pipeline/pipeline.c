@@ -43,7 +43,7 @@ void pipeline_free(struct pipeline *pipeline)
     free(pipeline->plots);
 }
 
-static void suggest_pipeline(struct parameters *parameters, const char *name)
+static void suggest_paper_methods(struct parameters *parameters, const char *name)
 {
     if (strcmp(name, "paper") != 0) {
         fail(EXIT_USAGE, "--pipeline '%s' is not paper", name);
@@ -58,7 +58,7 @@ static void suggest_pipeline(struct parameters *parameters, const char *name)
 void pipeline_set_options(struct parameters *parameters, const struct pipeline_options *options)
 {
     if (options->pipeline) {
-        suggest_pipeline(parameters, options->pipeline);
+        suggest_paper_methods(parameters, options->pipeline);
     }
     if (options->method) {
         parameters_set_method(parameters, options->method);
@@ -79,7 +79,7 @@ void pipeline_set_options(struct parameters *parameters, const struct pipeline_o
     }
 }
 
-/* Memory of an earlier run is used again. */
+/* Adds the initiator of a sensor's window, in memory of an earlier run where there is some. */
 static struct pipeline_initiator *add_initiator(struct pipeline *pipeline, int32_t sensor_id)
 {
     struct pipeline_initiator *added;
@@ -94,8 +94,12 @@ static struct pipeline_initiator *add_initiator(struct pipeline *pipeline, int32
     return added;
 }
 
-/* The held scan goes into another window too, but for the plots that have started tracks. */
-static void push_held_scan(struct rho_initiator *initiator, const struct rho_window_scan *held)
+/*
+ * Pushes a scan held in one window into another; plots that already started tracks are marked as
+ * claimed.
+ */
+static void copy_held_scan_to_initiator(struct rho_initiator *initiator,
+                                        const struct rho_window_scan *held)
 {
     struct rho_plot *plots = must_calloc(held->num_plots + 1u, sizeof *plots);
     uint8_t *fates = must_calloc(held->num_plots + 1u, sizeof *fates);
@@ -119,10 +123,11 @@ static void push_held_scan(struct rho_initiator *initiator, const struct rho_win
 }
 
 /*
- * A sensor that leaves the window that it shared takes its scans along: its targets start from
- * these.
+ * Copies a sensor's scans from the windows it shared into its new window, so that its targets can
+ * start tracks from them.
  */
-static void take_scans_along(struct pipeline *pipeline, const struct pipeline_initiator *added)
+static void copy_scans_from_shared_windows(struct pipeline *pipeline,
+                                           const struct pipeline_initiator *added)
 {
     for (size_t i = 0; pipeline->initiators + i < added; i++) {
         struct rho_window *shared = &pipeline->initiators[i].initiator->window;
@@ -131,13 +136,15 @@ static void take_scans_along(struct pipeline *pipeline, const struct pipeline_in
             const struct rho_window_scan *held = rho_window_scan_at(shared, m);
 
             if (held->sensor.sensor_id == added->sensor_id) {
-                push_held_scan(added->initiator, held);
+                copy_held_scan_to_initiator(added->initiator, held);
             }
         }
     }
 }
 
-/* The first one is there before its sensor is known. */
+/*
+ * Finds or adds the initiator of a window. The first initiator exists before its sensor is known.
+ */
 struct rho_initiator *pipeline_initiator_of_window(struct pipeline *pipeline, int32_t sensor_id)
 {
     struct pipeline_initiator *of = NULL;
@@ -154,7 +161,7 @@ struct rho_initiator *pipeline_initiator_of_window(struct pipeline *pipeline, in
     }
     if (!of) {
         of = add_initiator(pipeline, sensor_id);
-        take_scans_along(pipeline, of);
+        copy_scans_from_shared_windows(pipeline, of);
     }
     pipeline->initiator = of->initiator;
     return pipeline->initiator;
@@ -167,8 +174,9 @@ struct rho_initiator *pipeline_initiator_of_scan(struct pipeline *pipeline,
         pipeline, pipeline->has_pairs ? pipeline_window_of(pipeline, scan) : scan->sensor_id);
 }
 
-/* Plots may come from anywhere within the sensors' range. */
-static void open_paper_starts(struct pipeline *pipeline, const struct parameters *parameters)
+/* Opens track starts by the papers' Hough methods, with cells for plots within range_max_m. */
+static void open_paper_starts_if_chosen(struct pipeline *pipeline,
+                                        const struct parameters *parameters)
 {
     struct parameters fitted = *parameters;
     struct rho_paper_starts_config config;
@@ -189,8 +197,8 @@ static void open_paper_starts(struct pipeline *pipeline, const struct parameters
                  "method");
 }
 
-/* Zones, with what they have counted, are kept when a clock was set. */
-static void open_zones(struct pipeline *pipeline, const struct parameters *parameters)
+/* Creates the zones once: they keep their counts across a reset of the tracker. */
+static void open_zones_once(struct pipeline *pipeline, const struct parameters *parameters)
 {
     if (parameters->num_zones > 0 && !pipeline->zones) {
         pipeline->zones = must_alloc(sizeof *pipeline->zones);
@@ -198,8 +206,8 @@ static void open_zones(struct pipeline *pipeline, const struct parameters *param
     }
 }
 
-/* What was learned of walls is kept when a clock was set. */
-static void open_wall_learning(struct pipeline *pipeline, const struct parameters *parameters)
+/* Creates the learning of walls once: it is kept across a reset of the tracker. */
+static void open_wall_learning_once(struct pipeline *pipeline, const struct parameters *parameters)
 {
     if (parameters->value[PARAMETER_LEARN_REFLECTORS] > 0 && !pipeline->learning) {
         pipeline->learning = must_alloc(sizeof *pipeline->learning);
@@ -208,7 +216,7 @@ static void open_wall_learning(struct pipeline *pipeline, const struct parameter
     }
 }
 
-static void note_settings(struct pipeline *pipeline, const struct parameters *parameters)
+static void record_settings(struct pipeline *pipeline, const struct parameters *parameters)
 {
     pipeline->settings = parameters_settings(parameters);
     if (!pipeline->is_told) {
@@ -221,7 +229,7 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
 {
     struct rho_tracker_config maintain;
 
-    note_settings(pipeline, parameters);
+    record_settings(pipeline, parameters);
     parameters_to_initiator(parameters, &pipeline->start);
     parameters_to_tracker(parameters, &maintain);
     pipeline->has_pairs = parameters->value[PARAMETER_INITIATORS] == INITIATORS_PAIRS;
@@ -241,16 +249,16 @@ void pipeline_open(struct pipeline *pipeline, const struct parameters *parameter
     must_succeed(
         rho_tracker_set_body_max(pipeline->tracker, (float)parameters->value[PARAMETER_BODY_MAX_M]),
         "body_max_m");
-    open_paper_starts(pipeline, parameters);
-    open_zones(pipeline, parameters);
-    open_wall_learning(pipeline, parameters);
+    open_paper_starts_if_chosen(pipeline, parameters);
+    open_zones_once(pipeline, parameters);
+    open_wall_learning_once(pipeline, parameters);
 }
 
 void pipeline_reconfigure(struct pipeline *pipeline, const struct parameters *parameters)
 {
     struct rho_tracker_config maintain;
 
-    note_settings(pipeline, parameters);
+    record_settings(pipeline, parameters);
     parameters_to_initiator(parameters, &pipeline->start);
     parameters_to_tracker(parameters, &maintain);
     must_succeed(rho_tracker_reconfigure(pipeline->tracker, &maintain), "tracker");
@@ -310,8 +318,7 @@ void pipeline_start_paper_tracks(struct pipeline *pipeline, const struct rho_sca
     } else if (frame && pipeline->paper &&
                rho_passive_paper_step(pipeline->paper, pipeline->tracker, frame,
                                       pipeline->report) != RHO_OK) {
-        pipeline_reopen_passive_paper(
-            pipeline); /* sensors that do not go with those of its batch */
+        pipeline_reopen_passive_paper(pipeline); /* the frame's sensors do not fit the batch */
     }
 }
 

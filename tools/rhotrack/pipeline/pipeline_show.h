@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* pipeline_show: what a pipeline's steps thought, as messages: the option --show. */
+/*
+ * pipeline_show: messages of the option --show: ghost matrices, accumulators and hypotheses of
+ * steps.
+ */
 #ifndef RHOTRACK_TOOL_PIPELINE_SHOW_H
 #define RHOTRACK_TOOL_PIPELINE_SHOW_H
 
@@ -10,27 +13,28 @@
 
 struct pipeline_show;
 
-/* Where messages go. */
+/* Callback that gets the messages. */
 struct pipeline_show_output {
     void *context;
     void (*send)(void *context, const char *channel, const uint8_t *data, size_t size);
 };
 
 /*
- * kinds: "ghosts,votes,hypotheses", or some of these; NULL: nothing is shown, returns NULL. A word
- * that is none of these, or a kind that no method of the parameters has: exit 2.
+ * Parses the kinds of --show, "ghosts,votes,hypotheses" or some of them; NULL returns NULL. Exit 2
+ * for an unknown kind, or one that none of the chosen methods has.
  */
 struct pipeline_show *pipeline_show_open(const char *kinds, const struct parameters *parameters);
 
 /*
- * After a step and the tracks that it started; a step of bearings is_frame. NULL: nothing.
- *   now_us  clock of the rates
+ * Sends the messages of a step, after the tracks that it started; is_frame: a step of bearings.
+ * Does nothing for show NULL.
+ *   now_us  clock of the rate limits
  */
 void pipeline_show_step(struct pipeline_show *show, struct pipeline *pipeline, bool is_frame,
                         int32_t step, int32_t epoch, int64_t now_us,
                         const struct pipeline_show_output *output);
 
-/* Messages of all kinds that their rates have left out so far. */
+/* Number of messages so far that the rate limits left out. */
 uint64_t pipeline_show_not_sent(const struct pipeline_show *show);
 
 void pipeline_show_close(struct pipeline_show *show);

@@ -10,16 +10,18 @@
 #include "base/common.h"
 #include "rhotrack/snapshot.h"
 
-/* Written at a time. */
+/* size of a write */
 #define PIECE_BYTES 65536
 
-/* The tracker's id: whose the initiators are. */
+/* Identifier of the tracker's part: how sensors share the initiators of the snapshot. */
 enum { OF_NOBODY, OF_SENSORS, OF_ALL, OF_PAIRS };
 
-/* Parts that are no initiators; a part of learned walls may follow. */
+/*
+ * Number of parts besides initiators: tracker, passive, two settings; learned walls are optional.
+ */
 enum { OTHERS = 4 };
 
-/* The settings' id. */
+/* Identifiers of the settings' parts: as at the start, and as changed by operators. */
 enum { SETTINGS_TOLD, SETTINGS_NOW };
 
 static int32_t initiator_sharing(const struct pipeline *pipeline)
@@ -30,8 +32,11 @@ static int32_t initiator_sharing(const struct pipeline *pipeline)
                                        : OF_SENSORS;
 }
 
-/* Tracker, initiators, passive, settings as told and as they are, learned walls; in new memory. */
-static struct rho_snapshot_part *list_parts(struct pipeline *pipeline, unsigned *num_parts)
+/*
+ * Lists the parts of a snapshot, in new memory: tracker, initiators, passive, both settings,
+ * learned walls.
+ */
+static struct rho_snapshot_part *list_snapshot_parts(struct pipeline *pipeline, unsigned *num_parts)
 {
     struct rho_snapshot_part *parts =
         must_calloc(pipeline->num_initiators + OTHERS + 1, sizeof *parts);
@@ -75,7 +80,8 @@ static bool write_all_bytes(int file, const uint8_t *bytes, size_t size)
     return true;
 }
 
-static bool write_image(int file, const struct rho_snapshot_part *parts, unsigned num_parts)
+static bool write_snapshot_to_disk(int file, const struct rho_snapshot_part *parts,
+                                   unsigned num_parts)
 {
     uint8_t piece[PIECE_BYTES];
     size_t at = 0, length = 0;
@@ -96,7 +102,7 @@ static bool write_image(int file, const struct rho_snapshot_part *parts, unsigne
 bool pipeline_save_snapshot(struct pipeline *pipeline, const char *path)
 {
     unsigned num_parts;
-    struct rho_snapshot_part *parts = list_parts(pipeline, &num_parts);
+    struct rho_snapshot_part *parts = list_snapshot_parts(pipeline, &num_parts);
     size_t room = strlen(path) + sizeof ".part";
     char *beside = must_alloc(room);
     bool is_saved = false;
@@ -105,7 +111,7 @@ bool pipeline_save_snapshot(struct pipeline *pipeline, const char *path)
     snprintf(beside, room, "%s.part", path);
     file = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file >= 0) {
-        is_saved = write_image(file, parts, num_parts);
+        is_saved = write_snapshot_to_disk(file, parts, num_parts);
         reason = errno;
         is_saved = close(file) == 0 && is_saved && rename(beside, path) == 0;
         if (!is_saved) {
@@ -121,8 +127,8 @@ bool pipeline_save_snapshot(struct pipeline *pipeline, const char *path)
 
 /* ---- Restore ---- */
 
-/* The file's bytes in new memory, NULL where there are none. */
-static uint8_t *read_file(const char *path, size_t *size)
+/* Reads a file into new memory; NULL where it is missing. Exit 1 where it cannot be read. */
+static uint8_t *read_file_if_present(const char *path, size_t *size)
 {
     FILE *file = fopen(path, "rb");
     uint8_t *bytes = NULL;
@@ -156,7 +162,7 @@ static enum pipeline_restored refuse_snapshot(const char *path, const char *why)
     return PIPELINE_REFUSED;
 }
 
-static const char *refusal_reason(enum rho_status status)
+static const char *snapshot_refusal_reason(enum rho_status status)
 {
     switch ((int)status) {
     case RHO_ERROR_TYPE:
@@ -168,9 +174,12 @@ static const char *refusal_reason(enum rho_status status)
     }
 }
 
-/* The initiators that the image has: true where a pipeline with such parameters can have them. */
-static bool add_initiators(struct pipeline *pipeline, const struct rho_snapshot_part *parts,
-                           unsigned num_parts)
+/*
+ * Adds the initiators that a snapshot has; false where a pipeline with these parameters cannot have
+ * them.
+ */
+static bool add_initiators_of_snapshot(struct pipeline *pipeline,
+                                       const struct rho_snapshot_part *parts, unsigned num_parts)
 {
     const unsigned others = OTHERS + (pipeline->learning ? 1 : 0);
     const bool has_sensors = parts[0].id == OF_SENSORS || parts[0].id == OF_PAIRS;
@@ -189,17 +198,19 @@ static bool is_same_memory(const void *one, const void *other, size_t size)
 }
 
 /*
- * Into a pipeline that was opened: its parameters are those to be, with the settings that an
- * operator has changed since.
+ * Loads a snapshot into an opened pipeline, and takes settings that an operator had changed into
+ * the parameters. *is_other: the snapshot was made with other parameters.
  */
-static enum rho_status load_image(struct pipeline *pipeline, struct parameters *parameters,
-                                  const uint8_t *image, size_t size, bool *is_other)
+static enum rho_status load_and_compare_parameters(struct pipeline *pipeline,
+                                                   struct parameters *parameters,
+                                                   const uint8_t *image, size_t size,
+                                                   bool *is_other)
 {
     const struct rho_passive_config search = pipeline->passive->config;
     const struct rho_settings told = pipeline->told;
     struct rho_tracker_config maintain;
     unsigned num_parts;
-    struct rho_snapshot_part *parts = list_parts(pipeline, &num_parts);
+    struct rho_snapshot_part *parts = list_snapshot_parts(pipeline, &num_parts);
     enum rho_status status = rho_snapshot_load(parts, num_parts, image, size);
 
     free(parts);
@@ -219,9 +230,10 @@ static enum rho_status load_image(struct pipeline *pipeline, struct parameters *
     return status;
 }
 
-static enum pipeline_restored replace_by_snapshot(struct pipeline *pipeline,
-                                                  struct parameters *parameters, const char *path,
-                                                  const uint8_t *image, size_t size)
+static enum pipeline_restored replace_pipeline_by_snapshot(struct pipeline *pipeline,
+                                                           struct parameters *parameters,
+                                                           const char *path, const uint8_t *image,
+                                                           size_t size)
 {
     struct parameters changed = *parameters;
     unsigned num_parts = 0;
@@ -230,7 +242,7 @@ static enum pipeline_restored replace_by_snapshot(struct pipeline *pipeline,
     bool is_other;
 
     if (status != RHO_OK) {
-        return refuse_snapshot(path, refusal_reason(status));
+        return refuse_snapshot(path, snapshot_refusal_reason(status));
     }
     struct rho_snapshot_part *parts = must_calloc(num_parts + 1, sizeof *parts);
     (void)!rho_snapshot_list(image, size, parts, num_parts, &num_parts);
@@ -239,13 +251,14 @@ static enum pipeline_restored replace_by_snapshot(struct pipeline *pipeline,
     memset(fresh.report, 0, sizeof *fresh.report);
     pipeline_open(&fresh, parameters);
     pipeline_open_passive(&fresh, parameters);
-    is_other = num_parts < OTHERS + 1 || !add_initiators(&fresh, parts, num_parts);
-    status = is_other ? RHO_OK : load_image(&fresh, &changed, image, size, &is_other);
+    is_other = num_parts < OTHERS + 1 || !add_initiators_of_snapshot(&fresh, parts, num_parts);
+    status =
+        is_other ? RHO_OK : load_and_compare_parameters(&fresh, &changed, image, size, &is_other);
     free(parts);
     if (is_other || status != RHO_OK) {
         pipeline_free(&fresh);
         return refuse_snapshot(path, is_other ? "a snapshot with other parameters"
-                                              : refusal_reason(status));
+                                              : snapshot_refusal_reason(status));
     }
     fresh.initiator = fresh.initiators[0].initiator;
     pipeline_free(pipeline);
@@ -260,13 +273,13 @@ enum pipeline_restored pipeline_restore_snapshot(struct pipeline *pipeline,
     static const char magic[] = "rhosnap\n";
     enum pipeline_restored restored = PIPELINE_NO_FILE;
     size_t size;
-    uint8_t *image = read_file(path, &size);
+    uint8_t *image = read_file_if_present(path, &size);
 
     if (size > 0 && (size < 8 || memcmp(image, magic, 8) != 0)) {
         fail(EXIT_USAGE, "%s: is no snapshot, and would be written over", path);
     }
     if (size > 0) {
-        restored = replace_by_snapshot(pipeline, parameters, path, image, size);
+        restored = replace_pipeline_by_snapshot(pipeline, parameters, path, image, size);
     }
     free(image);
     return restored;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * pipeline_windows: which sensors' plots start tracks together.
+ * shared_windows: which radars share an initiation window.
  *
- * Two radars that see much the same ground start tracks from one window: with twice as many plots a
- * second they find targets sooner. They pair in the order in which they were described. Three are
- * too many for a window of seven scans, and the faster of two whose turns differ much would leave
- * the other no room. Live, sensors that the config does not name pair with nobody: a stranger's
- * scans would take half of a radar's window.
+ * Two radars with much the same coverage start tracks from one window: with twice the plot rate
+ * they find targets sooner. Radars pair in the order of their descriptions. Three radars would be
+ * too many for a window of seven scans, and of two with very different revolution times the faster
+ * would fill the window. In live operation, sensors that the configuration does not name share no
+ * window: a stranger's scans would take half of it.
  */
 #include <math.h>
 
@@ -14,19 +14,19 @@
 #include "rhotrack/detail/angle.h"
 
 /*
- * The places' distance and the ranges' difference, together, are at most this share of the shorter
- * range: then each sees about half of what the other sees.
+ * Coverages are much the same where the distance of the radars plus the difference of their ranges
+ * is at most this share of the shorter range: each then sees about half of the other's coverage.
  */
 #define APART_MAX 0.8f
 /*
- * Turns of one during a turn of the other; fewer where they have parted, so that they do not part
- * and pair again by turns.
+ * Largest ratio of two radars' revolution times in a shared window; smaller for pairing again after
+ * a separation, so that radars do not pair and part repeatedly.
  */
 #define TURNS_MAX 1.5f
 #define TURNS_AGAIN_MAX 1.4f
 
-/* Time from one look to the next; 0: not known yet. */
-static float look_interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
+/* Interval between a sensor's scans; 0: not known yet. */
+static float sensor_scan_interval_s(const struct rho_tracker *tracker, int32_t sensor_id)
 {
     for (unsigned i = 0; i < RHO_MAX_SENSORS; i++) {
         if (tracker->paces[i].sensor_id == sensor_id) {
@@ -36,12 +36,13 @@ static float look_interval_s(const struct rho_tracker *tracker, int32_t sensor_i
     return 0.0f;
 }
 
-static bool see_same_ground(const struct rho_tracker *tracker, const struct rho_sensor *one,
-                            const struct rho_sensor *other, float turns_max)
+static bool have_like_coverage_and_turns(const struct rho_tracker *tracker,
+                                         const struct rho_sensor *one,
+                                         const struct rho_sensor *other, float turns_max)
 {
     const float apart_m = hypotf(one->x_m - other->x_m, one->y_m - other->y_m);
-    const float one_s = look_interval_s(tracker, one->sensor_id);
-    const float other_s = look_interval_s(tracker, other->sensor_id);
+    const float one_s = sensor_scan_interval_s(tracker, one->sensor_id);
+    const float other_s = sensor_scan_interval_s(tracker, other->sensor_id);
     const bool is_known = one_s > 0.0f && other_s > 0.0f;
 
     return rho_angle_is_circle(one->sector_from_rad, one->sector_to_rad) &&
@@ -52,9 +53,9 @@ static bool see_same_ground(const struct rho_tracker *tracker, const struct rho_
 }
 
 /*
- * Its plots were in a window of its own at some time: it has parted from whom it might pair with.
+ * True where the sensor had a window of its own before: it has parted from a window that it shared.
  */
-static bool had_own_window(const struct pipeline *pipeline, int32_t sensor_id)
+static bool had_sensor_own_window(const struct pipeline *pipeline, int32_t sensor_id)
 {
     for (size_t i = 0; i < pipeline->num_initiators && pipeline->has_sensor; i++) {
         if (pipeline->initiators[i].sensor_id == sensor_id) {
@@ -64,7 +65,7 @@ static bool had_own_window(const struct pipeline *pipeline, int32_t sensor_id)
     return false;
 }
 
-static bool is_sensor_in_config(const struct pipeline *pipeline, int32_t sensor_id)
+static bool may_sensor_share_window(const struct pipeline *pipeline, int32_t sensor_id)
 {
     for (size_t i = 0; i < pipeline->num_named && pipeline->is_live; i++) {
         if (pipeline->named[i] == sensor_id) {
@@ -88,12 +89,12 @@ int32_t pipeline_window_of(const struct pipeline *pipeline, const struct rho_sca
         for (unsigned j = i + 1; j < tracker->num_sensors && !is_paired[i]; j++) {
             const struct rho_sensor *other = &tracker->sensors[j];
 
-            is_paired[i] =
-                !is_paired[j] && is_sensor_in_config(pipeline, one->sensor_id) &&
-                is_sensor_in_config(pipeline, other->sensor_id) &&
-                see_same_ground(tracker, one, other,
-                                had_own_window(pipeline, other->sensor_id) ? TURNS_AGAIN_MAX
-                                                                           : TURNS_MAX);
+            is_paired[i] = !is_paired[j] && may_sensor_share_window(pipeline, one->sensor_id) &&
+                           may_sensor_share_window(pipeline, other->sensor_id) &&
+                           have_like_coverage_and_turns(
+                               tracker, one, other,
+                               had_sensor_own_window(pipeline, other->sensor_id) ? TURNS_AGAIN_MAX
+                                                                                 : TURNS_MAX);
             is_paired[j] |= is_paired[i];
             if (is_paired[i] && other->sensor_id == scan->sensor_id) {
                 return one->sensor_id;

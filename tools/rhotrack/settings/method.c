@@ -52,15 +52,16 @@ static void suggest_bearing_parameters(struct parameters *parameters, double rho
 void method_suggest_parameters(enum method method, struct parameters *parameters)
 {
     if (method == METHOD_PASSIVE) {
-        suggest_bearing_parameters(parameters, 2000, M_PI / 36, 0); /* safe */
+        suggest_bearing_parameters(parameters, 2000, M_PI / 36, 0); /* prune: safe */
         parameters_suggest(parameters, PARAMETER_ACCEL_MAX_MPS2, 5);
     } else if (method == METHOD_PASSIVE_PAPER) {
-        suggest_bearing_parameters(parameters, 1000, M_PI / 90, 1); /* literal */
-        parameters_suggest(parameters, PARAMETER_VOTE, 0);          /* scans */
-    } else if (method != METHOD_KERNEL) {                           /* the paper's */
+        suggest_bearing_parameters(parameters, 1000, M_PI / 90, 1); /* prune: literal */
+        parameters_suggest(parameters, PARAMETER_VOTE, 0);          /* vote: scans */
+        /* values of the papers for ht, mht, iht, nht */
+    } else if (method != METHOD_KERNEL) {
         parameters_suggest(parameters, PARAMETER_V_MIN_MPS, 100);
         parameters_suggest(parameters, PARAMETER_V_MAX_MPS, 400);
-        parameters_suggest(parameters, PARAMETER_VOTE, 1); /* counts */
+        parameters_suggest(parameters, PARAMETER_VOTE, 1); /* vote: counts */
     }
 }
 
@@ -79,20 +80,23 @@ static enum rho_hough_method hough_method_of(enum method method,
     }
 }
 
-/* Cells of rho to either side that hold every line through such plots. */
-static double count_cells(double range_m, double cell_m)
+/* Cells of rho on each side of 0 that hold all lines through plots within range_m. */
+static double count_rho_cells(double range_m, double cell_m)
 {
     return floor(range_m / cell_m) + 1.0;
 }
 
-/* The least cell of three digits that leaves few enough. */
-static double least_cell_for(double range_m)
+/*
+ * Smallest cell of rho, rounded up to three digits, whose number of cells does not exceed
+ * RHO_MAX_RHO_CELLS.
+ */
+static double smallest_rho_cell_m(double range_m)
 {
     double cell_m = 2.0 * range_m / (RHO_MAX_RHO_CELLS - 2);
     double digit_m = pow(10.0, floor(log10(cell_m)) - 2.0);
 
     cell_m = ceil(cell_m / digit_m) * digit_m;
-    while (2.0 * count_cells(range_m, cell_m) > RHO_MAX_RHO_CELLS) {
+    while (2.0 * count_rho_cells(range_m, cell_m) > RHO_MAX_RHO_CELLS) {
         cell_m += digit_m;
     }
     return cell_m;
@@ -103,26 +107,27 @@ void method_fit_cells(struct parameters *parameters, double range_m)
     const double *value = parameters->value;
     const double eps_cells = value[PARAMETER_EPS_RHO_M] / value[PARAMETER_D_RHO_M];
 
-    if (2.0 * count_cells(range_m, value[PARAMETER_D_RHO_M]) > RHO_MAX_RHO_CELLS) {
-        parameters_suggest(parameters, PARAMETER_D_RHO_M, least_cell_for(range_m));
-        parameters_suggest(parameters, PARAMETER_EPS_RHO_M, eps_cells * least_cell_for(range_m));
+    if (2.0 * count_rho_cells(range_m, value[PARAMETER_D_RHO_M]) > RHO_MAX_RHO_CELLS) {
+        parameters_suggest(parameters, PARAMETER_D_RHO_M, smallest_rho_cell_m(range_m));
+        parameters_suggest(parameters, PARAMETER_EPS_RHO_M,
+                           eps_cells * smallest_rho_cell_m(range_m));
     }
 }
 
-static double cells_for(double range_m, double cell_m)
+static double must_count_rho_cells(double range_m, double cell_m)
 {
-    double cells = count_cells(range_m, cell_m);
+    double cells = count_rho_cells(range_m, cell_m);
 
     if (2.0 * cells > RHO_MAX_RHO_CELLS) {
         fail(EXIT_USAGE,
              "plots %.0f m from the origin take %.0f cells of rho at d_rho_m %.9g; there are %d: "
              "d_rho_m %.3g would do",
-             range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS, least_cell_for(range_m));
+             range_m, 2.0 * cells, cell_m, RHO_MAX_RHO_CELLS, smallest_rho_cell_m(range_m));
     }
     return cells;
 }
 
-/* 2 eps spans at most so many cells. */
+/* Exit 2 where the neighbourhood of +-eps spans more cells than RHO_HOUGH_REACH_MAX. */
 static void check_cells_in_eps(const struct parameters *parameters, enum parameter_id eps,
                                enum parameter_id cell)
 {
@@ -143,7 +148,8 @@ struct rho_hough_config method_hough_config(enum method method, const struct par
     check_cells_in_eps(parameters, PARAMETER_EPS_THETA_RAD, PARAMETER_D_THETA_RAD);
     rho_hough_config_default(&config, hough_method_of(method, parameters));
     config.rho_cell_m = (float)value[PARAMETER_D_RHO_M];
-    config.rho_max_m = (float)cells_for(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;
+    config.rho_max_m =
+        (float)must_count_rho_cells(range_m, value[PARAMETER_D_RHO_M]) * config.rho_cell_m;
     config.theta_cell_rad = (float)value[PARAMETER_D_THETA_RAD];
     config.eps_rho_m = (float)value[PARAMETER_EPS_RHO_M];
     config.eps_theta_rad = (float)value[PARAMETER_EPS_THETA_RAD];
@@ -158,11 +164,14 @@ struct rho_hough_config method_hough_config(enum method method, const struct par
     return config;
 }
 
-#define MORE_SHARE 0.28 /* of range_max_m, beyond it: as customary cells have it */
+/* margin of the accumulator beyond range_max_m, as with the customary cells */
+#define MORE_SHARE 0.28
 
-/* Cells of rho that hold range_max_m and half of the sensors' distance, where the customary ones do
- * not. */
-static void fit_cells_of_bearings(struct parameters *parameters, int rho_cells)
+/*
+ * Suggests larger cells of rho where the customary ones do not hold range_max_m plus half the
+ * largest distance between passive sensors.
+ */
+static void suggest_rho_cells_for_bearings(struct parameters *parameters, int rho_cells)
 {
     const double range_m = parameters->value[PARAMETER_RANGE_MAX_M];
     const double half_m = range_m + 0.5 * parameters->passive_apart_m;
@@ -174,8 +183,9 @@ static void fit_cells_of_bearings(struct parameters *parameters, int rho_cells)
     }
 }
 
-/* Parameters of both methods for bearings. */
-static void check_bearings(const struct parameters *parameters, int rho_cells, int theta_cells)
+/* Exit 2 where parameters do not suit the methods for bearings, or their accumulators. */
+static void check_bearing_parameters(const struct parameters *parameters, int rho_cells,
+                                     int theta_cells)
 {
     const double *value = parameters->value;
     double cells = 2.0 * value[PARAMETER_RANGE_MAX_M] / value[PARAMETER_D_RHO_M];
@@ -213,8 +223,8 @@ struct rho_passive_config method_passive_config(const struct parameters *paramet
     struct rho_passive_config config;
     struct rho_settings settings;
 
-    fit_cells_of_bearings(&fitted, RHO_PASSIVE_RHO_CELLS);
-    check_bearings(&fitted, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
+    suggest_rho_cells_for_bearings(&fitted, RHO_PASSIVE_RHO_CELLS);
+    check_bearing_parameters(&fitted, RHO_PASSIVE_RHO_CELLS, RHO_PASSIVE_THETA_CELLS);
     settings = parameters_settings(&fitted);
     rho_passive_config_default(&config);
     rho_settings_apply(&settings, NULL, NULL, &config);
@@ -231,8 +241,8 @@ struct rho_passive_paper_config method_passive_paper_config(const struct paramet
     const double *value = fitted.value;
     struct rho_passive_paper_config config;
 
-    fit_cells_of_bearings(&fitted, RHO_PAPER_RHO_CELLS);
-    check_bearings(&fitted, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
+    suggest_rho_cells_for_bearings(&fitted, RHO_PAPER_RHO_CELLS);
+    check_bearing_parameters(&fitted, RHO_PAPER_RHO_CELLS, RHO_PAPER_THETA_CELLS);
     if (value[PARAMETER_VOTES_MIN] > 255) {
         fail(EXIT_USAGE, "votes_min %.9g is more than 255, what passive-paper counts to",
              value[PARAMETER_VOTES_MIN]);

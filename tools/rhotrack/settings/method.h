@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* method: the initiation methods by name, and what is customary with each. */
+/*
+ * method: initiation methods by name, their customary parameter values, and their configurations.
+ */
 #ifndef RHOTRACK_TOOL_METHOD_H
 #define RHOTRACK_TOOL_METHOD_H
 
@@ -26,36 +28,36 @@ enum method {
 
 const char *method_name(enum method method);
 
-/* It takes bearings, not plots. */
+/* True where the method takes bearings; false where it takes plots. */
 bool method_takes_bearings(enum method method);
 
-/* The parameters method and bearings_method. */
+/* The methods that the parameters method (plots) and bearings_method (bearings) choose. */
 enum method method_of_plots(const struct parameters *parameters);
 enum method method_of_bearings(const struct parameters *parameters);
 
-/* Unknown: exit 2 with the list. */
+/* Finds a method by its name; exit 2 with the list of methods for an unknown name. */
 enum method method_find(const char *name);
 
-/* The method's own customary values (parameters_suggest). */
+/* Suggests the method's customary parameter values (parameters_suggest). */
 void method_suggest_parameters(enum method method, struct parameters *parameters);
 
 /*
- * Suggests cells of rho, and epsilon with them, that hold plots so far from the origin, where the
- * customary ones do not.
+ * Suggests larger cells of rho, and a larger eps_rho_m with them, where the accumulator would not
+ * hold plots within range_m of the origin.
  */
 void method_fit_cells(struct parameters *parameters, double range_m);
 
 /*
- * The config of ht, mht, iht and nht, for plots at most so far from the origin. Exit 2 where that
- * takes more cells of rho than there are.
+ * Configuration of ht, mht, iht or nht for plots within range_m of the origin. Exit 2 where that
+ * takes more cells of rho than the accumulator has.
  */
 struct rho_hough_config method_hough_config(enum method method, const struct parameters *parameters,
                                             double range_m);
 
 /*
- * The config of passive, and of passive-paper, with cells of rho that hold range_max_m and the
- * parameters' passive_apart_m where d_rho_m is not set. Exit 2 where cells as set do not hold
- * range_max_m or half a turn, or they take no such scans, range or votes.
+ * Configurations of passive and passive-paper. Where d_rho_m is not set, cells of rho are enlarged
+ * to hold range_max_m and passive_apart_m. Exit 2 where cells as set do not hold range_max_m or
+ * half a turn, or scans, range_max_m or votes_min are outside the method's limits.
  */
 struct rho_passive_config method_passive_config(const struct parameters *parameters);
 struct rho_passive_paper_config method_passive_paper_config(const struct parameters *parameters);

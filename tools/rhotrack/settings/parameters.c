@@ -24,7 +24,7 @@ static const struct parameter_text sensor_texts[NUM_SENSOR_PARAMETERS] = {
 #undef X
 };
 
-/* Parameters that are words. */
+/* The words that a parameter of words accepts, "a|b|c"; NULL for numeric parameters. */
 static const char *parameter_choices(enum parameter_id id)
 {
     switch (id) {
@@ -62,8 +62,9 @@ struct parameter_text parameters_text(enum parameter_id id)
     return text;
 }
 
-/* The words of a sum, joined by +. */
-static void sum_text(const char *words, unsigned sum, char buffer[PARAMETER_VALUE_BYTES])
+/* Formats a sum of powers of 2 as the words for its bits, joined by +. */
+static void format_sum_of_choices(const char *words, unsigned sum,
+                                  char buffer[PARAMETER_VALUE_BYTES])
 {
     size_t length = 0;
 
@@ -85,7 +86,7 @@ const char *parameters_value_text(const struct parameter_text *text, double valu
 
     snprintf(buffer, PARAMETER_VALUE_BYTES, "%.9g", value);
     if (text->is_sum) {
-        sum_text(word, (unsigned)value, buffer);
+        format_sum_of_choices(word, (unsigned)value, buffer);
         return buffer;
     }
     for (int i = (int)value; word && i > 0; i--) {
@@ -134,8 +135,8 @@ static const char *sensor_parameter_name_at(size_t index)
                                             : NULL;
 }
 
-/* Index of a name, or -1 and the reason with a hint. */
-static int find_parameter_name(const char *key, name_by_index name, char *reason)
+/* Index of a parameter's name; -1, with the reason and a suggestion, where it is unknown. */
+static int index_of_parameter_name(const char *key, name_by_index name, char *reason)
 {
     const char *known, *hint;
 
@@ -150,8 +151,8 @@ static int find_parameter_name(const char *key, name_by_index name, char *reason
     return -1;
 }
 
-/* The number of a word of so many bytes among "a|b|c", or -1. */
-static int find_choice(const char *words, const char *word, size_t bytes)
+/* Index of a word of `bytes` characters among the choices "a|b|c"; -1 where it is none of them. */
+static int index_of_choice(const char *words, const char *word, size_t bytes)
 {
     for (int i = 0;; i++, words++) {
         size_t length = strcspn(words, "|");
@@ -166,14 +167,14 @@ static int find_choice(const char *words, const char *word, size_t bytes)
     }
 }
 
-/* The sum of 1, 2, 4, ... of the words in "a+b", in any order, or -1. */
-static int find_sum_of_choices(const char *words, const char *cell)
+/* Parses "a+b" as the sum of 2^index of its words among the choices; -1 for an unknown word. */
+static int parse_sum_of_choices(const char *words, const char *cell)
 {
     unsigned sum = 0;
 
     for (;; cell++) {
         size_t bytes = strcspn(cell, "+");
-        int index = find_choice(words, cell, bytes);
+        int index = index_of_choice(words, cell, bytes);
 
         if (index < 0) {
             return -1;
@@ -186,11 +187,11 @@ static int find_sum_of_choices(const char *words, const char *cell)
     }
 }
 
-static bool read_choice_value(const struct parameter_text *text, const char *cell, double *value,
-                              char *reason)
+static bool parse_choice_value(const struct parameter_text *text, const char *cell, double *value,
+                               char *reason)
 {
-    *value = text->is_sum ? find_sum_of_choices(text->choices, cell)
-                          : find_choice(text->choices, cell, strlen(cell));
+    *value = text->is_sum ? parse_sum_of_choices(text->choices, cell)
+                          : index_of_choice(text->choices, cell, strlen(cell));
     if (*value < 0) {
         snprintf(reason, PARAMETER_REASON_BYTES, "%s '%.60s' is not one of %s%s", text->name, cell,
                  text->choices, text->is_sum ? ", or several joined by +" : "");
@@ -198,14 +199,14 @@ static bool read_choice_value(const struct parameter_text *text, const char *cel
     return *value >= 0;
 }
 
-static bool read_value(const struct parameter_text *text, const char *cell, double *value,
-                       char *reason)
+static bool parse_parameter_value(const struct parameter_text *text, const char *cell,
+                                  double *value, char *reason)
 {
     double number;
     const char *why;
 
     if (text->choices) {
-        return read_choice_value(text, cell, value, reason);
+        return parse_choice_value(text, cell, value, reason);
     }
     why = text_to_number(cell, &number);
     if (why) {
@@ -224,7 +225,10 @@ static bool read_value(const struct parameter_text *text, const char *cell, doub
     return false;
 }
 
-/* Range rates that are ambiguous by next to nothing say nothing. */
+/*
+ * Fails for range-rate spans above 0 and below RHO_LIMIT_SPAN_MIN_MPS: range rates so ambiguous
+ * carry no information.
+ */
 static bool check_range_rate_span(double span_mps, char *reason)
 {
     bool is_span = span_mps <= 0.0 || span_mps >= (double)RHO_LIMIT_SPAN_MIN_MPS;
@@ -257,7 +261,7 @@ static const struct sensor_parameters *find_sensor(const struct parameters *para
     return NULL;
 }
 
-/* The sensor, added where it is new; NULL where there is no room. */
+/* Finds a sensor's parameters, or adds an empty entry; NULL where there is no room. */
 static struct sensor_parameters *find_or_add_sensor(struct parameters *parameters,
                                                     int32_t sensor_id)
 {
@@ -301,8 +305,11 @@ static bool is_utf8(const char *text)
     return is_text;
 }
 
-/* It stands in lines and in labels: characters that end those are none of a name. */
-static const char *refuse_sensor_name(const char *value)
+/*
+ * Reason why a text cannot be a sensor's name, which is printed in lines and in quoted labels;
+ * NULL: it can.
+ */
+static const char *why_not_sensor_name(const char *value)
 {
     if (strlen(value) >= SENSOR_NAME_BYTES) {
         return "is too long";
@@ -320,7 +327,7 @@ static bool assign_sensor_name(struct parameters *parameters, int32_t sensor_id,
 {
     const struct sensor_name *known = find_sensor_name(parameters, sensor_id);
     struct sensor_name *name;
-    const char *why = refuse_sensor_name(value);
+    const char *why = why_not_sensor_name(value);
 
     if (why) {
         snprintf(reason, PARAMETER_REASON_BYTES, "name '%.60s' %s", value, why);
@@ -342,9 +349,9 @@ static bool assign_sensor_name(struct parameters *parameters, int32_t sensor_id,
     return true;
 }
 
-/* key: "N.name". */
-static bool assign_sensor(struct parameters *parameters, const char *key, const char *value,
-                          enum parameter_source source, char *reason)
+/* Assigns a sensor's parameter; key: "N.name", with the sensor's number N. */
+static bool assign_sensor_parameter(struct parameters *parameters, const char *key,
+                                    const char *value, enum parameter_source source, char *reason)
 {
     const char *dot = strchr(key, '.');
     char digits[16] = "";
@@ -361,11 +368,11 @@ static bool assign_sensor(struct parameters *parameters, const char *key, const 
                  "'sensor.%.60s' is not sensor.N.key with a whole number N", key);
         return false;
     }
-    id = find_parameter_name(dot + 1, sensor_parameter_name_at, reason);
+    id = index_of_parameter_name(dot + 1, sensor_parameter_name_at, reason);
     if (id == NUM_SENSOR_PARAMETERS) {
         return assign_sensor_name(parameters, sensor_id, value, source, reason);
     }
-    if (id < 0 || !read_value(&sensor_texts[id], value, &number, reason) ||
+    if (id < 0 || !parse_parameter_value(&sensor_texts[id], value, &number, reason) ||
         (id == SENSOR_RANGE_RATE_SPAN_MPS && !check_range_rate_span(number, reason))) {
         return false;
     }
@@ -378,7 +385,7 @@ static bool assign_sensor(struct parameters *parameters, const char *key, const 
     return true;
 }
 
-/* sensors_allowed: numbers of sensors, with blanks or commas between them; empty: all. */
+/* Assigns sensors_allowed: sensors' numbers, separated by blanks or commas; empty: all sensors. */
 static bool assign_allowed_sensors(struct parameters *parameters, const char *value,
                                    enum parameter_source source,
                                    char reason[PARAMETER_REASON_BYTES])
@@ -431,17 +438,17 @@ bool parameters_assign(struct parameters *parameters, const char *key, const cha
         return parameters_assign_reflectors(parameters, value, source, reason);
     }
     if (!strncmp(key, prefix, sizeof prefix - 1)) {
-        return assign_sensor(parameters, key + sizeof prefix - 1, value, source, reason);
+        return assign_sensor_parameter(parameters, key + sizeof prefix - 1, value, source, reason);
     }
     if (!strncmp(key, "zone.", strlen("zone."))) {
         return parameters_assign_zone(parameters, key + strlen("zone."), value, source, reason);
     }
-    id = find_parameter_name(key, parameter_name_at, reason);
+    id = index_of_parameter_name(key, parameter_name_at, reason);
     if (id < 0) {
         return false;
     }
     text = parameters_text((enum parameter_id)id);
-    if (!read_value(&text, value, &number, reason) ||
+    if (!parse_parameter_value(&text, value, &number, reason) ||
         (id == PARAMETER_RANGE_RATE_SPAN_MPS && !check_range_rate_span(number, reason))) {
         return false;
     }
@@ -535,7 +542,7 @@ static void check_parameter_below(const struct parameters *parameters, enum para
     }
 }
 
-static void check_scan_numbers(const struct parameters *parameters)
+static void check_min_scans(const struct parameters *parameters)
 {
     double scans = parameters->value[PARAMETER_SCANS];
     double min_scans = parameters->value[PARAMETER_MIN_SCANS];
@@ -548,7 +555,7 @@ static void check_scan_numbers(const struct parameters *parameters)
     }
 }
 
-static void check_area(const struct parameters *parameters)
+static void check_area_sides(const struct parameters *parameters)
 {
     int num_set = 0;
 
@@ -568,8 +575,10 @@ static void check_area(const struct parameters *parameters)
     check_parameter_below(parameters, PARAMETER_AREA_Y_MIN_M, PARAMETER_AREA_Y_MAX_M);
 }
 
-/* Blind speeds whose notches overlap would leave nothing to see. */
-static void check_notch(double notch_mps, double blind_mps, const char *of)
+/*
+ * Exit 2 where the notches at multiples of the blind speed overlap, so that no target is visible.
+ */
+static void check_blind_speed(double notch_mps, double blind_mps, const char *of)
 {
     if (blind_mps > 0.0 && blind_mps <= 2.0 * notch_mps) {
         fail(EXIT_USAGE, "%sblind_speed_mps %.9g is not more than twice notch_mps %.9g", of,
@@ -584,10 +593,10 @@ void parameters_check_together(const struct parameters *parameters)
 
     check_parameter_below(parameters, PARAMETER_V_MIN_MPS, PARAMETER_V_MAX_MPS);
     check_parameter_below(parameters, PARAMETER_RANGE_MIN_M, PARAMETER_RANGE_MAX_M);
-    check_scan_numbers(parameters);
-    check_area(parameters);
-    check_notch(parameters->value[PARAMETER_NOTCH_MPS],
-                parameters->value[PARAMETER_BLIND_SPEED_MPS], "");
+    check_min_scans(parameters);
+    check_area_sides(parameters);
+    check_blind_speed(parameters->value[PARAMETER_NOTCH_MPS],
+                      parameters->value[PARAMETER_BLIND_SPEED_MPS], "");
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         int32_t id = parameters->sensors[i].sensor_id;
         double low = parameters_value_of_sensor(parameters, id, SENSOR_RANGE_MIN_M, range_min_m);
@@ -599,10 +608,10 @@ void parameters_check_together(const struct parameters *parameters)
                  low, high);
         }
         snprintf(of, sizeof of, "sensor %d: ", (int)id);
-        check_notch(parameters_value_of_sensor(parameters, id, SENSOR_NOTCH_MPS,
-                                               parameters->value[PARAMETER_NOTCH_MPS]),
-                    parameters_value_of_sensor(parameters, id, SENSOR_BLIND_SPEED_MPS,
-                                               parameters->value[PARAMETER_BLIND_SPEED_MPS]),
-                    of);
+        check_blind_speed(parameters_value_of_sensor(parameters, id, SENSOR_NOTCH_MPS,
+                                                     parameters->value[PARAMETER_NOTCH_MPS]),
+                          parameters_value_of_sensor(parameters, id, SENSOR_BLIND_SPEED_MPS,
+                                                     parameters->value[PARAMETER_BLIND_SPEED_MPS]),
+                          of);
     }
 }

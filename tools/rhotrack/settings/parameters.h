@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * parameters: every --set name with its unit, default and range, and where its value came from.
+ * parameters: all parameters of --set and --config: units, defaults, ranges, values and their
+ * sources.
  *
- * Precedence, highest first: CSV column (the readers'), --set, --config FILE (INI), the method's or
- * scenario's own default, the default of the table below.
+ * Precedence, highest first: CSV column (applied by the readers), --set, --config FILE (INI), a
+ * method's or scenario's own default, the default of the table below.
  */
 #ifndef RHOTRACK_TOOL_PARAMETERS_H
 #define RHOTRACK_TOOL_PARAMETERS_H
@@ -20,8 +21,8 @@
 #include "rhotrack/zones.h"
 
 /*
- * X(id, name, unit, default, min, max, is_integer, has_default, text). has_default 0: unset until
- * someone sets it.
+ * Table of parameters: X(id, name, unit, default, min, max, is_integer, has_default, text). A
+ * parameter with has_default 0 is unset until a source sets it.
  */
 #define PARAMETERS(X)                                                                              \
     X(SCANS, "scans", "-", 7, 3, 12, 1, 1, "N: scans in the initiation window")                    \
@@ -190,7 +191,7 @@ enum parameter_id {
     PARAMETERS(X)
 #undef X
         NUM_PARAMETERS,
-    /* Settings of the experiments' scenarios (scenario.h); no user sets them. */
+    /* Settings of experiments' scenarios, without names: not settable by users. */
     PARAMETER_CLUTTER_PER_KM2 = NUM_PARAMETERS,
     PARAMETER_CLUTTER_PER_SCAN,
     PARAMETER_TRUE_PD,
@@ -205,8 +206,8 @@ enum parameter_id {
 enum parameter_source { SOURCE_UNSET, SOURCE_DEFAULT, SOURCE_METHOD, SOURCE_CONFIG, SOURCE_SET };
 
 /*
- * A sensor's own: INI section [sensor N], or --set sensor.N.key=value. X(id, name, unit, min, max,
- * text).
+ * Table of the parameters of a single sensor, of INI section [sensor N] or --set
+ * sensor.N.key=value: X(id, name, unit, min, max, text).
  */
 #define SENSOR_PARAMETERS(X)                                                                       \
     X(PD, "pd", "-", 0.01, 0.999, "assumed probability of detection")                              \
@@ -255,12 +256,16 @@ enum sensor_parameter_id {
 struct sensor_parameters {
     int32_t sensor_id;
     double value[NUM_SENSOR_PARAMETERS];
-    enum parameter_source source[NUM_SENSOR_PARAMETERS]; /* UNSET: as for all sensors */
-    double
-        turn_rad; /* of a place on the earth: its azimuths plus this are those of the local frame */
+    /* SOURCE_UNSET: the value for all sensors holds */
+    enum parameter_source source[NUM_SENSOR_PARAMETERS];
+    /*
+     * azimuth in the local frame minus azimuth in the sensor's own axes, for a sensor placed by
+     * lat_deg, lon_deg: the meridian convergence; else 0
+     */
+    double turn_rad;
 };
 
-/* How people call a sensor: the key `name` of its section, for lines that they read. */
+/* Name of a sensor for printed lines: the key `name` of its INI section. */
 #define SENSOR_NAME_BYTES 32
 struct sensor_name {
     int32_t sensor_id;
@@ -268,7 +273,7 @@ struct sensor_name {
     enum parameter_source source;
 };
 
-/* A zone's own keys, each from the source that counts most. */
+/* Parameters of a zone, keys of INI section [zone N]. */
 enum zone_parameter_id {
     ZONE_CORNERS_M,
     ZONE_HEADING_RAD,
@@ -289,7 +294,7 @@ struct parameters {
     struct sensor_parameters sensors[RHO_MAX_SENSORS];
     size_t num_names;
     struct sensor_name names[RHO_MAX_SENSORS];
-    uint16_t num_allowed; /* 0: all sensors may send messages */
+    uint16_t num_allowed; /* number of sensors in `allowed`; 0: all sensors are allowed */
     int16_t allowed[RHO_MAX_SENSORS];
     enum parameter_source allowed_source;
     size_t num_zones;
@@ -297,145 +302,153 @@ struct parameters {
     uint16_t num_reflectors;
     struct rho_reflector reflectors[RHO_MAX_REFLECTORS];
     enum parameter_source reflectors_source;
-    double passive_apart_m; /* the farthest two sensors of bearings, where they are known; else 0 */
+    double passive_apart_m; /* largest distance between two passive sensors; 0: not known */
 };
 
 void parameters_set_defaults(struct parameters *parameters);
 
-/* A method's or scenario's own default: counts only where nobody set the parameter. */
+/*
+ * Sets a method's or scenario's own default, which holds unless --config or --set sets the
+ * parameter.
+ */
 void parameters_suggest(struct parameters *parameters, enum parameter_id id, double value);
 
 /*
- * "key=value", "sensor.N.key=value" or "zone.N.key=value" from --set. On error prints `rhotrack:
- * --set key=value: what is wrong` and exits with 2.
+ * Assigns "key=value", "sensor.N.key=value" or "zone.N.key=value" of --set. On errors prints
+ * `rhotrack: --set key=value: reason` and exits with 2.
  */
 void parameters_set_assignment(struct parameters *parameters, const char *assignment);
 
 /*
- * INI file (no section, [rhotrack], [sensor N] or [zone N]); errors as `rhotrack: FILE:LINE: what
- * is wrong`, exit 2.
+ * Loads an INI file with values before any section or in [rhotrack], [sensor N] or [zone N]. Errors
+ * are `rhotrack: FILE:LINE: reason`, exit 2.
  */
 void parameters_load_ini(struct parameters *parameters, const char *path);
 
 /*
- * Checks what only holds together (v_min < v_max, min_scans <= scans, all four area sides or none,
- * min < max); exit 2.
+ * Checks constraints between parameters (v_min < v_max, min_scans <= scans, all four sides of the
+ * area or none, min < max); exit 2.
  */
 void parameters_check_together(const struct parameters *parameters);
 
 /*
- * Places of sensors on the earth become x_m, y_m and z_m. Exit 2 without an origin, where a place
- * is half said or twice, or too far away. Once, when all is set.
+ * Converts sensors' places on the earth (lat_deg, lon_deg, alt_m) to x_m, y_m and z_m; to be called
+ * once, after all assignments. Exit 2 without an origin, or where a place is incomplete, given
+ * twice, or too far from the origin.
  */
 void parameters_locate_sensors(struct parameters *parameters);
 
 /*
- * The origin of the local frame is set. Its frame, to be closed; the origin's height where none is
- * set is 0.
+ * Whether the origin of the local frame is set, and the local frame at that origin, to be closed by
+ * the caller. An unset origin_alt_m counts as 0.
  */
 bool parameters_has_origin(const struct parameters *parameters);
 struct local_frame;
 struct local_frame *parameters_open_origin(const struct parameters *parameters);
 
-/* The message for a missing origin: "origin_lat_deg and origin_lon_deg are not set ..." */
+/* Message for a missing origin: "origin_lat_deg and origin_lon_deg are not set ..." */
 extern const char parameters_no_origin[];
 
-/* The sensor's place on the earth (lat_deg, lon_deg, alt_m); false where it was not said so. */
+/* Gets a sensor's latitude, longitude and altitude; false where its place was not given so. */
 bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sensor_id,
                                 double geodetic[3]);
 
-/* By how much its azimuths are turned in the local frame then (local_frame_turn_rad); else 0. */
+/*
+ * Angle to add to a sensor's azimuths for azimuths in the local frame (local_frame_turn_rad); 0 for
+ * sensors that are not placed by latitude and longitude.
+ */
 double parameters_azimuth_turn_rad(const struct parameters *parameters, int32_t sensor_id);
 
 bool parameters_is_set(const struct parameters *parameters, enum parameter_id id);
 const char *parameters_name(enum parameter_id id);
 
-/* The parameter gate from --gate; exit 2 where it is none. */
+/* Sets the parameter gate from --gate; exit 2 for an unknown gate. */
 void parameters_set_gate(struct parameters *parameters, const char *gate);
 
-/* The parameter method or bearings_method from --method; exit 2 where it is none. */
+/* Sets the parameter method or bearings_method from --method; exit 2 for an unknown method. */
 void parameters_set_method(struct parameters *parameters, const char *method);
 
 /*
- * One assignment from any source, "key" or "sensor.N.key". A value from a source of higher
- * precedence stays. Returns false and the reason.
+ * Assigns one value of any source; key: "key", "sensor.N.key" or "zone.N.key". A value from a
+ * source of higher precedence stays. Returns false and the reason on errors.
  */
 #define PARAMETER_REASON_BYTES 256
 bool parameters_assign(struct parameters *parameters, const char *key, const char *value,
                        enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
 
-/* The same of "reflectors": x y x y of each wall, with commas between them; empty: none. */
+/* Assigns the parameter reflectors: x y x y of each wall, separated by commas; empty: no walls. */
 bool parameters_assign_reflectors(struct parameters *parameters, const char *value,
                                   enum parameter_source source,
                                   char reason[PARAMETER_REASON_BYTES]);
-/* These walls as one would type them; "-" where there is none. */
+/* Formats the reflectors as parameters_assign_reflectors parses them; "-" for none. */
 #define PARAMETER_REFLECTORS_BYTES (72 * RHO_MAX_REFLECTORS)
 void parameters_reflectors_text(const struct parameters *parameters,
                                 char text[PARAMETER_REFLECTORS_BYTES]);
 
-/* The table's entry of a parameter, for the command `config`. */
+/* A parameter's entry in the table, for the command config. */
 struct parameter_text {
     const char *name, *unit, *text;
     double value, min, max;
     bool is_integer, has_default;
-    const char *choices; /* "a|b": a word, whose value is its number from 0; NULL: a number */
-    bool is_sum;         /* "a|b|c": words joined by +, whose value is the sum of 1, 2, 4 */
+    /* "a|b": the parameter is a word, its value the word's index; NULL: it is a number */
+    const char *choices;
+    /* with choices "a|b|c": words joined by +, with the sum of 1, 2, 4 as value */
+    bool is_sum;
 };
 struct parameter_text parameters_text(enum parameter_id id);
-struct parameter_text parameters_sensor_text(enum sensor_parameter_id id); /* value: 0 */
-/* A value as one would type it. */
+struct parameter_text parameters_sensor_text(enum sensor_parameter_id id); /* `value` is 0 */
+/* Formats a value as the user would type it. */
 #define PARAMETER_VALUE_BYTES 32
 const char *parameters_value_text(const struct parameter_text *text, double value,
                                   char buffer[PARAMETER_VALUE_BYTES]);
 const char *parameters_source_name(enum parameter_source source);
 
-/* The table with unit, default, range, value and text (command `config`). */
+/*
+ * Prints all parameters with unit, default, range, value, source and text, for the command config.
+ */
 void parameters_print(const struct parameters *parameters, FILE *out);
 
-/* True where anything was said of this sensor. */
+/* True where a source set any parameter of this sensor. */
 bool parameters_has_sensor(const struct parameters *parameters, int32_t sensor_id);
 
-/* NULL: it has none. A name alone describes nothing of the sensor. */
+/* Name of a sensor, NULL: none. A sensor that has only a name does not count as described. */
 const char *parameters_sensor_name(const struct parameters *parameters, int32_t sensor_id);
 
-/* A sensor's own value, or otherwise the value for all. */
+/* A sensor's own value of a parameter; `otherwise` where it has none. */
 double parameters_value_of_sensor(const struct parameters *parameters, int32_t sensor_id,
                                   enum sensor_parameter_id id, double otherwise);
 
-/* How far a sensor sees: its own range_max_m, or the one for all. */
+/* Largest range of a sensor: its own range_max_m, or else that of all sensors. */
 double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id);
 
 /*
- * A sensor's time bias, as the library has it; the least and the largest of all sensors, of which
- * some have none.
+ * Time bias of a sensor in microseconds; the smallest and the largest bias of all sensors, with 0
+ * for sensors without one.
  */
 int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id);
 void parameters_time_biases_us(const struct parameters *parameters, int32_t *least_us,
                                int32_t *largest_us);
 
 /*
- * The library's configs from the parameters, checked (parameters_check_together). A sensor is
- * described only where somebody set something of it, or the range limits of all: else false, and
- * *sensor is unchanged.
+ * Describes a sensor for the library. Returns false, with *sensor unchanged, where no parameter of
+ * the sensor was set, nor a range limit, span, notch or resolution for all sensors.
  */
 bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id,
                           struct rho_sensor *sensor);
 
 /*
- * The same for any sensor: what nobody described is at the origin, without biases, sees everything.
+ * Describes any sensor for the library; without parameters of its own it is at the origin, without
+ * biases, and sees everything.
  */
 void parameters_to_any_sensor(const struct parameters *parameters, int32_t sensor_id,
                               struct rho_sensor *sensor);
 
-/*
- * The settings from which the library's configs follow; checked as parameters_check_together does,
- * exit 2.
- */
+/* The library's settings from the parameters, checked by parameters_check_together; exit 2. */
 struct rho_settings parameters_settings(const struct parameters *parameters);
 
 /*
- * The settings that are other ones become the parameters' values, as --set sets them. False, and
- * nothing is changed: a sensor's own ranges do not go with them.
+ * Sets parameters to the values of settings that differ, with the precedence of --set. Returns
+ * false, with nothing changed, where a sensor's own range limits conflict with the settings.
  */
 bool parameters_take_settings(struct parameters *parameters, const struct rho_settings *settings);
 
@@ -444,21 +457,26 @@ void parameters_to_initiator(const struct parameters *parameters,
 void parameters_to_tracker(const struct parameters *parameters, struct rho_tracker_config *config);
 
 /*
- * The same for what takes the sensors' messages, with every sensor that anything was said of. Exit
- * 1 where it refuses.
+ * Initialises the scan assembler from the parameters, with descriptions of all sensors that the
+ * parameters mention. Exit 1 where the library refuses them.
  */
 void parameters_to_assembler(const struct parameters *parameters,
                              struct rho_scan_assembler *assembler);
 
-/* The same descriptions of sensors anew, while messages come. */
+/*
+ * Updates the assembler's descriptions of sensors from changed parameters, while messages arrive.
+ */
 void parameters_describe_sensors_again(const struct parameters *parameters,
                                        struct rho_scan_assembler *assembler);
 
-/* key: "N.name", of a zone. false: *reason says why. */
+/*
+ * Assigns a zone's parameter; key: "N.name" with the zone's number N. Returns false and the reason
+ * on errors.
+ */
 bool parameters_assign_zone(struct parameters *parameters, const char *key, const char *value,
                             enum parameter_source source, char reason[PARAMETER_REASON_BYTES]);
 
-/* All zones, ready for a first step. Exit 2 where one is none. */
+/* Initialises zones from the parameters; exit 2 for a zone without corners or area. */
 void parameters_to_zones(const struct parameters *parameters, struct rho_zones *zones);
 
 #endif

@@ -32,7 +32,7 @@ static struct rho_scan_assembler_sensor describe_sensor(const struct parameters 
     return known;
 }
 
-/* A sensor that nobody described: one beyond those that can have messages. */
+/* Number of a sensor that no parameter mentions, outside the range of messages' sensor numbers. */
 #define NO_SENSOR INT32_MAX
 
 static enum rho_status describe_all_sensors(const struct parameters *parameters,

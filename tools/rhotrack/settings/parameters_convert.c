@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* parameters_convert: the library's configs from parameters. */
+/* parameters_convert: converts parameters to the library's settings and configurations. */
 #include <math.h>
 
 #include "base/common.h"
 #include "rhotrack/detail/measurement.h"
 #include "settings/parameters.h"
 
-/* Bounds of the factor on sigmas where nobody has said how large they are. */
+/* Bounds of the learned factor on sigmas where no source stated the noise. */
 #define UNSTATED_MIN 0.1f
 #define UNSTATED_MAX 10.0f
 
-/* late_max_s is so many scan intervals of struct rho_settings, and no more than a tracker takes. */
+/* late_max_s is LATE_SCANS scan intervals of struct rho_settings, and LATE_LIMIT_S at most. */
 #define LATE_SCANS 2.0
 #define LATE_LIMIT_S 60.0
 #define INTERVAL_MIN_S 1e-3
 
-/* Fields of struct rho_settings that are parameters as they are. */
+/* Fields of struct rho_settings that equal the parameter of the same name. */
 #define SAME_FIELDS(FIELD)                                                                         \
     FIELD(V_MIN_MPS, v_min_mps, float)                                                             \
     FIELD(V_MAX_MPS, v_max_mps, float)                                                             \
@@ -54,9 +54,9 @@ struct rho_settings parameters_settings(const struct parameters *parameters)
     return settings;
 }
 
-/* With these settings every sensor's least range is below its largest. */
-static bool fit_sensor_ranges(const struct parameters *parameters,
-                              const struct rho_settings *settings)
+/* True where, with these settings, each sensor's smallest range is below its largest. */
+static bool are_sensor_ranges_valid(const struct parameters *parameters,
+                                    const struct rho_settings *settings)
 {
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const int32_t id = parameters->sensors[i].sensor_id;
@@ -85,7 +85,7 @@ bool parameters_take_settings(struct parameters *parameters, const struct rho_se
              fmin(LATE_SCANS * (double)settings->scan_interval_s, LATE_LIMIT_S)},
     };
 
-    if (!fit_sensor_ranges(parameters, settings)) {
+    if (!are_sensor_ranges_valid(parameters, settings)) {
         return false;
     }
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
@@ -116,11 +116,11 @@ void parameters_to_initiator(const struct parameters *parameters,
 }
 
 /*
- * In the tracker the process noise follows the largest acceleration, unless one a scan is asked
- * for.
+ * Configuration of input estimation in the tracker. The process noise follows accel_max_mps2,
+ * unless filter_noise_m or filter_noise_mps set the noise of a scan.
  */
-static void parameters_to_input(const struct parameters *parameters,
-                                struct rho_input_config *config)
+static void parameters_to_input_config(const struct parameters *parameters,
+                                       struct rho_input_config *config)
 {
     const double *value = parameters->value;
     float accel_mps2 = 0.5f * (float)value[PARAMETER_ACCEL_MAX_MPS2];
@@ -139,17 +139,18 @@ static void parameters_to_input(const struct parameters *parameters,
     config->initial_variance = (float)value[PARAMETER_INITIAL_VARIANCE];
 }
 
-static bool is_parameter_asked_for(const struct parameters *parameters, enum parameter_id id)
+static bool is_parameter_set_beyond_default(const struct parameters *parameters,
+                                            enum parameter_id id)
 {
     return parameters->source[id] > SOURCE_DEFAULT;
 }
 
-/* Somebody has said what the noise of places is, of all sensors or of one. */
+/* True where a source set the position noise, for all sensors or for one. */
 static bool is_noise_stated(const struct parameters *parameters)
 {
-    bool says = is_parameter_asked_for(parameters, PARAMETER_SIGMA_M) ||
-                is_parameter_asked_for(parameters, PARAMETER_SIGMA_RANGE_M) ||
-                is_parameter_asked_for(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
+    bool says = is_parameter_set_beyond_default(parameters, PARAMETER_SIGMA_M) ||
+                is_parameter_set_beyond_default(parameters, PARAMETER_SIGMA_RANGE_M) ||
+                is_parameter_set_beyond_default(parameters, PARAMETER_SIGMA_AZIMUTH_RAD);
 
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const int32_t id = parameters->sensors[i].sensor_id;
@@ -161,19 +162,24 @@ static bool is_noise_stated(const struct parameters *parameters)
     return says;
 }
 
-/* A value that was not set is a default, which knows nothing of the radar: it may be far off. */
+/*
+ * Sets the bounds of learned noise and pd. Wide bounds hold where the noise was not stated:
+ * defaults may be far from the radar's true noise.
+ */
 static void set_learning_bounds(const struct parameters *parameters,
                                 struct rho_tracker_config *config)
 {
     const double *value = parameters->value;
     const bool says = is_noise_stated(parameters);
 
-    config->learn_noise_min = says || is_parameter_asked_for(parameters, PARAMETER_LEARN_NOISE_MIN)
-                                  ? (float)value[PARAMETER_LEARN_NOISE_MIN]
-                                  : UNSTATED_MIN;
-    config->learn_noise_max = says || is_parameter_asked_for(parameters, PARAMETER_LEARN_NOISE_MAX)
-                                  ? (float)value[PARAMETER_LEARN_NOISE_MAX]
-                                  : UNSTATED_MAX;
+    config->learn_noise_min =
+        says || is_parameter_set_beyond_default(parameters, PARAMETER_LEARN_NOISE_MIN)
+            ? (float)value[PARAMETER_LEARN_NOISE_MIN]
+            : UNSTATED_MIN;
+    config->learn_noise_max =
+        says || is_parameter_set_beyond_default(parameters, PARAMETER_LEARN_NOISE_MAX)
+            ? (float)value[PARAMETER_LEARN_NOISE_MAX]
+            : UNSTATED_MAX;
     config->learn_pd_min = (float)value[PARAMETER_LEARN_PD_MIN];
 }
 
@@ -191,7 +197,7 @@ void parameters_to_tracker(const struct parameters *parameters, struct rho_track
     config->planes = (uint8_t)value[PARAMETER_PLANES];
     config->theta_cell_rad = (float)(value[PARAMETER_GATE_THETA_DEG] * (3.141592653589793 / 180.0));
     config->hough_window_m = (float)value[PARAMETER_GATE_WINDOW_M];
-    parameters_to_input(parameters, &config->input);
+    parameters_to_input_config(parameters, &config->input);
 }
 
 double parameters_range_max_m(const struct parameters *parameters, int32_t sensor_id)
@@ -200,8 +206,11 @@ double parameters_range_max_m(const struct parameters *parameters, int32_t senso
                                       parameters->value[PARAMETER_RANGE_MAX_M]);
 }
 
-/* A sector that the sensor counts from its own east. Equal ends, the whole circle, stay equal. */
-static void turn_sector(struct rho_sensor *sensor, double turn_rad)
+/*
+ * Rotates a sector from the sensor's own axes into the local frame. Equal ends (the whole circle)
+ * stay equal.
+ */
+static void rotate_sector(struct rho_sensor *sensor, double turn_rad)
 {
     const double turn = 6.283185307179586;
 
@@ -216,7 +225,7 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
                               struct rho_sensor *sensor)
 {
     const double *value = parameters->value;
-    double range_max_m = is_parameter_asked_for(parameters, PARAMETER_RANGE_MAX_M)
+    double range_max_m = is_parameter_set_beyond_default(parameters, PARAMETER_RANGE_MAX_M)
                              ? value[PARAMETER_RANGE_MAX_M]
                              : 2.0 * (double)RHO_LIMIT_POSITION_M;
 
@@ -247,7 +256,7 @@ void parameters_to_any_sensor(const struct parameters *parameters, int32_t senso
             OF_SENSOR(SENSOR_RESOLUTION_RANGE_RATE_MPS, value[PARAMETER_RESOLUTION_RANGE_RATE_MPS]),
     };
 #undef OF_SENSOR
-    turn_sector(sensor, parameters_azimuth_turn_rad(parameters, sensor_id));
+    rotate_sector(sensor, parameters_azimuth_turn_rad(parameters, sensor_id));
 }
 
 int32_t parameters_time_bias_us(const struct parameters *parameters, int32_t sensor_id)
@@ -274,8 +283,8 @@ bool parameters_to_sensor(const struct parameters *parameters, int32_t sensor_id
                           struct rho_sensor *sensor)
 {
     if (!parameters_has_sensor(parameters, sensor_id) &&
-        !is_parameter_asked_for(parameters, PARAMETER_RANGE_MIN_M) &&
-        !is_parameter_asked_for(parameters, PARAMETER_RANGE_MAX_M) &&
+        !is_parameter_set_beyond_default(parameters, PARAMETER_RANGE_MIN_M) &&
+        !is_parameter_set_beyond_default(parameters, PARAMETER_RANGE_MAX_M) &&
         !(parameters->value[PARAMETER_RANGE_RATE_SPAN_MPS] > 0.0) &&
         !(parameters->value[PARAMETER_NOTCH_MPS] > 0.0) &&
         !(parameters->value[PARAMETER_RESOLUTION_RANGE_M] > 0.0) &&

@@ -8,7 +8,10 @@
 #include "base/common.h"
 #include "settings/parameters.h"
 
-/* inih tells its handler no line, so the lines are counted as it asks for them. */
+/*
+ * State of loading an INI file. inih does not pass line numbers to its handler, so they are counted
+ * where inih reads a line.
+ */
 struct loading {
     struct parameters *parameters;
     const char *path;
@@ -16,7 +19,7 @@ struct loading {
     unsigned line;
 };
 
-static char *read_line(char *buffer, int size, void *user)
+static char *read_and_count_line(char *buffer, int size, void *user)
 {
     struct loading *loading = user;
     char *line = fgets(buffer, size, loading->file);
@@ -36,9 +39,10 @@ static char *read_line(char *buffer, int size, void *user)
 }
 
 /*
- * "sensor 3" gives the key's prefix "sensor.3."; the main sections give "". False: no such section.
+ * Prefix of keys in an INI section: "sensor.3." for "sensor 3", "" for the main sections; returns
+ * false for unknown sections.
  */
-static bool section_prefix(const char *section, char *prefix, size_t bytes)
+static bool key_prefix_of_section(const char *section, char *prefix, size_t bytes)
 {
     static const char *const kinds[] = {"sensor", "zone"};
 
@@ -58,12 +62,12 @@ static bool section_prefix(const char *section, char *prefix, size_t bytes)
     return false;
 }
 
-static int on_ini_value(void *user, const char *section, const char *name, const char *value)
+static int assign_ini_value(void *user, const char *section, const char *name, const char *value)
 {
     struct loading *loading = user;
     char prefix[32], key[128], reason[PARAMETER_REASON_BYTES];
 
-    if (!section_prefix(section, prefix, sizeof prefix)) {
+    if (!key_prefix_of_section(section, prefix, sizeof prefix)) {
         fail(EXIT_USAGE,
              "%s:%u: unknown section [%s]; there are [rhotrack], [sensor N] and [zone N]",
              loading->path, loading->line, section);
@@ -84,12 +88,12 @@ void parameters_load_ini(struct parameters *parameters, const char *path)
     if (!loading.file) {
         fail(EXIT_USAGE, "%s: %s", path, strerror(errno));
     }
-    ini_allow_multiline = false; /* an indented line is a line like any other */
+    ini_allow_multiline = false; /* indented lines do not continue the value above */
     ini_inline_comment_prefixes = comment_marks;
     ini_stop_on_first_error = true;
     ini_use_stack = false;
     ini_initial_alloc = ini_max_line = 400;
-    bad_line = ini_parse_stream(read_line, &loading, on_ini_value, &loading);
+    bad_line = ini_parse_stream(read_and_count_line, &loading, assign_ini_value, &loading);
     if (bad_line < 0) {
         fail(EXIT_RUNTIME, "out of memory");
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * parameters_locate: the origin of the local frame, and sensors whose places are said on the earth.
+ * parameters_sensor_places: the origin of the local frame, and sensors' places given as latitude
+ * and longitude.
  */
 #include <math.h>
 #include <stddef.h>
@@ -12,18 +13,18 @@
 const char parameters_no_origin[] = "origin_lat_deg and origin_lon_deg are not set, where the "
                                     "local frame has its origin (--set or --config)";
 
-static bool is_value_set(const struct sensor_parameters *sensor, enum sensor_parameter_id id)
+static bool is_sensor_value_set(const struct sensor_parameters *sensor, enum sensor_parameter_id id)
 {
     return sensor->source[id] != SOURCE_UNSET;
 }
 
-static const struct sensor_parameters *find_located(const struct parameters *parameters,
-                                                    int32_t sensor_id)
+static const struct sensor_parameters *find_sensor_on_earth(const struct parameters *parameters,
+                                                            int32_t sensor_id)
 {
     for (size_t i = 0; i < parameters->num_sensors; i++) {
         const struct sensor_parameters *sensor = &parameters->sensors[i];
 
-        if (sensor->sensor_id == sensor_id && is_value_set(sensor, SENSOR_LAT_DEG)) {
+        if (sensor->sensor_id == sensor_id && is_sensor_value_set(sensor, SENSOR_LAT_DEG)) {
             return sensor;
         }
     }
@@ -59,23 +60,26 @@ static void check_origin(const struct parameters *parameters)
 
 /* ---- Sensors ---- */
 
-/* Whether it has a place on the earth, which then is whole and the only one. */
-static bool check_place_on_earth(const struct parameters *parameters,
-                                 const struct sensor_parameters *sensor)
+/*
+ * True where a sensor has a place by latitude and longitude. Exit 2 where that is incomplete, given
+ * in metres as well, or has no origin.
+ */
+static bool has_valid_place_on_earth(const struct parameters *parameters,
+                                     const struct sensor_parameters *sensor)
 {
-    bool has_lat = is_value_set(sensor, SENSOR_LAT_DEG),
-         has_lon = is_value_set(sensor, SENSOR_LON_DEG);
+    bool has_lat = is_sensor_value_set(sensor, SENSOR_LAT_DEG),
+         has_lon = is_sensor_value_set(sensor, SENSOR_LON_DEG);
     int id = (int)sensor->sensor_id;
 
-    if (!has_lat && !has_lon && !is_value_set(sensor, SENSOR_ALT_M)) {
+    if (!has_lat && !has_lon && !is_sensor_value_set(sensor, SENSOR_ALT_M)) {
         return false;
     }
     if (!has_lat || !has_lon) {
         fail(EXIT_USAGE, "sensor %d: lat_deg, lon_deg and alt_m go together: %s is not set", id,
              has_lat ? "lon_deg" : "lat_deg");
     }
-    if (is_value_set(sensor, SENSOR_X_M) || is_value_set(sensor, SENSOR_Y_M) ||
-        is_value_set(sensor, SENSOR_Z_M)) {
+    if (is_sensor_value_set(sensor, SENSOR_X_M) || is_sensor_value_set(sensor, SENSOR_Y_M) ||
+        is_sensor_value_set(sensor, SENSOR_Z_M)) {
         fail(EXIT_USAGE, "sensor %d: its place is said twice, in metres and by lat_deg, lon_deg",
              id);
     }
@@ -85,7 +89,7 @@ static bool check_place_on_earth(const struct parameters *parameters,
     return true;
 }
 
-static void put_place_value(struct sensor_parameters *sensor, enum sensor_parameter_id id,
+static void set_place_value(struct sensor_parameters *sensor, enum sensor_parameter_id id,
                             double value)
 {
     sensor->value[id] = value;
@@ -107,9 +111,9 @@ static void locate_sensor(const struct parameters *parameters, const struct loca
     own = local_frame_open(geodetic[0], geodetic[1], geodetic[2]);
     sensor->turn_rad = local_frame_turn_rad(own, origin);
     local_frame_close(own);
-    put_place_value(sensor, SENSOR_X_M, place_m[0]);
-    put_place_value(sensor, SENSOR_Y_M, place_m[1]);
-    put_place_value(sensor, SENSOR_Z_M, place_m[2]);
+    set_place_value(sensor, SENSOR_X_M, place_m[0]);
+    set_place_value(sensor, SENSOR_Y_M, place_m[1]);
+    set_place_value(sensor, SENSOR_Z_M, place_m[2]);
 }
 
 void parameters_locate_sensors(struct parameters *parameters)
@@ -118,7 +122,7 @@ void parameters_locate_sensors(struct parameters *parameters)
 
     check_origin(parameters);
     for (size_t i = 0; i < parameters->num_sensors; i++) {
-        if (check_place_on_earth(parameters, &parameters->sensors[i])) {
+        if (has_valid_place_on_earth(parameters, &parameters->sensors[i])) {
             origin = origin ? origin : parameters_open_origin(parameters);
             locate_sensor(parameters, origin, &parameters->sensors[i]);
         }
@@ -129,21 +133,22 @@ void parameters_locate_sensors(struct parameters *parameters)
 bool parameters_sensor_on_earth(const struct parameters *parameters, int32_t sensor_id,
                                 double geodetic[3])
 {
-    const struct sensor_parameters *sensor = find_located(parameters, sensor_id);
+    const struct sensor_parameters *sensor = find_sensor_on_earth(parameters, sensor_id);
 
     if (!sensor) {
         return false;
     }
     geodetic[0] = sensor->value[SENSOR_LAT_DEG];
     geodetic[1] = sensor->value[SENSOR_LON_DEG];
-    geodetic[2] = is_value_set(sensor, SENSOR_ALT_M) ? sensor->value[SENSOR_ALT_M]
-                                                     : parameters->value[PARAMETER_ORIGIN_ALT_M];
+    geodetic[2] = is_sensor_value_set(sensor, SENSOR_ALT_M)
+                      ? sensor->value[SENSOR_ALT_M]
+                      : parameters->value[PARAMETER_ORIGIN_ALT_M];
     return true;
 }
 
 double parameters_azimuth_turn_rad(const struct parameters *parameters, int32_t sensor_id)
 {
-    const struct sensor_parameters *sensor = find_located(parameters, sensor_id);
+    const struct sensor_parameters *sensor = find_sensor_on_earth(parameters, sensor_id);
 
     return sensor ? sensor->turn_rad : 0.0;
 }

@@ -9,9 +9,12 @@
 
 #define NUMBERS 4
 
-/* The next number, without the blanks behind it; NULL and the reason where it is none. */
-static const char *read_number(const char *value, double *number,
-                               char reason[PARAMETER_REASON_BYTES])
+/*
+ * Parses one coordinate of a wall; returns the text behind it and its blanks, or NULL with the
+ * reason.
+ */
+static const char *parse_wall_coordinate(const char *value, double *number,
+                                         char reason[PARAMETER_REASON_BYTES])
 {
     const char *behind = value;
     const int bytes = (int)strcspn(value, " \t,");
@@ -39,7 +42,7 @@ bool parameters_assign_reflectors(struct parameters *parameters, const char *val
         double at[NUMBERS];
 
         for (int i = 0; i < NUMBERS; i++) {
-            value = read_number(value, &at[i], reason);
+            value = parse_wall_coordinate(value, &at[i], reason);
             if (!value) {
                 return false;
             }

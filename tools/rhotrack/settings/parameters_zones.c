@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Zones as INI files and --set have them. */
+/* parameters_zones: zones' parameters of INI files and --set. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 static const char *const keys[NUM_ZONE_PARAMETERS] = {"corners_m", "heading_rad", "margin_m",
                                                       "queue_mps"};
 
-/* The zone, added where it is new; NULL where there is no room. */
+/* Finds a zone's parameters, or adds an empty zone; NULL where there is no room. */
 static struct zone_parameters *find_or_add_zone(struct parameters *parameters, int32_t zone_id)
 {
     struct zone_parameters *zone;
@@ -28,8 +28,8 @@ static struct zone_parameters *find_or_add_zone(struct parameters *parameters, i
     return zone;
 }
 
-/* "x y, x y, ...". */
-static bool read_corners(const char *value, struct rho_zone *zone, char *reason)
+/* Parses corners "x y, x y, ..." into the zone; false with the reason where that fails. */
+static bool parse_zone_corners(const char *value, struct rho_zone *zone, char *reason)
 {
     static const char between[] = " \t,";
     const char *whole = value;
@@ -58,8 +58,8 @@ static bool read_corners(const char *value, struct rho_zone *zone, char *reason)
     return true;
 }
 
-static bool read_zone_number(enum zone_parameter_id id, const char *value, struct rho_zone *zone,
-                             char *reason)
+static bool parse_zone_number(enum zone_parameter_id id, const char *value, struct rho_zone *zone,
+                              char *reason)
 {
     static const struct {
         double min, max;
@@ -82,8 +82,8 @@ static bool read_zone_number(enum zone_parameter_id id, const char *value, struc
     return true;
 }
 
-/* The place of the key; -1 where there is none. */
-static int find_zone_key(const char *name, char *reason)
+/* Index of a zone's key; -1 with the reason where it is unknown. */
+static int index_of_zone_key(const char *name, char *reason)
 {
     for (int i = 0; i < NUM_ZONE_PARAMETERS; i++) {
         if (!strcmp(keys[i], name)) {
@@ -112,7 +112,7 @@ bool parameters_assign_zone(struct parameters *parameters, const char *key, cons
                  "'zone.%.60s' is not zone.N.key with a whole number N", key);
         return false;
     }
-    id = find_zone_key(dot + 1, reason);
+    id = index_of_zone_key(dot + 1, reason);
     zone = id < 0 ? NULL : find_or_add_zone(parameters, zone_id);
     if (!zone) {
         if (id >= 0) {
@@ -122,8 +122,8 @@ bool parameters_assign_zone(struct parameters *parameters, const char *key, cons
     }
     read = *zone;
     if (!(id == ZONE_CORNERS_M
-              ? read_corners(value, &read.zone, reason)
-              : read_zone_number((enum zone_parameter_id)id, value, &read.zone, reason))) {
+              ? parse_zone_corners(value, &read.zone, reason)
+              : parse_zone_number((enum zone_parameter_id)id, value, &read.zone, reason))) {
         return false;
     }
     if (source >= zone->source[id]) {

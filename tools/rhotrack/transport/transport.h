@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * transport: LCM messages in and out.
+ * transport: sends and receives LCM messages.
  *
- * udpm://GROUP:PORT?ttl=N&recv_buf_size=BYTES&sources_allowed=ADDRESS,ADDRESS goes over a multicast
- * socket of this program with the library's module udpm: liblcm puts fragments together before any
- * of its users can look at them, and one that is forged makes it write beyond its memory. The other
- * providers (file://, memq://, tcpq://) are liblcm's, but for file://NAME?speed=0: it does not tell
- * the times of a log's events.
+ * URLs udpm://GROUP:PORT?ttl=N&recv_buf_size=BYTES&sources_allowed=ADDRESS,ADDRESS use a multicast
+ * socket of this program with the library's module udpm: liblcm reassembles fragments before its
+ * users can check them, and a forged fragment makes it write out of bounds. Other URLs (file://,
+ * memq://, tcpq://) are opened by liblcm, except log files that are written or read with speed=0,
+ * for which liblcm reports neither write errors nor the times of events.
  */
 #ifndef RHOTRACK_TOOL_TRANSPORT_H
 #define RHOTRACK_TOOL_TRANSPORT_H
@@ -21,69 +21,78 @@ struct transport;
 
 enum transport_use { TRANSPORT_SEND, TRANSPORT_SEND_AND_RECEIVE };
 
-/* IPv4, in the order of this machine. All 0: the provider does not tell. */
+/* Sender of a datagram, IPv4 in host byte order; all 0 where the transport does not tell it. */
 struct transport_sender {
     uint32_t address;
     uint16_t port;
-    bool is_own; /* this program */
+    bool is_own; /* this program sent the message itself */
 };
 
-/* Valid until the next call. */
+/* A received message, valid until the next call of transport_receive. */
 struct transport_message {
-    const char *channel; /* 1 to 63 characters */
+    const char *channel; /* name of 1 to 63 characters */
     const uint8_t *data;
     size_t size;
-    int64_t received_us; /* on the clock of transport_now_us */
+    int64_t received_us; /* reception time on the clock of transport_now_us */
     struct transport_sender sender;
 };
 
 enum transport_found {
     TRANSPORT_MESSAGE,
-    TRANSPORT_NOTHING, /* for now */
-    TRANSPORT_END      /* for ever: a file's end, or the connection is gone */
+    TRANSPORT_NOTHING, /* no message at present */
+    TRANSPORT_END      /* end of the file, or the connection is lost */
 };
 
 struct transport_counters {
     uint64_t received, sent;
-    /* datagrams: fragments, no LCM at all, or longer than any message of rhotrack */
+    /* refused datagrams: fragments, not LCM, or longer than any message of rhotrack */
     uint64_t refused;
-    uint64_t refused_source; /* datagrams of addresses that are not in sources_allowed */
-    uint64_t dropped;        /* by the kernel, because this program was too slow */
-    uint64_t not_sent;       /* refused by the network, or read only */
+    uint64_t refused_source; /* datagrams from addresses outside sources_allowed */
+    uint64_t dropped;        /* datagrams dropped by the kernel, as this program was too slow */
+    /* messages refused by the network, or by a transport that only reads */
+    uint64_t not_sent;
 };
 
 /*
- * The provider's own message about a URL that it does not take, exit 2; a network that is not
- * there, exit 1.
- *   url  NULL: that of the environment (LCM_DEFAULT_URL), else TRANSPORT_DEFAULT_URL
+ * Opens an LCM URL. Exit 2 with the reason where the URL is bad; exit 1 without a network.
+ *   url  NULL: the environment's LCM_DEFAULT_URL, else TRANSPORT_DEFAULT_URL
  */
 struct transport *transport_open(const char *url, enum transport_use use);
 
-/* Whether this URL is that file: opening it may empty it, so it is asked before. */
+/*
+ * True where the URL (NULL: the default one) is that file. To be asked first, as opening a URL may
+ * truncate its file.
+ */
 bool transport_url_is_file(const char *url, const char *path);
 
-/* False: this URL is a file, whose messages wait for what goes out. NULL as above. */
+/*
+ * True where the URL (NULL: the default one) is a network; false for files, whose messages can wait
+ * for slow outputs.
+ */
 bool transport_url_is_live(const char *url);
 
 const char *transport_url(const struct transport *transport);
 
-/* False: the provider reads a file, and takes nothing. */
+/* True where messages can be sent; false where a file is read. */
 bool transport_can_send(const struct transport *transport);
 
-/* To poll for POLLIN; there may be messages left to receive without it. */
+/*
+ * Descriptor to poll for POLLIN, -1: none. Messages may be left to receive though it is not
+ * readable.
+ */
 int transport_descriptor(const struct transport *transport);
 
 /*
- * The reception clock: microseconds since 1970, and never back, even where the system's clock is
- * set back. A file that is read at speed 0 has its own times instead.
+ * The reception clock: microseconds since 1970, monotonic even where the system's clock is set
+ * back. A log read with speed=0 has its events' times instead.
  */
 int64_t transport_now_us(struct transport *transport);
 
-/* The next message that is here; does not wait. */
+/* Receives the next message, without waiting. */
 enum transport_found transport_receive(struct transport *transport,
                                        struct transport_message *message);
 
-/* False where it was not sent: errno says why. It waits 0.1 s at most. */
+/* Sends a message, waiting for 0.1 s at most. Returns false with errno where it was not sent. */
 bool transport_send(struct transport *transport, const char *channel, const uint8_t *data,
                     size_t size);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * transport_lcm: LCM's other providers, through liblcm; messages stay bytes, for this program's own
- * decoders. But a log that is read without waiting, or written, is transport_log's: liblcm tells
- * neither the times of its events nor errors.
+ * transport_lcm: the LCM transports that liblcm provides (file://, memq://, tcpq://); messages stay
+ * undecoded. Logs that are written, or read without waiting, go to transport_log, as liblcm reports
+ * neither times of events nor write errors.
  */
 #include <errno.h>
 #include <lcm/lcm.h>
@@ -14,7 +14,10 @@
 #include "rhotrack/udpm.h"
 #include "transport/transport_parts.h"
 
-/* Capacity of liblcm's queue, which drops newer messages; rhotrack's own are never longer. */
+/*
+ * QUEUE_MESSAGES: capacity of liblcm's receive queue, which drops newer messages when full.
+ * MESSAGE_BYTES: longest message received; messages of rhotrack are never longer.
+ */
 enum { QUEUE_MESSAGES = 10000, MESSAGE_BYTES = 65536 };
 
 struct provider {
@@ -29,7 +32,7 @@ struct provider {
 
 /* ---- Receiving ---- */
 
-static void on_message(const lcm_recv_buf_t *buffer, const char *channel, void *user)
+static void on_lcm_message(const lcm_recv_buf_t *buffer, const char *channel, void *user)
 {
     struct provider *provider = user;
     size_t length = strlen(channel);
@@ -92,8 +95,8 @@ static void close_lcm(void *object)
     free(provider);
 }
 
-/* The value of one of the URL's options, and what is behind it; "" where it is not said. */
-static const char *url_option(const char *url, const char *name)
+/* The text behind "name=" in a URL's options, up to the end of the URL; "" where it is missing. */
+static const char *url_option_text(const char *url, const char *name)
 {
     size_t length = strlen(name);
 
@@ -106,29 +109,26 @@ static const char *url_option(const char *url, const char *name)
     return "";
 }
 
-/*
- * A file is read, or written from its start or its end: liblcm's option mode, r where it is not
- * said.
- */
-static char file_mode(const char *url)
+/* The mode of a file:// URL: 'r' (default) reads, 'w' overwrites, 'a' appends. */
+static char url_file_mode(const char *url)
 {
-    const char *mode = url_option(url, "mode");
+    const char *mode = url_option_text(url, "mode");
 
     return *mode ? *mode : 'r';
 }
 
-static bool is_played_at_once(const char *url)
+static bool is_read_without_waiting(const char *url)
 {
-    const char *speed = url_option(url, "speed");
+    const char *speed = url_option_text(url, "speed");
 
     return *speed && !(strtod(speed, NULL) > 0);
 }
 
-static void check_file_mode(const struct transport *transport, enum transport_use use)
+static void check_url_file_mode(const struct transport *transport, enum transport_use use)
 {
-    bool is_read = file_mode(transport->url) == 'r';
+    bool is_read = url_file_mode(transport->url) == 'r';
 
-    if (!strchr("rwa", file_mode(transport->url))) {
+    if (!strchr("rwa", url_file_mode(transport->url))) {
         transport_refuse(transport, "unknown mode; there are r, w and a");
     }
     if (is_read && use == TRANSPORT_SEND) {
@@ -148,12 +148,13 @@ void transport_open_lcm(struct transport *transport, enum transport_use use)
     lcm_subscription_t *all;
 
     if (is_file) {
-        check_file_mode(transport, use);
+        check_url_file_mode(transport, use);
         if (use == TRANSPORT_SEND) {
-            transport_open_written_log(transport, file_mode(transport->url) == 'a' ? "ab" : "wb");
+            transport_open_written_log(transport,
+                                       url_file_mode(transport->url) == 'a' ? "ab" : "wb");
             return;
         }
-        if (is_played_at_once(transport->url)) {
+        if (is_read_without_waiting(transport->url)) {
             transport_open_log(transport);
             return;
         }
@@ -165,7 +166,7 @@ void transport_open_lcm(struct transport *transport, enum transport_use use)
         transport_refuse(transport, "liblcm does not open it");
     }
     if (use == TRANSPORT_SEND_AND_RECEIVE) {
-        all = lcm_subscribe(provider->lcm, ".*", on_message, provider);
+        all = lcm_subscribe(provider->lcm, ".*", on_lcm_message, provider);
         if (!all || lcm_subscription_set_queue_capacity(all, QUEUE_MESSAGES)) {
             fail(EXIT_RUNTIME, "%s: liblcm does not subscribe", transport->url);
         }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * transport_log: an LCM log read without waiting, or written. The reception clock is that of its
- * events, which may have been recorded over days: nothing of it comes too fast, and what waits does
- * so in their time. Written it is not through liblcm, which does not say that a disk is full.
+ * transport_log: the transport of LCM logs that are written, or read without waiting. The reception
+ * clock of a reader is the time of the logged events: rate limits and hold times then work as they
+ * did live. Writing does not use liblcm, which does not report a full disk.
  */
 #include <errno.h>
 #include <stdio.h>
@@ -16,13 +16,13 @@
 struct log {
     struct lcm_log_reader *reader;
     struct lcm_log_event event;
-    bool has_event; /* the first one, which sets the clock, was not given yet */
+    bool has_event; /* the first event, read at the start to set the clock, is not delivered yet */
 };
 
 static int no_descriptor(const void *object)
 {
     (void)object;
-    return -1; /* nothing is ever waited for */
+    return -1; /* a log is always ready */
 }
 
 static enum transport_found receive_event(struct transport *transport, void *object,
@@ -53,7 +53,7 @@ static void close_read_log(void *object)
     free(log);
 }
 
-/* The URL's file, in new memory. */
+/* Path of a file:// URL, in new memory. */
 static char *log_path(const struct transport *transport)
 {
     char *path = must_copy_text(transport->url + strlen("file://"));

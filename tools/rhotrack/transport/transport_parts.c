@@ -33,7 +33,7 @@ int64_t transport_now_us(struct transport *transport)
     int64_t now_us =
         transport->has_own_clock ? transport->last_us : system_time_us() + transport->ahead_us;
 
-    if (now_us < transport->last_us) { /* set back */
+    if (now_us < transport->last_us) { /* the system's clock was set back */
         transport->ahead_us += transport->last_us - now_us;
         now_us = transport->last_us;
     }

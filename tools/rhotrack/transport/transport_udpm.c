@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* transport_udpm: LCM over UDP multicast, on a socket of this program. */
+/* transport_udpm: the transport of LCM over UDP multicast, on a socket of this program. */
 #include <arpa/inet.h>
 #include <errno.h>
 #include <net/if.h>
@@ -17,16 +17,16 @@
 #include "transport/transport_parts.h"
 
 /*
- * Datagrams taken from the kernel at a time. What is longer than DATAGRAM_BYTES is no message of
- * rhotrack's; a short LCM message may have SHORT_MESSAGE_BYTES with its channel, and longer ones go
- * in fragments, which are not sent.
+ * BATCH: datagrams read by one system call. DATAGRAM_BYTES: room for one; no message of rhotrack is
+ * longer. SHORT_MESSAGE_BYTES: longest payload plus channel of an LCM message that fits a datagram;
+ * longer messages would need fragments, and are not sent.
  */
 enum { BATCH = 64, DATAGRAM_BYTES = 2048, SHORT_MESSAGE_BYTES = 65499 };
 
 /*
- * A burst of large scans, and what gathers while this program waits for a processor: 2 MiB are a
- * second of 1500 datagrams as the kernel counts them. Below LITTLE_BYTES, half of what Debian
- * allows, a word is in order.
+ * Receive buffer. WANTED_BYTES hold a burst of large scans and the datagrams that arrive while this
+ * program waits for a processor: a second of 1500 datagrams by the kernel's accounting. A buffer
+ * below LITTLE_BYTES, half of Debian's limit, causes a warning.
  */
 enum { WANTED_BYTES = 2 << 20, LITTLE_BYTES = 100 << 10 };
 
@@ -37,13 +37,14 @@ union control {
 
 struct udpm {
     struct sockaddr_in group;
-    int ttl, wanted_bytes; /* wanted: 0 where the URL does not say */
-    unsigned interface;    /* of the loopback, where there is no route; else 0 */
-    int receiver, sender;  /* -1: none */
-    in_port_t own_port;    /* the sender's; 0: not known yet */
+    int ttl, wanted_bytes; /* wanted_bytes: receive buffer that the URL asks for; 0: none */
+    /* index of the loopback interface where no route leads to the group; else 0 */
+    unsigned interface;
+    int receiver, sender; /* socket descriptors; -1: none */
+    in_port_t own_port;   /* port of the sender's socket, network byte order; 0: not known yet */
     uint32_t sequence;
     struct rho_udpm_guard guard;
-    int num_here, next; /* of the batch */
+    int num_here, next; /* datagrams of the batch, and the next one to deliver */
     struct sockaddr_in sources[BATCH];
     struct mmsghdr here[BATCH];
     struct iovec parts[BATCH];
@@ -53,8 +54,8 @@ struct udpm {
 
 /* ---- URL ---- */
 
-static long read_number(const struct transport *transport, const char *name, const char *text,
-                        long min, long max)
+static long parse_url_number(const struct transport *transport, const char *name, const char *text,
+                             long min, long max)
 {
     char *end;
     long number;
@@ -67,8 +68,8 @@ static long read_number(const struct transport *transport, const char *name, con
     return number;
 }
 
-static void read_sources(const struct transport *transport, struct rho_udpm_guard *guard,
-                         char *text)
+static void parse_allowed_sources(const struct transport *transport, struct rho_udpm_guard *guard,
+                                  char *text)
 {
     char *rest = NULL;
     struct in_addr address;
@@ -88,7 +89,7 @@ static void read_sources(const struct transport *transport, struct rho_udpm_guar
     }
 }
 
-static void read_option(struct transport *transport, struct udpm *udpm, char *option)
+static void parse_url_option(struct transport *transport, struct udpm *udpm, char *option)
 {
     char *value = strchr(option, '=');
 
@@ -97,11 +98,11 @@ static void read_option(struct transport *transport, struct udpm *udpm, char *op
     }
     *value++ = '\0';
     if (strcmp(option, "ttl") == 0) {
-        udpm->ttl = (int)read_number(transport, option, value, 0, 255);
+        udpm->ttl = (int)parse_url_number(transport, option, value, 0, 255);
     } else if (strcmp(option, "recv_buf_size") == 0) {
-        udpm->wanted_bytes = (int)read_number(transport, option, value, 2048, 1 << 30);
+        udpm->wanted_bytes = (int)parse_url_number(transport, option, value, 2048, 1 << 30);
     } else if (strcmp(option, "sources_allowed") == 0) {
-        read_sources(transport, &udpm->guard, value);
+        parse_allowed_sources(transport, &udpm->guard, value);
     } else {
         transport_refuse(transport,
                          "unknown option '%s'; there are ttl, recv_buf_size and sources_allowed",
@@ -109,13 +110,13 @@ static void read_option(struct transport *transport, struct udpm *udpm, char *op
     }
 }
 
-static void read_group(struct transport *transport, struct udpm *udpm, char *text)
+static void parse_group_and_port(struct transport *transport, struct udpm *udpm, char *text)
 {
     char *port = strchr(text, ':');
 
     if (port) {
         *port++ = '\0';
-        udpm->group.sin_port = htons((uint16_t)read_number(transport, "port", port, 1, 65535));
+        udpm->group.sin_port = htons((uint16_t)parse_url_number(transport, "port", port, 1, 65535));
     }
     if (*text && inet_pton(AF_INET, text, &udpm->group.sin_addr) != 1) {
         transport_refuse(transport, "'%s' is no IPv4 address", text);
@@ -126,7 +127,7 @@ static void read_group(struct transport *transport, struct udpm *udpm, char *tex
     }
 }
 
-static void read_url(struct transport *transport, struct udpm *udpm)
+static void parse_udpm_url(struct transport *transport, struct udpm *udpm)
 {
     char *text = must_copy_text(transport->url + strlen("udpm://"));
     char *options = strchr(text, '?'), *rest = NULL;
@@ -134,10 +135,10 @@ static void read_url(struct transport *transport, struct udpm *udpm)
     if (options) {
         *options++ = '\0';
     }
-    read_group(transport, udpm, text);
+    parse_group_and_port(transport, udpm, text);
     for (char *option = options ? strtok_r(options, "&", &rest) : NULL; option;
          option = strtok_r(NULL, "&", &rest)) {
-        read_option(transport, udpm, option);
+        parse_url_option(transport, udpm, option);
     }
     free(text);
 }
@@ -152,8 +153,8 @@ static void must_set_option(const struct transport *transport, int descriptor, i
     }
 }
 
-static void set_number_option(const struct transport *transport, int descriptor, int level,
-                              int option, int value)
+static void must_set_int_option(const struct transport *transport, int descriptor, int level,
+                                int option, int value)
 {
     must_set_option(transport, descriptor, level, option, &value, sizeof value);
 }
@@ -169,10 +170,10 @@ static int open_socket(const struct transport *transport)
 }
 
 /*
- * A machine without a network can still talk to itself: where no route leads to the group, the
- * loopback does.
+ * Selects the loopback interface where no route leads to the group: programs on a machine without a
+ * network can still reach each other.
  */
-static void find_route_or_loopback(const struct transport *transport, struct udpm *udpm)
+static void use_loopback_without_route(const struct transport *transport, struct udpm *udpm)
 {
     int descriptor = open_socket(transport);
 
@@ -196,10 +197,10 @@ static void set_receive_buffer(const struct transport *transport, const struct u
     socklen_t size = sizeof granted;
 
     if (setsockopt(udpm->receiver, SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted)) {
-        set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_RCVBUF, wanted);
+        must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_RCVBUF, wanted);
     }
     if (getsockopt(udpm->receiver, SOL_SOCKET, SO_RCVBUF, &granted, &size) == 0) {
-        granted /= 2; /* the kernel doubles it for its own needs */
+        granted /= 2; /* the kernel reports twice the size, which includes its overhead */
     }
     if (granted < (udpm->wanted_bytes ? udpm->wanted_bytes : LITTLE_BYTES)) {
         fprintf(stderr,
@@ -209,17 +210,20 @@ static void set_receive_buffer(const struct transport *transport, const struct u
     }
 }
 
-/* Bound to the group, it hears nothing that is sent to the machine's own address. */
+/*
+ * Opens the receiving socket. It is bound to the group's address, so that unicast datagrams to the
+ * machine are not received.
+ */
 static void open_receiver(const struct transport *transport, struct udpm *udpm)
 {
     struct ip_mreqn member = {.imr_multiaddr = udpm->group.sin_addr,
                               .imr_ifindex = (int)udpm->interface};
 
     udpm->receiver = open_socket(transport);
-    set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEADDR, 1);
-    set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEPORT, 1);
-    set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_TIMESTAMPNS, 1);
-    set_number_option(transport, udpm->receiver, SOL_SOCKET, SO_RXQ_OVFL, 1);
+    must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEADDR, 1);
+    must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_REUSEPORT, 1);
+    must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_TIMESTAMPNS, 1);
+    must_set_int_option(transport, udpm->receiver, SOL_SOCKET, SO_RXQ_OVFL, 1);
     set_receive_buffer(transport, udpm);
     if (bind(udpm->receiver, (const struct sockaddr *)&udpm->group, sizeof udpm->group)) {
         fail(EXIT_RUNTIME, "%s: %s", transport->url, strerror(errno));
@@ -237,8 +241,8 @@ static void open_sender(const struct transport *transport, struct udpm *udpm)
     struct timeval wait = {.tv_usec = 100000};
 
     udpm->sender = open_socket(transport);
-    set_number_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
-    set_number_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_TTL, udpm->ttl);
+    must_set_int_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
+    must_set_int_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_TTL, udpm->ttl);
     must_set_option(transport, udpm->sender, SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
     if (udpm->interface) {
         must_set_option(transport, udpm->sender, IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out);
@@ -269,8 +273,11 @@ static void receive_batch(struct udpm *udpm)
     udpm->next = 0;
 }
 
-/* When the kernel took the datagram; how many it had to drop before. */
-static int64_t read_reception_time(struct transport *transport, struct msghdr *header)
+/*
+ * Reception time of a datagram, by the kernel's time stamp; also records the kernel's count of
+ * dropped datagrams.
+ */
+static int64_t read_reception_time_and_drops(struct transport *transport, struct msghdr *header)
 {
     int64_t time_us = INT64_MAX;
 
@@ -291,14 +298,14 @@ static int64_t read_reception_time(struct transport *transport, struct msghdr *h
                                 : transport_reception_time_us(transport, time_us);
 }
 
-/* Messages that this program has sent come back: no fault. */
+/* True for a datagram that this program sent itself, which multicast loops back. */
 static bool is_own_datagram(struct udpm *udpm, const struct sockaddr_in *source)
 {
     struct sockaddr_in own = {.sin_port = 0};
     socklen_t size = sizeof own;
 
     if (udpm->own_port == 0 && getsockname(udpm->sender, (struct sockaddr *)&own, &size) == 0) {
-        udpm->own_port = own.sin_port; /* 0 until it has sent */
+        udpm->own_port = own.sin_port; /* the port is 0 until the first message is sent */
     }
     return udpm->own_port != 0 && udpm->own_port == source->sin_port;
 }
@@ -314,17 +321,17 @@ static bool is_source_admitted(struct transport *transport, struct udpm *udpm,
 }
 
 /*
- * False: no message. Messages of other programs may be longer than the buffer: their channels tell
- * them.
+ * Parses a datagram into a message. Returns false, and counts a refusal, where it is not an LCM
+ * message; long messages of other programs are recognised by their channel and not counted.
  */
-static bool open_datagram(struct transport *transport, struct mmsghdr *here, const uint8_t *bytes,
-                          struct transport_message *message)
+static bool parse_datagram(struct transport *transport, struct mmsghdr *here, const uint8_t *bytes,
+                           struct transport_message *message)
 {
     struct rho_udpm_datagram datagram;
     bool is_cut = here->msg_hdr.msg_flags & MSG_TRUNC;
     size_t size = here->msg_len < DATAGRAM_BYTES ? here->msg_len : DATAGRAM_BYTES;
 
-    message->received_us = read_reception_time(transport, &here->msg_hdr);
+    message->received_us = read_reception_time_and_drops(transport, &here->msg_hdr);
     if (rho_udpm_parse(bytes, size, &datagram) != RHO_OK) {
         transport->counters.refused++;
         return false;
@@ -339,7 +346,10 @@ static bool open_datagram(struct transport *transport, struct mmsghdr *here, con
     return !rho_udpm_is_self_test(&datagram);
 }
 
-/* One batch a call, so that a flood of refused datagrams does not hold the program here. */
+/*
+ * Delivers the next admitted message. Reads one batch of datagrams per call at most, so that a
+ * flood of refused datagrams cannot block the program.
+ */
 static enum transport_found receive_message(struct transport *transport, void *object,
                                             struct transport_message *message)
 {
@@ -352,7 +362,7 @@ static enum transport_found receive_message(struct transport *transport, void *o
         int i = udpm->next++;
 
         if (is_source_admitted(transport, udpm, &udpm->sources[i]) &&
-            open_datagram(transport, &udpm->here[i], udpm->bytes[i], message)) {
+            parse_datagram(transport, &udpm->here[i], udpm->bytes[i], message)) {
             message->sender = (struct transport_sender){ntohl(udpm->sources[i].sin_addr.s_addr),
                                                         ntohs(udpm->sources[i].sin_port),
                                                         is_own_datagram(udpm, &udpm->sources[i])};
@@ -412,8 +422,8 @@ void transport_open_udpm(struct transport *transport, enum transport_use use)
     udpm->receiver = -1;
     udpm->group = (struct sockaddr_in){.sin_family = AF_INET, .sin_port = htons(RHO_UDPM_PORT)};
     inet_pton(AF_INET, RHO_UDPM_GROUP, &udpm->group.sin_addr);
-    read_url(transport, udpm);
-    find_route_or_loopback(transport, udpm);
+    parse_udpm_url(transport, udpm);
+    use_loopback_without_route(transport, udpm);
     if (use == TRANSPORT_SEND_AND_RECEIVE) {
         open_receiver(transport, udpm);
     }
